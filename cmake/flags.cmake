@@ -1,0 +1,41 @@
+# The flags behind "same inputs, same bits": what each is for is measured and told in README.
+
+# Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Private: a user's own
+# code is compiled as the user likes, and nothing of ours is inlined into it but integer code and exact leaves.
+set(isostep_exact_flags
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>
+  $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-fno-tree-slp-vectorize>
+  $<$<CXX_COMPILER_ID:MSVC>:/fp:precise>)
+set(isostep_warnings
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow>)
+
+# For games that keep float arithmetic of their own in step: link it, and their code gets the same flags.
+add_library(isostep_deterministic_flags INTERFACE)
+add_library(isostep::deterministic_flags ALIAS isostep_deterministic_flags)
+target_compile_options(isostep_deterministic_flags INTERFACE ${isostep_exact_flags})
+
+# Sets a library of ours up: public headers under `include_dir`, private exact flags.
+function(isostep_library target export_name include_dir)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${include_dir}>
+    $<INSTALL_INTERFACE:include>)
+  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_warnings})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON)
+  if(ISOSTEP_NO_INT128)
+    target_compile_definitions(${target} PUBLIC ISOSTEP_NO_INT128)
+  endif()
+  foreach(scalar float double Q16_16 Q32_32)
+    if(NOT scalar IN_LIST ISOSTEP_SCALARS)
+      string(TOUPPER ${scalar} upper)
+      target_compile_definitions(${target} PUBLIC ISOSTEP_NO_${upper})
+    endif()
+  endforeach()
+endfunction()
+
+# A kernel of one instruction set: its own file, its own flags, where the compiler targets x86-64.
+function(isostep_kernel_flags file)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+    set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${ARGN}")
+  endif()
+endfunction()

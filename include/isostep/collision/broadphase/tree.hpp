@@ -1,0 +1,290 @@
+// AabbTree<S>: a dynamic tree of fat boxes, for pairs, overlap queries and swept queries.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/math/aabb.hpp"
+
+namespace isostep {
+
+/// A box of half extents `half` (zero: a ray) that moves from `origin` by `displacement`.
+template <class S> struct Sweep {
+  Vec3<S> origin;        // [m], world frame
+  Vec3<S> displacement;  // [m]
+  Vec3<S> half;          // [m]
+  Unit<S> max_fraction;  // [1] in [0, 1], of the displacement
+};
+
+namespace detail {
+/// overlap() as 0 or 1 and without branches: in a join every second answer is a surprise, and a mispredicted branch
+/// costs more than six comparisons.
+template <class S> ISO_INLINE std::uint32_t overlap_flag(const Aabb<S>& a, const Aabb<S>& b) {
+  return static_cast<std::uint32_t>(a.low.x <= b.high.x) & static_cast<std::uint32_t>(b.low.x <= a.high.x) &
+         static_cast<std::uint32_t>(a.low.y <= b.high.y) & static_cast<std::uint32_t>(b.low.y <= a.high.y) &
+         static_cast<std::uint32_t>(a.low.z <= b.high.z) & static_cast<std::uint32_t>(b.low.z <= a.high.z);
+}
+
+/// Whether a sweep may touch a box, by the separating axes of a segment and a box grown by `half`: the box's three,
+/// with the segment's own bounds, and their cross products with the displacement. Exact sums in fixed point.
+/// Error: in float, with coordinates up to f, the two sides of a cross product axis err by less than
+///        14 eps f (|da| + |db|) together; the slack of 16 eps f on each half extent adds 32: no touched box is missed.
+template <class S> struct SweepTest {
+  Vec3<S> origin, displacement, steps;  // steps: |displacement| by component
+  Vec3<S> half;                         // [m] with slack
+  Aabb<S> reach;                        // around the part of the sweep that is still of interest
+
+  ISO_INLINE SweepTest(const Sweep<S>& sweep, const Aabb<S>& root)
+      : origin(sweep.origin), displacement(sweep.displacement), steps(abs(sweep.displacement)) {
+    const S far_end = max_abs(max(abs(origin + displacement), abs(origin) + sweep.half));
+    const S farthest = max(far_end, max(max_abs(root.low), max_abs(root.high)));
+    const S step = resolution<S>() * S(16);
+    const S slack = farthest * step + step;
+    half = sweep.half + Vec3<S>{slack, slack, slack};
+    shorten(sweep.max_fraction);
+  }
+  ISO_INLINE void shorten(Unit<S> max_fraction) {
+    const Vec3<S> end = origin + displacement * max_fraction;
+    reach = {min(origin, end) - half, max(origin, end) + half};
+  }
+  ISO_INLINE bool touches(const Aabb<S>& box) const {
+    if (!overlap(reach, box)) return false;
+    const Vec3<S> c = box.low + box.high - (origin + origin);  // twice the centre, from the origin
+    const Vec3<S> h = box.high - box.low + (half + half);
+    return within(displacement.y, displacement.z, c.y, c.z, steps.y, steps.z, h.y, h.z) &&
+           within(displacement.z, displacement.x, c.z, c.x, steps.z, steps.x, h.z, h.x) &&
+           within(displacement.x, displacement.y, c.x, c.y, steps.x, steps.y, h.x, h.y);
+  }
+
+ private:
+  static ISO_INLINE bool within(S da, S db, S ca, S cb, S sa, S sb, S ha, S hb) {
+    const Sum<S> side = product(da, cb) - product(db, ca);
+    const Sum<S> reach_of_box = product(sa, hb) + product(sb, ha);
+    return side <= reach_of_box && -side <= reach_of_box;
+  }
+};
+}  // namespace detail
+
+/// A binary tree of boxes over leaves that the caller names by small integers (slots), each at most once.
+///
+/// The tree is a means, not state: its shape depends on what was inserted and moved before, so the order of visits does
+/// too. Which leaves `query` and `overlapping_pairs` visit does not. Whoever lets results depend on order sorts them.
+///
+/// Siblings lie side by side (nodes 2k and 2k + 1; the root is node 0), a leaf is a node of height 0. `update` only
+/// enlarges ancestors and marks them; `optimise` takes the marked part apart and splits what hangs below it anew, so
+/// that few moves cost little and many cost one build. Boxes on the way are exact except above a moved leaf until then.
+/// Source:  Catto 2022-2024, Box2D 3 (enlarge, then rebuild the enlarged part); Goldsmith, Salmon 1987, IEEE CG&A 7(5)
+///          (insertion by surface area).
+/// Cost:    insert, remove O(height); update O(height) at worst; optimise O(m log m), m = subtrees below marked nodes.
+/// Limits:  box.low <= box.high; coordinates within 4 position limits (geometry/limits.hpp), so that doubled centres
+///          and half areas fit.
+///          Height at most kMaxHeight, kept by rebuilding.
+template <class S> class AabbTree {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kMaxHeight = 80;
+
+  /// Two nodes.
+  struct NodePair {
+    std::uint32_t a, b;
+  };
+  /// Working memory of a join; keep it from one to the next.
+  struct Matches {
+    std::vector<NodePair> now, next;
+  };
+
+  /// The slot must be free.
+  void insert(std::uint32_t slot, const Aabb<S>& box);
+  /// The slot must be taken.
+  void remove(std::uint32_t slot);
+  void update(std::uint32_t slot, const Aabb<S>& box);
+  /// Restores the tree's quality after inserts and updates; call it once, before many queries. Answers do not need it.
+  void optimise();
+
+  /// Bulk insertion: stage any number, then rebuild; between the two the tree may not be used otherwise.
+  void stage(std::uint32_t slot, const Aabb<S>& box);
+  void rebuild();
+
+  /// Forgets the leaves, keeps the memory.
+  void clear();
+
+  ISO_INLINE std::uint32_t size() const { return size_; }
+  ISO_INLINE std::uint32_t height() const { return size_ == 0 ? 0u : nodes_[kRoot].height; }
+  ISO_INLINE bool contains(std::uint32_t slot) const { return slot < leaf_of_.size() && leaf_of_[slot] != kNone; }
+  ISO_INLINE const Aabb<S>& box(std::uint32_t slot) const { return nodes_[leaf_of_[slot]].box; }
+
+  /// visit(slot) -> bool for every leaf whose box overlaps `box`, in no stated order; false ends the query.
+  /// A visitor of this class is a struct with an ISO_INLINE call operator wherever weak symbols matter.
+  template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const;
+
+  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first.
+  template <class Visit> ISO_INLINE void overlapping_pairs(Matches& matches, Visit&& visit) const;
+
+  /// visit(slot, other) -> void for every one of `slots` that is in the tree and every leaf, itself included, whose box
+  /// overlaps its own, in no stated order. Half the time of as many queries.
+  template <class Visit>
+  ISO_INLINE void overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, Visit&& visit) const;
+
+  /// visit(slot, max_fraction) -> the new max_fraction, not larger, for every leaf whose box the sweep touches within
+  /// the fraction of the moment, nearer ones first as a rule. The visitor may be shown leaves that it must refuse, and
+  /// prefers, of two hits at one fraction, the lower slot: then the nearest hit does not depend on the tree's shape.
+  template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
+
+  /// For tests: links, heights, marks, containment, free list and slots agree.
+  bool validate() const;
+
+ private:
+  static constexpr std::uint32_t kRoot = 0;
+  static constexpr std::uint32_t kFreeHeight = 0xffffffffu;
+  static constexpr std::uint32_t kMaxDepth = 32;
+  static constexpr std::uint32_t kMaxGiants = 8;
+
+  struct Node {
+    Aabb<S> box;
+    std::uint32_t parent;
+    std::uint32_t child;   // first of the two children; a leaf's slot; the next free pair
+    std::uint32_t height;  // 0: leaf
+    std::uint32_t marked;  // 1: a leaf below has been inserted or moved since the last build; so are all ancestors
+  };
+  struct Centre {
+    Vec3<S> twice;    // [m] low + high
+    RawBits<S> item;  // an index, as wide as S: copying a struct with a padded tail made the build twice as slow
+  };
+  struct Range {
+    std::uint32_t begin, end, node, depth;
+  };
+
+  template <class Visit> ISO_INLINE void resolve(Matches& matches, std::uint32_t count, Visit&& visit) const;
+  std::uint32_t allocate_pair();
+  void free_pair(std::uint32_t pair);
+  void place(std::uint32_t at, const Node& node);
+  void refit_from(std::uint32_t node);
+  std::uint32_t find_sibling(const Aabb<S>& box) const;
+  void collect_items(bool all);
+  void build();
+  std::uint32_t split_off_giants();
+  std::uint32_t partition(std::uint32_t begin, std::uint32_t end);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> leaf_of_;  // by slot
+  std::uint32_t top_ = 0;               // nodes ever in use, the rest of nodes_ is spare
+  std::uint32_t free_ = kNone;          // first free pair
+  std::uint32_t size_ = 0;
+
+  std::vector<Node> items_;  // subtrees to be built over
+  std::vector<Centre> centres_;
+  std::vector<Range> ranges_;
+  std::vector<std::uint32_t> order_;
+};
+
+template <class S>
+template <class Visit>
+ISO_INLINE void AabbTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
+  if (size_ == 0 || !overlap(nodes_[kRoot].box, box)) return;
+  std::uint32_t stack[kMaxHeight + 1u];
+  std::uint32_t waiting = 0;
+  stack[waiting++] = kRoot;
+  while (waiting != 0) {
+    const Node& node = nodes_[stack[--waiting]];
+    if (node.height == 0) {
+      if (!visit(node.child)) return;
+      continue;
+    }
+    if (overlap(nodes_[node.child + 1u].box, box)) stack[waiting++] = node.child + 1u;
+    if (overlap(nodes_[node.child].box, box)) stack[waiting++] = node.child;
+  }
+}
+
+template <class S>
+template <class Visit>
+ISO_INLINE void AabbTree<S>::overlapping_pairs(Matches& matches, Visit&& visit) const {
+  // Two leaves have one lowest common ancestor, so it is enough to match the two children of every inner node.
+  if (matches.now.size() < top_) matches.now.resize(top_);
+  std::uint32_t count = 0;
+  for (std::uint32_t pair = 2; pair < top_; pair += 2) {
+    matches.now[count] = {pair, pair + 1u};
+    count += nodes_[pair].height != kFreeHeight ? detail::overlap_flag(nodes_[pair].box, nodes_[pair + 1u].box) : 0u;
+  }
+  resolve(matches, count, visit);
+}
+
+template <class S>
+template <class Visit>
+ISO_INLINE void AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches,
+                                                  Visit&& visit) const {
+  if (matches.now.size() < slots.size()) matches.now.resize(slots.size());
+  std::uint32_t count = 0;
+  for (const std::uint32_t slot : slots) {
+    if (contains(slot)) matches.now[count++] = {leaf_of_[slot], kRoot};
+  }
+  resolve(matches, count, visit);
+}
+
+/// Opens matches until both sides are leaves. Level by level rather than depth first: the matches of a level wait for
+/// nothing but memory, so the processor works on several at once; a stack makes each step wait for the one before
+/// (measured: twice the time).
+template <class S>
+template <class Visit>
+ISO_INLINE void AabbTree<S>::resolve(Matches& matches, std::uint32_t count, Visit&& visit) const {
+  while (count != 0) {
+    const std::size_t room = 4u * std::size_t{count};
+    if (matches.next.size() < room) matches.next.resize(room);
+    const NodePair* const now = matches.now.data();
+    NodePair* const next = matches.next.data();
+    std::uint32_t made = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const NodePair at = now[i];
+      const Node& a = nodes_[at.a];
+      const Node& b = nodes_[at.b];
+      if (a.height == 0 && b.height == 0) {
+        visit(a.child, b.child);
+        continue;
+      }
+      const NodePair first = {a.height == 0 ? at.a : a.child, b.height == 0 ? at.b : b.child};
+      const NodePair last = {a.height == 0 ? at.a : a.child + 1u, b.height == 0 ? at.b : b.child + 1u};
+      for (std::uint32_t p = first.a; p <= last.a; ++p) {
+        for (std::uint32_t q = first.b; q <= last.b; ++q) {
+          next[made] = {p, q};
+          made += detail::overlap_flag(nodes_[p].box, nodes_[q].box);
+        }
+      }
+    }
+    matches.now.swap(matches.next);
+    count = made;
+  }
+}
+
+template <class S>
+template <class Visit>
+ISO_INLINE void AabbTree<S>::sweep(const Sweep<S>& sweep, Visit&& visit) const {
+  if (size_ == 0) return;
+  detail::SweepTest<S> test(sweep, nodes_[kRoot].box);
+  Unit<S> fraction = sweep.max_fraction;
+  std::uint32_t stack[kMaxHeight + 1u];
+  std::uint32_t waiting = 0;
+  stack[waiting++] = kRoot;
+  while (waiting != 0) {
+    const Node& node = nodes_[stack[--waiting]];
+    if (!test.touches(node.box)) continue;
+    if (node.height == 0) {
+      const Unit<S> shorter = visit(node.child, fraction);
+      if (shorter < fraction) test.shorten(fraction = shorter);
+      continue;
+    }
+    const Aabb<S>& left = nodes_[node.child].box;
+    const Aabb<S>& right = nodes_[node.child + 1u].box;
+    const std::uint32_t right_first = dot_sum(test.displacement, right.low + right.high) <
+                                      dot_sum(test.displacement, left.low + left.high);
+    stack[waiting++] = node.child + 1u - right_first;
+    stack[waiting++] = node.child + right_first;
+  }
+}
+
+#define ISO_EXTERN_AABB_TREE(S) extern template class AabbTree<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN_AABB_TREE)
+#undef ISO_EXTERN_AABB_TREE
+
+}  // namespace isostep

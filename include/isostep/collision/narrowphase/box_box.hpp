@@ -1,0 +1,32 @@
+// Contacts of two boxes: up to four points of the overlap of two faces, or the crossing of two edges.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// Separating axes, then clipping of the incident face.
+/// Source:  Gottschalk, Lin, Manocha 1996, OBBTree, sec. 5 (the axes); Sutherland, Hodgman 1974, Reentrant Polygon
+///          Clipping, CACM 17(1).
+/// Differs: crosses of edges are normalised only when, unnormalised, they could still be the best or separate; a face
+/// of a is
+///          preferred to one of b, and any face to a pair of edges, by axis_tolerance.
+/// Error:   depth within 2 axis_tolerance of the least over all axes; position within a few resolutions of the extents.
+/// Limits:  rounded boxes (radius > 0) further apart than their radii at an edge or corner are treated as if those were
+/// sharp. Features: faces 1u << 31 | reference box | reference face | incident face | two edges that meet in the point;
+/// edges:
+///          3 axes and 2 signs of each box.
+template <class S>
+void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
+                     S margin, Manifold<S>& out);
+
+#define ISO_EXTERN(S)                                                                                    \
+  extern template void collide_box_box<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
+                                          const Transform<S>&, S, Manifold<S>&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,33 @@
+// Tolerances of the separating axis tests: when two axes count as equally good, and two edges as parallel.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+
+namespace isostep::detail {
+
+/// Edges whose cross product is shorter than the square root of this are skipped: the directions' rounding, a few
+/// resolutions, would turn the product by more than sqrt(resolution) / 4. The axis that is missed then is matched by a
+/// face's to within that angle times the edges' length.
+template <class S> ISO_INLINE constexpr Unit<S> near_parallel() {
+  constexpr Unit<S> u = resolution<Unit<S>>();
+  constexpr Unit<S> u4 = u + u + u + u;
+  return u4 + u4 + u4 + u4;
+}
+
+/// What an axis must be better by to replace one that is preferred [m]: 1/128 of the smallest half extent, so that
+/// small rocking of a stack does not change its reference face, and what rounding makes of the largest.
+template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S> half_b) {
+  const Vec3<S> low = min(half_a, half_b);
+  const S smallest = min(low.x, min(low.y, low.z));
+  const S rounding = (max_abs(half_a) + max_abs(half_b)) * resolution<Unit<S>>();
+  return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
+}
+
+/// A gap between cores up to this has no direction worth the name: rounding where the shapes are up to `extent` apart
+/// or long.
+template <class S> ISO_INLINE constexpr S gap_noise(S extent) {
+  return extent * resolution<Unit<S>>() * S(8) + resolution<S>() * S(16);
+}
+
+}  // namespace isostep::detail

@@ -1,0 +1,30 @@
+// collide: the contact manifold of any two primitives.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// Fills `out` with the points whose separation is at most `margin` >= 0; none leaves count 0 and a zero normal.
+/// Frame:  both transforms lead to one frame near the shapes, its origin at a body's centre of mass, axes as the
+/// world's. Only the
+///         difference of the positions enters normal, separation and features; it shifts the points exactly.
+/// Order:  collide(b, a) gives the same points with the opposite normal to rounding; exactly, between unlike types. Two
+/// boxes
+///         whose best faces agree within axis_tolerance take a's as reference; features name a and b by their order.
+/// Limits: Q16.16: extents and distances below 100 m; Q32.32: 1000 m. Degenerate sizes (0) are allowed. Two half-spaces
+///         never touch.
+template <class S>
+void collide(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb, S margin,
+             Manifold<S>& out);
+
+#define ISO_EXTERN(S)                                                                                                 \
+  extern template void collide<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, const Transform<S>&, \
+                                  S, Manifold<S>&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,35 @@
+// Contacts of a sphere, a box and a capsule with a half-space: their lowest points against its plane.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// b is the half-space in all three.
+template <class S>
+void collide_sphere_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                               const Transform<S>& tb, S margin, Manifold<S>& out);
+/// The four deepest vertices; of the two that may be fourth, the one that completes a face when they tie.
+/// Feature: bit k set where the vertex lies on the positive side of the box's axis k.
+template <class S>
+void collide_box_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                            const Transform<S>& tb, S margin, Manifold<S>& out);
+/// Both ends, as far as they are within the margin. Feature: 0 the negative end, 1 the positive one.
+template <class S>
+void collide_capsule_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                                const Transform<S>& tb, S margin, Manifold<S>& out);
+
+#define ISO_EXTERN(S)                                                                                               \
+  extern template void collide_sphere_half_space<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&,  \
+                                                    const Transform<S>&, S, Manifold<S>&);                          \
+  extern template void collide_box_half_space<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&,     \
+                                                 const Transform<S>&, S, Manifold<S>&);                             \
+  extern template void collide_capsule_half_space<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
+                                                     const Transform<S>&, S, Manifold<S>&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,61 @@
+// Manifold<S>: where two shapes touch, up to four points with one normal; what the narrow phase hands to the solver.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/math/transform.hpp"
+
+namespace isostep {
+
+inline constexpr int kManifoldPoints = 4;
+
+template <class S> struct ManifoldPoint {
+  Vec3<S> position;       // [m] midway between the two surfaces, in the frame that both transforms lead to
+  S separation;           // [m] along the normal, negative = overlap
+  std::uint32_t feature;  // names the pair of features that touch: the same from frame to frame, unique in a manifold
+};
+
+template <class S> struct Manifold {
+  Vec3<Unit<S>> normal;  // [1] from a to b, in the transforms' outer frame; zero when count is 0
+  std::int32_t count;    // 0..4; points past it hold nothing
+  ManifoldPoint<S> points[kManifoldPoints];
+
+  ISO_INLINE constexpr void clear() {
+    normal = Vec3<Unit<S>>::zero();
+    count = 0;
+  }
+  /// Caller keeps count below kManifoldPoints.
+  ISO_INLINE constexpr void add(Vec3<S> position, S separation, std::uint32_t feature) {
+    points[count] = {position, separation, feature};
+    ++count;
+  }
+};
+
+namespace detail {
+
+/// A vector's direction [1] and length [m]; both zero for the zero vector.
+template <class S> struct Heading {
+  Vec3<Unit<S>> direction;
+  S length;
+};
+template <class S> ISO_INLINE Heading<S> heading_of(Vec3<S> v) {
+  const auto d = direction_of(v.x, v.y, v.z);
+  return {{d.x, d.y, d.z}, d.length};
+}
+
+/// Plus or minus the axis k of a local frame, as the frame itself sees it.
+template <class U> ISO_INLINE constexpr Vec3<U> unit_axis(int k, bool negative) {
+  Vec3<U> axis = Vec3<U>::zero();
+  axis.set(k, negative ? U(-1) : U(1));
+  return axis;
+}
+template <class T> ISO_INLINE constexpr T negate_if(bool negative, T value) { return negative ? -value : value; }
+
+/// |v| > length, for length >= 0: exact for fixed point, without a root.
+template <class S> ISO_INLINE constexpr bool longer_than(Vec3<S> v, S length) {
+  return dot_sum(v, v) > product(length, length);
+}
+
+}  // namespace detail
+}  // namespace isostep

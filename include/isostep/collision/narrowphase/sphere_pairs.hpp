@@ -1,0 +1,34 @@
+// Contacts of a sphere with a sphere, a box and a capsule: always one point.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// Centres that coincide give the normal (0, 1, 0).
+template <class S>
+void collide_sphere_sphere(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
+                           S margin, Manifold<S>& out);
+/// A centre inside the box leaves by the nearest face; ties go to the lowest axis, its positive side.
+template <class S>
+void collide_sphere_box(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
+                        S margin, Manifold<S>& out);
+/// A centre on the capsule's axis leaves across it.
+template <class S>
+void collide_sphere_capsule(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                            const Transform<S>& tb, S margin, Manifold<S>& out);
+
+#define ISO_EXTERN(S)                                                                                           \
+  extern template void collide_sphere_sphere<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&,  \
+                                                const Transform<S>&, S, Manifold<S>&);                          \
+  extern template void collide_sphere_box<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&,     \
+                                             const Transform<S>&, S, Manifold<S>&);                             \
+  extern template void collide_sphere_capsule<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
+                                                 const Transform<S>&, S, Manifold<S>&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,28 @@
+// Generation ids: a slot that is reused and a generation that is not.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace isostep {
+
+/// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used.
+template <class Tag> struct Id {
+  std::uint32_t slot = 0;
+  std::uint32_t generation = 0;  // 0: null
+
+  constexpr explicit operator bool() const { return generation != 0; }
+  friend constexpr bool operator==(Id a, Id b) { return a.slot == b.slot && a.generation == b.generation; }
+  friend constexpr bool operator!=(Id a, Id b) { return !(a == b); }
+
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("generation", self.generation);
+  }
+};
+
+using BodyId = Id<struct BodyTag>;
+using ShapeId = Id<struct ShapeTag>;
+using JointId = Id<struct JointTag>;
+
+}  // namespace isostep

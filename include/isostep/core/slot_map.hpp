@@ -1,0 +1,75 @@
+// SlotMap: hands out slots and generations. Its free list is state: the next id is part of a world's future.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/fields.hpp"
+#include "isostep/core/id.hpp"
+
+namespace isostep {
+
+struct SlotEntry {
+  std::uint32_t generation;  // of the present tenant, or of the next
+  std::uint32_t next_free;   // kTaken, or the slot freed before this one
+
+  static constexpr std::uint32_t kTaken = 0xffffffffu;
+  static constexpr std::uint32_t kEnd = 0xfffffffeu;
+
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("generation", self.generation);
+    visit("next_free", self.next_free);
+  }
+};
+static_assert(kHasNoPadding<SlotEntry>);
+
+class SlotMap {
+ public:
+  template <class AnyId> AnyId take() {
+    if (first_free_ == SlotEntry::kEnd) {
+      entries_.push_back({1, SlotEntry::kTaken});
+      return {static_cast<std::uint32_t>(entries_.size() - 1), 1};
+    }
+    const std::uint32_t slot = first_free_;
+    SlotEntry& entry = entries_[slot];
+    first_free_ = entry.next_free;
+    entry.next_free = SlotEntry::kTaken;
+    return {slot, entry.generation};
+  }
+  void give_back(std::uint32_t slot) {
+    SlotEntry& entry = entries_[slot];
+    entry.generation += entry.generation == 0xffffffffu ? 2u : 1u;  // 0 stays null
+    entry.next_free = first_free_;
+    first_free_ = slot;
+  }
+  template <class AnyId> bool holds(AnyId id) const {
+    return id.slot < entries_.size() && is_taken(id.slot) && entries_[id.slot].generation == id.generation;
+  }
+  bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
+  template <class AnyId> AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
+
+  const std::vector<SlotEntry>& entries() const { return entries_; }
+  std::uint32_t first_free() const { return first_free_; }
+  /// From a file: false when the free list is not one list of just the free slots.
+  bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
+    std::size_t free = 0, met = 0;
+    for (const SlotEntry& entry : entries) {
+      if (entry.generation == 0) return false;
+      free += entry.next_free != SlotEntry::kTaken;
+    }
+    for (std::uint32_t slot = first_free; slot != SlotEntry::kEnd; slot = entries[slot].next_free) {
+      if (slot >= entries.size() || entries[slot].next_free == SlotEntry::kTaken || ++met > free) return false;
+    }
+    if (met != free) return false;
+    entries_ = entries;
+    first_free_ = first_free;
+    return true;
+  }
+
+ private:
+  std::vector<SlotEntry> entries_;
+  std::uint32_t first_free_ = SlotEntry::kEnd;
+};
+
+}  // namespace isostep

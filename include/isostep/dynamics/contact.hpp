@@ -1,0 +1,83 @@
+// A contact between two bodies' parts: what is remembered from step to step, and what one step knows of its geometry.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/fields.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+inline constexpr int kMaxContactPoints = 4;
+
+/// Orders contacts: body slots first (a < b), then the parts of each.
+struct ContactKey {
+  std::uint32_t body_a, body_b;
+  std::uint32_t child_a, child_b;
+
+  friend ISO_INLINE constexpr bool operator==(const ContactKey& x, const ContactKey& y) {
+    return x.body_a == y.body_a && x.body_b == y.body_b && x.child_a == y.child_a && x.child_b == y.child_b;
+  }
+  friend ISO_INLINE constexpr bool operator<(const ContactKey& x, const ContactKey& y) {
+    if (x.body_a != y.body_a) return x.body_a < y.body_a;
+    if (x.body_b != y.body_b) return x.body_b < y.body_b;
+    if (x.child_a != y.child_a) return x.child_a < y.child_a;
+    return x.child_b < y.child_b;
+  }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body_a", self.body_a);
+    visit("body_b", self.body_b);
+    visit("child_a", self.child_a);
+    visit("child_b", self.child_b);
+  }
+};
+
+/// Bits of Contact::flags.
+namespace contact_flag {
+inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse or overlapped: what events speak of
+}
+
+/// State: a contact that has points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).
+template <class S> struct Contact {
+  ContactKey key;
+  std::uint32_t count;                     // points, 1..4
+  std::uint32_t flags;                     // contact_flag
+  std::uint32_t features[kMaxContactPoints];
+  Velocity<S> normal_impulse[kMaxContactPoints];  // [m/s]
+  Vec3<Velocity<S>> friction_impulse;      // [m/s] world, on b
+  Velocity<S> twist_impulse;               // [m/s] on b about the normal, times the patch radius
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("key", self.key);
+    visit("count", self.count);
+    visit("flags", self.flags);
+    visit("features", self.features);
+    visit("normal_impulse", self.normal_impulse);
+    visit("friction_impulse", self.friction_impulse);
+    visit("twist_impulse", self.twist_impulse);
+  }
+};
+static_assert(kHasNoPadding<Contact<float>> && kHasNoPadding<Contact<double>>);
+
+/// Two materials met.
+template <class S> struct MixedMaterial {
+  S friction;                 // [1]
+  S restitution;              // [1]
+  S rolling_resistance;       // [m]
+  Vec3<S> surface_velocity;   // [m/s] of b's surface against a's, world
+};
+
+/// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the
+/// contacts.
+template <class S> struct ContactGeometry {
+  std::uint32_t row_a, row_b;
+  Vec3<Unit<S>> normal;       // [1] from a to b, world
+  struct Point {
+    Vec3<S> arm_a, arm_b;     // [m] from each centre of mass, world
+    S separation;             // [m] negative: overlap
+  } points[kMaxContactPoints];
+  MixedMaterial<S> material;
+};
+
+}  // namespace isostep

@@ -1,0 +1,35 @@
+// Islands: bodies that contacts and joints tie together, found by union-find in canonical order.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace isostep {
+
+/// Disjoint sets of 0..n-1; every set is named by its least member, so the names depend on the sets alone.
+class DisjointSets {
+ public:
+  void begin(std::size_t count) {
+    parent_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a < b) parent_[b] = a;
+    if (b < a) parent_[a] = b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,38 @@
+// Ball joint: two points coincide; a cone bounds the swing and an interval the twist of a shoulder or a hip.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_frames.hpp"
+
+namespace isostep::detail {
+
+/// Twist about the mean of the two z axes. Its true rate is larger by 1 / cos(swing / 2): a limit brakes a little late.
+template <class S> ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
+                                                   JointConstraint<S>& joint) {
+  using U = Unit<S>;
+  const U half = U(0.5);
+  const Vec3<U> sum = za * half + zb * half;
+  const Direction<U> mean = direction_of(sum.x, sum.y, sum.z);
+  joint.drives[0].row = angular_row<S>({mean.x, mean.y, mean.z}, joint.drives[0].radius);
+  set_angle(joint.drives[0], joint.properties, twist_angle<S>(relative_rotation(f)));
+}
+/// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
+template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
+  using U = Unit<S>;
+  const Vec3<U> n = cross(za, zb);
+  const Direction<U> axis = direction_of(n.x, n.y, n.z);
+  JointDrive<S>& drive = joint.drives[1];
+  drive.row = angular_row<S>({axis.x, axis.y, axis.z}, drive.radius);
+  drive.position = atan2_to<S>(axis.length, dot(za, zb)) * drive.radius;
+  drive.upper = joint.properties.cone * drive.radius;
+}
+
+template <class S> ISO_INLINE void linearise_ball(const JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
+  point_block(f, h, joint.blocks[0]);
+  if (joint.drive_count == 0) return;
+  const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
+  linearise_twist(f, za, zb, joint);
+  linearise_swing(za, zb, joint);
+}
+
+}  // namespace isostep::detail

@@ -1,0 +1,156 @@
+// Joints: the closed list of kinds, what is stored of one, and the calls by which a step solves them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/joints/joint_rows.hpp"
+#include "isostep/dynamics/solver_body.hpp"
+
+namespace isostep {
+
+/// Every kind holds two frames together; z is the frame's axis.
+enum class JointType : std::uint32_t {
+  ball,      // origins coincide; optional cone (angle between the z axes) and twist limit (about them)
+  hinge,     // origins and z axes coincide; optional limit, motor and spring of the angle about z
+  fixed,     // frames coincide
+  distance   // origins lower..upper apart (lower = upper: rod, lower = 0: rope), or a spring, or both with kLimit
+};
+
+/// Bits of JointProperties::flags.
+namespace joint_flag {
+inline constexpr std::uint32_t kCollideConnected = 1u << 0;  // the two bodies have contacts with each other
+inline constexpr std::uint32_t kLimit = 1u << 1;             // lower..upper holds (ball: of the twist)
+inline constexpr std::uint32_t kMotor = 1u << 2;             // hinge
+inline constexpr std::uint32_t kSpring = 1u << 3;            // hinge, distance
+inline constexpr std::uint32_t kCone = 1u << 4;              // ball
+}  // namespace joint_flag
+
+inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
+
+/// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass.
+template <class S> struct JointState {
+  std::uint32_t slot;               // of its id
+  std::uint32_t flags;              // 0
+  Vec3<Velocity<S>> point;          // [m/s] world, on b; distance: x along the joint
+  Vec3<Velocity<S>> angular;        // [m/s] on b about the axes of frame a, times the joint's radius
+  Velocity<S> motor, spring;        // [m/s]
+  Velocity<S> lower, upper, swing;  // [m/s] of the limits
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("flags", self.flags);
+    visit("point", self.point);
+    visit("angular", self.angular);
+    visit("motor", self.motor);
+    visit("spring", self.spring);
+    visit("lower", self.lower);
+    visit("upper", self.upper);
+    visit("swing", self.swing);
+  }
+};
+
+/// The part of a joint that only commands change. Angles: [rad] of frame b against frame a about z, in (-pi, pi].
+template <class S> struct JointProperties {
+  JointType type = JointType::ball;
+  std::uint32_t flags = 0;             // joint_flag
+  std::uint32_t body_a = kNoBody;      // slots
+  std::uint32_t body_b = kNoBody;
+  std::uint64_t user_data = 0;
+  Pose<S> frame_a = Pose<S>::identity();  // from the centre of mass, body axes; for the world its own frame
+  Pose<S> frame_b = Pose<S>::identity();
+  S lower = S(0);                      // [rad] or, distance, [m]
+  S upper = S(0);
+  S cone = S(0);                       // [rad] largest angle between the z axes
+  S motor_speed = S(0);                // [rad/s] of b against a
+  S motor_torque = S(0);               // [N m] most that the motor gives
+  S spring_target = S(0);              // [rad] or, distance, [m] rest length
+  S spring_frequency = S(0);           // [Hz] below half the sub-step rate
+  S spring_damping = S(0);             // [1] ratio, 1 = critical
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("type", self.type);
+    visit("flags", self.flags);
+    visit("body_a", self.body_a);
+    visit("body_b", self.body_b);
+    visit("user_data", self.user_data);
+    visit("frame_a", self.frame_a);
+    visit("frame_b", self.frame_b);
+    visit("lower", self.lower);
+    visit("upper", self.upper);
+    visit("cone", self.cone);
+    visit("motor_speed", self.motor_speed);
+    visit("motor_torque", self.motor_torque);
+    visit("spring_target", self.spring_target);
+    visit("spring_frequency", self.spring_frequency);
+    visit("spring_damping", self.spring_damping);
+  }
+};
+
+static_assert(kHasNoPadding<JointState<float>> && kHasNoPadding<JointState<double>>);
+static_assert(kHasNoPadding<JointState<Q16_16>> && kHasNoPadding<JointState<Q32_32>>);
+static_assert(kHasNoPadding<JointProperties<float>> && kHasNoPadding<JointProperties<double>>);
+static_assert(kHasNoPadding<JointProperties<Q16_16>> && kHasNoPadding<JointProperties<Q32_32>>);
+
+/// One end of a joint as the solver finds it.
+template <class S> struct JointEnd {
+  std::uint32_t row;  // of SolverBodies
+  Pose<S> pose;       // centre and orientation when the step begins; the world's is the identity
+};
+
+/// A joint for the length of one step.
+template <class S> struct JointConstraint {
+  JointProperties<S> properties;
+  std::uint32_t row_a, row_b;
+  MassShare<S> share;
+  Pose<S> pose_a, pose_b;              // when the step began: what stands for row 0 throughout
+  Vec3<S> arm_a, arm_b;                // [m] from each centre to the joint, world, now
+  S radius;                            // [m] lever of purely angular rows, so that their coefficients are near one
+  S motor_force;                       // [m/s^2] most impulse a second
+  std::uint32_t block_count, drive_count;
+  bool holds;                          // something moves at all
+  JointBlock<S> blocks[2];             // equalities: point or rod, angular
+  JointDrive<S> drives[2];             // angle, twist or length; swing
+};
+
+/// What the calls of one sub-step know. Row r > 0 of the bodies is states[r - 1].
+template <class S> struct JointStep {
+  const BodyState<S>* states;
+  SolverBodies<S>* bodies;
+  S rate;               // [1/s] sub-steps a second
+  Step<S> h;            // [s]
+  Softness<S> softness;
+};
+
+/// How soft joints outside a JointSystem's trees are: a quarter of the sub-step rate as frequency, the stiffest that an
+/// explicit scheme carries; damping ratio 2: measured best for the worst separation of a swinging chain.
+template <class S> ISO_INLINE constexpr Softness<S> joint_softness(S rate) {
+  return soften(S(1.5707963267948966), S(2), rate);
+}
+
+/// Once a step. Masses and rows must be gathered.
+template <class S>
+void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
+                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
+/// Jacobian and error from the poses of now.
+template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
+/// What the rows move, for bodies that turn by kappa, and the blocks' couplings.
+template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
+/// The masses that the drives feel, given the blocks' inverses.
+template <class S> void weigh_drives(JointConstraint<S>& joint);
+template <class S> void apply_impulses(const JointConstraint<S>& joint, SolverBodies<S>& bodies);
+/// Springs, motors and limits.
+template <class S> void solve_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+/// The equalities of one joint by itself.
+template <class S> void solve_blocks(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state);
+
+/// One joint after another in array order: for joints that form loops, and to compare with. Once a sub-step the first,
+/// then the second, biased and, after positions moved, relaxed.
+template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
+template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+
+}  // namespace isostep

@@ -1,0 +1,79 @@
+// Where a joint's two frames are now, and the rows that most kinds share.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint.hpp"
+
+namespace isostep::detail {
+
+template <class S> struct JointFrames {
+  Vec3<S> arm_a, arm_b;            // [m] from each centre to the frame's origin, world
+  Vec3<S> between;                 // [m] from a's origin to b's, world
+  Quat<Unit<S>> a, b;              // frames to world
+};
+
+/// Orientations only where a kind needs them.
+template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<S>& joint, const BodyState<S>* states) {
+  const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) {
+    return row == 0 ? fixed : Pose<S>{states[row - 1].centre, states[row - 1].orientation};
+  };
+  const Pose<S> a = pose(joint.row_a, joint.pose_a), b = pose(joint.row_b, joint.pose_b);
+  const Pose<S>& in_a = joint.properties.frame_a;
+  const Pose<S>& in_b = joint.properties.frame_b;
+  JointFrames<S> f;
+  f.a = f.b = Quat<Unit<S>>::identity();
+  f.arm_a = to_matrix(a.orientation) * in_a.position;
+  f.arm_b = to_matrix(b.orientation) * in_b.position;
+  f.between = (b.position - a.position) + (f.arm_b - f.arm_a);  // large minus large first: exact in fixed point
+  if (joint.block_count < 2 && joint.drive_count == 0) return f;
+  f.a = a.orientation * in_a.orientation;
+  f.b = b.orientation * in_b.orientation;
+  return f;
+}
+
+/// [m] error as a row keeps it: beyond 32 m/s times h it is that, so that its product with a bias rate fits.
+template <class S> ISO_INLINE Velocity<S> bounded_error(S error, Step<S> h) {
+  const S most = S(32) * h;
+  return convert<Velocity<S>>(clamp(error, -most, most));
+}
+
+/// A row that only turns, about `axis`, and whose speed is counted at the joint's radius.
+template <class S> ISO_INLINE JointRow<S> angular_row(Vec3<Unit<S>> axis, S radius) {
+  const Vec3<S> angular = convert<S>(axis) * radius;
+  return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
+}
+
+/// Origins coincide.
+template <class S>
+ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> h, JointBlock<S>& block) {
+  const Vec3<S> ra = f.arm_a, rb = f.arm_b, zero = Vec3<S>::zero();
+  const S o = S(0), one = S(1);
+  block.point = true;
+  block.rows[0] = {{one, o, o}, {o, ra.z, -ra.y}, {o, rb.z, -rb.y}, zero, zero};
+  block.rows[1] = {{o, one, o}, {-ra.z, o, ra.x}, {-rb.z, o, rb.x}, zero, zero};
+  block.rows[2] = {{o, o, one}, {ra.y, -ra.x, o}, {rb.y, -rb.x, o}, zero, zero};
+  block.error = {bounded_error(f.between.x, h), bounded_error(f.between.y, h), bounded_error(f.between.z, h)};
+}
+
+/// b's frame seen from a's, on the half of the double cover with w >= 0.
+template <class S> ISO_INLINE Quat<Unit<S>> relative_rotation(const JointFrames<S>& f) {
+  const Quat<Unit<S>> q = conjugate(f.a) * f.b;
+  if (q.w < Unit<S>(0)) return {-q.x, -q.y, -q.z, -q.w};
+  return q;
+}
+/// [rad] angle about z of a rotation with w >= 0, whatever its swing.
+template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) {
+  return S(2) * atan2_to<S>(q.z, q.w);
+}
+
+/// What the properties ask of an angle in (-pi, pi].
+template <class S> ISO_INLINE void set_angle(JointDrive<S>& drive, const JointProperties<S>& p, S angle) {
+  const S radius = drive.radius;
+  drive.position = angle * radius;
+  drive.lower = p.lower * radius;
+  drive.upper = p.upper * radius;
+  drive.target = p.spring_target * radius;
+  drive.speed = round_to<Velocity<S>>(product(p.motor_speed, radius));
+}
+
+}  // namespace isostep::detail

@@ -1,0 +1,183 @@
+// Rows of joints: Jacobians of two bodies, blocks of three, and the small matrices between them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/dynamics/solvers/softness.hpp"
+#include "isostep/geometry/limits.hpp"
+
+namespace isostep {
+
+/// One row: its speed is linear . (v_b - v_a) + angular_b . w_b - angular_a . w_a  [m/s].
+template <class S> struct JointRow {
+  Vec3<S> linear;                  // [1]
+  Vec3<S> angular_a, angular_b;    // [m]
+  Vec3<S> turn_a, turn_b;          // [1/m] kappa angular: spin per impulse, before the mass share
+
+  static ISO_INLINE constexpr JointRow zero() {
+    constexpr Vec3<S> kZero = Vec3<S>::zero();
+    return {kZero, kZero, kZero, kZero, kZero};
+  }
+};
+
+/// Three equalities solved at once; fewer leave rows of zeros.
+template <class S> struct JointBlock {
+  bool point;                      // rows are the world axes through a point: linear parts are the identity
+  JointRow<S> rows[3];
+  Mat3<S> coupling;                // [1] K = J M^-1 J^T per reduced mass
+  Mat3<S> inverse;                 // [1] of K, and of its Schur complement inside a tree
+  Vec3<Velocity<S>> error;         // [m]
+  Vec3<Velocity<S>> impulse;       // [m/s] accumulated
+};
+
+/// One coordinate of a joint that may be driven and bounded.
+template <class S> struct JointDrive {
+  JointRow<S> row;
+  S radius;                        // [m] of an angle
+  S effective_mass;                // [1]
+  S position;                      // [m] an angle times the radius, or a length
+  S lower, upper, target;          // [m]
+  bool bounded_below, bounded_above, sprung, driven;
+  Velocity<S> speed;               // [m/s] of the motor
+  Softness<S> spring;
+  Velocity<S> spring_speed;        // [m/s] that the spring asks for where it is
+  Velocity<S> motor_impulse, spring_impulse, lower_impulse, upper_impulse;  // [m/s]
+};
+
+/// Velocities of the two bodies, worked on together; written back only where mass is.
+template <class S> struct JointMotion {
+  MotionRow<Velocity<S>> a, b;
+};
+
+template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
+  return round_to<Velocity<S>>(dot_sum(row.linear, m.b.linear - m.a.linear) + dot_sum(row.angular_b, m.b.angular) -
+                               dot_sum(row.angular_a, m.a.angular));
+}
+template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>& block, const JointMotion<S>& m) {
+  if (block.point) {
+    using V = Velocity<S>;
+    // w x r of b less that of a; the arms stand in the rows: angular of x is (0, r.z, -r.y), of y (-r.z, 0, r.x).
+    const Vec3<S> xa = block.rows[0].angular_a, xb = block.rows[0].angular_b;
+    const S za = block.rows[1].angular_a.z, zb = block.rows[1].angular_b.z;
+    const Vec3<V> wa = m.a.angular, wb = m.b.angular;
+    const Vec3<V> turning = {
+        round_to<V>(product(xb.y, wb.y) + product(xb.z, wb.z) - product(xa.y, wa.y) - product(xa.z, wa.z)),
+        round_to<V>(product(zb, wb.z) - product(xb.y, wb.x) - product(za, wa.z) + product(xa.y, wa.x)),
+        round_to<V>(product(za, wa.y) + product(xa.z, wa.x) - product(zb, wb.y) - product(xb.z, wb.x))};
+    return m.b.linear - m.a.linear + turning;
+  }
+  return {speed_along(block.rows[0], m), speed_along(block.rows[1], m), speed_along(block.rows[2], m)};
+}
+
+/// v s at the precision of velocities.
+template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
+  return {round_to<V>(product(v.x, s)), round_to<V>(product(v.y, s)), round_to<V>(product(v.z, s))};
+}
+template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
+/// A sum as a velocity, held within the speed limit: where a joint cannot win, its impulse must not wrap.
+template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
+  const Sum most = widen<Sum>(convert<Velocity<S>>(Limits<S>::speed()));
+  return round_to<Velocity<S>>(clamp(sum, -most, most));
+}
+template <class S, class V> ISO_INLINE Vec3<V> saturated_times(const Mat3<S>& m, Vec3<V> v) {
+  return {saturated<S>(dot_sum(m.rows[0], v)), saturated<S>(dot_sum(m.rows[1], v)),
+          saturated<S>(dot_sum(m.rows[2], v))};
+}
+/// old + change within the speed limit.
+template <class S> ISO_INLINE Vec3<Velocity<S>> saturated_sum(Vec3<Velocity<S>> old, Vec3<Velocity<S>> change) {
+  using V = Velocity<S>;
+  const V most = convert<V>(Limits<S>::speed());
+  const auto sum = [&](V a, V b) { return clamp(a + b, -most, most); };
+  return {sum(old.x, change.x), sum(old.y, change.y), sum(old.z, change.z)};
+}
+/// m v at the precision of velocities.
+template <class S, class V> ISO_INLINE Vec3<V> times(const Mat3<S>& m, Vec3<V> v) {
+  return {round_to<V>(dot_sum(m.rows[0], v)), round_to<V>(dot_sum(m.rows[1], v)), round_to<V>(dot_sum(m.rows[2], v))};
+}
+
+template <class S>
+ISO_INLINE void push(const JointRow<S>& row, MassShare<S> share, Velocity<S> impulse, JointMotion<S>& m) {
+  const Velocity<S> to_a = scaled(share.a, impulse), to_b = scaled(share.b, impulse);
+  m.a.linear -= scaled(row.linear, to_a);
+  m.a.angular -= scaled(row.turn_a, to_a);
+  m.b.linear += scaled(row.linear, to_b);
+  m.b.angular += scaled(row.turn_b, to_b);
+}
+template <class S> ISO_INLINE Mat3<S> scaled_by(const Mat3<S>& m, S s) {
+  return {{m.rows[0] * s, m.rows[1] * s, m.rows[2] * s}};
+}
+template <class S> ISO_INLINE void subtract(Mat3<S>& m, const Mat3<S>& p) {
+  for (int i = 0; i < 3; ++i) m.rows[i] -= p.rows[i];
+}
+
+/// sum of rows times impulses, in one rounding a component.
+template <class S, class V> ISO_INLINE Vec3<V> combine(Vec3<S> r0, Vec3<S> r1, Vec3<S> r2, Vec3<V> x) {
+  return {round_to<V>(product(r0.x, x.x) + product(r1.x, x.y) + product(r2.x, x.z)),
+          round_to<V>(product(r0.y, x.x) + product(r1.y, x.y) + product(r2.y, x.z)),
+          round_to<V>(product(r0.z, x.x) + product(r1.z, x.y) + product(r2.z, x.z))};
+}
+template <class S>
+ISO_INLINE void push(const JointBlock<S>& block, MassShare<S> share, Vec3<Velocity<S>> impulse, JointMotion<S>& m) {
+  const auto& r = block.rows;
+  const Vec3<Velocity<S>> to_a = {scaled(share.a, impulse.x), scaled(share.a, impulse.y), scaled(share.a, impulse.z)};
+  const Vec3<Velocity<S>> to_b = {scaled(share.b, impulse.x), scaled(share.b, impulse.y), scaled(share.b, impulse.z)};
+  m.a.linear -= block.point ? to_a : combine(r[0].linear, r[1].linear, r[2].linear, to_a);
+  m.a.angular -= combine(r[0].turn_a, r[1].turn_a, r[2].turn_a, to_a);
+  m.b.linear += block.point ? to_b : combine(r[0].linear, r[1].linear, r[2].linear, to_b);
+  m.b.angular += combine(r[0].turn_b, r[1].turn_b, r[2].turn_b, to_b);
+}
+
+template <class S> ISO_INLINE JointMotion<S> gather(const SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t b) {
+  return {bodies.velocity[a], bodies.velocity[b]};
+}
+template <class S>
+ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t b, const JointMotion<S>& m) {
+  if (bodies.moves(a)) bodies.velocity[a] = m.a;
+  if (bodies.moves(b)) bodies.velocity[b] = m.b;
+}
+
+/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle.
+/// Method: LDL^T, whose pivots stay near one where a determinant would vanish in fixed point. A pivot that rounding
+///         took below the softness is held there: such a direction moves nothing.
+/// Error:  measured in tests/unit/dynamics/joints_test.cpp.
+template <class S> ISO_INLINE Mat3<S> invert_symmetric(const Mat3<S>& m, S softness) {
+  const S d0 = max(m.rows[0].x + softness, softness);
+  const S i0 = S(1) / d0;
+  const S l1 = m.rows[0].y * i0, l2 = m.rows[0].z * i0;
+  const S d1 = max(m.rows[1].y + softness - l1 * m.rows[0].y, softness);
+  const S i1 = S(1) / d1;
+  const S e = m.rows[1].z - l1 * m.rows[0].z;
+  const S l3 = e * i1;
+  const S d2 = max(m.rows[2].z + softness - round_to<S>(product(l2, m.rows[0].z) + product(l3, e)), softness);
+  const S i2 = S(1) / d2;
+  // L^-1 = [1; -l1 1; l1 l3 - l2, -l3, 1]
+  const S n20 = l1 * l3 - l2;
+  const S zz = i2, yz = -(l3 * i2), xz = n20 * i2;
+  const S yy = i1 - l3 * yz;
+  const S xy = -(l1 * i1) - l3 * xz;
+  const S xx = i0 + round_to<S>(product(l1 * l1, i1) + product(n20, xz));
+  return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
+}
+
+/// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
+template <class S>
+ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {
+  const auto x = [&](int j) {
+    return round_to<S>(product(angular[0].y, turn[j].y) + product(angular[0].z, turn[j].z));
+  };
+  const auto y = [&](int j) {
+    return round_to<S>(product(angular[1].x, turn[j].x) + product(angular[1].z, turn[j].z));
+  };
+  const auto z = [&](int j) {
+    return round_to<S>(product(angular[2].x, turn[j].x) + product(angular[2].y, turn[j].y));
+  };
+  return {{{x(0), x(1), x(2)}, {y(0), y(1), y(2)}, {z(0), z(1), z(2)}}};
+}
+
+/// linear . linear + angular . kappa angular of one body's halves of two rows.
+template <class S>
+ISO_INLINE S coupling(Vec3<S> linear_i, Vec3<S> angular_i, Vec3<S> linear_j, Vec3<S> turn_j) {
+  return round_to<S>(dot_sum(linear_i, linear_j) + dot_sum(angular_i, turn_j));
+}
+
+}  // namespace isostep

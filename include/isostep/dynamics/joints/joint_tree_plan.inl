@@ -1,0 +1,136 @@
+// Bodies of joint_tree.hpp that plan: which joints form trees, and in which order their blocks are eliminated.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_tree.hpp"
+
+namespace isostep {
+
+namespace detail {
+enum JointRole : std::uint8_t { kIdle, kLoose, kTree, kClosing, kQueued, kDone };
+}  // namespace detail
+
+template <class S> void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+  nodes_.clear();
+  links_.clear();
+  loose_.clear();
+  if (joints.empty()) return;
+  find_trees(joints, bodies);
+  list_joints_of_bodies(joints);
+  eliminate_all(joints);
+  for (Node& node : nodes_) {
+    for (std::uint32_t l = 0; l < node.link_count; ++l) {
+      Link& link = links_[node.first_link + l];
+      link.to = node_of_[link.to];
+    }
+  }
+  right_.resize(nodes_.size());
+  kappa_.resize(bodies.mass.size());
+  tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
+}
+
+template <class S>
+void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+  const std::size_t rows = bodies.mass.size();
+  sets_.begin(rows);
+  role_.assign(joints.size(), detail::kIdle);
+  degree_.assign(rows, 0);
+  blocks_.assign(rows, 0);
+  anchored_.assign(rows, 0);
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    const JointConstraint<S>& joint = joints[j];
+    if (!joint.holds) continue;
+    const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
+    bool fits = joint.block_count > 0;
+    for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
+      if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
+    }
+    if (a_moves && b_moves && sets_.find(joint.row_a) == sets_.find(joint.row_b)) fits = false;
+    role_[j] = fits ? detail::kTree : detail::kLoose;
+    if (!fits) {
+      loose_.push_back(j);
+      continue;
+    }
+    if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
+    if (a_moves) blocks_[joint.row_a] += joint.block_count;
+    if (b_moves) blocks_[joint.row_b] += joint.block_count;
+    if (a_moves) ++degree_[joint.row_a];
+    if (b_moves) ++degree_[joint.row_b];
+  }
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] != detail::kTree) continue;
+    const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
+    if (a_moves && b_moves) continue;
+    std::uint8_t& anchored = anchored_[sets_.find(a_moves ? joints[j].row_a : joints[j].row_b)];
+    if (anchored != 0) role_[j] = detail::kClosing;
+    anchored = 1;
+  }
+}
+
+template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const JointConstraint<S>> joints) {
+  first_.assign(degree_.size() + 1, 0);
+  for (std::size_t row = 0; row < degree_.size(); ++row) first_[row + 1] = first_[row] + degree_[row];
+  at_body_.resize(first_.back());
+  blocks_.assign(degree_.size(), 0);  // from here on: how many of at_body_ are filled
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] < detail::kTree) continue;
+    for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) {
+      if (degree_[row] == 0) continue;
+      const std::uint32_t at = first_[row] + blocks_[row];
+      at_body_[at] = j;
+      ++blocks_[row];
+    }
+  }
+}
+
+/// Leaves first: a joint's turn comes when one of its bodies has no other joint left. Rows that do not move have degree 0.
+template <class S> void JointTrees<S>::eliminate_all(std::span<const JointConstraint<S>> joints) {
+  node_of_.assign(joints.size() * 2, 0);
+  closing_.resize(joints.size());
+  queue_.clear();
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] < detail::kTree) continue;
+    closing_[j] = role_[j] == detail::kClosing;
+    if (degree_[joints[j].row_a] <= 1 || degree_[joints[j].row_b] <= 1) {
+      queue_.push_back(j);
+      role_[j] = detail::kQueued;
+    }
+  }
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::uint32_t j = queue_[head];
+    const JointConstraint<S>& joint = joints[j];
+    const bool a_is_leaf = degree_[joint.row_a] == 0 || (degree_[joint.row_b] > 0 && degree_[joint.row_a] == 1);
+    const std::uint32_t parent = a_is_leaf ? joint.row_b : joint.row_a;
+    const std::uint32_t leaf = a_is_leaf ? joint.row_a : joint.row_b;
+    role_[j] = detail::kDone;
+    add_nodes(joints, j, parent);
+    if (degree_[leaf] > 0) --degree_[leaf];
+    --degree_[parent];
+    if (degree_[parent] != 1) continue;
+    for (std::uint32_t i = first_[parent]; i < first_[parent + 1]; ++i) {
+      const std::uint32_t other = at_body_[i];
+      if (role_[other] == detail::kQueued || role_[other] == detail::kDone) continue;
+      queue_.push_back(other);
+      role_[other] = detail::kQueued;
+    }
+  }
+}
+
+template <class S>
+void JointTrees<S>::add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent) {
+  const auto link_to = [&](std::uint32_t joint, std::uint32_t block) { links_.push_back({joint * 2 + block, {}, {}}); };
+  for (std::uint32_t block = joints[j].block_count; block-- > 0;) {  // angles first: small blocks stay small
+    Node node = {j, block, static_cast<std::uint32_t>(links_.size()), 0, closing_[j] != 0};
+    node_of_[j * 2 + block] = static_cast<std::uint32_t>(nodes_.size());
+    if (block == 1) link_to(j, 0);
+    for (std::uint32_t i = first_[parent]; i < first_[parent + 1]; ++i) {
+      const std::uint32_t other = at_body_[i];
+      if (role_[other] == detail::kDone) continue;
+      for (std::uint32_t b = 0; b < joints[other].block_count; ++b) link_to(other, b);
+    }
+    node.link_count = static_cast<std::uint32_t>(links_.size()) - node.first_link;
+    nodes_.push_back(node);
+  }
+}
+
+}  // namespace isostep

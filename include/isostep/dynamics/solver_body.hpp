@@ -1,0 +1,50 @@
+// Bodies as the solver sees them: rows of velocity and displacement that kernels gather, and the mass behind them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/math/mat3.hpp"
+
+namespace isostep {
+
+/// Six numbers a body in two groups of four, so that W of them transpose into lanes by whole registers.
+template <class V> struct alignas(8 * sizeof(V)) MotionRow {
+  Vec3<V> linear;
+  V pad0;
+  Vec3<V> angular;
+  V pad1;
+
+  static ISO_INLINE constexpr MotionRow zero() { return {Vec3<V>::zero(), V(0), Vec3<V>::zero(), V(0)}; }
+};
+
+/// What turns an impulse into a change of velocity.
+template <class S> struct SolverMass {
+  S mass;          // [kg]; 0: immovable
+  Mat3<S> kappa;   // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
+};
+
+/// Row 0 stands for everything that does not move; the awake bodies follow in order.
+template <class S> struct SolverBodies {
+  std::vector<MotionRow<Velocity<S>>> velocity;      // [m/s], [rad/s]
+  std::vector<MotionRow<Velocity<S>>> displacement;  // [m], [rad] since the step began
+  std::vector<SolverMass<S>> mass;
+
+  ISO_INLINE bool moves(std::uint32_t row) const { return mass[row].mass > S(0); }
+};
+
+/// How a unit of impulse, counted as velocity change of the reduced mass, divides between two bodies: a + b = 1 unless
+/// neither moves. Ratios instead of inverse masses, so that grams and tons are equally exact in fixed point.
+template <class S> struct MassShare {
+  S a, b;  // [1]
+};
+template <class S> ISO_INLINE constexpr MassShare<S> mass_share(S mass_a, S mass_b) {
+  if (!(mass_a > S(0))) return {S(0), mass_b > S(0) ? S(1) : S(0)};
+  if (!(mass_b > S(0))) return {S(1), S(0)};
+  const S half_sum = S(0.5) * mass_a + S(0.5) * mass_b;  // the sum itself may not fit
+  const S a = divide_to<S>(S(0.5) * mass_b, half_sum);
+  return {a, S(1) - a};
+}
+
+}  // namespace isostep

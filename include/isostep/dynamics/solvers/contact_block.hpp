@@ -1,0 +1,67 @@
+// The numbers of W contacts side by side, as the contact kernel reads them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "isostep/scalar/scalar.hpp"
+
+namespace isostep {
+
+/// One row of the Jacobian that turns but does not push: angular parts only.
+/// Symbols: jacobian_a, jacobian_b = the row's angular parts; spin_a, spin_b = change of angular velocity per impulse.
+template <class S, int W> struct AngularRow {
+  S jacobian_a[3][W], jacobian_b[3][W];
+  S spin_a[3][W], spin_b[3][W];
+  S effective_mass[W];
+  Velocity<S> impulse[W];  // [m/s] accumulated
+};
+
+template <class S, int W> struct NormalRow {
+  AngularRow<S, W> row;
+  Velocity<S> separation[W];    // [m] when the step began
+  Velocity<S> approach[W];      // [m/s] normal speed when the step began, for restitution
+  Velocity<S> max_impulse[W];   // [m/s] largest of the step: restitution acts only where something pushed
+};
+
+template <class S, int W> struct FrictionRow {
+  AngularRow<S, W> row;
+  S direction[3][W];            // [1] tangent
+  Velocity<S> surface[W];       // [m/s] speed of b's surface against a's along the tangent
+};
+
+/// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. W numbers of one
+/// width a field and nothing between, so that a block of one contact packs into a lane of a wide block word by word; the
+/// normal rows come last, so that fewer points are a shorter block.
+template <class S, int W, int P> struct ContactBlock {
+  S normal[3][W];       // [1] from a to b
+  S share_a[W];         // [1] MassShare
+  S share_b[W];
+  S friction[W];        // [1]
+  S restitution[W];     // [1]
+  FrictionRow<S, W> tangents[2];
+  AngularRow<S, W> twist;  // its radius is inside the Jacobian
+  NormalRow<S, W> normals[P];
+};
+
+/// Rolling resistance: two more angular rows about the tangents.
+template <class S, int W> struct RollingRows {
+  AngularRow<S, W> rows[2];
+  S lever[W];           // [1] resisting torque per normal impulse, over the rows' radius
+};
+template <class S, int W, int P> struct RollingBlock {
+  RollingRows<S, W> rolling;
+  ContactBlock<S, W, P> contact;
+};
+
+/// Which rows of SolverBodies a block's lanes read, and which of them they may write (one bit a lane).
+struct BlockBodies {
+  static constexpr int kMaxWidth = 16;
+  std::uint32_t a[kMaxWidth];
+  std::uint32_t b[kMaxWidth];
+  std::uint32_t write_a;
+  std::uint32_t write_b;
+};
+
+}  // namespace isostep

@@ -1,0 +1,233 @@
+// The contact kernel of the soft step: W contacts side by side, written once for every scalar and instruction set.
+// Included by one file per instruction set; everything here is inline or has internal linkage, so that no copy compiled
+// for one instruction set can serve another.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/scalar/lanes.hpp"
+
+namespace isostep {
+namespace {
+
+/// Source:  Catto 2024, Solver2D: Soft Step. Impulses are velocity changes of the reduced mass, so that every
+///          coefficient is near one whatever the masses.
+/// Symbols: n = normal from a to b, v, w = velocity and spin, d = displacement since the step began, lambda = impulse.
+/// Order:   tangents, then normals: what may not overlap has the last word. Lanes never meet.
+template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
+  using L = Lanes<S, W, Isa>;
+  using V = Lanes<Velocity<S>, W, Isa>;
+  using Block = std::conditional_t<Rolling, RollingBlock<S, W, P>, ContactBlock<S, W, P>>;
+
+  struct Motion {
+    V linear[3], angular[3];
+  };
+  struct Shares {
+    L a, b;
+  };
+
+  static ISO_INLINE Motion gather(const MotionRow<Velocity<S>>* rows, const std::uint32_t* index) {
+    const Velocity<S>* pointers[W];
+    for (int i = 0; i < W; ++i) pointers[i] = &rows[index[i]].linear.x;
+    V all[8];
+    load_transposed<8>(pointers, all);
+    return {{all[0], all[1], all[2]}, {all[4], all[5], all[6]}};
+  }
+  static ISO_INLINE void scatter(MotionRow<Velocity<S>>* rows, const std::uint32_t* index, std::uint32_t mask, const Motion& m) {
+    Velocity<S>* pointers[W];
+    for (int i = 0; i < W; ++i) pointers[i] = &rows[index[i]].linear.x;
+    const V zero = V::zero();
+    const V all[8] = {m.linear[0], m.linear[1], m.linear[2], zero, m.angular[0], m.angular[1], m.angular[2], zero};
+    store_transposed<8>(pointers, all, mask);
+  }
+  template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
+
+  /// b's angular part of the row minus a's.
+  static ISO_INLINE auto angular_sum(const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
+    return product(L::load(row.jacobian_b[0]), b.angular[0]) + product(L::load(row.jacobian_b[1]), b.angular[1]) +
+           product(L::load(row.jacobian_b[2]), b.angular[2]) - product(L::load(row.jacobian_a[0]), a.angular[0]) -
+           product(L::load(row.jacobian_a[1]), a.angular[1]) - product(L::load(row.jacobian_a[2]), a.angular[2]);
+  }
+  /// Speed (or displacement) of b against a along the row.
+  static ISO_INLINE V along(const S (&direction)[3][W], const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
+    return round_to<V>(product(L::load(direction[0]), b.linear[0] - a.linear[0]) +
+                       product(L::load(direction[1]), b.linear[1] - a.linear[1]) +
+                       product(L::load(direction[2]), b.linear[2] - a.linear[2]) + angular_sum(row, a, b));
+  }
+  static ISO_INLINE void turn(const AngularRow<S, W>& row, V impulse, Motion& a, Motion& b) {
+    for (int i = 0; i < 3; ++i) {
+      a.angular[i] = a.angular[i] - times(L::load(row.spin_a[i]), impulse);
+      b.angular[i] = b.angular[i] + times(L::load(row.spin_b[i]), impulse);
+    }
+  }
+  static ISO_INLINE void push(const S (&direction)[3][W], const AngularRow<S, W>& row, const Shares& share, V impulse,
+                              Motion& a, Motion& b) {
+    const V to_a = times(share.a, impulse);
+    const V to_b = times(share.b, impulse);
+    for (int i = 0; i < 3; ++i) {
+      const L d = L::load(direction[i]);
+      a.linear[i] = a.linear[i] - times(d, to_a);
+      b.linear[i] = b.linear[i] + times(d, to_b);
+    }
+    turn(row, impulse, a, b);
+  }
+  /// The change that brings an accumulated impulse to `wanted` within +-limit, stored.
+  static ISO_INLINE V accumulate(AngularRow<S, W>& row, V wanted, V limit) {
+    const V next = clamp(wanted, V::zero() - limit, limit);
+    const V change = next - V::load(row.impulse);
+    next.store(row.impulse);
+    return change;
+  }
+
+  static ISO_INLINE ContactBlock<S, W, P>& contact_of(Block& block) {
+    if constexpr (Rolling) return block.contact;
+    if constexpr (!Rolling) return block;
+  }
+  static ISO_INLINE V total_normal_impulse(const ContactBlock<S, W, P>& c) {
+    V total = V::load(c.normals[0].row.impulse);
+    for (int p = 1; p < P; ++p) total = total + V::load(c.normals[p].row.impulse);
+    return total;
+  }
+
+  static ISO_INLINE void solve_tangents(ContactBlock<S, W, P>& c, const Shares& share, Motion& a, Motion& b) {
+    const V limit = times(L::load(c.friction), total_normal_impulse(c));
+    {
+      AngularRow<S, W>& row = c.twist;
+      const V speed = round_to<V>(angular_sum(row, a, b));
+      const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
+      turn(row, accumulate(row, wanted, limit), a, b);
+    }
+    for (FrictionRow<S, W>& tangent : c.tangents) {
+      const V speed = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
+      const V wanted = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
+      push(tangent.direction, tangent.row, share, accumulate(tangent.row, wanted, limit), a, b);
+    }
+  }
+  static ISO_INLINE void solve_rolling(Block& block, Motion& a, Motion& b) {
+    if constexpr (Rolling) {
+      const V limit = times(L::load(block.rolling.lever), total_normal_impulse(block.contact));
+      for (AngularRow<S, W>& row : block.rolling.rows) {
+        const V speed = round_to<V>(angular_sum(row, a, b));
+        const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
+        turn(row, accumulate(row, wanted, limit), a, b);
+      }
+    }
+  }
+
+  struct PassLanes {
+    L bias_rate, mass_scale, impulse_scale, rate, one;
+    V push_speed, max_separation;
+  };
+  static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
+                                       const Motion& da, const Motion& db, Motion& a, Motion& b) {
+    for (NormalRow<S, W>& n : c.normals) {
+      const V separation = V::load(n.separation) + along(c.normal, n.row, da, db);
+      const auto apart = less(V::zero(), separation);
+      // Apart: the gap may close, no more. Overlapping: pushed apart softly, at a bounded speed.
+      const V gap = times(pass.rate, min(separation, pass.max_separation));
+      const V overlap = max(times(pass.bias_rate, separation), V::zero() - pass.push_speed);
+      const V bias = select(apart, gap, overlap);
+      const L mass_scale = select(apart, pass.one, pass.mass_scale);
+      const L impulse_scale = select(apart, L::zero(), pass.impulse_scale);
+      const V speed = along(c.normal, n.row, a, b) + bias;
+      const V old = V::load(n.row.impulse);
+      const V soft = times(mass_scale, times(L::load(n.row.effective_mass), speed)) + times(impulse_scale, old);
+      const V next = max(old - soft, V::zero());
+      next.store(n.row.impulse);
+      max(V::load(n.max_impulse), next).store(n.max_impulse);
+      push(c.normal, n.row, share, next - old, a, b);
+    }
+  }
+
+  static void warm_start(const BlockRun<S>& run) {
+    for (std::int32_t i = 0; i < run.count; ++i) {
+      Block& block = static_cast<Block*>(run.blocks)[i];
+      ContactBlock<S, W, P>& c = contact_of(block);
+      const BlockBodies& bodies = run.bodies[i];
+      Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
+      const Shares share = {L::load(c.share_a), L::load(c.share_b)};
+      turn(c.twist, V::load(c.twist.impulse), a, b);
+      for (const FrictionRow<S, W>& t : c.tangents) push(t.direction, t.row, share, V::load(t.row.impulse), a, b);
+      if constexpr (Rolling) {
+        for (const AngularRow<S, W>& row : block.rolling.rows) turn(row, V::load(row.impulse), a, b);
+      }
+      for (const NormalRow<S, W>& n : c.normals) push(c.normal, n.row, share, V::load(n.row.impulse), a, b);
+      scatter(run.velocity, bodies.a, bodies.write_a, a);
+      scatter(run.velocity, bodies.b, bodies.write_b, b);
+    }
+  }
+
+  static void solve(const BlockRun<S>& run, const ContactPass<S>& pass) {
+    const PassLanes lanes = {L::broadcast(pass.softness.bias_rate),     L::broadcast(pass.softness.mass_scale),
+                             L::broadcast(pass.softness.impulse_scale), L::broadcast(pass.rate),
+                             L::broadcast(S(1)),                        V::broadcast(pass.push_speed),
+                             V::broadcast(pass.max_separation)};
+    for (std::int32_t i = 0; i < run.count; ++i) {
+      Block& block = static_cast<Block*>(run.blocks)[i];
+      ContactBlock<S, W, P>& c = contact_of(block);
+      const BlockBodies& bodies = run.bodies[i];
+      Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
+      const Motion da = gather(run.displacement, bodies.a), db = gather(run.displacement, bodies.b);
+      const Shares share = {L::load(c.share_a), L::load(c.share_b)};
+      solve_rolling(block, a, b);
+      solve_tangents(c, share, a, b);
+      solve_normals(c, share, lanes, da, db, a, b);
+      scatter(run.velocity, bodies.a, bodies.write_a, a);
+      scatter(run.velocity, bodies.b, bodies.write_b, b);
+    }
+  }
+
+  static void restitute(const BlockRun<S>& run, const ContactPass<S>& pass) {
+    const V threshold = V::zero() - V::broadcast(pass.restitution_speed);
+    for (std::int32_t i = 0; i < run.count; ++i) {
+      ContactBlock<S, W, P>& c = contact_of(static_cast<Block*>(run.blocks)[i]);
+      const BlockBodies& bodies = run.bodies[i];
+      Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
+      const Shares share = {L::load(c.share_a), L::load(c.share_b)};
+      const L bounce = L::load(c.restitution);
+      for (NormalRow<S, W>& n : c.normals) {
+        const V approach = V::load(n.approach);
+        const auto acts = less(L::zero(), bounce) & less(approach, threshold) & less(V::zero(), V::load(n.max_impulse));
+        const V speed = along(c.normal, n.row, a, b) + times(bounce, approach);
+        const V old = V::load(n.row.impulse);
+        const V next = select(acts, max(old - times(L::load(n.row.effective_mass), speed), V::zero()), old);
+        next.store(n.row.impulse);
+        max(V::load(n.max_impulse), next).store(n.max_impulse);
+        push(c.normal, n.row, share, next - old, a, b);
+      }
+      scatter(run.velocity, bodies.a, bodies.write_a, a);
+      scatter(run.velocity, bodies.b, bodies.write_b, b);
+    }
+  }
+};
+
+template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_kernels(const char* name) {
+  ContactKernels<S> table = {name, W, {}, {}, {}};
+  const auto fill = [&]<int P, bool Rolling>() {
+    using Kernel = ContactKernel<S, W, Isa, P, Rolling>;
+    const int variant = (Rolling ? kMaxContactPoints : 0) + P - 1;
+    table.warm_start[variant] = &Kernel::warm_start;
+    table.solve[variant] = &Kernel::solve;
+    table.restitute[variant] = &Kernel::restitute;
+  };
+  fill.template operator()<1, false>();
+  fill.template operator()<2, false>();
+  fill.template operator()<3, false>();
+  fill.template operator()<4, false>();
+  fill.template operator()<1, true>();
+  fill.template operator()<2, true>();
+  fill.template operator()<3, true>();
+  fill.template operator()<4, true>();
+  return table;
+}
+
+}  // namespace
+
+/// The kernels of one lane of a scalar: any machine.
+#define ISO_DEFINE_SCALAR_KERNELS(S)                                                                       \
+  template <> const ContactKernels<S>* detail::scalar_kernels<S>() {                                       \
+    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, 1, isa::Portable>("scalar");       \
+    return &kTable;                                                                                        \
+  }
+
+}  // namespace isostep

@@ -1,0 +1,65 @@
+// The contact kernels as a table: one for each instruction set, chosen at run time, all giving the same bits.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/dynamics/solvers/contact_block.hpp"
+#include "isostep/dynamics/solvers/simd.hpp"
+#include "isostep/dynamics/solvers/softness.hpp"
+
+namespace isostep {
+
+/// What one pass over the contacts needs to know.
+template <class S> struct ContactPass {
+  Softness<S> softness;
+  S rate;                        // [1/s] sub-steps a second
+  Velocity<S> push_speed;        // [m/s] overlap is pushed apart no faster than this
+  Velocity<S> max_separation;    // [m] beyond this a gap counts as this, so that rate times gap fits
+  Velocity<S> restitution_speed; // [m/s] slower approaches do not bounce
+};
+
+/// A run of blocks of one shape: W contacts of one point count each, no two of which write the same body.
+template <class S> struct BlockRun {
+  void* blocks;                            // ContactBlock or RollingBlock<S, W, P>
+  const BlockBodies* bodies;
+  std::int32_t count;
+  MotionRow<Velocity<S>>* velocity;
+  const MotionRow<Velocity<S>>* displacement;
+};
+
+/// Index of a kernel's variant: rolling * 4 + points - 1.
+inline constexpr int kContactVariants = 2 * kMaxContactPoints;
+
+template <class S> struct ContactKernels {
+  const char* name;
+  std::int32_t width;
+  void (*warm_start[kContactVariants])(const BlockRun<S>&);
+  void (*solve[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
+  void (*restitute[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
+};
+
+/// The kernels for `simd`; `best` is the widest this processor runs. Null when the processor or build lacks it. Every scalar
+/// has its own full specialisation, a strong symbol: see ISO_DEFINE_CONTACT_KERNELS.
+template <class S> const ContactKernels<S>* contact_kernels(Simd simd);
+
+namespace detail {
+/// One translation unit an instruction set. Null where the build has none.
+template <class S> const ContactKernels<S>* scalar_kernels();
+template <class S> const ContactKernels<S>* sse2_kernels();
+template <class S> const ContactKernels<S>* avx2_kernels();
+}  // namespace detail
+
+#define ISO_DECLARE_CONTACT_KERNELS(S)                                    \
+  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd);     \
+  namespace detail {                                                      \
+  template <> const ContactKernels<S>* scalar_kernels<S>();               \
+  template <> const ContactKernels<S>* sse2_kernels<S>();                 \
+  template <> const ContactKernels<S>* avx2_kernels<S>();                 \
+  }
+ISO_FOR_EACH_SCALAR(ISO_DECLARE_CONTACT_KERNELS)
+
+}  // namespace isostep

@@ -1,0 +1,310 @@
+// Bodies of soft_step.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+#include "isostep/dynamics/gyroscopic.hpp"
+#include "isostep/dynamics/solvers/contact_prepare.inl"
+#include "isostep/dynamics/solvers/soft_step.hpp"
+
+namespace isostep {
+namespace detail {
+
+// Contacts are springs of a quarter of the sub-step rate: stiffer ones gain energy, softer ones sag. With it the angle a
+// sub-step is pi / 2 whatever the rate, and so are the coefficients.
+template <class S> inline constexpr S kContactAngle = S(1.57079632679489661923);  // [rad]
+template <class S> inline constexpr S kContactDamping = S(5);                     // [1] of critical
+template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);      // [m/s]
+template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(1);  // [m/s]
+
+/// Words of a contact's block at W = 1.
+template <class S> constexpr std::size_t contact_words(std::uint32_t points) {
+  using Block = ContactBlock<S, 1, kMaxContactPoints>;
+  return (sizeof(Block) - (kMaxContactPoints - points) * sizeof(NormalRow<S, 1>)) / sizeof(S);
+}
+template <class S> constexpr std::size_t rolling_words() { return sizeof(RollingRows<S, 1>) / sizeof(S); }
+
+template <class S> struct Variant {
+  std::uint32_t points;
+  bool rolling;
+  static constexpr Variant of(std::uint32_t index) { return {index % kMaxContactPoints + 1, index >= kMaxContactPoints}; }
+  constexpr std::size_t words() const { return contact_words<S>(points) + (rolling ? rolling_words<S>() : 0); }
+};
+
+/// `count` words at `from` into lane `lane` of a block W wide whose fields start at `to`.
+template <class S> ISO_INLINE void pack(const void* from, std::size_t count, unsigned char* to, std::size_t width, std::size_t lane) {
+  const auto* source = static_cast<const unsigned char*>(from);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::memcpy(to + (i * width + lane) * sizeof(S), source + i * sizeof(S), sizeof(S));
+  }
+}
+/// The way back.
+template <class S> ISO_INLINE void unpack(const unsigned char* from, std::size_t count, std::size_t width, std::size_t lane, void* to) {
+  auto* target = static_cast<unsigned char*>(to);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::memcpy(target + i * sizeof(S), from + (i * width + lane) * sizeof(S), sizeof(S));
+  }
+}
+
+}  // namespace detail
+
+template <class S> void SoftStep<S>::gather_bodies(const SolverInput<S>& input) {
+  const std::size_t count = input.states.size();
+  bodies_.velocity.resize(count + 1);
+  bodies_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
+  bodies_.mass.resize(count + 1);
+  inertia_.resize(count);
+  bodies_.velocity[0] = MotionRow<Velocity<S>>::zero();
+  bodies_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
+  for (std::size_t i = 0; i < count; ++i) {
+    const BodyState<S>& state = input.states[i];
+    const BodyProperties<S>& body = input.properties[i];
+    bodies_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.spin, Velocity<S>(0)};
+    SolverMass<S>& mass = bodies_.mass[i + 1];
+    if (body.type != BodyType::dynamic) {
+      mass = bodies_.mass[0];
+      continue;
+    }
+    mass.mass = body.mass;
+    if (body.kappa.x == body.kappa.y && body.kappa.y == body.kappa.z) {
+      mass.kappa = Mat3<S>::diagonal(body.kappa);
+    } else {
+      mass.kappa = rotate_diagonal(to_matrix(state.orientation * body.principal), body.kappa);
+      const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
+      const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
+      inertia_[i] = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
+    }
+    if ((body.flags & (7u * body_flag::kLockAngularX)) != 0) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
+        for (int k = 0; k < 3; ++k) {
+          mass.kappa.rows[axis].set(k, S(0));
+          mass.kappa.rows[k].set(axis, S(0));
+        }
+      }
+    }
+  }
+}
+
+template <class S>
+void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t first, std::uint32_t count) {
+  const auto width = static_cast<std::uint32_t>(kernels.width);
+  const std::uint32_t blocks = (count + width - 1) / width;
+  runs_.push_back({&kernels, variant, first, count, block_count_, blocks, memory_bytes_});
+  block_count_ += blocks;
+  memory_bytes_ += blocks * width * detail::Variant<S>::of(variant).words() * sizeof(S);
+  memory_bytes_ = (memory_bytes_ + 63) / 64 * 64;
+}
+
+template <class S>
+void SoftStep<S>::colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide) {
+  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
+  const std::size_t count = input.contacts.size();
+  colouring_.begin(bodies_.mass.size());
+  bucket_.resize(count);
+  order_.resize(count);
+  bucket_ends_.assign(kUncolouredBucket + 1, 0);
+  runs_.clear();
+  block_count_ = 0;
+  memory_bytes_ = 0;
+  const auto variant_of = [&](std::size_t i) {
+    const bool rolling = input.geometry[i].material.rolling_resistance > S(0);
+    return input.contacts[i].count - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactGeometry<S>& g = input.geometry[i];
+    const std::uint32_t colour = colouring_.colour(g.row_a, bodies_.moves(g.row_a), g.row_b, bodies_.moves(g.row_b));
+    bucket_[i] = colour == Colouring::kUncoloured ? kUncolouredBucket : colour * kContactVariants + variant_of(i);
+    ++bucket_ends_[bucket_[i]];
+  }
+  std::uint32_t total = 0;
+  for (std::uint32_t b = 0; b < kUncolouredBucket; ++b) {
+    if (bucket_ends_[b] != 0) add_run(wide, b % kContactVariants, total, bucket_ends_[b]);
+    total += bucket_ends_[b];
+    bucket_ends_[b] = total - bucket_ends_[b];
+  }
+  bucket_ends_[kUncolouredBucket] = total;
+  for (std::size_t i = 0; i < count; ++i) order_[bucket_ends_[bucket_[i]]++] = static_cast<std::uint32_t>(i);
+  // What found no colour is solved one by one, in canonical order, at every width.
+  const ContactKernels<S>& narrow = *contact_kernels<S>(Simd::scalar);
+  for (std::uint32_t first = total; first < count;) {
+    const std::uint32_t variant = variant_of(order_[first]);
+    std::uint32_t end = first + 1;
+    while (end < count && variant_of(order_[end]) == variant) ++end;
+    add_run(narrow, variant, first, end - first);
+    first = end;
+  }
+}
+
+template <class S> BlockRun<S> SoftStep<S>::blocks_of(const Run& run) {
+  return {memory_.data()->bytes + run.offset, &block_bodies_[run.first_block], static_cast<std::int32_t>(run.blocks),
+          bodies_.velocity.data(), bodies_.displacement.data()};
+}
+
+template <class S> void SoftStep<S>::prepare(const SolverInput<S>& input) {
+  memory_.resize((memory_bytes_ + 63) / 64 + 1);
+  block_bodies_.resize(block_count_ + 1);
+  for (const Run& run : runs_) {
+    const auto width = static_cast<std::uint32_t>(run.kernels->width);
+    const detail::Variant<S> variant = detail::Variant<S>::of(run.variant);
+    const std::size_t block_bytes = variant.words() * width * sizeof(S);
+    unsigned char* const memory = memory_.data()->bytes + run.offset;
+    if (run.count % width != 0) std::memset(memory + (run.blocks - 1) * block_bytes, 0, block_bytes);
+    for (std::uint32_t block = 0; block < run.blocks; ++block) block_bodies_[run.first_block + block] = BlockBodies{};
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      const std::uint32_t index = order_[run.first + i];
+      const ContactGeometry<S>& g = input.geometry[index];
+      const std::uint32_t lane = i % width;
+      unsigned char* block = memory + i / width * block_bytes;
+      ContactBlock<S, 1, kMaxContactPoints> one;
+      prepare_contact(input.contacts[index], g, bodies_, one);
+      if (variant.rolling) {
+        RollingRows<S, 1> rolling;
+        prepare_rolling(g, bodies_, one, rolling);
+        detail::pack<S>(&rolling, detail::rolling_words<S>(), block, width, lane);
+        block += detail::rolling_words<S>() * width * sizeof(S);
+      }
+      detail::pack<S>(&one, detail::contact_words<S>(variant.points), block, width, lane);
+      BlockBodies& bodies = block_bodies_[run.first_block + i / width];
+      bodies.a[lane] = g.row_a;
+      bodies.b[lane] = g.row_b;
+      bodies.write_a |= (bodies_.moves(g.row_a) ? 1u : 0u) << lane;
+      bodies.write_b |= (bodies_.moves(g.row_b) ? 1u : 0u) << lane;
+    }
+  }
+}
+
+template <class S> void SoftStep<S>::integrate_velocities(const SolverInput<S>& input) {
+  using V = Velocity<S>;
+  const std::int32_t rate = input.hz * input.substeps;
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
+  for (std::size_t i = 0; i < input.states.size(); ++i) {
+    const BodyProperties<S>& body = input.properties[i];
+    if (body.type != BodyType::dynamic) continue;
+    MotionRow<V>& row = bodies_.velocity[i + 1];
+    Vec3<S> acceleration = body.gravity_scale == S(1) ? input.gravity : input.gravity * body.gravity_scale;
+    if (!input.accelerations.empty()) {
+      acceleration += input.accelerations[i].linear;
+      const Vec3<S> turning = input.accelerations[i].angular;
+      row.angular += {times(turning.x, h), times(turning.y, h), times(turning.z, h)};
+    }
+    row.linear += {times(acceleration.x, h), times(acceleration.y, h), times(acceleration.z, h)};
+    // Implicit: v' = v / (1 + h c), stable at any damping.
+    if (body.linear_damping > S(0)) {
+      const S keep = S(1) / (S(1) + body.linear_damping * h);
+      row.linear = {times(keep, row.linear.x), times(keep, row.linear.y), times(keep, row.linear.z)};
+    }
+    if (body.angular_damping > S(0)) {
+      const S keep = S(1) / (S(1) + body.angular_damping * h);
+      row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
+    }
+    if ((body.flags & body_flag::kSpins) != 0) {
+      row.angular = turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
+    }
+    if ((body.flags & body_flag::kAllLocks) != 0) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((body.flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
+        if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
+      }
+    }
+  }
+}
+
+template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& input) {
+  using V = Velocity<S>;
+  const std::int32_t rate = input.hz * input.substeps;
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
+  for (std::size_t i = 0; i < input.states.size(); ++i) {
+    const MotionRow<V>& v = bodies_.velocity[i + 1];
+    MotionRow<V>& d = bodies_.displacement[i + 1];
+    BodyState<S>& state = input.states[i];
+    const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
+    const auto turn = [&](V w) { return round_to<Unit<S>>(product(w, h)); };
+    // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
+    const Vec3<S> before = convert<S>(d.linear);
+    d.linear += move;
+    d.angular += {times(v.angular.x, h), times(v.angular.y, h), times(v.angular.z, h)};
+    state.centre += convert<S>(d.linear) - before;
+    state.orientation = integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
+  }
+}
+
+template <class S> void SoftStep<S>::solve_contacts(const ContactPass<S>& pass) {
+  for (const Run& run : runs_) run.kernels->solve[run.variant](blocks_of(run), pass);
+}
+
+namespace detail {
+template <class S> ContactPass<S> contact_pass(const SolverInput<S>& input, bool relax) {
+  const S rate = S(input.hz * input.substeps);
+  const Softness<S> softness = relax ? Softness<S>::rigid() : soften(kContactAngle<S>, kContactDamping<S>, rate);
+  // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step.
+  return {softness, rate, kPushSpeed<S>, divide_to<Velocity<S>>(S(64), rate), kRestitutionSpeed<S>};
+}
+}  // namespace detail
+
+template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input) {
+  const ContactPass<S> biased = detail::contact_pass(input, false);
+  const ContactPass<S> relaxed = detail::contact_pass(input, true);
+  const S rate = S(input.hz * input.substeps);
+  const JointStep<S> joint_step = {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate), biased.softness};
+  for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
+    integrate_velocities(input);
+    warm_start_joints(input.joints, joint_step);
+    for (const Run& run : runs_) run.kernels->warm_start[run.variant](blocks_of(run));
+    solve_joints(input.joints, joint_step, false);
+    solve_contacts(biased);
+    integrate_positions(input);
+    solve_joints(input.joints, joint_step, true);
+    solve_contacts(relaxed);
+  }
+}
+
+template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
+  bool bounces = false;
+  for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
+  if (!bounces) return;
+  const ContactPass<S> pass = detail::contact_pass(input, true);
+  for (const Run& run : runs_) run.kernels->restitute[run.variant](blocks_of(run), pass);
+}
+
+template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input) {
+  using V = Velocity<S>;
+  for (const Run& run : runs_) {
+    const auto width = static_cast<std::size_t>(run.kernels->width);
+    const detail::Variant<S> variant = detail::Variant<S>::of(run.variant);
+    const std::size_t block_bytes = variant.words() * width * sizeof(S);
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      Contact<S>& contact = input.contacts[order_[run.first + i]];
+      const unsigned char* block = memory_.data()->bytes + run.offset + i / width * block_bytes;
+      if (variant.rolling) block += detail::rolling_words<S>() * width * sizeof(S);
+      ContactBlock<S, 1, kMaxContactPoints> one;
+      detail::unpack<S>(block, detail::contact_words<S>(contact.count), width, i % width, &one);
+      V peak = V(0);
+      for (std::uint32_t p = 0; p < contact.count; ++p) {
+        contact.normal_impulse[p] = one.normals[p].row.impulse[0];
+        peak += one.normals[p].max_impulse[0];
+      }
+      input.peak_impulses[order_[run.first + i]] = peak;
+      const bool touched = peak > V(0);
+      contact.flags = touched ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
+      contact.twist_impulse = one.twist.impulse[0];
+      Vec3<V> friction = Vec3<V>::zero();
+      for (const FrictionRow<S, 1>& t : one.tangents) {
+        const V impulse = t.row.impulse[0];
+        const auto part = [&](int axis) { return round_to<V>(product(t.direction[axis][0], impulse)); };
+        friction += {part(0), part(1), part(2)};
+      }
+      contact.friction_impulse = friction;
+    }
+  }
+  for (std::size_t i = 0; i < input.states.size(); ++i) {
+    input.states[i].velocity = bodies_.velocity[i + 1].linear;
+    input.states[i].spin = bodies_.velocity[i + 1].angular;
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,92 @@
+// Vec3<T>: three numbers of one format, and the products of two vectors, each rounded once.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/scalar/scalar.hpp"
+
+namespace isostep {
+
+/// A vector of lengths [m], velocities [m/s], ... or, as Vec3<Unit<S>>, a direction [1].
+template <class T> struct Vec3 {
+  T x, y, z;
+
+  static ISO_INLINE constexpr Vec3 zero() { return {T(0), T(0), T(0)}; }
+
+  friend ISO_INLINE constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend ISO_INLINE constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend ISO_INLINE constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+  ISO_INLINE constexpr Vec3& operator+=(Vec3 b) { return *this = *this + b; }
+  ISO_INLINE constexpr Vec3& operator-=(Vec3 b) { return *this = *this - b; }
+  friend ISO_INLINE constexpr bool operator==(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  friend ISO_INLINE constexpr bool operator!=(Vec3 a, Vec3 b) { return !(a == b); }
+
+  /// Component 0, 1 or 2.
+  ISO_INLINE constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  ISO_INLINE constexpr void set(int i, T value) { (i == 0 ? x : i == 1 ? y : z) = value; }
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("x", self.x);
+    visit("y", self.y);
+    visit("z", self.z);
+  }
+};
+
+/// v s, in the coarser of the two formats: length * direction is length.
+template <class A, class B> ISO_INLINE constexpr auto operator*(Vec3<A> v, B s) -> Vec3<decltype(A{} * B{})> {
+  return {v.x * s, v.y * s, v.z * s};
+}
+
+/// a . b as an exact sum, for signs and comparisons without rounding.
+template <class A, class B> ISO_INLINE constexpr SumOf<A, B> dot_sum(Vec3<A> a, Vec3<B> b) {
+  return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
+}
+/// a . b in the coarser of the two formats, rounded once.
+template <class A, class B> ISO_INLINE constexpr auto dot(Vec3<A> a, Vec3<B> b) -> decltype(A{} * B{}) {
+  return round_to<decltype(A{} * B{})>(dot_sum(a, b));
+}
+/// a x b in the coarser of the two formats, each component rounded once.
+template <class A, class B> ISO_INLINE constexpr auto cross(Vec3<A> a, Vec3<B> b) -> Vec3<decltype(A{} * B{})> {
+  using R = decltype(A{} * B{});
+  return {round_to<R>(product(a.y, b.z) - product(a.z, b.y)), round_to<R>(product(a.z, b.x) - product(a.x, b.z)),
+          round_to<R>(product(a.x, b.y) - product(a.y, b.x))};
+}
+/// Component by component.
+template <class A, class B> ISO_INLINE constexpr auto scale(Vec3<A> a, Vec3<B> b) -> Vec3<decltype(A{} * B{})> {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class T> ISO_INLINE constexpr Vec3<T> abs(Vec3<T> a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
+template <class T> ISO_INLINE constexpr Vec3<T> min(Vec3<T> a, Vec3<T> b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+template <class T> ISO_INLINE constexpr Vec3<T> max(Vec3<T> a, Vec3<T> b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+/// The largest component's magnitude: a length that needs no square.
+template <class T> ISO_INLINE constexpr T max_abs(Vec3<T> a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+
+template <class Out, class T> ISO_INLINE constexpr Vec3<Out> convert(Vec3<T> a) {
+  return {convert<Out>(a.x), convert<Out>(a.y), convert<Out>(a.z)};
+}
+template <class T> ISO_INLINE constexpr bool is_finite(Vec3<T> a) {
+  return is_finite(a.x) && is_finite(a.y) && is_finite(a.z);
+}
+
+/// Two unit vectors that complete the unit vector n to a right-handed basis (t, u, n).
+template <class U> struct Tangents {
+  Vec3<U> t, u;
+};
+
+/// Source:  Duff et al. 2017, Building an Orthonormal Basis, Revisited, JCGT 6(1), eq. 5: one division, no square root.
+/// Differs: x and z trade places, so that the seam lies at n.z = 0 rather than along a floor's normal.
+template <class U> ISO_INLINE constexpr Tangents<U> tangents_of(Vec3<U> n) {
+  const bool negative = n.z < U(0);
+  const U divisor = negative ? U(-1) + n.z : U(1) + n.z;
+  const U a = -divide_to<U>(U(1), divisor);
+  const U b = n.x * (n.y * a);
+  const U xx = n.x * (n.x * a);
+  const U yy = n.y * (n.y * a);
+  if (negative) return {{U(1) - xx, -b, n.x}, {b, U(-1) + yy, -n.y}};
+  return {{U(1) + xx, b, -n.x}, {b, U(1) + yy, -n.y}};
+}
+
+}  // namespace isostep

@@ -1,0 +1,173 @@
+// Writer and Reader: the portable form of state, for files and late joiners. Both are visitors of `fields`.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/result.hpp"
+#include "isostep/state/pack.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class T> constexpr bool has_bool();
+struct BoolVisitor {
+  bool* found;
+  template <class T> constexpr void operator()(const char*, const T&) const { *found = *found || has_bool<T>(); }
+};
+/// Does T hold a bool? Its bytes then need a look before they become a T.
+template <class T> constexpr bool has_bool() {
+  if constexpr (std::is_bounded_array_v<T>) {
+    return has_bool<std::remove_extent_t<T>>();
+  } else if constexpr (HasFields<T>) {
+    bool found = false;
+    const T value{};
+    T::fields(BoolVisitor{&found}, value);
+    return found;
+  } else {
+    return std::is_same_v<T, bool>;
+  }
+}
+}  // namespace detail
+
+/// Records whose canonical bytes may be copied to and from memory whole.
+template <class T>
+inline constexpr bool kCopiesWhole = kHasNoPadding<T> && !detail::has_bool<T>() && std::is_trivially_copyable_v<T> &&
+                                     std::endian::native == std::endian::little;
+
+/// Appends to the caller's bytes. Never fails.
+class Writer {
+ public:
+  ISO_INLINE explicit Writer(std::vector<std::uint8_t>& out) : out_(&out) {}
+
+  template <class T> ISO_INLINE void write(const T& value) { pack(grow(kPackedSize<T>), value); }
+  template <class T> ISO_INLINE void operator()(const char*, const T& value) { write(value); }
+
+  /// n records with no count before them.
+  template <class T> ISO_INLINE void write_records(const T* first, std::size_t n) {
+    if constexpr (kCopiesWhole<T>) {
+      write_raw({reinterpret_cast<const std::uint8_t*>(first), n * sizeof(T)});
+    } else {
+      std::uint8_t* at = grow(n * kPackedSize<T>);
+      for (std::size_t i = 0; i < n; ++i) at = pack(at, first[i]);
+    }
+  }
+  /// A u32 count and the records.
+  template <class T> ISO_INLINE void write_array(const T* first, std::size_t n) {
+    write_count(n);
+    write_records(first, n);
+  }
+  template <class T> ISO_INLINE void write_array(const std::vector<T>& records) {
+    write_array(records.data(), records.size());
+  }
+  /// A u32 count and the bytes.
+  ISO_INLINE void write_bytes(Bytes bytes) {
+    write_count(bytes.size());
+    write_raw(bytes);
+  }
+  ISO_INLINE void write_text(std::string_view text) {
+    write_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+
+  /// 2^32 records or more are the caller's bug.
+  void write_count(std::size_t count);
+  void write_raw(Bytes bytes);
+  std::size_t size() const;
+
+ private:
+  /// `more` fresh bytes at the end; the pointer holds until the next call.
+  std::uint8_t* grow(std::size_t more);
+
+  std::vector<std::uint8_t>* out_;
+};
+
+/// Reads what a Writer wrote from bytes nobody vouches for. The first failure sticks: every later read gives zero, so
+/// a caller may read a whole record and ask once.
+class Reader {
+ public:
+  ISO_INLINE explicit Reader(Bytes bytes)
+      : bytes_(bytes), offset_(0), code_(ErrorCode::truncated), ok_(true), reason_(nullptr), field_(nullptr) {}
+
+  ISO_INLINE bool ok() const { return ok_; }
+  ISO_INLINE std::size_t remaining() const { return ok_ ? bytes_.size() - offset_ : 0; }
+  /// Of the next byte, or of the one where reading failed.
+  ISO_INLINE std::size_t offset() const { return offset_; }
+
+  template <class T> ISO_INLINE bool read(T& value) {
+    if constexpr (std::is_bounded_array_v<T>) {
+      return read_records(value, std::extent_v<T>);
+    } else if constexpr (HasFields<T>) {
+      T::fields(*this, value);
+    } else {
+      static_assert(Leaf<T>, "a stored member is a leaf, a struct with fields or an array of them");
+      LeafBits<T> bits = 0;
+      if (const std::uint8_t* at = take(sizeof(T))) bits = load_le<LeafBits<T>>(at);
+      if constexpr (std::is_same_v<T, bool>) {
+        if (bits > 1) bits = refuse_bool();
+      }
+      value = leaf_from_bits<T>(bits);
+    }
+    return ok_;
+  }
+  template <class T> ISO_INLINE T read() {
+    T value{};
+    read(value);
+    return value;
+  }
+  template <class T> ISO_INLINE void operator()(const char* name, T& value) {
+    if (ok_) field_ = name;
+    read(value);
+  }
+
+  template <class T> ISO_INLINE bool read_records(T* first, std::size_t n) {
+    if constexpr (kCopiesWhole<T>) {
+      return read_raw(first, n, sizeof(T));
+    } else {
+      for (std::size_t i = 0; i < n; ++i) read(first[i]);
+      return ok_;
+    }
+  }
+  /// A count that is at most `cap` and whose records of `packed_size` bytes each are all there; else 0 and a failure.
+  /// Ask before allocating.
+  std::uint32_t read_count(std::uint32_t cap, std::size_t packed_size);
+  /// Replaces what `records` holds; on failure it is empty.
+  template <class T> ISO_INLINE bool read_array(std::vector<T>& records, std::uint32_t cap) {
+    records.clear();
+    records.resize(read_count(cap, kPackedSize<T>));
+    if (!records.empty() && !read_records(records.data(), records.size())) records.clear();
+    return ok_;
+  }
+  /// A view into the input.
+  Bytes read_bytes(std::uint32_t cap);
+  std::string_view read_text(std::uint32_t cap);
+  /// `size` bytes with no count before them.
+  Bytes read_view(std::size_t size);
+
+  /// For rules of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
+  void fail(ErrorCode code, const char* reason);
+  /// Bytes left over are an error too.
+  void expect_end();
+  /// `what` was being read.
+  Result<void> result(std::string_view what) const;
+
+ private:
+  /// The next `size` bytes, or null.
+  const std::uint8_t* take(std::size_t size);
+  bool read_raw(void* to, std::size_t n, std::size_t size);
+  std::uint8_t refuse_bool();
+
+  Bytes bytes_;
+  std::size_t offset_;
+  ErrorCode code_;
+  bool ok_;
+  const char* reason_;
+  const char* field_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,70 @@
+// The state hash: XXH3-64 over canonical bytes, and the root that is built of many of them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/state/pack.hpp"
+
+namespace isostep {
+
+/// Names the algorithm in files.
+inline constexpr char kHashName[] = "xxh3-64";
+
+/// XXH3-64 with seed 0. The answer depends on the bytes alone, not on the instruction set.
+std::uint64_t hash_bytes(const void* bytes, std::size_t size);
+
+/// The same hash of bytes that arrive in pieces.
+class HashStream {
+ public:
+  HashStream();
+  void update(const void* bytes, std::size_t size);
+  /// Of everything so far; more may follow.
+  std::uint64_t value() const;
+
+ private:
+  alignas(64) std::uint8_t state_[576];  // an XXH3_state_t, whose header stays out of ours
+};
+
+/// A root: the words that are added, in the order in which they are added. Not a sum and not an exclusive or, so two
+/// subsystems that trade their hashes, or two equal ones, do not cancel.
+class HashCombiner {
+ public:
+  ISO_INLINE HashCombiner() : root_(0) {}
+  ISO_INLINE void add(std::uint64_t word) {
+    std::uint8_t link[16];
+    store_le(link, root_);
+    store_le(link + 8, word);
+    root_ = hash_bytes(link, sizeof link);
+  }
+  ISO_INLINE std::uint64_t value() const { return root_; }
+
+ private:
+  std::uint64_t root_;
+};
+
+/// The hash of n records by their fields: right on every machine, for records with or without padding.
+template <class T> ISO_INLINE std::uint64_t hash_records_by_fields(const T* first, std::size_t n) {
+  HashStream stream;
+  std::uint8_t bytes[kPackedSize<T> + 1];
+  for (std::size_t i = 0; i < n; ++i) {
+    pack(bytes, first[i]);
+    stream.update(bytes, kPackedSize<T>);
+  }
+  return stream.value();
+}
+
+/// The same hash at the speed of memory where the bytes in memory are the canonical ones already.
+template <class T> ISO_INLINE std::uint64_t hash_records(const T* first, std::size_t n) {
+  static_assert(kHasNoPadding<T>, "padding has no value, so it can have no hash");
+  if constexpr (std::endian::native == std::endian::little) {
+    return hash_bytes(first, n * sizeof(T));
+  } else {
+    return hash_records_by_fields(first, n);
+  }
+}
+
+}  // namespace isostep

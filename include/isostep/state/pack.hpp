@@ -1,0 +1,79 @@
+// The canonical bytes of a value: its fields in order, little-endian, as wide as declared, without gaps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/fields.hpp"
+
+namespace isostep {
+
+/// The length of T's canonical bytes.
+template <class T> inline constexpr std::size_t kPackedSize = detail::packed_size<T>();
+
+/// The unsigned integer that holds a leaf's bits.
+template <std::size_t Size> struct UnsignedOfSize;
+template <> struct UnsignedOfSize<1> { using Type = std::uint8_t; };
+template <> struct UnsignedOfSize<2> { using Type = std::uint16_t; };
+template <> struct UnsignedOfSize<4> { using Type = std::uint32_t; };
+template <> struct UnsignedOfSize<8> { using Type = std::uint64_t; };
+template <class T> using LeafBits = typename UnsignedOfSize<sizeof(T)>::Type;
+
+template <Leaf T> ISO_INLINE constexpr LeafBits<T> leaf_bits(T value) {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<LeafBits<T>>(static_cast<std::underlying_type_t<T>>(value));
+  } else if constexpr (std::is_integral_v<T>) {
+    return static_cast<LeafBits<T>>(value);
+  } else {
+    return to_bits(value);
+  }
+}
+/// Any bits are a value, but for bool: there the caller has made sure of 0 or 1.
+template <Leaf T> ISO_INLINE constexpr T leaf_from_bits(LeafBits<T> bits) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return bits != 0;
+  } else if constexpr (std::is_enum_v<T>) {
+    return static_cast<T>(static_cast<std::underlying_type_t<T>>(bits));
+  } else if constexpr (std::is_integral_v<T>) {
+    return static_cast<T>(bits);
+  } else {
+    return from_bits<T>(bits);
+  }
+}
+
+template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, const T& value);
+
+namespace detail {
+struct PackVisitor {
+  std::uint8_t** at;
+  template <class T> ISO_INLINE constexpr void operator()(const char*, const T& value) const { *at = pack(*at, value); }
+};
+}  // namespace detail
+
+/// Writes kPackedSize<T> bytes and returns where they end.
+template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, const T& value) {
+  if constexpr (std::is_bounded_array_v<T>) {
+    for (const auto& element : value) at = pack(at, element);
+  } else if constexpr (HasFields<T>) {
+    T::fields(detail::PackVisitor{&at}, value);
+  } else {
+    static_assert(Leaf<T>, "a stored member is a leaf, a struct with fields or an array of them");
+    store_le(at, leaf_bits(value));
+    at += sizeof(T);
+  }
+  return at;
+}
+
+/// On a little-endian machine: are the value's bytes in memory its canonical bytes? kHasNoPadding cannot see `fields`
+/// that name members out of order or one twice; a test asks this of every stored struct, with all members different.
+template <class T> ISO_INLINE bool memory_is_canonical(const T& value) {
+  std::uint8_t bytes[kPackedSize<T> + 1];
+  pack(bytes, value);
+  return kHasNoPadding<T> && std::memcmp(bytes, &value, sizeof(T)) == 0;
+}
+
+}  // namespace isostep

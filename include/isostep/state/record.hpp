@@ -1,0 +1,41 @@
+// Recorder: a ReplayWriter that takes states from the simulation itself.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/state/concepts.hpp"
+#include "isostep/state/replay_format.hpp"
+
+namespace isostep {
+
+/// begin, then for every frame: step the simulation, pass the input and the hash; finish. Without `finish` the file is
+/// truncated, its whole blocks still play.
+template <PortableState Sim> class Recorder {
+ public:
+  ISO_INLINE explicit Recorder(ReplaySink sink) : writer_(sink) {}
+
+  ISO_INLINE Result<void> begin(const Sim& sim, const ReplayHeader& header) {
+    return writer_.begin(header, portable(sim), sim.hash());
+  }
+  ISO_INLINE Result<void> frame(Bytes input, std::uint64_t hash) { return writer_.frame(input, hash); }
+  /// A state to seek to: what `sim` is after the last frame.
+  ISO_INLINE Result<void> keyframe(const Sim& sim) { return writer_.keyframe(portable(sim), sim.hash()); }
+  ISO_INLINE Result<void> finish() { return writer_.finish(); }
+
+  ISO_INLINE ReplayWriter& writer() { return writer_; }
+
+ private:
+  ISO_INLINE Bytes portable(const Sim& sim) {
+    bytes_.clear();
+    Writer writer(bytes_);
+    sim.write_portable(writer);
+    return bytes_;
+  }
+
+  ReplayWriter writer_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,188 @@
+// The replay container: a file that only grows, whose every byte is covered by a checksum, and that cannot be cut,
+// extended or altered and still be complete. It knows frames of opaque input bytes and their hashes, and nothing else.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/result.hpp"
+#include "isostep/state/hash.hpp"
+#include "isostep/state/replay_header.hpp"
+
+namespace isostep {
+
+inline constexpr std::uint16_t kReplayMajor = 1;
+inline constexpr std::uint16_t kReplayMinor = 0;
+inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
+/// The high bit and both line ends, so that a transfer as text shows at once.
+inline constexpr std::uint8_t kReplayMagic[8] = {0x89, 'I', 'S', 'O', '\r', '\n', 0x1a, '\n'};
+inline constexpr std::uint32_t kReplayBlockFrames = 60;
+
+/// A chunk's type is four letters; as a little-endian u32 they stand in the file in reading order.
+constexpr std::uint32_t replay_chunk_type(char a, char b, char c, char d) {
+  return std::uint32_t(a) | std::uint32_t(b) << 8 | std::uint32_t(c) << 16 | std::uint32_t(d) << 24;
+}
+namespace replay_chunk {
+inline constexpr std::uint32_t kHead = replay_chunk_type('H', 'E', 'A', 'D');
+inline constexpr std::uint32_t kInit = replay_chunk_type('I', 'N', 'I', 'T');
+inline constexpr std::uint32_t kInput = replay_chunk_type('I', 'N', 'P', 'T');
+inline constexpr std::uint32_t kHash = replay_chunk_type('H', 'A', 'S', 'H');
+inline constexpr std::uint32_t kKeyframe = replay_chunk_type('K', 'E', 'Y', 'F');
+inline constexpr std::uint32_t kDone = replay_chunk_type('D', 'O', 'N', 'E');
+/// In the first letter: a reader that does not know the chunk may skip it.
+inline constexpr std::uint32_t kAncillaryBit = 0x20;
+}  // namespace replay_chunk
+
+// Caps on payloads [bytes], checked before anything is done with a length.
+inline constexpr std::uint32_t kReplayHeadCap = 4 + kReplayFieldCap * (9 + kReplayKeyCap + kReplayValueCap);
+inline constexpr std::uint32_t kReplayStateCap = 1u << 28;       // a portable snapshot
+inline constexpr std::uint32_t kReplayFrameInputCap = 1u << 20;  // one frame's input
+inline constexpr std::uint32_t kReplayInputCap = 1u << 24;       // one block's inputs; a fuller one ends early
+inline constexpr std::uint32_t kReplayUnknownCap = 1u << 24;
+std::uint32_t replay_payload_cap(std::uint32_t type);
+
+/// Where the bytes of a replay go. False from `write` ends the recording with an error.
+struct ReplaySink {
+  bool (*write)(void* context, const std::uint8_t* bytes, std::size_t size);
+  void* context;
+};
+/// Appends to `out`, which must outlive the writer.
+ReplaySink sink_to(std::vector<std::uint8_t>& out);
+
+/// Writes a replay from front to back. What was written stays a valid beginning at every moment; at most one block of
+/// frames is held back. After an error every call returns that error.
+class ReplayWriter {
+ public:
+  explicit ReplayWriter(ReplaySink sink);
+  ~ReplayWriter();
+  ReplayWriter(const ReplayWriter&) = delete;
+  ReplayWriter& operator=(const ReplayWriter&) = delete;
+
+  /// `state` is the portable form of the state before the first frame and `hash` its root.
+  Result<void> begin(const ReplayHeader& header, Bytes state, std::uint64_t hash);
+  /// The next frame: its input, and the root after it was stepped.
+  Result<void> frame(Bytes input, std::uint64_t hash);
+  /// The state after the last frame, for seeking. Ends the block.
+  Result<void> keyframe(Bytes state, std::uint64_t hash);
+  /// A chunk of the caller's own; the type's first letter is lower case. Ends the block.
+  Result<void> ancillary(std::uint32_t type, Bytes payload);
+  /// Ends the block early, so that it is safe with the sink.
+  Result<void> flush();
+  Result<void> finish();
+
+  std::uint64_t frame_count() const;
+
+ private:
+  enum class Phase : std::uint8_t { fresh, open, done, failed };
+
+  Result<void> refuse(ErrorCode code, const char* message);
+  Result<void> require_open();
+  Result<void> put(Bytes bytes);
+  Result<void> put_chunk(std::uint32_t type, Bytes payload);
+
+  ReplaySink sink_;
+  Phase phase_;
+  Error error_;
+  HashStream digest_;
+  std::uint64_t frame_count_;               // with those of the open block
+  std::uint32_t block_frames_;
+  std::vector<std::uint8_t> block_inputs_;  // [u32 length, bytes] per frame
+  std::vector<std::uint8_t> block_hashes_;  // u64 per frame
+  std::vector<std::uint8_t> scratch_;
+};
+
+enum class ReplayStatus : std::uint8_t {
+  complete,     // everything is there and agrees with itself
+  truncated,    // ends early; whole blocks before the end can be played
+  corrupt,      // contradicts itself
+  incompatible  // intact, but made for another reader
+};
+
+struct ReplayFrame {
+  Bytes input;  // a view into the file
+  std::uint64_t hash;
+};
+struct ReplayKeyframe {
+  std::uint64_t frames;  // stepped before it
+  std::uint64_t hash;
+  Bytes state;
+  std::size_t offset;  // of its chunk
+};
+
+/// Checks a whole file once, then gives views into it. Copies nothing of the file; its own memory is a few words a
+/// block.
+/// Says nothing about whether the hashes are true: that takes a simulation (verify.hpp).
+class ReplayReader {
+ public:
+  /// `file` must outlive the reader.
+  explicit ReplayReader(Bytes file);
+  ~ReplayReader();
+  ReplayReader(const ReplayReader&) = delete;
+  ReplayReader& operator=(const ReplayReader&) = delete;
+
+  ReplayStatus status() const;
+  /// Where in the file the status other than `complete` was found [bytes].
+  std::size_t place() const;
+  /// Only when the status is not `complete`.
+  const Error& error() const;
+
+  /// What came before the place of error, whole chunks of it:
+  bool has_header() const;
+  bool has_state() const;
+  const ReplayHeader& header() const;
+  Bytes state() const;
+  std::size_t state_offset() const;
+  std::uint64_t state_hash() const;
+  /// Frames in whole blocks.
+  std::uint64_t frame_count() const;
+  /// i < frame_count().
+  ReplayFrame frame(std::uint64_t i) const;
+  const std::vector<ReplayKeyframe>& keyframes() const;
+  /// Of a view that this reader gave out.
+  std::size_t offset_of(Bytes view) const;
+
+ private:
+  struct Chunk {
+    std::uint32_t type;
+    std::size_t offset;
+    Bytes payload;
+  };
+  struct Block {
+    std::uint64_t first;
+    std::uint32_t count;
+    const std::uint8_t* inputs;
+    const std::uint8_t* hashes;
+  };
+  enum class Expect : std::uint8_t { head, init, inputs, hashes, end };
+
+  bool stop(ReplayStatus status, std::size_t place, const char* message);
+  bool read_preamble();
+  bool read_chunk(std::size_t offset, Chunk& chunk);
+  bool accept(const Chunk& chunk);
+  bool accept_head(const Chunk& chunk);
+  bool accept_init(const Chunk& chunk);
+  bool accept_inputs(const Chunk& chunk);
+  bool accept_hashes(const Chunk& chunk);
+  bool accept_keyframe(const Chunk& chunk);
+  bool accept_done(const Chunk& chunk);
+
+  Bytes file_;
+  ReplayStatus status_;
+  std::size_t place_;
+  Error error_;
+  Expect expect_;
+  ReplayHeader header_;
+  bool has_header_;
+  bool has_state_;
+  Bytes state_;
+  std::uint64_t state_hash_;
+  std::uint64_t frame_count_;
+  Block open_block_;  // its inputs are read, its hashes are not
+  std::vector<Block> blocks_;
+  std::vector<ReplayKeyframe> keyframes_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,102 @@
+// verify: does a simulation that starts where a replay starts and gets its inputs pass through the same states?
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "isostep/state/concepts.hpp"
+#include "isostep/state/replay_format.hpp"
+
+namespace isostep {
+
+/// In the order of the tool's exit codes.
+enum class VerifyOutcome : std::uint8_t { verified, diverged, incompatible, truncated, corrupt };
+
+struct VerifyResult {
+  enum class Where : std::uint8_t { start, frame, keyframe };
+
+  VerifyOutcome outcome;
+  Where where;               // diverged: at the initial state, after a frame, or a stored keyframe is not the state
+  std::uint64_t frames;      // frames whose hashes agreed; so the frame that diverged, or the first that is missing
+  std::uint64_t expected;    // diverged: the replay's hash
+  std::uint64_t actual;      // diverged: ours
+  std::size_t offset;        // truncated, corrupt: the place in the file [bytes]
+  HeaderMismatch mismatch;   // incompatible
+  Error error;               // truncated, corrupt
+};
+
+/// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.
+int exit_code(VerifyOutcome outcome);
+/// "DIVERGED at frame 17: 0123456789abcdef in the replay, fedcba9876543210 here"
+std::string describe(const VerifyResult& result);
+
+namespace detail {
+/// What the file itself says before any simulation runs; `verified` when it says nothing against.
+VerifyResult verify_file(const ReplayReader& replay);
+/// The answer when every frame that is there agreed.
+VerifyResult verify_end(const ReplayReader& replay);
+VerifyResult diverged(VerifyResult::Where where, std::uint64_t frames, std::uint64_t expected, std::uint64_t actual);
+VerifyResult corrupt(std::uint64_t frames, std::size_t offset, const Error& error);
+VerifyResult incompatible(const HeaderMismatch& mismatch);
+bool same_bytes(Bytes a, Bytes b);
+
+/// Steps through what the reader holds. A keyframe must be, byte for byte, the state that was reached.
+template <ReplayableSimulation Sim> ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim) {
+  Reader reader(replay.state());
+  Result<void> read = sim.read_portable(reader);
+  if (read) {
+    reader.expect_end();
+    read = reader.result("INIT");
+  }
+  if (!read) return corrupt(0, replay.state_offset() + reader.offset(), read.error());
+  const std::uint64_t start = sim.hash();
+  if (start != replay.state_hash()) return diverged(VerifyResult::Where::start, 0, replay.state_hash(), start);
+
+  std::vector<std::uint8_t> written;
+  std::size_t next_key = 0;
+  const std::vector<ReplayKeyframe>& keys = replay.keyframes();
+  for (std::uint64_t i = 0;; ++i) {
+    for (; next_key < keys.size() && keys[next_key].frames == i; ++next_key) {
+      const std::uint64_t hash = sim.hash();
+      written.clear();
+      Writer writer(written);
+      sim.write_portable(writer);
+      if (keys[next_key].hash != hash || !same_bytes(keys[next_key].state, written)) {
+        return diverged(VerifyResult::Where::keyframe, i, keys[next_key].hash, hash);
+      }
+    }
+    if (i == replay.frame_count()) return verify_end(replay);
+    const ReplayFrame frame = replay.frame(i);
+    const Result<void> stepped = sim.step_recorded(frame.input);
+    if (!stepped) return corrupt(i, replay.offset_of(frame.input), stepped.error());
+    const std::uint64_t hash = sim.hash();
+    if (hash != frame.hash) return diverged(VerifyResult::Where::frame, i, frame.hash, hash);
+  }
+}
+}  // namespace detail
+
+/// `check(header)` returns a HeaderMismatch; with an empty key the replay is accepted. What `sim` was before does not
+/// matter. A damaged file is never stepped; a cut one is, as far as it goes, and may turn out to diverge.
+template <ReplayableSimulation Sim, class Check>
+  requires requires(Check& check, const ReplayHeader& header) { HeaderMismatch(check(header)); }
+ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& check) {
+  const VerifyResult file = detail::verify_file(replay);
+  if (file.outcome != VerifyOutcome::verified) return file;
+  if (replay.has_header()) {
+    const HeaderMismatch mismatch = check(replay.header());
+    if (!mismatch.key.empty()) return detail::incompatible(mismatch);
+  }
+  if (!replay.has_state()) return detail::verify_end(replay);
+  return detail::verify_frames(replay, sim);
+}
+
+/// Accepts what has the same required fields as `here`.
+struct SameHeader {
+  const ReplayHeader& here;
+  ISO_INLINE HeaderMismatch operator()(const ReplayHeader& file) const { return compare_headers(file, here); }
+};
+
+}  // namespace isostep

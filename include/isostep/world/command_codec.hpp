@@ -1,0 +1,51 @@
+// Commands as bytes: a command's number in the list, then its fields.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "isostep/state/archive.hpp"
+#include "isostep/world/command.hpp"
+
+namespace isostep {
+
+namespace detail {
+inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape in a command
+
+template <class C, class Variant> struct IndexOf;
+template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> { static constexpr std::uint8_t kValue = 0; };
+template <class C, class First, class... Rest> struct IndexOf<C, std::variant<First, Rest...>> {
+  static constexpr std::uint8_t kValue = 1 + IndexOf<C, std::variant<Rest...>>::kValue;
+};
+
+template <class S> void write_fields(Writer& writer, const AddShape<S>& command) { writer.write_array(command.children); }
+template <class S, class C> void write_fields(Writer& writer, const C& command) { writer.write(command); }
+template <class S> void read_fields(Reader& reader, AddShape<S>& command) { reader.read_array(command.children, kMaxChildren); }
+template <class S, class C> void read_fields(Reader& reader, C& command) { reader.read(command); }
+}  // namespace detail
+
+template <class S, class C> void write_command(Writer& writer, const C& command) {
+  writer.write(detail::IndexOf<C, Command<S>>::kValue);
+  detail::write_fields<S>(writer, command);
+}
+
+/// Nothing, and a reader that has failed, for bytes that are no command.
+template <class S> std::optional<Command<S>> read_command(Reader& reader) {
+  const auto kind = reader.read<std::uint8_t>();
+  std::optional<Command<S>> command;
+  const auto try_kind = [&]<std::size_t I>() {
+    if (kind != I) return;
+    std::variant_alternative_t<I, Command<S>> alternative{};
+    detail::read_fields<S>(reader, alternative);
+    if (reader.ok()) command = std::move(alternative);
+  };
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (try_kind.template operator()<I>(), ...);
+  }(std::make_index_sequence<std::variant_size_v<Command<S>>>{});
+  if (reader.ok() && !command) reader.fail(ErrorCode::invalid, "no command has this number");
+  return command;
+}
+
+}  // namespace isostep

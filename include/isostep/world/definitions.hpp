@@ -1,0 +1,56 @@
+// What a user says to make a body.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/id.hpp"
+#include "isostep/dynamics/body.hpp"
+
+namespace isostep {
+
+template <class S> struct BodyDefinition {
+  BodyType type = BodyType::fixed;
+  ShapeId shape;
+  Vec3<S> position = {S(0), S(0), S(0)};           // [m] of the body's origin, world
+  Quat<Unit<S>> orientation = Quat<Unit<S>>::identity();
+  Vec3<S> velocity = {S(0), S(0), S(0)};           // [m/s] of the centre of mass
+  Vec3<S> angular_velocity = {S(0), S(0), S(0)};   // [rad/s] world
+  S density = S(1);                                // [kg/m^3] where mass is 0
+  S mass = S(0);                                   // [kg] 0: from density
+  Vec3<S> inertia = {S(0), S(0), S(0)};            // [kg m^2] principal, body axes; 0: from the shape
+  Material<S> material;
+  Filter filter;
+  std::uint64_t user_data = 0;
+  S gravity_scale = S(1);
+  S linear_damping = S(0);                         // [1/s]
+  S angular_damping = S(0);                        // [1/s]
+  std::uint32_t locks = 0;                         // body_flag::kLockX ...
+  bool sensor = false;
+  bool allow_sleep = true;
+  bool collide = true;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("type", self.type);
+    visit("shape", self.shape);
+    visit("position", self.position);
+    visit("orientation", self.orientation);
+    visit("velocity", self.velocity);
+    visit("angular_velocity", self.angular_velocity);
+    visit("density", self.density);
+    visit("mass", self.mass);
+    visit("inertia", self.inertia);
+    visit("material", self.material);
+    visit("filter", self.filter);
+    visit("user_data", self.user_data);
+    visit("gravity_scale", self.gravity_scale);
+    visit("linear_damping", self.linear_damping);
+    visit("angular_damping", self.angular_damping);
+    visit("locks", self.locks);
+    visit("sensor", self.sensor);
+    visit("allow_sleep", self.allow_sleep);
+    visit("collide", self.collide);
+  }
+};
+
+}  // namespace isostep

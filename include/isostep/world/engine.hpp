@@ -1,0 +1,174 @@
+// WorldEngine<S>: what stands behind World<S>: the state, the caches derived from it, and the stages that advance it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/dynamics/island.hpp"
+#include "isostep/dynamics/solvers/soft_step.hpp"
+#include "isostep/world/proxies.hpp"
+#include "isostep/world/state.hpp"
+#include "isostep/world/world.hpp"
+
+namespace isostep {
+
+/// Where a body or joint of a slot lies.
+struct Location {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kFixed = 0xfffffffeu;
+  static constexpr std::uint32_t kAwake = 0xfffffffdu;
+  std::uint32_t set = kNone;  // one of the above, or an index into WorldState::frozen
+  std::uint32_t index = 0;
+
+  bool is_frozen() const { return set < kAwake; }
+};
+
+template <class S> class WorldEngine {
+ public:
+  explicit WorldEngine(const Settings<S>& settings);
+
+  // engine_commands.inl: one function a command; each answers what it made or whether it was accepted.
+  ShapeId execute(const AddShape<S>& command);
+  bool execute(const RemoveShape& command);
+  BodyId execute(const CreateBody<S>& command);
+  bool execute(const DestroyBody& command);
+  bool execute(const WakeBody& command);
+  bool execute(const SetPose<S>& command);
+  bool execute(const SetVelocity<S>& command);
+  bool execute(const ApplyForce<S>& command);
+  bool execute(const ApplyImpulse<S>& command);
+  bool execute(const SetMaterial<S>& command);
+  bool execute(const SetFilter& command);
+  bool execute(const SetMotion<S>& command);
+  bool execute(const SetUserData& command);
+  bool execute(const SetGravity<S>& command);
+  JointId execute(const CreateJoint<S>& command);
+  bool execute(const DestroyJoint& command);
+  bool execute(const SetJoint<S>& command);
+
+  // engine_step.inl
+  StepReport step(const StageObserver& observer);
+
+  // engine_bodies.inl
+  const BodyState<S>* state_of(BodyId body) const;
+  const BodyProperties<S>* properties_of(BodyId body) const;
+  const JointProperties<S>* properties_of(JointId joint) const;
+  const BodyState<S>& state_at(Location at) const;
+  const BodyProperties<S>& properties_at(Location at) const;
+  Location location(std::uint32_t slot) const { return locations_[slot]; }
+  std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body) const;
+  Pose<S> centre_pose_at(std::uint32_t slot) const;
+  S joint_error(JointId joint) const;
+
+  // engine_queries.inl
+  std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
+  std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
+  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
+  void fill_render_poses(float alpha);
+
+  // engine_state.inl
+  void load(const WorldState<S>& from);
+  std::uint64_t hash() const;
+  void write_portable(Writer& writer) const;
+  Result<void> read_portable(Reader& reader);
+
+  bool refuse(Fault fault) {
+    fault_ = fault;
+    return false;
+  }
+
+  WorldState<S> state_;
+  Events<S> events_;
+  StepReport report_;
+  Fault fault_ = Fault::none;
+  const ContactKernels<S>* kernels_;
+  std::vector<std::uint8_t>* tape_ = nullptr;
+  std::vector<RenderPose> render_poses_;
+  bool poses_current_ = false;              // start_poses_ belong to the awake bodies as they are
+
+ private:
+  // engine_bodies.inl
+  BodyState<S>* awake_state(std::uint32_t slot);
+  BodyProperties<S>& mutable_properties(std::uint32_t slot);
+  void insert_body(BodySet<S>& set, std::uint32_t set_name, const BodyState<S>& state, const BodyProperties<S>& body);
+  void erase_body(BodySet<S>& set, std::uint32_t set_name, std::uint32_t index);
+  void relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from);
+  void insert_joint(const JointState<S>& state, const JointProperties<S>& joint);
+  void relabel_joints(const JointSet<S>& set, std::uint32_t set_name, std::size_t from);
+  void renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always);
+  void forget_contacts(std::uint32_t slot);
+  void wake_touching(std::uint32_t slot);
+  Location locate(BodyId body) const;
+  BodyState<S>* wake_for_change(BodyId body);
+
+  // engine_commands.inl
+  bool check(const BodyDefinition<S>& definition);
+  bool check(const JointProperties<S>& joint);
+  bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+
+  // engine_contacts.inl
+  void find_pairs();
+  void update_manifolds();
+  void wake_touched_islands();
+  bool bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const;
+  template <class Visit> ISO_INLINE void visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin, Visit&& visit) const;
+  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyProperties<S>& a, const BodyProperties<S>& b,
+                   Vec3<S> from_a_to_b);
+  void collect_joined_pairs();
+  std::uint32_t row_of(std::uint32_t slot) const;
+  void update_sensors();
+  void emit_contact_events();
+  S pressing(std::size_t first, std::size_t end) const;
+
+  // engine_step.inl
+  void begin_events();
+  void apply_forces();
+  void prepare_joints();
+  SolverInput<S> solver_input();
+  void finalise_bodies();
+  void finish_body(std::size_t index);
+
+  // engine_sleep.inl
+  void update_sleep();
+  void update_sleep_clocks();
+  void freeze_ready_islands();
+  void freeze_marked();
+  void thaw(std::uint32_t frozen_index);
+  void thaw_body(std::uint32_t slot);
+
+  // engine_state.inl
+  void refresh_caches();
+
+  // Caches: functions of the state.
+  std::vector<Location> locations_;         // by body slot
+  std::vector<Location> joint_locations_;   // by joint slot
+  Proxies<S> proxies_;
+
+  // One step's scratch.
+  SoftStep<S> solver_;
+  std::vector<Acceleration<S>> accelerations_;
+  std::vector<Pose<S>> start_poses_;        // of awake bodies' centres
+  std::vector<Mat3<Unit<S>>> rotations_;    // of awake bodies
+  std::vector<Contact<S>> old_contacts_;
+  std::size_t old_cursor_ = 0;
+  std::vector<ContactGeometry<S>> geometry_;
+  std::vector<JointConstraint<S>> joint_constraints_;
+  std::vector<std::uint64_t> joined_pairs_;  // ascending pair keys that joints keep from colliding
+  std::vector<SensorOverlap> new_overlaps_;
+  std::vector<SensorOverlap> overlap_scratch_;
+  std::vector<std::uint64_t> sort_scratch_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<Velocity<S>> peak_impulses_;   // [m/s] per contact, largest of the step
+  std::size_t woke_reported_ = 0;            // of events_.woke, told by the last step
+  std::vector<BodyId> woke_scratch_;
+  DisjointSets islands_;
+  std::vector<std::uint32_t> island_clock_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,173 @@
+// WorldEngine: where bodies lie, and moving them in and out of their sets.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// [m] added around a body's bounds: a body is looked up anew only when it leaves the margin.
+template <class S> inline constexpr S kFatMargin = S(0.1);
+/// [m] contacts are found this far ahead of touching, so that the solver sees them before they overlap.
+template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
+
+template <class Set> std::size_t lower_bound_slot(const Set& set, std::uint32_t slot) {
+  std::size_t low = 0, high = set.states.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (set.states[middle].slot < slot) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+}  // namespace detail
+
+template <class S> Location WorldEngine<S>::locate(BodyId body) const {
+  return state_.body_slots.holds(body) ? locations_[body.slot] : Location{};
+}
+template <class S> const BodyState<S>& WorldEngine<S>::state_at(Location at) const {
+  if (at.set == Location::kAwake) return state_.awake.states[at.index];
+  if (at.set == Location::kFixed) return state_.fixed.states[at.index];
+  return state_.frozen[at.set]->bodies.states[at.index];
+}
+template <class S> const BodyProperties<S>& WorldEngine<S>::properties_at(Location at) const {
+  if (at.set == Location::kAwake) return state_.awake.properties[at.index];
+  if (at.set == Location::kFixed) return state_.fixed.properties[at.index];
+  return state_.frozen[at.set]->bodies.properties[at.index];
+}
+template <class S> const BodyState<S>* WorldEngine<S>::state_of(BodyId body) const {
+  const Location at = locate(body);
+  return at.set == Location::kNone ? nullptr : &state_at(at);
+}
+template <class S> const BodyProperties<S>* WorldEngine<S>::properties_of(BodyId body) const {
+  const Location at = locate(body);
+  return at.set == Location::kNone ? nullptr : &properties_at(at);
+}
+template <class S> const JointProperties<S>* WorldEngine<S>::properties_of(JointId joint) const {
+  if (!state_.joint_slots.holds(joint)) return nullptr;
+  const Location at = joint_locations_[joint.slot];
+  const JointSet<S>& set = at.is_frozen() ? state_.frozen[at.set]->joints : state_.joints;
+  return &set.properties[at.index];
+}
+
+template <class S> std::span<const Child<S>> WorldEngine<S>::children_of(std::uint32_t shape_slot) const {
+  const ShapeRecord& record = state_.shapes[shape_slot];
+  return {state_.children.data() + record.first_child, record.child_count};
+}
+
+/// A body's origin is its centre less the centre's place in the body.
+template <class S> Pose<S> WorldEngine<S>::origin_pose(const BodyState<S>& state, const BodyProperties<S>& body) const {
+  if (body.local_centre == Vec3<S>::zero()) return {state.centre, state.orientation};
+  return {state.centre - to_matrix(state.orientation) * body.local_centre, state.orientation};
+}
+
+/// Pose of the centre of mass, or of the world itself.
+template <class S> Pose<S> WorldEngine<S>::centre_pose_at(std::uint32_t slot) const {
+  if (slot == kNoBody) return Pose<S>::identity();
+  const BodyState<S>& state = state_at(locations_[slot]);
+  return {state.centre, state.orientation};
+}
+
+template <class S> BodyProperties<S>& WorldEngine<S>::mutable_properties(std::uint32_t slot) {
+  const Location at = locations_[slot];
+  return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.properties[at.index];
+}
+
+template <class S>
+void WorldEngine<S>::relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from) {
+  for (std::size_t i = from; i < set.states.size(); ++i) {
+    locations_[set.states[i].slot] = {set_name, static_cast<std::uint32_t>(i)};
+  }
+}
+template <class S>
+void WorldEngine<S>::relabel_joints(const JointSet<S>& set, std::uint32_t set_name, std::size_t from) {
+  for (std::size_t i = from; i < set.states.size(); ++i) {
+    joint_locations_[set.states[i].slot] = {set_name, static_cast<std::uint32_t>(i)};
+  }
+}
+
+template <class S>
+void WorldEngine<S>::insert_body(BodySet<S>& set, std::uint32_t set_name, const BodyState<S>& state,
+                                 const BodyProperties<S>& body) {
+  const std::size_t at = detail::lower_bound_slot(set, state.slot);
+  set.states.insert(set.states.begin() + static_cast<std::ptrdiff_t>(at), state);
+  set.properties.insert(set.properties.begin() + static_cast<std::ptrdiff_t>(at), body);
+  if (locations_.size() <= state.slot) locations_.resize(state.slot + 1);
+  relabel(set, set_name, at);
+}
+template <class S> void WorldEngine<S>::erase_body(BodySet<S>& set, std::uint32_t set_name, std::uint32_t index) {
+  locations_[set.states[index].slot] = Location{};
+  set.states.erase(set.states.begin() + index);
+  set.properties.erase(set.properties.begin() + index);
+  relabel(set, set_name, index);
+}
+template <class S> void WorldEngine<S>::insert_joint(const JointState<S>& state, const JointProperties<S>& joint) {
+  const std::size_t at = detail::lower_bound_slot(state_.joints, state.slot);
+  state_.joints.states.insert(state_.joints.states.begin() + static_cast<std::ptrdiff_t>(at), state);
+  state_.joints.properties.insert(state_.joints.properties.begin() + static_cast<std::ptrdiff_t>(at), joint);
+  if (joint_locations_.size() <= state.slot) joint_locations_.resize(state.slot + 1);
+  relabel_joints(state_.joints, Location::kAwake, at);
+}
+
+template <class S>
+void WorldEngine<S>::renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always) {
+  const Transform<S> origin = Transform<S>::of(origin_pose(state, body));
+  const Aabb<S> tight = bounds(children_of(body.shape), origin);
+  if (always || !contains(state.fat, tight)) state.fat = grow(tight, detail::kFatMargin<S>);
+}
+
+/// Contacts of the awake image that name the slot.
+template <class S> void WorldEngine<S>::forget_contacts(std::uint32_t slot) {
+  std::size_t kept = 0;
+  for (const Contact<S>& contact : state_.contacts) {
+    if (contact.key.body_a == slot || contact.key.body_b == slot) continue;
+    state_.contacts[kept++] = contact;
+  }
+  state_.contacts.resize(kept);
+}
+
+/// Thaws every island that a body's fat box meets: what is moved, changed or taken away may have held them up.
+template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
+  if (!proxies_.present(slot)) return;
+  std::vector<std::uint64_t> met;
+  proxies_.tree().query(proxies_.tree().box(slot), [&](std::uint32_t other) {
+    if (locations_[other].is_frozen()) met.push_back(other);
+    return true;
+  });
+  std::vector<std::uint64_t> scratch(met.size());
+  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  for (const std::uint64_t other : met) thaw_body(static_cast<std::uint32_t>(other));
+}
+
+/// The awake state of a moving body about to be changed; null and a fault when it is stale or fixed.
+template <class S> BodyState<S>* WorldEngine<S>::wake_for_change(BodyId body) {
+  const Location at = locate(body);
+  if (at.set == Location::kNone) {
+    refuse(Fault::stale_id);
+    return nullptr;
+  }
+  if (at.set == Location::kFixed) {
+    refuse(Fault::not_dynamic);
+    return nullptr;
+  }
+  thaw_body(body.slot);
+  BodyState<S>& state = state_.awake.states[locations_[body.slot].index];
+  state.sleep_clock = 0;
+  return &state;
+}
+
+template <class S> S WorldEngine<S>::joint_error(JointId joint) const {
+  const JointProperties<S>* properties = properties_of(joint);
+  if (properties == nullptr) return S(0);
+  const Pose<S> a = compose(centre_pose_at(properties->body_a), properties->frame_a);
+  const Pose<S> b = compose(centre_pose_at(properties->body_b), properties->frame_b);
+  const Vec3<S> apart = b.position - a.position;
+  const S length = direction_of(apart.x, apart.y, apart.z).length;
+  if (properties->type != JointType::distance) return length;
+  return max(S(0), max(length - properties->upper, properties->lower - length));
+}
+
+}  // namespace isostep

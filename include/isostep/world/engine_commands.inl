@@ -1,0 +1,382 @@
+// WorldEngine: the commands, one function each. A refused command changes nothing and names its fault.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/limits.hpp"
+#include "isostep/geometry/mass_properties.hpp"
+#include "isostep/geometry/validate.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> bool within(Vec3<S> v, S limit) { return max_abs(v) <= limit; }
+template <class S> bool is_unit(const Quat<Unit<S>>& q) {
+  const Pose<S> pose = {Vec3<S>::zero(), q};
+  return validate(pose) == ShapeFault::none;
+}
+}  // namespace detail
+
+template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
+  const ShapeFault fault = validate(std::span<const Child<S>>(command.children));
+  if (fault != ShapeFault::none) {
+    refuse(fault == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape);
+    return {};
+  }
+  const ShapeId id = state_.shape_slots.template take<ShapeId>();
+  if (state_.shapes.size() <= id.slot) state_.shapes.resize(id.slot + 1, ShapeRecord{0, 0});
+  state_.shapes[id.slot] = {static_cast<std::uint32_t>(state_.children.size()),
+                            static_cast<std::uint32_t>(command.children.size())};
+  for (const Child<S>& child : command.children) state_.children.push_back(normalised(child));
+  return id;
+}
+
+template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
+  if (!state_.shape_slots.holds(command.shape)) return refuse(Fault::stale_id);
+  const std::uint32_t slot = command.shape.slot;
+  for (std::uint32_t body = 0; body < locations_.size(); ++body) {
+    if (locations_[body].set != Location::kNone && properties_at(locations_[body]).shape == slot) {
+      return refuse(Fault::shape_in_use);
+    }
+  }
+  const ShapeRecord gone = state_.shapes[slot];
+  const auto first = state_.children.begin() + gone.first_child;
+  state_.children.erase(first, first + gone.child_count);
+  for (ShapeRecord& record : state_.shapes) {
+    if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
+  }
+  state_.shapes[slot] = {0, 0};
+  state_.shape_slots.give_back(slot);
+  return true;
+}
+
+/// Everything about a definition that needs no mass.
+template <class S> bool WorldEngine<S>::check(const BodyDefinition<S>& d) {
+  if (!state_.shape_slots.holds(d.shape)) return refuse(Fault::stale_id);
+  const Material<S>& m = d.material;
+  const S numbers[] = {d.density,     d.mass,           d.gravity_scale,      d.linear_damping,
+                       d.angular_damping, m.friction,   m.restitution,        m.rolling_resistance};
+  for (const S number : numbers) {
+    if (!is_finite(number)) return refuse(Fault::not_finite);
+  }
+  if (!is_finite(d.position) || !is_finite(d.velocity) || !is_finite(d.angular_velocity) || !is_finite(d.inertia) ||
+      !is_finite(m.surface_velocity)) {
+    return refuse(Fault::not_finite);
+  }
+  if (!detail::within(d.position, Limits<S>::position()) || !detail::within(d.velocity, Limits<S>::speed()) ||
+      !detail::within(d.angular_velocity, Limits<S>::spin()) || !detail::within(m.surface_velocity, Limits<S>::speed())) {
+    return refuse(Fault::out_of_range);
+  }
+  if (!detail::is_unit<S>(d.orientation)) return refuse(Fault::bad_argument);
+  if (d.type > BodyType::dynamic || (d.locks & ~body_flag::kAllLocks) != 0) return refuse(Fault::bad_argument);
+  const S zero = S(0);
+  if (m.friction < zero || m.restitution < zero || m.restitution > S(1) || m.rolling_resistance < zero ||
+      d.linear_damping < zero || d.angular_damping < zero) {
+    return refuse(Fault::bad_argument);
+  }
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
+  const S zero = S(0);
+  const std::span<const Child<S>> children = children_of(d.shape.slot);
+  const MassProperties<S> shape = mass_properties(children, d.density > zero ? d.density : S(1));
+  body.local_centre = shape.centre;
+  body.principal = shape.principal;
+  body.mass = zero;
+  body.kappa = Vec3<S>::zero();
+  if (d.type != BodyType::dynamic) return true;
+  MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
+  if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
+  if (!(chosen.mass > zero) || chosen.mass > Limits<S>::mass() || d.mass < zero || d.density < zero ||
+      d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero || shape.mass == zero) {
+    return refuse(Fault::bad_mass);
+  }
+  body.mass = chosen.mass;
+  body.kappa = chosen.kappa;
+  body.principal = chosen.principal;
+  const bool even = body.kappa.x == body.kappa.y && body.kappa.y == body.kappa.z;
+  if (!even) body.flags |= body_flag::kSpins;
+  return true;
+}
+
+template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) {
+  const BodyDefinition<S>& d = command.definition;
+  if (!check(d)) return {};
+  BodyProperties<S> body = {};
+  body.type = d.type;
+  body.flags = d.locks | (d.sensor ? body_flag::kSensor : 0u) | (d.allow_sleep ? body_flag::kAllowSleep : 0u) |
+               (d.collide ? body_flag::kCollide : 0u);
+  body.shape = d.shape.slot;
+  body.filter = d.filter;
+  body.user_data = d.user_data;
+  body.material = d.material;
+  body.gravity_scale = d.gravity_scale;
+  body.linear_damping = d.linear_damping;
+  body.angular_damping = d.angular_damping;
+  if (!set_mass(d, body)) return {};
+
+  BodyState<S> state = {};
+  state.orientation = normalise(d.orientation);
+  state.centre = d.position + to_matrix(state.orientation) * body.local_centre;
+  if (d.type != BodyType::fixed) {
+    state.velocity = convert<Velocity<S>>(d.velocity);
+    state.spin = convert<Velocity<S>>(d.angular_velocity);
+  }
+  const BodyId id = state_.body_slots.template take<BodyId>();
+  state.slot = id.slot;
+  renew_fat_box(state, body, true);
+  const bool fixed = d.type == BodyType::fixed;
+  insert_body(fixed ? state_.fixed : state_.awake, fixed ? Location::kFixed : Location::kAwake, state, body);
+  proxies_.place(state, body, !fixed);
+  if (fixed) wake_touching(id.slot);
+  return id;
+}
+
+template <class S> bool WorldEngine<S>::execute(const DestroyBody& command) {
+  const Location at = locate(command.body);
+  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  const std::uint32_t slot = command.body.slot;
+  if (at.is_frozen()) thaw_body(slot);
+  wake_touching(slot);
+  for (std::uint32_t joint = 0; joint < joint_locations_.size(); ++joint) {
+    const Location j = joint_locations_[joint];
+    if (j.set == Location::kNone) continue;
+    const JointId id = state_.joint_slots.template id_of<JointId>(joint);
+    const JointProperties<S>& properties = *properties_of(id);
+    if (properties.body_a == slot || properties.body_b == slot) execute(DestroyJoint{id});
+  }
+  forget_contacts(slot);
+  std::erase_if(state_.overlaps, [&](SensorOverlap o) { return o.sensor == slot || o.other == slot; });
+  std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return f.slot == slot; });
+  const Location now = locations_[slot];
+  if (now.set == Location::kFixed) erase_body(state_.fixed, Location::kFixed, now.index);
+  else erase_body(state_.awake, Location::kAwake, now.index);
+  proxies_.remove(slot);
+  state_.body_slots.give_back(slot);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const WakeBody& command) { return wake_for_change(command.body) != nullptr; }
+
+template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
+  const Location at = locate(command.body);
+  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  if (!is_finite(command.pose.position)) return refuse(Fault::not_finite);
+  if (!detail::within(command.pose.position, Limits<S>::position())) return refuse(Fault::out_of_range);
+  if (!detail::is_unit<S>(command.pose.orientation)) return refuse(Fault::bad_argument);
+  const std::uint32_t slot = command.body.slot;
+  wake_touching(slot);
+  if (at.set != Location::kFixed) wake_for_change(command.body);
+  const Location now = locations_[slot];
+  BodySet<S>& set = now.set == Location::kFixed ? state_.fixed : state_.awake;
+  BodyState<S>& state = set.states[now.index];
+  const BodyProperties<S>& body = set.properties[now.index];
+  state.orientation = normalise(command.pose.orientation);
+  state.centre = command.pose.position + to_matrix(state.orientation) * body.local_centre;
+  renew_fat_box(state, body, true);
+  proxies_.place(state, body, now.set == Location::kAwake);
+  wake_touching(slot);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
+  if (!is_finite(command.linear) || !is_finite(command.angular)) return refuse(Fault::not_finite);
+  if (!detail::within(command.linear, Limits<S>::speed()) || !detail::within(command.angular, Limits<S>::spin())) {
+    return refuse(Fault::out_of_range);
+  }
+  BodyState<S>* state = wake_for_change(command.body);
+  if (state == nullptr) return false;
+  state->velocity = convert<Velocity<S>>(command.linear);
+  state->spin = convert<Velocity<S>>(command.angular);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
+  if (!is_finite(command.force) || !is_finite(command.torque)) return refuse(Fault::not_finite);
+  BodyState<S>* state = wake_for_change(command.body);
+  if (state == nullptr) return false;
+  const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
+  if (body.type != BodyType::dynamic) return refuse(Fault::not_dynamic);
+  const auto per_mass = [&](Vec3<S> v) { return Vec3<S>{v.x / body.mass, v.y / body.mass, v.z / body.mass}; };
+  const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
+  std::size_t at = 0;
+  while (at < state_.forces.size() && state_.forces[at].slot < state->slot) ++at;
+  if (at == state_.forces.size() || state_.forces[at].slot != state->slot) {
+    state_.forces.insert(state_.forces.begin() + static_cast<std::ptrdiff_t>(at),
+                         {state->slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
+  }
+  state_.forces[at].linear += per_mass(command.force);
+  state_.forces[at].angular += kappa * per_mass(command.torque);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) {
+  if (!is_finite(command.linear) || !is_finite(command.angular)) return refuse(Fault::not_finite);
+  BodyState<S>* state = wake_for_change(command.body);
+  if (state == nullptr) return false;
+  const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
+  if (body.type != BodyType::dynamic) return refuse(Fault::not_dynamic);
+  const auto per_mass = [&](Vec3<S> v) { return Vec3<S>{v.x / body.mass, v.y / body.mass, v.z / body.mass}; };
+  const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
+  const S speed = Limits<S>::speed(), spin = Limits<S>::spin();
+  const auto bounded = [](Vec3<S> v, S limit) {
+    return Vec3<S>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
+  };
+  state->velocity += convert<Velocity<S>>(bounded(per_mass(command.linear), speed));
+  state->spin += convert<Velocity<S>>(bounded(kappa * per_mass(command.angular), spin));
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetMaterial<S>& command) {
+  const Location at = locate(command.body);
+  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  const Material<S>& m = command.material;
+  if (!is_finite(m.friction) || !is_finite(m.restitution) || !is_finite(m.rolling_resistance) ||
+      !is_finite(m.surface_velocity)) {
+    return refuse(Fault::not_finite);
+  }
+  if (!detail::within(m.surface_velocity, Limits<S>::speed())) return refuse(Fault::out_of_range);
+  if (m.friction < S(0) || m.restitution < S(0) || m.restitution > S(1) || m.rolling_resistance < S(0)) {
+    return refuse(Fault::bad_argument);
+  }
+  wake_touching(command.body.slot);
+  thaw_body(command.body.slot);
+  mutable_properties(command.body.slot).material = m;
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetFilter& command) {
+  const Location at = locate(command.body);
+  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  const std::uint32_t slot = command.body.slot;
+  wake_touching(slot);
+  thaw_body(slot);
+  BodyProperties<S>& body = mutable_properties(slot);
+  body.filter = command.filter;
+  proxies_.place(state_at(locations_[slot]), body, locations_[slot].set == Location::kAwake);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
+  if (!is_finite(command.gravity_scale) || !is_finite(command.linear_damping) || !is_finite(command.angular_damping)) {
+    return refuse(Fault::not_finite);
+  }
+  if (command.linear_damping < S(0) || command.angular_damping < S(0) || (command.locks & ~body_flag::kAllLocks) != 0) {
+    return refuse(Fault::bad_argument);
+  }
+  if (wake_for_change(command.body) == nullptr) return false;
+  BodyProperties<S>& body = mutable_properties(command.body.slot);
+  body.gravity_scale = command.gravity_scale;
+  body.linear_damping = command.linear_damping;
+  body.angular_damping = command.angular_damping;
+  body.flags = (body.flags & ~body_flag::kAllLocks) | command.locks;
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetUserData& command) {
+  const Location at = locate(command.body);
+  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  thaw_body(command.body.slot);
+  mutable_properties(command.body.slot).user_data = command.user_data;
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetGravity<S>& command) {
+  if (!is_finite(command.gravity)) return refuse(Fault::not_finite);
+  if (!detail::within(command.gravity, Limits<S>::speed())) return refuse(Fault::out_of_range);
+  state_.settings.gravity = command.gravity;
+  while (!state_.frozen.empty()) thaw(static_cast<std::uint32_t>(state_.frozen.size() - 1));
+  return true;
+}
+
+/// Everything about a joint but that its bodies live.
+template <class S> bool WorldEngine<S>::check(const JointProperties<S>& j) {
+  const S numbers[] = {j.lower,        j.upper,         j.cone,             j.motor_speed,
+                       j.motor_torque, j.spring_target, j.spring_frequency, j.spring_damping};
+  for (const S number : numbers) {
+    if (!is_finite(number)) return refuse(Fault::not_finite);
+  }
+  if (!is_finite(j.frame_a.position) || !is_finite(j.frame_b.position)) return refuse(Fault::not_finite);
+  if (!detail::within(j.frame_a.position, Limits<S>::position()) || !detail::within(j.frame_b.position, Limits<S>::position())) {
+    return refuse(Fault::out_of_range);
+  }
+  const S nyquist = S(state_.settings.hz) * S(state_.settings.substeps) * S(0.5);
+  const bool spring = (j.flags & joint_flag::kSpring) != 0;
+  if (j.type > JointType::distance || !detail::is_unit<S>(j.frame_a.orientation) || !detail::is_unit<S>(j.frame_b.orientation) ||
+      j.lower > j.upper || j.motor_torque < S(0) || (j.flags & ~0x1fu) != 0 ||
+      (spring && (!(j.spring_frequency > S(0)) || j.spring_frequency > nyquist || j.spring_damping < S(0))) ||
+      (j.type == JointType::distance && j.lower < S(0))) {
+    return refuse(Fault::bad_argument);
+  }
+  return true;
+}
+
+template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command) {
+  JointProperties<S> joint = command.joint;
+  if (!check(joint)) return {};
+  bool moves = false;
+  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
+    if (slot == kNoBody) continue;
+    if (slot >= locations_.size() || locations_[slot].set == Location::kNone) {
+      refuse(Fault::stale_id);
+      return {};
+    }
+    moves = moves || properties_at(locations_[slot]).type == BodyType::dynamic;
+  }
+  if (!moves || joint.body_a == joint.body_b) {
+    refuse(moves ? Fault::bad_argument : Fault::not_dynamic);
+    return {};
+  }
+  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
+    if (slot != kNoBody) thaw_body(slot);
+  }
+  joint.frame_a.orientation = normalise(joint.frame_a.orientation);
+  joint.frame_b.orientation = normalise(joint.frame_b.orientation);
+  const JointId id = state_.joint_slots.template take<JointId>();
+  JointState<S> state = {};
+  state.slot = id.slot;
+  insert_joint(state, joint);
+  return id;
+}
+
+template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
+  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  const std::uint32_t slot = command.joint.slot;
+  const JointProperties<S> gone = *properties_of(command.joint);
+  for (const std::uint32_t body : {gone.body_a, gone.body_b}) {
+    if (body != kNoBody) thaw_body(body);
+  }
+  const std::uint32_t index = joint_locations_[slot].index;
+  state_.joints.states.erase(state_.joints.states.begin() + index);
+  state_.joints.properties.erase(state_.joints.properties.begin() + index);
+  joint_locations_[slot] = Location{};
+  relabel_joints(state_.joints, Location::kAwake, index);
+  state_.joint_slots.give_back(slot);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
+  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  if (!check(command.properties)) return false;
+  const JointProperties<S> old = *properties_of(command.joint);
+  if (command.properties.type != old.type) return refuse(Fault::bad_argument);
+  for (const std::uint32_t body : {old.body_a, old.body_b}) {
+    if (body != kNoBody) thaw_body(body);
+  }
+  JointProperties<S>& joint = state_.joints.properties[joint_locations_[command.joint.slot].index];
+  const JointProperties<S>& next = command.properties;
+  joint.flags = next.flags;
+  joint.lower = next.lower;
+  joint.upper = next.upper;
+  joint.cone = next.cone;
+  joint.motor_speed = next.motor_speed;
+  joint.motor_torque = next.motor_torque;
+  joint.spring_target = next.spring_target;
+  joint.spring_frequency = next.spring_frequency;
+  joint.spring_damping = next.spring_damping;
+  joint.user_data = next.user_data;
+  return true;
+}
+
+}  // namespace isostep

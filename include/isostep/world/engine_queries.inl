@@ -1,0 +1,123 @@
+// WorldEngine: questions about space, and poses for drawing.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/collide.hpp"
+#include "isostep/collision/query/closest_point.hpp"
+#include "isostep/collision/query/ray_cast.hpp"
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> bool sees(const QueryFilter& filter, const BodyProperties<S>& body) {
+  return (body.filter.category & filter.mask) != 0 && (filter.sensors || (body.flags & body_flag::kSensor) == 0);
+}
+}  // namespace detail
+
+template <class S>
+std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
+  const S edge = Limits<S>::position();
+  if (!is_finite(origin) || !is_finite(translation) || edge < max_abs(origin) || edge < max_abs(translation)) return {};
+  std::optional<RayCastHit<S>> best;
+  const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
+  proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
+    const BodyProperties<S>& body = properties_at(locations_[slot]);
+    if (!detail::sees(filter, body)) return max_fraction;
+    const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
+    for (const Child<S>& child : children_of(body.shape)) {
+      RayHit<S> hit;
+      const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
+      if (!ray_cast(child.primitive, at, origin, translation, best ? best->fraction : S(1), hit)) continue;
+      const bool nearer = !best || hit.fraction < best->fraction || (hit.fraction == best->fraction && slot < best->body.slot);
+      if (!nearer) continue;
+      best = RayCastHit<S>{state_.body_slots.template id_of<BodyId>(slot), origin + translation * hit.fraction, hit.normal,
+                           hit.fraction};
+    }
+    return best ? min(max_fraction, convert<Unit<S>>(best->fraction)) : max_fraction;
+  });
+  return best;
+}
+
+template <class S>
+std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
+  const S edge = Limits<S>::position();
+  if (!is_finite(point) || !is_finite(max_distance) || edge < max_abs(point) || max_distance < S(0)) return {};
+  std::optional<ClosestBody<S>> best;
+  const S reach = min(max_distance, edge);
+  proxies_.tree().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
+    const BodyProperties<S>& body = properties_at(locations_[slot]);
+    if (!detail::sees(filter, body)) return true;
+    const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
+    for (const Child<S>& child : children_of(body.shape)) {
+      const ClosestPoint<S> found = closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
+      if (max_distance < found.distance) continue;
+      const bool nearer = !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
+      if (nearer) best = ClosestBody<S>{state_.body_slots.template id_of<BodyId>(slot), found.point, found.normal, found.distance};
+    }
+    return true;
+  });
+  return best;
+}
+
+template <class S>
+void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const {
+  if (validate(shape) != ShapeFault::none || validate(pose) != ShapeFault::none) return;
+  std::vector<std::uint64_t> found;
+  proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
+    const BodyProperties<S>& body = properties_at(locations_[slot]);
+    if (!detail::sees(filter, body)) return true;
+    Pose<S> placed = origin_pose(state_at(locations_[slot]), body);
+    placed.position -= pose.position;  // relative, as the narrow phase wants it
+    const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation}), there = Transform<S>::of(placed);
+    for (const Child<S>& child : children_of(body.shape)) {
+      Manifold<S> manifold;
+      collide(shape, here, child.primitive, compose(there, Transform<S>::of(child.pose)), S(0), manifold);
+      if (manifold.count == 0) continue;
+      found.push_back(slot);
+      break;
+    }
+    return true;
+  });
+  std::vector<std::uint64_t> scratch(found.size());
+  stable_sort(found.data(), scratch.data(), static_cast<std::uint32_t>(found.size()), OwnKey{});
+  for (const std::uint64_t slot : found) out.push_back(state_.body_slots.template id_of<BodyId>(static_cast<std::uint32_t>(slot)));
+}
+
+/// Positions by straight line, orientations by normalised straight line between the start and the end of the last step.
+template <class S> void WorldEngine<S>::fill_render_poses(float alpha) {
+  render_poses_.clear();
+  const auto number = [](auto x) { return static_cast<float>(to_double(x)); };
+  const auto add = [&](const BodyState<S>& state, const BodyProperties<S>& body, const Pose<S>* start) {
+    const Pose<S> now = origin_pose(state, body);
+    BodyState<S> then_state = state;
+    if (start != nullptr) {
+      then_state.centre = start->position;
+      then_state.orientation = start->orientation;
+    }
+    const Pose<S> then = origin_pose(then_state, body);
+    const auto blend = [&](auto from, auto to) { return number(from) + alpha * (number(to) - number(from)); };
+    const Quat<Unit<S>> p = then.orientation, q = now.orientation;
+    const float sign = number(p.x) * number(q.x) + number(p.y) * number(q.y) + number(p.z) * number(q.z) + number(p.w) * number(q.w) < 0 ? -1.0f : 1.0f;
+    const auto turn = [&](auto from, auto to) { return sign * number(from) + alpha * (number(to) - sign * number(from)); };
+    RenderPose pose = {state_.body_slots.template id_of<BodyId>(state.slot),
+                       {blend(then.position.x, now.position.x), blend(then.position.y, now.position.y), blend(then.position.z, now.position.z)},
+                       {turn(p.x, q.x), turn(p.y, q.y), turn(p.z, q.z), turn(p.w, q.w)}};
+    float* o = pose.orientation;
+    const float size = sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2] + o[3] * o[3]);
+    for (int i = 0; i < 4; ++i) o[i] /= size;
+    render_poses_.push_back(pose);
+  };
+  // A body created since the last step, or woken by it, has no earlier pose and is drawn where it is.
+  const bool known = start_poses_.size() == state_.awake.states.size() && poses_current_;
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    add(state_.awake.states[i], state_.awake.properties[i], known ? &start_poses_[i] : nullptr);
+  }
+  for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) {
+    for (std::size_t i = 0; i < island->bodies.states.size(); ++i) add(island->bodies.states[i], island->bodies.properties[i], nullptr);
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,224 @@
+// WorldEngine: falling asleep and waking, whole islands at a time.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/state/hash.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s], and [rad/s] times the body's size
+inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
+
+template <class S> std::uint64_t hash_island(const FrozenIsland<S>& island) {
+  HashCombiner root;
+  FrozenIsland<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, island);
+  return root.value();
+}
+
+/// Merges `more` into `into`, both ascending; from the back, in place.
+template <class T, class Before> void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
+  std::size_t a = into.size(), b = more.size();
+  into.resize(a + b);
+  for (std::size_t at = a + b; b > 0; --at) {
+    const bool take_old = a > 0 && before(more[b - 1], into[a - 1]);
+    into[at - 1] = take_old ? into[--a] : more[--b];
+  }
+}
+/// The same for two parallel arrays, ordered by the first.
+template <class T, class U, class Before>
+void merge_pairs(std::vector<T>& into, std::vector<U>& into2, const std::vector<T>& more, const std::vector<U>& more2,
+                 const Before& before) {
+  std::size_t a = into.size(), b = more.size();
+  into.resize(a + b);
+  into2.resize(a + b);
+  for (std::size_t at = a + b; b > 0; --at) {
+    const bool take_old = a > 0 && before(more[b - 1], into[a - 1]);
+    if (take_old) --a;
+    else --b;
+    into[at - 1] = take_old ? into[a] : more[b];
+    into2[at - 1] = take_old ? into2[a] : more2[b];
+  }
+}
+}  // namespace detail
+
+template <class S> void WorldEngine<S>::update_sleep() {
+  if (!state_.settings.allow_sleep) return;
+  update_sleep_clocks();
+  const auto delay = static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
+  for (const BodyState<S>& state : state_.awake.states) {
+    if (state.sleep_clock >= delay) {
+      freeze_ready_islands();
+      return;
+    }
+  }
+}
+
+template <class S> void WorldEngine<S>::update_sleep_clocks() {
+  const Velocity<S> limit = convert<Velocity<S>>(detail::kSleepSpeed<S>);
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    const bool may = (body.flags & body_flag::kAllowSleep) != 0;
+    const bool rests = max_abs(state.velocity) < limit && max_abs(state.spin) < limit;
+    state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
+  }
+  // What rests on something that moves is not at rest: a drum or a conveyor carries it.
+  for (const Contact<S>& contact : state_.contacts) {
+    const std::uint32_t slots[2] = {contact.key.body_a, contact.key.body_b};
+    for (int side = 0; side < 2; ++side) {
+      const Location at = locations_[slots[side]];
+      const Location other = locations_[slots[1 - side]];
+      if (other.set != Location::kAwake) continue;
+      const BodyProperties<S>& body = properties_at(at);
+      const bool driven = body.type == BodyType::kinematic && state_at(at).sleep_clock == 0;
+      if (driven || !(body.material.surface_velocity == Vec3<S>::zero())) state_.awake.states[other.index].sleep_clock = 0;
+    }
+  }
+}
+
+/// Islands all of whose bodies have rested long enough, in order of their first body.
+template <class S> void WorldEngine<S>::freeze_ready_islands() {
+  const auto delay = static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
+  const std::size_t count = state_.awake.states.size();
+  const auto is_dynamic = [&](std::uint32_t slot) {
+    const Location at = locations_[slot];
+    return at.set == Location::kAwake && state_.awake.properties[at.index].type == BodyType::dynamic;
+  };
+  islands_.begin(count);
+  const auto tie = [&](std::uint32_t a, std::uint32_t b) {
+    if (is_dynamic(a) && is_dynamic(b)) islands_.join(locations_[a].index, locations_[b].index);
+  };
+  for (const Contact<S>& contact : state_.contacts) {
+    const bool sensor = ((properties_at(locations_[contact.key.body_a]).flags |
+                          properties_at(locations_[contact.key.body_b]).flags) & body_flag::kSensor) != 0;
+    if (!sensor) tie(contact.key.body_a, contact.key.body_b);
+  }
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    if (joint.body_a != kNoBody && joint.body_b != kNoBody) tie(joint.body_a, joint.body_b);
+  }
+  island_clock_.assign(count, 0xffffffffu);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t& clock = island_clock_[islands_.find(static_cast<std::uint32_t>(i))];
+    clock = min(clock, state_.awake.states[i].sleep_clock);
+  }
+  // A joint to something driven keeps an island awake as a contact does.
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    for (const auto& [here, there] : {std::pair{joint.body_a, joint.body_b}, std::pair{joint.body_b, joint.body_a}}) {
+      if (here == kNoBody || there == kNoBody || is_dynamic(here) || !is_dynamic(there)) continue;
+      if (locations_[here].set == Location::kAwake && state_at(locations_[here]).sleep_clock == 0) {
+        island_clock_[islands_.find(locations_[there].index)] = 0;
+      }
+    }
+  }
+  std::vector<std::uint32_t>& ready = island_clock_;  // from here on: 1 for the roots that go
+  bool any = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool root = islands_.find(static_cast<std::uint32_t>(i)) == i;
+    const bool dynamic_body = state_.awake.properties[i].type == BodyType::dynamic;
+    ready[i] = root && dynamic_body && ready[i] >= delay ? 1u : 0u;
+    any = any || ready[i] != 0;
+  }
+  if (!any) return;
+  freeze_marked();
+}
+
+/// Moves every marked island out of the awake image in one pass over each array.
+template <class S> void WorldEngine<S>::freeze_marked() {
+  const std::size_t count = state_.awake.states.size();
+  std::vector<std::shared_ptr<FrozenIsland<S>>> islands(count);
+  const auto island_of = [&](std::size_t index) -> FrozenIsland<S>* {
+    const std::uint32_t root = islands_.find(static_cast<std::uint32_t>(index));
+    if (island_clock_[root] == 0) return nullptr;
+    if (islands[root] == nullptr) islands[root] = std::make_shared<FrozenIsland<S>>();
+    return islands[root].get();
+  };
+  const auto island_of_slot = [&](std::uint32_t slot) -> FrozenIsland<S>* {
+    if (slot == kNoBody || locations_[slot].set != Location::kAwake) return nullptr;
+    return island_of(locations_[slot].index);
+  };
+  std::size_t kept = 0;
+  for (const Contact<S>& contact : state_.contacts) {
+    FrozenIsland<S>* island = island_of_slot(contact.key.body_a);
+    if (island == nullptr) island = island_of_slot(contact.key.body_b);
+    if (island != nullptr) island->contacts.push_back(contact);
+    else state_.contacts[kept++] = contact;
+  }
+  state_.contacts.resize(kept);
+  kept = 0;
+  JointSet<S>& joints = state_.joints;
+  for (std::size_t i = 0; i < joints.states.size(); ++i) {
+    FrozenIsland<S>* island = island_of_slot(joints.properties[i].body_a);
+    if (island == nullptr) island = island_of_slot(joints.properties[i].body_b);
+    if (island != nullptr) {
+      island->joints.states.push_back(joints.states[i]);
+      island->joints.properties.push_back(joints.properties[i]);
+    } else {
+      joints.states[kept] = joints.states[i];
+      joints.properties[kept++] = joints.properties[i];
+    }
+  }
+  joints.states.resize(kept);
+  joints.properties.resize(kept);
+  kept = 0;
+  BodySet<S>& awake = state_.awake;
+  for (std::size_t i = 0; i < count; ++i) {
+    FrozenIsland<S>* island = island_of(i);
+    if (island != nullptr) {
+      BodyState<S> still = awake.states[i];
+      still.velocity = Vec3<Velocity<S>>::zero();
+      still.spin = Vec3<Velocity<S>>::zero();
+      island->bodies.states.push_back(still);
+      island->bodies.properties.push_back(awake.properties[i]);
+      events_.fell_asleep.push_back(state_.body_slots.template id_of<BodyId>(still.slot));
+    } else {
+      awake.states[kept] = awake.states[i];
+      awake.properties[kept++] = awake.properties[i];
+    }
+  }
+  awake.states.resize(kept);
+  awake.properties.resize(kept);
+  relabel(awake, Location::kAwake, 0);
+  relabel_joints(joints, Location::kAwake, 0);
+  for (const std::shared_ptr<FrozenIsland<S>>& island : islands) {
+    if (island == nullptr) continue;
+    island->hash = detail::hash_island(*island);
+    const auto name = static_cast<std::uint32_t>(state_.frozen.size());
+    relabel(island->bodies, name, 0);
+    relabel_joints(island->joints, name, 0);
+    for (std::size_t i = 0; i < island->bodies.states.size(); ++i) {
+      proxies_.place(island->bodies.states[i], island->bodies.properties[i], false);
+    }
+    state_.frozen.push_back(island);
+  }
+}
+
+template <class S> void WorldEngine<S>::thaw_body(std::uint32_t slot) {
+  if (locations_[slot].is_frozen()) thaw(locations_[slot].set);
+}
+
+/// Moves an island back into the awake image, in canonical order; the last island takes its place in the list.
+template <class S> void WorldEngine<S>::thaw(std::uint32_t frozen_index) {
+  const std::shared_ptr<const FrozenIsland<S>> island = state_.frozen[frozen_index];
+  state_.frozen[frozen_index] = state_.frozen.back();
+  state_.frozen.pop_back();
+  if (frozen_index < state_.frozen.size()) {
+    relabel(state_.frozen[frozen_index]->bodies, frozen_index, 0);
+    relabel_joints(state_.frozen[frozen_index]->joints, frozen_index, 0);
+  }
+  const auto before = [](const auto& a, const auto& b) { return a.slot < b.slot; };
+  detail::merge_pairs(state_.awake.states, state_.awake.properties, island->bodies.states, island->bodies.properties, before);
+  detail::merge_pairs(state_.joints.states, state_.joints.properties, island->joints.states, island->joints.properties, before);
+  detail::merge_into(state_.contacts, island->contacts, [](const auto& a, const auto& b) { return a.key < b.key; });
+  relabel(state_.awake, Location::kAwake, 0);
+  relabel_joints(state_.joints, Location::kAwake, 0);
+  for (const BodyState<S>& frozen : island->bodies.states) {
+    const std::uint32_t index = locations_[frozen.slot].index;
+    state_.awake.states[index].sleep_clock = 0;
+    proxies_.place(state_.awake.states[index], state_.awake.properties[index], true);
+    events_.woke.push_back(state_.body_slots.template id_of<BodyId>(frozen.slot));
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,134 @@
+// WorldEngine: one step, stage by stage.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/soft_step.inl"
+#include "isostep/geometry/limits.hpp"
+#include "isostep/scalar/environment.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
+  const FloatEnvironment environment;
+  const auto after = [&](Stage stage) {
+    if (observer.after != nullptr) observer.after(observer.user, stage);
+  };
+  begin_events();
+  report_ = {};
+  find_pairs();
+  after(Stage::find_pairs);
+  apply_forces();
+  after(Stage::apply_forces);
+  update_manifolds();
+  after(Stage::update_manifolds);
+  const SolverInput<S> input = solver_input();
+  solver_.gather_bodies(input);
+  prepare_joints();
+  solver_.colour_constraints(input, *kernels_);
+  after(Stage::colour_constraints);
+  solver_.prepare(input);
+  after(Stage::prepare);
+  solver_.solve_substeps(input);
+  after(Stage::solve_substeps);
+  solver_.restitute(input);
+  after(Stage::restitution);
+  solver_.store_impulses(input);
+  for (std::size_t i = 0; i < joint_constraints_.size(); ++i) store_joint(joint_constraints_[i], state_.joints.states[i]);
+  after(Stage::store_impulses);
+  finalise_bodies();
+  after(Stage::finalise_bodies);
+  update_sensors();
+  after(Stage::update_sensors);
+  emit_contact_events();
+  after(Stage::emit_events);
+  update_sleep();
+  after(Stage::update_sleep);
+  ++state_.tick;
+  woke_reported_ = events_.woke.size();
+  poses_current_ = true;
+  return report_;
+}
+
+/// What commands woke since the last step belongs to this one.
+template <class S> void WorldEngine<S>::begin_events() {
+  events_.woke.erase(events_.woke.begin(), events_.woke.begin() + static_cast<std::ptrdiff_t>(woke_reported_));
+  std::swap(events_.woke, woke_scratch_);
+  events_.clear();
+  std::swap(events_.woke, woke_scratch_);
+  woke_scratch_.clear();
+}
+
+template <class S> void WorldEngine<S>::apply_forces() {
+  start_poses_.resize(state_.awake.states.size());
+  for (std::size_t i = 0; i < start_poses_.size(); ++i) {
+    start_poses_[i] = {state_.awake.states[i].centre, state_.awake.states[i].orientation};
+  }
+  accelerations_.clear();
+  if (state_.forces.empty()) return;
+  accelerations_.resize(state_.awake.states.size(), Acceleration<S>{Vec3<S>::zero(), Vec3<S>::zero()});
+  for (const PendingForce<S>& force : state_.forces) {
+    accelerations_[locations_[force.slot].index] = {force.linear, force.angular};
+  }
+  state_.forces.clear();
+}
+
+template <class S> void WorldEngine<S>::prepare_joints() {
+  joint_constraints_.resize(state_.joints.states.size());
+  for (std::size_t i = 0; i < joint_constraints_.size(); ++i) {
+    const JointProperties<S>& joint = state_.joints.properties[i];
+    const JointEnd<S> a = {row_of(joint.body_a), centre_pose_at(joint.body_a)};
+    const JointEnd<S> b = {row_of(joint.body_b), centre_pose_at(joint.body_b)};
+    prepare_joint(joint, state_.joints.states[i], a, b, solver_.bodies(), joint_constraints_[i]);
+  }
+}
+
+template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
+  joint_constraints_.resize(state_.joints.states.size());
+  peak_impulses_.resize(state_.contacts.size());
+  return {state_.awake.states, state_.awake.properties, accelerations_,          state_.contacts,    geometry_,
+          peak_impulses_,      joint_constraints_,      state_.settings.gravity, state_.settings.hz, state_.settings.substeps};
+}
+
+template <class S> void WorldEngine<S>::finalise_bodies() {
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) finish_body(i);
+}
+
+/// Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or stopped, and reported.
+template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
+  using V = Velocity<S>;
+  BodyState<S>& state = state_.awake.states[index];
+  const auto& q = state.orientation;
+  const bool finite = is_finite(state.centre) && is_finite(state.velocity) && is_finite(state.spin) && is_finite(q.x) &&
+                      is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
+  if (!finite) {
+    state.centre = start_poses_[index].position;
+    state.orientation = start_poses_[index].orientation;
+    state.velocity = Vec3<V>::zero();
+    state.spin = Vec3<V>::zero();
+    ++report_.stopped;
+  }
+  const V speed = convert<V>(Limits<S>::speed()), spin = convert<V>(Limits<S>::spin());
+  const auto bounded = [](Vec3<V> v, V limit) {
+    return Vec3<V>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
+  };
+  if (speed < max_abs(state.velocity) || spin < max_abs(state.spin)) {
+    state.velocity = bounded(state.velocity, speed);
+    state.spin = bounded(state.spin, spin);
+    ++report_.clamped_speed;
+  }
+  const S edge = Limits<S>::position();
+  if (edge < max_abs(state.centre)) {
+    const Vec3<S> c = state.centre;
+    state.centre = {clamp(c.x, -edge, edge), clamp(c.y, -edge, edge), clamp(c.z, -edge, edge)};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(state.centre[axis] == c[axis])) state.velocity.set(axis, V(0));
+    }
+    ++report_.clamped_position;
+  }
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  renew_fat_box(state, body, false);
+  proxies_.place(state, body, true);
+}
+
+}  // namespace isostep

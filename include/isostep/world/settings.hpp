@@ -1,0 +1,31 @@
+// What a world is told at birth.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/fields.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+enum class SolverName : std::uint32_t { soft_step };
+
+/// Rates are whole numbers, so that the time step is exact and the same everywhere.
+template <class S> struct Settings {
+  std::int32_t hz = 60;            // [1/s] steps, 10..1000
+  std::int32_t substeps = 4;       // per step, 1..64
+  Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
+  bool allow_sleep = true;
+  SolverName solver = SolverName::soft_step;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("hz", self.hz);
+    visit("substeps", self.substeps);
+    visit("gravity", self.gravity);
+    visit("allow_sleep", self.allow_sleep);
+    visit("solver", self.solver);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,34 @@
+// The step as a list of named stages: the profiler, the divergence finder and the README speak of these.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace isostep {
+
+enum class Stage : std::uint32_t {
+  find_pairs,
+  apply_forces,
+  update_manifolds,
+  colour_constraints,
+  prepare,
+  solve_substeps,
+  restitution,
+  store_impulses,
+  finalise_bodies,
+  update_sensors,
+  emit_events,
+  update_sleep,
+};
+inline constexpr std::uint32_t kStages = 12;
+inline constexpr const char* kStageNames[kStages] = {
+    "find_pairs",   "apply_forces",   "update_manifolds", "colour_constraints", "prepare",      "solve_substeps",
+    "restitution",  "store_impulses", "finalise_bodies",  "update_sensors",     "emit_events",  "update_sleep"};
+
+/// Called after each stage of a step; sees the world, changes nothing.
+struct StageObserver {
+  void (*after)(void* user, Stage stage) = nullptr;
+  void* user = nullptr;
+};
+
+}  // namespace isostep

@@ -1,0 +1,118 @@
+// Everything that shapes a world's future, in flat arrays: what is saved, hashed, written and compared.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/core/slot_map.hpp"
+#include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/geometry/shape.hpp"
+#include "isostep/world/settings.hpp"
+
+namespace isostep {
+
+/// A shape's parts: a run of the children's pool. A free slot has none.
+struct ShapeRecord {
+  std::uint32_t first_child;
+  std::uint32_t child_count;
+
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("first_child", self.first_child);
+    visit("child_count", self.child_count);
+  }
+};
+
+/// Bodies side by side, ascending by slot.
+template <class S> struct BodySet {
+  std::vector<BodyState<S>> states;
+  std::vector<BodyProperties<S>> properties;
+};
+/// Joints side by side, ascending by slot.
+template <class S> struct JointSet {
+  std::vector<JointState<S>> states;
+  std::vector<JointProperties<S>> properties;
+};
+
+/// A force or torque asked for since the last step, as acceleration. Ascending by slot, one a body.
+template <class S> struct PendingForce {
+  std::uint32_t slot;
+  std::uint32_t reserved;  // 0
+  Vec3<S> linear;          // [m/s^2]
+  Vec3<S> angular;         // [rad/s^2]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("reserved", self.reserved);
+    visit("linear", self.linear);
+    visit("angular", self.angular);
+  }
+};
+static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<double>>);
+
+/// A body inside a sensor. Ascending by (sensor, other).
+struct SensorOverlap {
+  std::uint32_t sensor, other;  // slots
+
+  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) { return a.sensor == b.sensor && a.other == b.other; }
+  friend constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
+    return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
+  }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("sensor", self.sensor);
+    visit("other", self.other);
+  }
+};
+
+/// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and
+/// it costs a step, a save and a hash the same whatever its size.
+template <class S> struct FrozenIsland {
+  BodySet<S> bodies;
+  std::vector<Contact<S>> contacts;
+  JointSet<S> joints;
+  std::uint64_t hash = 0;  // of all the above
+
+  /// visit("name", array) in a fixed order.
+  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
+    visit("bodies", self.bodies.states);
+    visit("properties", self.bodies.properties);
+    visit("contacts", self.contacts);
+    visit("joints", self.joints.states);
+    visit("joint_properties", self.joints.properties);
+  }
+};
+
+template <class S> struct WorldState {
+  Settings<S> settings;
+  std::uint64_t tick = 0;  // steps taken
+  SlotMap body_slots, shape_slots, joint_slots;
+  std::vector<ShapeRecord> shapes;      // by slot
+  std::vector<Child<S>> children;       // the shapes' pool
+  BodySet<S> fixed;
+  BodySet<S> awake;
+  std::vector<Contact<S>> contacts;     // ascending by key
+  JointSet<S> joints;
+  std::vector<PendingForce<S>> forces;
+  std::vector<SensorOverlap> overlaps;
+  std::vector<std::shared_ptr<const FrozenIsland<S>>> frozen;
+
+  /// The arrays that are hashed and written whole: visit("name", array) in a fixed order.
+  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
+    visit("shapes", self.shapes);
+    visit("children", self.children);
+    visit("fixed", self.fixed.states);
+    visit("fixed_properties", self.fixed.properties);
+    visit("bodies", self.awake.states);
+    visit("properties", self.awake.properties);
+    visit("contacts", self.contacts);
+    visit("joints", self.joints.states);
+    visit("joint_properties", self.joints.properties);
+    visit("forces", self.forces);
+    visit("overlaps", self.overlaps);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,193 @@
+// World<S>: rigid bodies, their contacts and joints, stepped at a fixed rate; saved, loaded and hashed exactly.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "isostep/core/id.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/solvers/simd.hpp"
+#include "isostep/geometry/shape.hpp"
+#include "isostep/state/archive.hpp"
+#include "isostep/world/command.hpp"
+#include "isostep/world/definitions.hpp"
+#include "isostep/world/events.hpp"
+#include "isostep/world/settings.hpp"
+#include "isostep/world/stages.hpp"
+
+namespace isostep {
+
+template <class S> struct WorldState;
+template <class S> class WorldEngine;
+
+/// What a ray met first.
+template <class S> struct RayCastHit {
+  BodyId body;
+  Vec3<S> point;          // [m] world
+  Vec3<Unit<S>> normal;   // [1] of the surface, against the ray
+  S fraction;             // [1] of the translation
+};
+/// What is nearest to a point.
+template <class S> struct ClosestBody {
+  BodyId body;
+  Vec3<S> point;          // [m] on its surface
+  Vec3<Unit<S>> normal;   // [1] outward
+  S distance;             // [m] negative: inside
+};
+/// A query sees bodies whose category meets the mask, sensors only when asked.
+struct QueryFilter {
+  std::uint32_t mask = 0xffffffffu;
+  bool sensors = false;
+};
+
+/// A pose for drawing, in float whatever the scalar: interpolated, never state.
+struct RenderPose {
+  BodyId body;
+  float position[3];     // [m] of the body's origin
+  float orientation[4];  // x y z w
+};
+
+/// Counts of the moment, for reports.
+struct WorldCounts {
+  std::uint32_t bodies, fixed, awake, asleep, contacts, points, joints, shapes;
+};
+
+/// A rigid-body world over any scalar.
+///
+/// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
+/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every tick,
+/// on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
+///
+/// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
+template <class S> class World {
+ public:
+  using Scalar = S;
+
+  explicit World(const Settings<S>& settings = {});
+  ~World();
+  World(World&& other) noexcept;
+  World& operator=(World&& other) noexcept;
+
+  const Settings<S>& settings() const;
+  std::uint64_t tick() const;
+  /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
+  bool use_simd(Simd simd);
+  const char* simd_name() const;
+
+  // Shapes: shared by the bodies that name them.
+  template <class T> ISO_INLINE ShapeId add_shape(const Sphere<T>& sphere) { return add(Sphere<S>{as_s(sphere.radius)}); }
+  template <class T> ISO_INLINE ShapeId add_shape(const Box<T>& box) {
+    return add(Box<S>{{as_s(box.half_extents.x), as_s(box.half_extents.y), as_s(box.half_extents.z)}});
+  }
+  template <class T> ISO_INLINE ShapeId add_shape(const Capsule<T>& capsule) {
+    return add(Capsule<S>{as_s(capsule.radius), as_s(capsule.half_height)});
+  }
+  ISO_INLINE ShapeId add_shape(const HalfSpace<S>& half_space) { return add(half_space); }
+  ShapeId add_shape(std::span<const Child<S>> children);
+  bool remove_shape(ShapeId shape);
+
+  // Bodies.
+  BodyId create(const BodyDefinition<S>& definition);
+  bool destroy(BodyId body);
+  bool wake(BodyId body);
+  bool set_pose(BodyId body, const Pose<S>& pose);
+  bool set_velocity(BodyId body, Vec3<S> linear, Vec3<S> angular);
+  bool set_material(BodyId body, const Material<S>& material);
+  bool set_filter(BodyId body, const Filter& filter);
+  bool set_motion(BodyId body, S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks);
+  bool set_user_data(BodyId body, std::uint64_t user_data);
+  bool set_gravity(Vec3<S> gravity);
+  bool apply_force(BodyId body, Vec3<S> force, Vec3<S> torque = {S(0), S(0), S(0)});
+  bool apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point);
+  bool apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse = {S(0), S(0), S(0)});
+  bool apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point);
+
+  // Joints.
+  /// A joint whose frames lie where `frame` (world) is now; a null id is the world. Add limits, motor, spring; then create.
+  JointProperties<S> joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const;
+  JointId create(const JointProperties<S>& joint);
+  bool destroy(JointId joint);
+  bool set_joint(JointId joint, const JointProperties<S>& properties);
+  const JointProperties<S>* joint(JointId joint) const;
+  /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
+  S joint_error(JointId joint) const;
+
+  /// Any command, as recorded ones are.
+  bool apply(const Command<S>& command);
+  Fault fault() const;
+  /// From now on every accepted command is appended to `tape` (null: to nothing). The caller clears it every frame.
+  void record_to(std::vector<std::uint8_t>* tape);
+
+  // What bodies are like. A stale id gives the zero of the answer's type.
+  bool contains(BodyId body) const;
+  bool contains(ShapeId shape) const;
+  bool contains(JointId joint) const;
+  bool is_awake(BodyId body) const;
+  BodyType type(BodyId body) const;
+  Pose<S> pose(BodyId body) const;
+  Vec3<S> centre(BodyId body) const;
+  Vec3<S> velocity(BodyId body) const;
+  Vec3<S> angular_velocity(BodyId body) const;
+  S mass(BodyId body) const;
+  std::uint64_t user_data(BodyId body) const;
+  std::vector<BodyId> bodies() const;
+  std::vector<JointId> joints() const;
+  WorldCounts counts() const;
+
+  // Queries, as of the last step or command.
+  std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter = {}) const;
+  std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
+  /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
+  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter = {}) const;
+
+  // Time.
+  StepReport step(const StageObserver& observer = {});
+  const Events<S>& events() const;
+  /// Poses of all moving bodies between the last step and the one before it, alpha in 0..1.
+  const std::vector<RenderPose>& poses_float(float alpha);
+
+  // State.
+  class Snapshot {
+   public:
+    Snapshot();
+    ~Snapshot();
+    Snapshot(Snapshot&& other) noexcept;
+    Snapshot& operator=(Snapshot&& other) noexcept;
+    /// Size of what it holds [bytes]; frozen islands, which are shared, not counted.
+    std::size_t bytes() const;
+
+   private:
+    friend class World;
+    std::unique_ptr<WorldState<S>> state_;
+  };
+  void save(Snapshot& to) const;
+  void load(const Snapshot& from);
+  std::uint64_t hash() const;
+  void write_portable(Writer& writer) const;
+  Result<void> read_portable(Reader& reader);
+  /// Commands as `record_to` wrote them, then a step.
+  Result<void> step_recorded(Bytes input);
+
+  /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.
+  const WorldState<S>& state() const;
+
+ private:
+  template <class Shape> ISO_INLINE ShapeId add(const Shape& shape) {
+    const Child<S> child = {primitive_of(shape), Pose<S>::identity()};
+    return add_shape(std::span<const Child<S>>(&child, 1));
+  }
+  static ISO_INLINE S as_s(Literal value) { return from_literal<S>(value); }
+  static ISO_INLINE S as_s(S value) { return value; }
+
+  std::unique_ptr<WorldEngine<S>> engine_;
+};
+
+#define ISO_EXTERN(S) extern template class World<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

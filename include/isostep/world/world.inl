@@ -1,0 +1,262 @@
+// Bodies of world.hpp: the facade over WorldEngine, and the recording of commands.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "isostep/world/command_codec.hpp"
+#include "isostep/world/engine.hpp"
+#include "isostep/world/engine_bodies.inl"
+#include "isostep/world/engine_commands.inl"
+#include "isostep/world/engine_contacts.inl"
+#include "isostep/world/engine_queries.inl"
+#include "isostep/world/engine_sleep.inl"
+#include "isostep/world/engine_state.inl"
+#include "isostep/world/engine_step.inl"
+#include "isostep/world/proxies.inl"
+
+namespace isostep {
+
+/// Settings out of range are brought to the nearest that is in range, and that is a fault.
+template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) : kernels_(contact_kernels<S>(Simd::best)) {
+  state_.settings = settings;
+  Settings<S>& s = state_.settings;
+  s.hz = clamp(s.hz, 10, 1000);
+  s.substeps = clamp(s.substeps, 1, 64);
+  const S limit = Limits<S>::speed();
+  for (int axis = 0; axis < 3; ++axis) {
+    const S g = s.gravity[axis];
+    s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
+  }
+  if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity)) fault_ = Fault::out_of_range;
+}
+
+template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
+template <class S> World<S>::~World() = default;
+template <class S> World<S>::World(World&& other) noexcept = default;
+template <class S> World<S>& World<S>::operator=(World&& other) noexcept = default;
+
+template <class S> const Settings<S>& World<S>::settings() const { return engine_->state_.settings; }
+template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
+template <class S> bool World<S>::use_simd(Simd simd) {
+  const ContactKernels<S>* kernels = contact_kernels<S>(simd);
+  if (kernels != nullptr) engine_->kernels_ = kernels;
+  return kernels != nullptr;
+}
+template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
+
+namespace detail {
+/// Executes under a pinned float environment and, when accepted, records.
+template <class S, class C> auto run(WorldEngine<S>& engine, const C& command) {
+  const FloatEnvironment environment;
+  engine.fault_ = Fault::none;
+  const auto result = engine.execute(command);
+  if (static_cast<bool>(result) && engine.tape_ != nullptr) {
+    Writer writer(*engine.tape_);
+    write_command<S>(writer, command);
+  }
+  return result;
+}
+}  // namespace detail
+
+template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children) {
+  return detail::run(*engine_, AddShape<S>{{children.begin(), children.end()}});
+}
+template <class S> bool World<S>::remove_shape(ShapeId shape) { return detail::run(*engine_, RemoveShape{shape}); }
+template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {
+  return detail::run(*engine_, CreateBody<S>{definition});
+}
+template <class S> bool World<S>::destroy(BodyId body) { return detail::run(*engine_, DestroyBody{body}); }
+template <class S> bool World<S>::wake(BodyId body) { return detail::run(*engine_, WakeBody{body}); }
+template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) {
+  return detail::run(*engine_, SetPose<S>{body, pose});
+}
+template <class S> bool World<S>::set_velocity(BodyId body, Vec3<S> linear, Vec3<S> angular) {
+  return detail::run(*engine_, SetVelocity<S>{body, linear, angular});
+}
+template <class S> bool World<S>::set_material(BodyId body, const Material<S>& material) {
+  return detail::run(*engine_, SetMaterial<S>{body, material});
+}
+template <class S> bool World<S>::set_filter(BodyId body, const Filter& filter) {
+  return detail::run(*engine_, SetFilter{body, filter});
+}
+template <class S>
+bool World<S>::set_motion(BodyId body, S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
+  return detail::run(*engine_, SetMotion<S>{body, gravity_scale, linear_damping, angular_damping, locks});
+}
+template <class S> bool World<S>::set_user_data(BodyId body, std::uint64_t user_data) {
+  return detail::run(*engine_, SetUserData{body, user_data});
+}
+template <class S> bool World<S>::set_gravity(Vec3<S> gravity) { return detail::run(*engine_, SetGravity<S>{gravity}); }
+template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S> torque) {
+  return detail::run(*engine_, ApplyForce<S>{body, force, torque});
+}
+template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
+  return apply_force(body, force, cross(point - centre(body), force));
+}
+template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
+  return detail::run(*engine_, ApplyImpulse<S>{body, impulse, angular_impulse});
+}
+template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
+  return apply_impulse(body, impulse, cross(point - centre(body), impulse));
+}
+template <class S> JointId World<S>::create(const JointProperties<S>& joint) {
+  return detail::run(*engine_, CreateJoint<S>{joint});
+}
+template <class S> bool World<S>::destroy(JointId joint) { return detail::run(*engine_, DestroyJoint{joint}); }
+template <class S> bool World<S>::set_joint(JointId joint, const JointProperties<S>& properties) {
+  return detail::run(*engine_, SetJoint<S>{joint, properties});
+}
+template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const { return engine_->properties_of(joint); }
+template <class S> S World<S>::joint_error(JointId joint) const { return engine_->joint_error(joint); }
+
+/// Both frames from one frame in the world, as the bodies lie now.
+template <class S>
+JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
+  JointProperties<S> joint;
+  joint.type = type;
+  const auto local = [&](BodyId body, std::uint32_t& slot) {
+    if (!body) return frame;
+    slot = contains(body) ? body.slot : kNoBody - 1;  // a slot that no body has: refused as stale
+    if (!contains(body)) return frame;
+    const Pose<S> centre = engine_->centre_pose_at(body.slot);
+    const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
+    return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
+  };
+  joint.frame_a = local(a, joint.body_a);
+  joint.frame_b = local(b, joint.body_b);
+  return joint;
+}
+
+template <class S> bool World<S>::apply(const Command<S>& command) {
+  return std::visit([&](const auto& c) { return static_cast<bool>(detail::run(*engine_, c)); }, command);
+}
+template <class S> Fault World<S>::fault() const { return engine_->fault_; }
+template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
+
+template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
+template <class S> bool World<S>::contains(ShapeId shape) const { return engine_->state_.shape_slots.holds(shape); }
+template <class S> bool World<S>::contains(JointId joint) const { return engine_->state_.joint_slots.holds(joint); }
+template <class S> bool World<S>::is_awake(BodyId body) const {
+  return contains(body) && engine_->location(body.slot).set == Location::kAwake;
+}
+template <class S> BodyType World<S>::type(BodyId body) const {
+  const BodyProperties<S>* properties = engine_->properties_of(body);
+  return properties == nullptr ? BodyType::fixed : properties->type;
+}
+template <class S> Pose<S> World<S>::pose(BodyId body) const {
+  if (!contains(body)) return Pose<S>::identity();
+  return engine_->origin_pose(*engine_->state_of(body), *engine_->properties_of(body));
+}
+template <class S> Vec3<S> World<S>::centre(BodyId body) const {
+  const BodyState<S>* state = engine_->state_of(body);
+  return state == nullptr ? Vec3<S>::zero() : state->centre;
+}
+template <class S> Vec3<S> World<S>::velocity(BodyId body) const {
+  const BodyState<S>* state = engine_->state_of(body);
+  return state == nullptr ? Vec3<S>::zero() : convert<S>(state->velocity);
+}
+template <class S> Vec3<S> World<S>::angular_velocity(BodyId body) const {
+  const BodyState<S>* state = engine_->state_of(body);
+  return state == nullptr ? Vec3<S>::zero() : convert<S>(state->spin);
+}
+template <class S> S World<S>::mass(BodyId body) const {
+  const BodyProperties<S>* properties = engine_->properties_of(body);
+  return properties == nullptr ? S(0) : properties->mass;
+}
+template <class S> std::uint64_t World<S>::user_data(BodyId body) const {
+  const BodyProperties<S>* properties = engine_->properties_of(body);
+  return properties == nullptr ? 0 : properties->user_data;
+}
+template <class S> std::vector<BodyId> World<S>::bodies() const {
+  std::vector<BodyId> ids;
+  const SlotMap& slots = engine_->state_.body_slots;
+  for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
+    if (slots.is_taken(slot)) ids.push_back(slots.id_of<BodyId>(slot));
+  }
+  return ids;
+}
+template <class S> std::vector<JointId> World<S>::joints() const {
+  std::vector<JointId> ids;
+  const SlotMap& slots = engine_->state_.joint_slots;
+  for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
+    if (slots.is_taken(slot)) ids.push_back(slots.id_of<JointId>(slot));
+  }
+  return ids;
+}
+template <class S> WorldCounts World<S>::counts() const {
+  const WorldState<S>& state = engine_->state_;
+  WorldCounts counts = {};
+  counts.fixed = static_cast<std::uint32_t>(state.fixed.states.size());
+  counts.awake = static_cast<std::uint32_t>(state.awake.states.size());
+  counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
+  for (const Contact<S>& contact : state.contacts) counts.points += contact.count;
+  for (const auto& island : state.frozen) {
+    counts.asleep += static_cast<std::uint32_t>(island->bodies.states.size());
+    counts.contacts += static_cast<std::uint32_t>(island->contacts.size());
+    for (const Contact<S>& contact : island->contacts) counts.points += contact.count;
+    counts.joints += static_cast<std::uint32_t>(island->joints.states.size());
+  }
+  counts.joints += static_cast<std::uint32_t>(state.joints.states.size());
+  counts.bodies = counts.fixed + counts.awake + counts.asleep;
+  for (std::uint32_t i = 0; i < state.shape_slots.entries().size(); ++i) counts.shapes += state.shape_slots.is_taken(i) ? 1u : 0u;
+  return counts;
+}
+
+template <class S>
+std::optional<RayCastHit<S>> World<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
+  const FloatEnvironment environment;
+  return engine_->cast_ray(origin, translation, filter);
+}
+template <class S>
+std::optional<ClosestBody<S>> World<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
+  const FloatEnvironment environment;
+  return engine_->closest(point, max_distance, filter);
+}
+template <class S>
+void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const {
+  const FloatEnvironment environment;
+  engine_->overlapping(shape, pose, out, filter);
+}
+
+template <class S> StepReport World<S>::step(const StageObserver& observer) { return engine_->step(observer); }
+template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
+template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {
+  engine_->fill_render_poses(alpha);
+  return engine_->render_poses_;
+}
+
+template <class S> World<S>::Snapshot::Snapshot() : state_(std::make_unique<WorldState<S>>()) {}
+template <class S> World<S>::Snapshot::~Snapshot() = default;
+template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = default;
+template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
+template <class S> std::size_t World<S>::Snapshot::bytes() const {
+  std::size_t total = sizeof(WorldState<S>);
+  WorldState<S>::sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); }, *state_);
+  for (const SlotMap* slots : {&state_->body_slots, &state_->shape_slots, &state_->joint_slots}) {
+    total += slots->entries().size() * sizeof(SlotEntry);
+  }
+  return total + state_->frozen.size() * sizeof(state_->frozen[0]);
+}
+template <class S> void World<S>::save(Snapshot& to) const { *to.state_ = engine_->state_; }
+template <class S> void World<S>::load(const Snapshot& from) { engine_->load(*from.state_); }
+template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
+template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
+template <class S> Result<void> World<S>::read_portable(Reader& reader) { return engine_->read_portable(reader); }
+
+template <class S> Result<void> World<S>::step_recorded(Bytes input) {
+  Reader reader(input);
+  while (reader.remaining() > 0) {
+    const std::optional<Command<S>> command = read_command<S>(reader);
+    if (!command) break;
+    if (!apply(*command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
+  }
+  const Result<void> result = reader.result("commands");
+  if (result.ok()) step();
+  return result;
+}
+
+template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }
+
+}  // namespace isostep

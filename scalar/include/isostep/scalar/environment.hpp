@@ -1,0 +1,226 @@
+// The processor's floating-point state: pinned for a scope, restored after; and a probe of what is not as it must be.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "isostep/scalar/platform.hpp"
+
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
+namespace isostep {
+
+namespace detail {
+/// The control and status bits of this thread's floating-point unit, as one word. `kForced` are the bits that decide
+/// results, traps included; all of them are zero in IEEE 754's default state but the masks of x86, `kMasks`.
+/// Registers, not <fenv.h>: that is part of the C mathematics library, and knows nothing of denormals.
+struct FloatState {
+#if defined(__SSE2__) || defined(_M_X64) || (defined(_M_IX86_FP) && _M_IX86_FP == 2)
+  // Intel SDM vol. 1, 10.2.3: DAZ 6, exception masks 7-12, rounding 13-14, FTZ 15; flags 0-5.
+  static constexpr std::uint64_t kForced = 0xffc0, kMasks = 0x1f80;
+  static ISO_INLINE std::uint64_t read() {
+#if defined(_MSC_VER) && !defined(__clang__)
+    return _mm_getcsr();
+#else
+    std::uint32_t word;
+    __asm__ volatile("stmxcsr %0" : "=m"(word) : : "memory");
+    return word;
+#endif
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    const auto word = static_cast<std::uint32_t>(state);
+#if defined(_MSC_VER) && !defined(__clang__)
+    _mm_setcsr(word);
+#else
+    __asm__ volatile("ldmxcsr %0" : : "m"(word) : "memory");
+#endif
+  }
+#elif defined(__GNUC__) && defined(__aarch64__)
+  // Arm ARM, FPCR: FIZ 0, AH 1, NEP 2, traps 8-12 and 15, FZ16 19, rounding 22-23, FZ 24, DN 25. FPSR in the high half.
+  static constexpr std::uint64_t kForced = 0x03c89f07, kMasks = 0;
+  static ISO_INLINE std::uint64_t read() {
+    std::uint64_t control, status;
+    __asm__ volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(control), "=r"(status) : : "memory");
+    return status << 32 | (control & 0xffffffffu);
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    const std::uint64_t control = state & 0xffffffffu;
+    const std::uint64_t status = state >> 32;
+    __asm__ volatile("msr fpcr, %0\n\tmsr fpsr, %1" : : "r"(control), "r"(status) : "memory");
+  }
+#elif defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP)
+  // Arm ARM, FPSCR: flags 0-7, traps 8-12 and 15, rounding 22-23, FZ 24, DN 25.
+  static constexpr std::uint64_t kForced = 0x03c09f00, kMasks = 0;
+  static ISO_INLINE std::uint64_t read() {
+    std::uint32_t word;
+    __asm__ volatile("vmrs %0, fpscr" : "=r"(word) : : "memory");
+    return word;
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    __asm__ volatile("vmsr fpscr, %0" : : "r"(static_cast<std::uint32_t>(state)) : "memory");
+  }
+#elif defined(__GNUC__) && defined(__riscv_flen)
+  // RISC-V unprivileged ISA, fcsr: flags 0-4, rounding 5-7. Always denormals, never traps.
+  static constexpr std::uint64_t kForced = 0xe0, kMasks = 0;
+  static ISO_INLINE std::uint64_t read() {
+    std::uintptr_t word;
+    __asm__ volatile("frcsr %0" : "=r"(word) : : "memory");
+    return word;
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    __asm__ volatile("fscsr %0" : : "r"(static_cast<std::uintptr_t>(state)) : "memory");
+  }
+#elif defined(__GNUC__) && defined(__s390x__)
+  // z/Architecture Principles of Operation, FPC: trap masks in the top byte, binary rounding in the low three bits.
+  static constexpr std::uint64_t kForced = 0xfc000007, kMasks = 0;
+  static ISO_INLINE std::uint64_t read() {
+    std::uint32_t word;
+    __asm__ volatile("stfpc %0" : "=Q"(word) : : "memory");
+    return word;
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    const auto word = static_cast<std::uint32_t>(state);
+    __asm__ volatile("lfpc %0" : : "Q"(word) : "memory");
+  }
+#else
+  static constexpr std::uint64_t kForced = 0, kMasks = 0;  // wasm has no such state; elsewhere the probe must do
+  static ISO_INLINE std::uint64_t read() { return 0; }
+  static ISO_INLINE void write(std::uint64_t) {}
+#endif
+
+  static ISO_INLINE constexpr std::uint64_t pinned(std::uint64_t state) { return (state & ~kForced) | kMasks; }
+};
+}  // namespace detail
+
+/// While one lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. A library linked
+/// with -ffast-math, a driver or a game may have left it otherwise. The caller's state, sticky flags included, returns
+/// bit for bit. Costs a read or two when nothing is amiss, for a write stalls the pipeline.
+/// Limits: the compiler knows nothing of it. Arithmetic of the same function may be moved out of the scope, so put the
+///         guard where a function that is not inlined is called.
+class FloatEnvironment {
+ public:
+  ISO_INLINE FloatEnvironment() : caller_(detail::FloatState::read()) {
+    const std::uint64_t pinned = detail::FloatState::pinned(caller_);
+    if (pinned != caller_) detail::FloatState::write(pinned);
+  }
+  ISO_INLINE ~FloatEnvironment() {
+    if (detail::FloatState::read() != caller_) detail::FloatState::write(caller_);
+  }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+ private:
+  std::uint64_t caller_;
+};
+
+/// What the probe finds; bit n of its answer is the n-th of these. One cause may set several: rounding upwards looks
+/// like contraction too.
+enum class Deviation : std::uint8_t {
+  flush_float,        // a denormal result became zero
+  flush_double,
+  zero_float,         // a denormal operand counted as zero
+  zero_double,
+  rounding,           // not to nearest
+  contract_float,     // a * b + c was fused
+  contract_double,
+  contract_pair,      // a vectoriser fused the rows of a rotation, which it does in spite of -ffp-contract=off
+  excess_float,       // a sum kept more bits than its type, or was reassociated
+  excess_double,
+  double_rounding,    // rounded to 64 bits first and to 53 after
+  reciprocal,         // a quotient is not to nearest: multiplied by an estimate
+  nan_equal,          // NaN == NaN
+  zero_sign,          // -0 + 0 is -0
+};
+inline constexpr int kDeviationCount = 14;
+inline constexpr const char* kDeviationNames[kDeviationCount] = {
+    "flush-float",    "flush-double", "zero-float",   "zero-double",     "rounding",   "contract-float", "contract-double",
+    "contract-pair",  "excess-float", "excess-double", "double-rounding", "reciprocal", "nan-equal",      "zero-sign"};
+ISO_INLINE constexpr std::uint32_t bit_of(Deviation deviation) { return 1u << static_cast<unsigned>(deviation); }
+
+namespace detail {
+/// x cos - y sin and x sin + y cos, in the form that gcc's vectorisers turn into one fused instruction; for x = y = s,
+/// sin = cos = s the first is exactly 0, the second twice the rounded square.
+ISO_INLINE bool pair_is_fused() {
+  volatile double input[2] = {1 + 0x1p-30, 1 + 0x1p-30};
+  const double x = input[0], y = input[1], c = input[1], s = input[0];
+  double out[2] = {x * c - y * s, x * s + y * c};
+#if defined(__GNUC__)
+  __asm__ volatile("" : : "r"(out) : "memory");
+#endif
+  volatile double kept[2] = {out[0], out[1]};
+  return kept[0] != 0 || kept[1] != 2 + 0x1p-28;
+}
+}  // namespace detail
+
+/// Runs a dozen operations whose answers IEEE 754 fixes and returns the deviations, 0 on a sound build and thread.
+/// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's.
+ISO_INLINE std::uint32_t probe_environment_here() {
+  std::uint32_t found = 0;
+  const auto check = [&](bool deviates, Deviation deviation) { found |= deviates ? bit_of(deviation) : 0u; };
+  const auto is_zero = [](auto x) {  // by bits: a comparison takes denormals for zero as well
+    if constexpr (sizeof(x) == 4) return (std::bit_cast<std::uint32_t>(x) << 1) == 0;
+    if constexpr (sizeof(x) == 8) return (std::bit_cast<std::uint64_t>(x) << 1) == 0;
+  };
+  volatile float f, one = 1, quarter = 0.25f;
+  volatile double d, done = 1, dquarter = 0.25;
+
+  volatile float small = 0x1p-126f, tiny = 0x1p-149f;
+  volatile double dsmall = 0x1p-1022, dtiny = 0x1p-1074;
+  f = small * quarter;
+  check(is_zero(float(f)), Deviation::flush_float);
+  d = dsmall * dquarter;
+  check(is_zero(double(d)), Deviation::flush_double);
+  volatile float large = 0x1p100f;
+  volatile double dlarge = 0x1p1000;
+  f = tiny * large;
+  check(is_zero(float(f)), Deviation::zero_float);
+  d = dtiny * dlarge;
+  check(is_zero(double(d)), Deviation::zero_double);
+
+  // Upwards spoils the first, downwards the second, towards zero the third.
+  volatile float bit = 0x1p-25f, more = 0x1.8p-24f, next = 1 + 0x1p-23f;
+  volatile float up = one + bit, down = -one - bit, zero = one + more;
+  check(up != 1 || down != -1 || zero != next, Deviation::rounding);
+
+  volatile float va = 1 + 0x1p-12f, vc = -(1 + 0x1p-11f);
+  const float a = va, c = vc;
+  f = a * a + c;
+  check(f != 0, Deviation::contract_float);
+  volatile double vda = 1 + 0x1p-30, vdc = -(1 + 0x1p-29);
+  const double da = vda, dc = vdc;
+  d = da * da + dc;
+  check(d != 0, Deviation::contract_double);
+  check(detail::pair_is_fused(), Deviation::contract_pair);
+
+  volatile float vg = 0x1p24f;
+  const float g = vg, h = one;
+  f = (g + h) - g;  // 2^24 + 1 is a tie
+  check(f != 0, Deviation::excess_float);
+  volatile double vdg = 0x1p53;
+  const double dg = vdg, dh = done;
+  d = (dg + dh) - dg;
+  check(d != 0, Deviation::excess_double);
+  volatile double above_half = 0x1.002p-53;  // 64 bits make it a tie, which then goes to even
+  d = done + above_half;
+  check(d != 1 + 0x1p-52, Deviation::double_rounding);
+
+  volatile float three = 3;
+  f = one / three;
+  check(std::bit_cast<std::uint32_t>(float(f)) != 0x3eaaaaabu, Deviation::reciprocal);
+  volatile std::uint32_t nan_bits = 0x7fc00000u;
+  const float nan = std::bit_cast<float>(std::uint32_t(nan_bits));
+  check(nan == nan, Deviation::nan_equal);
+  volatile float negative_zero = -0.0f;
+  const float n = negative_zero;
+  f = n + 0.0f;
+  check(std::bit_cast<std::uint32_t>(float(f)) != 0, Deviation::zero_sign);
+  return found;
+}
+
+/// The same, compiled in the library.
+std::uint32_t probe_environment();
+
+}  // namespace isostep

@@ -1,0 +1,172 @@
+// The concept Scalar and the types that every scalar brings: the one place where float and fixed point are told apart.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+#include "isostep/scalar/fixed.hpp"
+
+namespace isostep {
+
+/// What the engine asks of a number type S:
+///   Unit     directions, quaternions, rotation matrices: values in [-2, 2), as fine as the width allows
+///   Velocity speeds, impulses per mass, displacements within a step: where S is narrow, finer than S at less range
+///   Step     a time step or another fraction below one [s]
+///   Raw      the integer with S's bits, for hashing, files and exact text
+///   kId      names the format in files: kind << 16 | bits << 8 | fraction (or mantissa) bits
+/// For float and double all of them, and every sum, are S itself.
+template <class S> struct ScalarTraits;
+
+template <> struct ScalarTraits<float> {
+  using Unit = float;
+  using Velocity = float;
+  using Step = float;
+  using Raw = std::uint32_t;
+  static constexpr const char* kName = "float";
+  static constexpr std::uint32_t kId = 1u << 16 | 32u << 8 | 24u;
+  static constexpr bool kExact = false;
+};
+template <> struct ScalarTraits<double> {
+  using Unit = double;
+  using Velocity = double;
+  using Step = double;
+  using Raw = std::uint64_t;
+  static constexpr const char* kName = "double";
+  static constexpr std::uint32_t kId = 1u << 16 | 64u << 8 | 53u;
+  static constexpr bool kExact = false;
+};
+
+namespace detail {
+template <int Whole, int Frac> struct FixedName {  // "q32.32", for whole and fraction bits of one or two digits
+  char text[8] = {};
+  constexpr FixedName() {
+    int at = 0;
+    auto put = [&](int n) {
+      if (n >= 10) text[at++] = static_cast<char>('0' + n / 10);
+      text[at++] = static_cast<char>('0' + n % 10);
+    };
+    text[at++] = 'q';
+    put(Whole);
+    text[at++] = '.';
+    put(Frac);
+  }
+};
+template <int Whole, int Frac> inline constexpr FixedName<Whole, Frac> kFixedName{};
+}  // namespace detail
+
+template <class Rep, int F, Overflow P> struct ScalarTraits<Fixed<Rep, F, P>> {
+  static constexpr int kBits = Fixed<Rep, F, P>::kBits;
+  using Unit = Fixed<Rep, kBits - 2, P>;
+  using Velocity = Fixed<Rep, (kBits == 32 && F < 24) ? 24 : F, P>;  // Q8.24: 128 m/s, 0.06 um/s
+  using Step = Fixed<Rep, kBits - 1, P>;
+  using Raw = std::conditional_t<sizeof(Rep) == 4, std::uint32_t, std::uint64_t>;
+  static constexpr const char* kName = detail::kFixedName<kBits - F, F>.text;
+  static constexpr std::uint32_t kId = 2u << 16 | unsigned(kBits) << 8 | unsigned(F);
+  static constexpr bool kExact = true;
+};
+
+template <class S> using Unit = typename ScalarTraits<S>::Unit;
+template <class S> using Velocity = typename ScalarTraits<S>::Velocity;
+template <class S> using Step = typename ScalarTraits<S>::Step;
+template <class S> using RawBits = typename ScalarTraits<S>::Raw;
+
+template <class S> inline constexpr bool kIsFixed = ScalarTraits<S>::kExact;
+
+// float and double, as fixed point sees them: sums and roundings are the number itself.
+template <std::floating_point S> ISO_INLINE constexpr S product(S a, S b) { return a * b; }
+template <class Out, std::floating_point S> ISO_INLINE constexpr Out round_to(S sum) { return sum; }
+template <class Sum, std::floating_point S> ISO_INLINE constexpr Sum widen(S a) { return a; }
+template <class Out, std::floating_point S> ISO_INLINE constexpr Out divide_to(S a, S b) { return a / b; }
+
+/// The exact sum of products of two S.
+template <class S> using Sum = decltype(product(S{}, S{}));
+/// The exact sum of products of a length and a direction.
+template <class A, class B> using SumOf = decltype(product(A{}, B{}));
+
+template <class S>
+concept Scalar = requires(S a, Unit<S> u, Step<S> h) {
+  { a + a } -> std::same_as<S>;
+  { a - a } -> std::same_as<S>;
+  { -a } -> std::same_as<S>;
+  { a* a } -> std::same_as<S>;
+  { a / a } -> std::same_as<S>;
+  { a* u } -> std::same_as<S>;
+  { a* h } -> std::same_as<S>;
+  { a < a } -> std::same_as<bool>;
+  { round_to<S>(product(a, a)) } -> std::same_as<S>;
+  S(1);
+};
+
+// One answer on every machine: min and max by comparison (never fmin), abs by negation.
+template <class S> ISO_INLINE constexpr S min(S a, S b) { return b < a ? b : a; }
+template <class S> ISO_INLINE constexpr S max(S a, S b) { return a < b ? b : a; }
+template <class S> ISO_INLINE constexpr S clamp(S x, S low, S high) { return min(max(x, low), high); }
+template <class S> ISO_INLINE constexpr S abs(S a) { return a < S(0) ? -a : a; }
+
+/// a in the format of Out: exact when Out is finer and has room, else rounded to nearest.
+template <class Out, class S> ISO_INLINE constexpr Out convert(S a) {
+  if constexpr (std::same_as<Out, S>) {
+    return a;
+  } else {
+    return round_to<Out>(product(a, Fixed<typename S::Raw, 1, S::kPolicy>::from_raw(2)));
+  }
+}
+
+/// The bits of a, for hashes, files and exact comparison.
+template <class S> ISO_INLINE constexpr RawBits<S> to_bits(S a) {
+  if constexpr (kIsFixed<S>) return static_cast<RawBits<S>>(a.raw());
+  if constexpr (!kIsFixed<S>) return __builtin_bit_cast(RawBits<S>, a);
+}
+template <class S> ISO_INLINE constexpr S from_bits(RawBits<S> bits) {
+  if constexpr (kIsFixed<S>) return S::from_raw(static_cast<typename S::Raw>(bits));
+  if constexpr (!kIsFixed<S>) return __builtin_bit_cast(S, bits);  // std::bit_cast would be a weak symbol at -O0
+}
+
+/// Neither NaN nor infinite; a fixed-point number always is. By bits, so that no compiler option changes it.
+template <class S> ISO_INLINE constexpr bool is_finite(S a) {
+  if constexpr (std::same_as<S, float>) return (to_bits(a) & 0x7f800000u) != 0x7f800000u;
+  if constexpr (std::same_as<S, double>) return (to_bits(a) & 0x7ff0000000000000u) != 0x7ff0000000000000u;
+  return true;
+}
+
+/// For people, files of measurements and pictures: never fed back into a simulation.
+template <class S> ISO_INLINE constexpr double to_double(S a) {
+  if constexpr (kIsFixed<S>) {
+    double scale = 1;
+    for (int i = 0; i < S::kFracBits; ++i) scale *= 0.5;
+    return static_cast<double>(a.raw()) * scale;
+  } else {
+    return static_cast<double>(a);
+  }
+}
+/// Nearest S to a run-time double, ties away from zero; outside the range the nearest end, NaN is 0. A door for tools
+/// and tests: two machines that computed different doubles get different simulations.
+template <class S> ISO_INLINE constexpr S from_double(double value) {
+  if constexpr (kIsFixed<S>) {
+    double scaled = value;
+    for (int i = 0; i < S::kFracBits; ++i) scaled *= 2;
+    constexpr double limit = S::kBits == 32 ? 0x1p31 : 0x1p63;
+    if (!(scaled == scaled)) return S::from_raw(0);
+    if (scaled >= limit - 0.5) return S::highest();
+    if (scaled <= -limit) return S::lowest();
+    const double size = scaled < 0 ? -scaled : scaled;
+    auto whole = static_cast<std::int64_t>(size);
+    if (size - static_cast<double>(whole) >= 0.5) ++whole;
+    return S::from_raw(static_cast<typename S::Raw>(scaled < 0 ? -whole : whole));
+  } else {
+    return static_cast<S>(value);
+  }
+}
+
+/// The smallest positive step of the format: one raw unit, or the machine epsilon.
+template <class S> ISO_INLINE constexpr S resolution() {
+  if constexpr (kIsFixed<S>) return S::from_raw(1);
+  if constexpr (!kIsFixed<S>) {
+    constexpr S kEpsilon = std::numeric_limits<S>::epsilon();
+    return kEpsilon;
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,54 @@
+// Differences as text.
+// SPDX-License-Identifier: MIT
+#include "isostep/state/diff.hpp"
+
+namespace isostep {
+namespace {
+
+template <std::size_t N> void append_path(const PathPart& part, ShortText<N>& text) {
+  if (part.outer != nullptr) append_path(*part.outer, text);
+  if (part.name == nullptr) {
+    text.append("[").append_number(part.index).append("]");
+    return;
+  }
+  if (part.outer != nullptr) text.append(".");
+  text.append(part.name);
+}
+
+const char* unit_of(LeafFormat format) {
+  if (format.kind != LeafKind::scalar) return "";
+  return format.scalar_id >> 16 == 1 ? "ulp" : "lsb";
+}
+
+}  // namespace
+
+std::string describe(const Difference& d) {
+  std::string text(d.path.view());
+  text.append(": ").append(d.a.view()).append(" | ").append(d.b.view());
+  text.append(" (").append(d.bits_a.view()).append(" | ").append(d.bits_b.view()).append("), ");
+  text.append(std::to_string(d.steps));
+  if (*d.unit != '\0') text.append(" ").append(d.unit);
+  return text.append(" apart");
+}
+
+DiffReport::DiffReport(std::size_t keep) : keep_(keep), count_(0) {}
+DiffReport::~DiffReport() = default;
+
+bool DiffReport::any() const { return count_ != 0; }
+std::uint64_t DiffReport::count() const { return count_; }
+const std::vector<Difference>& DiffReport::kept() const { return kept_; }
+
+void DiffReport::add(const PathPart& path, LeafFormat format, std::uint64_t a, std::uint64_t b) {
+  ++count_;
+  if (kept_.size() >= keep_) return;
+  const std::string text_a = value_text(format, a);
+  const std::string text_b = value_text(format, b);
+  const std::string bits_a = bits_text(format, a);
+  const std::string bits_b = bits_text(format, b);
+  Difference difference{{},     std::string_view(text_a),     std::string_view(text_b), std::string_view(bits_a),
+                        std::string_view(bits_b), steps_between(format, a, b), unit_of(format)};
+  append_path(path, difference.path);
+  kept_.push_back(difference);
+}
+
+}  // namespace isostep

@@ -1,0 +1,85 @@
+// libFuzzer target: any bytes as a replay, as they are and with every checksum made right, so that what lies behind the
+// checksums is reached too.
+// SPDX-License-Identifier: MIT
+//
+// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude tests/fuzz/replay_fuzz.cpp
+//         src/state/*.cpp src/scalar/text.cpp -o replay_fuzz
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../unit/state/recording.hpp"
+
+namespace {
+
+using namespace isostep;
+using toy::Buffer;
+
+void require(bool condition) {
+  if (!condition) __builtin_trap();
+}
+
+/// Makes lengths, checksums and digest agree as far as the chunks can be followed.
+void seal(Buffer& file) {
+  if (file.size() < kReplayPreambleSize) file.resize(kReplayPreambleSize);
+  std::memcpy(file.data(), kReplayMagic, sizeof kReplayMagic);
+  store_le(&file[28], crc32c(Bytes(file).first(28)));
+  for (std::size_t at = kReplayPreambleSize; file.size() - at >= 16;) {
+    const std::uint32_t type = load_le<std::uint32_t>(&file[at]);
+    const std::size_t length = load_le<std::uint32_t>(&file[at + 4]);
+    if (length > file.size() - at - 16) return;
+    store_le(&file[at + 8], static_cast<std::uint32_t>(length));
+    if (type == replay_chunk::kDone && length == 16) store_le(&file[at + 20], hash_bytes(file.data(), at));
+    store_le(&file[at + 12 + length], crc32c(Bytes(file).subspan(at, 12 + length)));
+    at += 16 + length;
+  }
+}
+
+/// Everything the reader hands out must lie inside the file; its memory was checked by the sanitizer on the way.
+void read_all(const ReplayReader& replay, Bytes file) {
+  std::uint64_t last = 0;
+  for (std::uint64_t i = 0; i < replay.frame_count(); ++i) {
+    const ReplayFrame frame = replay.frame(i);
+    const std::size_t at = replay.offset_of(frame.input);
+    require(at > last && at <= file.size() && frame.input.size() <= file.size() - at);
+    last = at;
+  }
+  for (const ReplayKeyframe& key : replay.keyframes()) require(key.frames <= replay.frame_count());
+  require((replay.status() == ReplayStatus::complete) == replay.error().message.empty());
+  require(replay.place() <= file.size());
+  if (replay.has_header()) (void)identity_of(replay.header()).ok();
+}
+
+void check(const Buffer& file) {
+  static const ReplayHeader here = toy::header();
+  const ReplayReader replay(file);
+  read_all(replay, file);
+
+  toy::Game game;
+  const VerifyResult result = verify(replay, game, SameHeader{here});
+  (void)describe(result);
+  require(result.frames <= replay.frame_count());
+  if (result.outcome == VerifyOutcome::verified) require(replay.status() == ReplayStatus::complete);
+  if (replay.status() != ReplayStatus::complete) return;
+
+  Buffer longer = file;
+  longer.push_back(0);
+  require(ReplayReader(longer).status() == ReplayStatus::corrupt);
+  require(ReplayReader(Bytes(file).first(file.size() - 1)).status() == ReplayStatus::truncated);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Buffer file(data, data + size);
+  check(file);
+  seal(file);
+  check(file);
+
+  // The other two readers of strange bytes: a header alone, and state of the toy's own.
+  (void)read_replay_header({data, size}).ok();
+  toy::Game game;
+  Reader reader({data, size});
+  (void)game.read_portable(reader).ok();
+  return 0;
+}

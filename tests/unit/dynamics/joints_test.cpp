@@ -1,0 +1,691 @@
+// Joints against closed forms: pendulums, springs, motors, chains under heavy loads, and the laws of momentum.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "isostep/dynamics/joints/joint_tree.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct D3 {
+  double x, y, z;
+};
+D3 operator-(D3 a, D3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double norm(D3 a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
+
+/// Bodies and joints, stepped as the soft step does: velocities, joints, positions, joints relaxed.
+template <class S> class JointWorld {
+ public:
+  using V = Velocity<S>;
+  bool one_by_one = false;
+  D3 gravity = {0, -10, 0};
+
+  static S number(double x) { return from_double<S>(x); }
+  static Vec3<S> vector(D3 a) { return {number(a.x), number(a.y), number(a.z)}; }
+  static Vec3<V> velocity(D3 a) { return {from_double<V>(a.x), from_double<V>(a.y), from_double<V>(a.z)}; }
+
+  /// `inertia` [m^2] per mass about x, y, z.
+  std::uint32_t add_body(D3 centre, double mass, D3 inertia) {
+    BodyState<S> state = {};
+    state.slot = static_cast<std::uint32_t>(states.size());
+    state.centre = vector(centre);
+    state.orientation = Quat<Unit<S>>::identity();
+    states.push_back(state);
+    masses.push_back(number(mass));
+    const auto inverse = [](double i) { return i > 0 ? 1 / i : 0; };
+    kappas.push_back(vector({inverse(inertia.x), inverse(inertia.y), inverse(inertia.z)}));
+    return state.slot;
+  }
+  std::uint32_t add_box(D3 centre, double mass, D3 half) {
+    const double x = half.x * half.x / 3, y = half.y * half.y / 3, z = half.z * half.z / 3;
+    return add_body(centre, mass, {y + z, x + z, x + y});
+  }
+  /// Joins two bodies at a world point, frames along the world's axes.
+  JointProperties<S>& join(JointType type, std::uint32_t a, std::uint32_t b, D3 at) {
+    JointProperties<S> p;
+    p.type = type;
+    p.body_a = a;
+    p.body_b = b;
+    const Vec3<S> point = vector(at);
+    p.frame_a.position = a == kNoBody ? point : point - states[a].centre;
+    p.frame_b.position = b == kNoBody ? point : point - states[b].centre;
+    joints.push_back(p);
+    impulses.push_back({});
+    return joints.back();
+  }
+
+  void gather() {
+    bodies.velocity.assign(states.size() + 1, MotionRow<V>::zero());
+    bodies.displacement.assign(states.size() + 1, MotionRow<V>::zero());
+    bodies.mass.assign(states.size() + 1, {S(0), Mat3<S>::diagonal(Vec3<S>::zero())});
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      bodies.velocity[i + 1].linear = states[i].velocity;
+      bodies.velocity[i + 1].angular = states[i].spin;
+      bodies.mass[i + 1] = {masses[i], rotate_diagonal(to_matrix(states[i].orientation), kappas[i])};
+    }
+    constraints.resize(joints.size());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const auto end = [&](std::uint32_t body) {
+        if (body == kNoBody) return JointEnd<S>{0, Pose<S>::identity()};
+        return JointEnd<S>{body + 1, {states[body].centre, states[body].orientation}};
+      };
+      prepare_joint(joints[j], impulses[j], end(joints[j].body_a), end(joints[j].body_b), bodies, constraints[j]);
+    }
+    trees.plan(constraints, bodies);
+  }
+  JointStep<S> substep() {
+    const S rate = S(240);
+    return {states.data(), &bodies, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate)};
+  }
+  void solve(const JointStep<S>& step, bool relax) {
+    if (one_by_one) solve_joints(std::span<JointConstraint<S>>(constraints), step, relax);
+    if (!one_by_one) trees.solve(constraints, step, relax);
+  }
+  void step() {
+    gather();
+    const JointStep<S> sub = substep();
+    for (int i = 0; i < 4; ++i) {
+      for (std::size_t r = 0; r < states.size(); ++r) {
+        if (masses[r] > S(0))
+          bodies.velocity[r + 1].linear += velocity({gravity.x / 240, gravity.y / 240, gravity.z / 240});
+      }
+      if (one_by_one) warm_start_joints(std::span<JointConstraint<S>>(constraints), sub);
+      if (!one_by_one) trees.warm_start(constraints, sub);
+      solve(sub, false);
+      for (std::size_t r = 0; r < states.size(); ++r) move(states[r], bodies.velocity[r + 1], sub.h);
+      solve(sub, true);
+    }
+    for (std::size_t r = 0; r < states.size(); ++r) {
+      states[r].velocity = bodies.velocity[r + 1].linear;
+      states[r].spin = bodies.velocity[r + 1].angular;
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) store_joint(constraints[j], impulses[j]);
+  }
+  static void move(BodyState<S>& state, const MotionRow<V>& motion, Step<S> h) {
+    const auto length = [&](V v) { return round_to<S>(product(v, h)); };
+    const auto angle = [&](V v) { return round_to<Unit<S>>(product(v, h)); };
+    state.centre += Vec3<S>{length(motion.linear.x), length(motion.linear.y), length(motion.linear.z)};
+    state.orientation =
+        integrate(state.orientation, {angle(motion.angular.x), angle(motion.angular.y), angle(motion.angular.z)});
+  }
+
+  static D3 wide(Vec3<S> a) { return {to_double(a.x), to_double(a.y), to_double(a.z)}; }
+  template <class T> static D3 wide_of(Vec3<T> a) { return {to_double(a.x), to_double(a.y), to_double(a.z)}; }
+  D3 centre(std::uint32_t b) const { return wide(states[b].centre); }
+  D3 axis(std::uint32_t b, int i) const { return wide_of(to_matrix(states[b].orientation).column(i)); }
+  D3 anchor(std::uint32_t body, Vec3<S> local) const {
+    if (body == kNoBody) return wide(local);
+    return wide(states[body].centre + to_matrix(states[body].orientation) * local);
+  }
+  D3 between(std::size_t j) const {
+    return anchor(joints[j].body_b, joints[j].frame_b.position) - anchor(joints[j].body_a, joints[j].frame_a.position);
+  }
+  double worst_separation() const {
+    double worst = 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) worst = std::max(worst, norm(between(j)));
+    return worst;
+  }
+  /// Momentum and angular momentum about the origin.
+  std::pair<D3, D3> momentum() const {
+    Eigen::Vector3d p = Eigen::Vector3d::Zero(), l = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto to = [](D3 a) { return Eigen::Vector3d(a.x, a.y, a.z); };
+      const std::uint32_t b = static_cast<std::uint32_t>(i);
+      const double m = to_double(masses[i]);
+      Eigen::Matrix3d r;
+      for (int c = 0; c < 3; ++c) r.col(c) = to(axis(b, c));
+      const D3 k = wide(kappas[i]);
+      const Eigen::Matrix3d inertia = r * Eigen::Vector3d(m / k.x, m / k.y, m / k.z).asDiagonal() * r.transpose();
+      p += m * to(wide_of(states[i].velocity));
+      l += m * to(centre(b)).cross(to(wide_of(states[i].velocity))) + inertia * to(wide_of(states[i].spin));
+    }
+    return {{p.x(), p.y(), p.z()}, {l.x(), l.y(), l.z()}};
+  }
+  double energy() const {
+    double e = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double m = to_double(masses[i]);
+      const D3 v = wide_of(states[i].velocity), c = wide(states[i].centre);
+      e += m * (v.x * v.x + v.y * v.y + v.z * v.z) / 2 - m * (gravity.x * c.x + gravity.y * c.y + gravity.z * c.z);
+      const D3 w = wide_of(transposed_times(to_matrix(states[i].orientation), states[i].spin)), k = wide(kappas[i]);
+      e += m * (w.x * w.x / k.x + w.y * w.y / k.y + w.z * w.z / k.z) / 2;
+    }
+    return e;
+  }
+
+  std::vector<BodyState<S>> states;
+  std::vector<S> masses;
+  std::vector<Vec3<S>> kappas;
+  std::vector<JointProperties<S>> joints;
+  std::vector<JointState<S>> impulses;
+  std::vector<JointConstraint<S>> constraints;
+  SolverBodies<S> bodies;
+  JointTrees<S> trees;
+};
+
+/// `fine` for every scalar but Q16.16, whose lengths are 15 um apart.
+template <class S> double tolerance(double fine, double coarse) { return std::is_same_v<S, Q16_16> ? coarse : fine; }
+
+template <class S> class Joints : public testing::Test {};
+using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
+struct ScalarName {
+  template <class S> static std::string GetName(int) {
+    return std::is_same_v<S, float>    ? "float"
+           : std::is_same_v<S, double> ? "double"
+           : std::is_same_v<S, Q16_16> ? "Q16_16"
+                                       : "Q32_32";
+  }
+};
+TYPED_TEST_SUITE(Joints, Scalars, ScalarName);
+
+// ---- the small solver
+
+TYPED_TEST(Joints, InverseOfASymmetricMatrixAgreesWithEigen) {
+  using S = TypeParam;
+  std::mt19937 random(7);
+  const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+  for (int i = 0; i < 500; ++i) {
+    Eigen::Matrix3d a;
+    for (int k = 0; k < 9; ++k) a(k / 3, k % 3) = draw();
+    const double floor = i % 2 == 0 ? 0.5 : 0.02;  // smallest eigenvalue at least this
+    const Eigen::Matrix3d wanted = 0.3 * a * a.transpose() + floor * Eigen::Matrix3d::Identity();
+    Mat3<S> m;
+    Eigen::Matrix3d given;
+    for (int r = 0; r < 3; ++r) m.rows[r] = JointWorld<S>::vector({wanted(r, 0), wanted(r, 1), wanted(r, 2)});
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) given(r, c) = to_double(m.rows[r][c]);
+    }
+    const Eigen::Matrix3d oracle = (given + 0.001953125 * Eigen::Matrix3d::Identity()).inverse();
+    const Mat3<S> inverse = invert_symmetric(m, S(0.001953125));
+    // Errors grow with the square of the inverse: a rounding of m by u moves m^-1 by |m^-1|^2 u.
+    const double bound = 32 * to_double(resolution<S>()) * (1 + oracle.norm() * oracle.norm());
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(to_double(inverse.rows[r][c]), oracle(r, c), bound);
+    }
+  }
+}
+
+TYPED_TEST(Joints, InverseOfZeroMovesNothingByMoreThanItsSoftness) {
+  using S = TypeParam;
+  const Mat3<S> inverse = invert_symmetric(Mat3<S>::diagonal({S(1), S(0), S(0)}), S(0.25));
+  EXPECT_NEAR(to_double(inverse.rows[0].x), 0.8, 1e-4);
+  EXPECT_EQ(to_double(inverse.rows[1].y), 4);
+  EXPECT_EQ(to_double(inverse.rows[2].z), 4);
+  EXPECT_EQ(to_double(inverse.rows[0].y), 0);
+}
+
+// ---- ball
+
+/// Time of the last of `swings` full swings from rest, by the zeros of x.
+template <class S> double period_of(JointWorld<S>& world, std::uint32_t bob, int swings) {
+  double last = to_double(world.states[bob].centre.x), first_zero = 0;
+  int zeros = 0;
+  for (int frame = 1; frame < 4000; ++frame) {
+    world.step();
+    const double x = to_double(world.states[bob].centre.x);
+    if (last > 0 && x <= 0) {
+      const double at = (frame - x / (x - last)) / 60;
+      if (zeros == 0) first_zero = at;
+      if (zeros == swings) return (at - first_zero) / swings;
+      ++zeros;
+    }
+    last = x;
+  }
+  return 0;
+}
+/// Source: the period's series in the amplitude.
+double swing_factor(double amplitude) {
+  const double a = amplitude * amplitude;
+  return 1 + a / 16 + 11 * a * a / 3072;
+}
+
+TYPED_TEST(Joints, BallPendulumHasThePeriodOfAPhysicalPendulum) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const double length = 1.5, amplitude = 0.4, inertia = 0.4 * 0.2 * 0.2;
+  const std::uint32_t bob =
+      world.add_body({length * std::sin(amplitude), -length * std::cos(amplitude), 0}, 2, {inertia, inertia, inertia});
+  world.join(JointType::ball, kNoBody, bob, {0, 0, 0});
+  const double period = 2 * kPi * std::sqrt((inertia + length * length) / (10 * length)) * swing_factor(amplitude);
+  EXPECT_NEAR(period_of(world, bob, 4), period, tolerance<S>(0.005, 0.01) * period);
+  EXPECT_LT(world.worst_separation(), tolerance<S>(1e-4, 5e-4));
+}
+
+TYPED_TEST(Joints, ConicalPendulumTurnsAtTheAngleOfItsSpeed) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const double length = 1.5, angle = 0.6, inertia = 1e-2;
+  const double turn = std::sqrt(10 / (length * std::cos(angle)));
+  const std::uint32_t bob =
+      world.add_body({length * std::sin(angle), -length * std::cos(angle), 0}, 1, {inertia, inertia, inertia});
+  JointProperties<S>& rod = world.join(JointType::distance, kNoBody, bob, {0, 0, 0});
+  rod.frame_b.position = Vec3<S>::zero();
+  rod.lower = rod.upper = S(1.5);
+  world.states[bob].velocity = JointWorld<S>::velocity({0, 0, turn * length * std::sin(angle)});
+  for (int frame = 0; frame < 300; ++frame) {
+    world.step();
+    EXPECT_NEAR(to_double(world.states[bob].centre.y), -length * std::cos(angle), 0.03);
+    EXPECT_NEAR(norm(world.between(0)), 1.5, tolerance<S>(1e-3, 2e-3));
+  }
+}
+
+TYPED_TEST(Joints, ConeAndTwistLimitsAreNotPassed) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t arm = world.add_box({0, 0, 0.5}, 1, {0.1, 0.1, 0.5});
+  JointProperties<S>& ball = world.join(JointType::ball, kNoBody, arm, {0, 0, 0});
+  ball.flags = joint_flag::kCone | joint_flag::kLimit;
+  ball.cone = S(0.5);
+  ball.lower = S(-0.25);
+  ball.upper = S(0.25);
+  world.states[arm].spin = JointWorld<S>::velocity({0, 0, 3});
+  double swing = 0, twist = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    world.step();
+    swing = std::acos(std::min(1.0, world.axis(arm, 2).z));
+    const Quat<Unit<S>> q = world.states[arm].orientation;
+    twist = 2 * std::atan2(to_double(q.z), to_double(q.w));
+    EXPECT_LT(swing, 0.51);
+    EXPECT_LT(std::abs(twist), 0.27);
+  }
+  EXPECT_NEAR(swing, 0.5, 0.01);  // gravity holds it there
+}
+
+// ---- hinge
+
+TYPED_TEST(Joints, HingeKeepsItsAxisUnderLoadAcrossIt) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.gravity = {3, -10, 4};
+  const std::uint32_t door = world.add_box({0.5, 0, 0}, 3, {0.5, 1, 0.05});
+  JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, door, {0, 0.3, 0});
+  hinge.frame_a.orientation = hinge.frame_b.orientation =
+      rotation<S>({Unit<S>(1), Unit<S>(0), Unit<S>(0)}, S(-kPi / 2));
+  world.states[door].spin = JointWorld<S>::velocity({0, 4, 0});
+  double turned = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    world.step();
+    EXPECT_GT(world.axis(door, 1).y, std::cos(tolerance<S>(0.002, 0.004)));
+    EXPECT_LT(world.worst_separation(), tolerance<S>(3e-4, 6e-4));
+    turned = std::max(turned, std::abs(world.axis(door, 0).z));
+  }
+  EXPECT_GT(turned, 0.9);  // and it does swing
+}
+
+TYPED_TEST(Joints, HingePendulumHasThePeriodOfAPhysicalPendulum) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const double amplitude = 0.3, half = 0.5;
+  const std::uint32_t bar = world.add_box({0, -half, 0}, 1, {0.05, half, 0.05});
+  world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
+  world.states[bar].orientation = rotation<S>({Unit<S>(0), Unit<S>(0), Unit<S>(1)}, JointWorld<S>::number(amplitude));
+  world.states[bar].centre = JointWorld<S>::vector({half * std::sin(amplitude), -half * std::cos(amplitude), 0});
+  const double inertia = (0.05 * 0.05 + half * half) / 3 + half * half;
+  const double period = 2 * kPi * std::sqrt(inertia / (10 * half)) * swing_factor(amplitude);
+  EXPECT_NEAR(period_of(world, bar, 4), period, tolerance<S>(0.005, 0.01) * period);
+}
+
+TYPED_TEST(Joints, HingeLimitStopsAFallingBarAndHoldsIt) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t bar = world.add_box({0.5, 0, 0}, 1, {0.5, 0.05, 0.05});
+  JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
+  hinge.flags = joint_flag::kLimit;
+  hinge.lower = S(-0.75);
+  hinge.upper = S(0.5);
+  double angle = 0, lowest = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    world.step();
+    const D3 x = world.axis(bar, 0);
+    angle = std::atan2(x.y, x.x);
+    lowest = std::min(lowest, angle);
+  }
+  EXPECT_GT(lowest, -0.76);
+  EXPECT_NEAR(angle, -0.75, 0.004);
+  EXPECT_LT(norm(JointWorld<S>::wide_of(world.states[bar].spin)), 1e-2);
+}
+
+TYPED_TEST(Joints, MotorGathersSpeedByItsTorqueAndThenKeepsIt) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.gravity = {0, 0, 0};
+  const std::uint32_t bar = world.add_box({0.5, 0, 0}, 2, {0.5, 0.1, 0.1});
+  JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
+  hinge.flags = joint_flag::kMotor;
+  hinge.motor_speed = S(4);
+  hinge.motor_torque = S(1.5);
+  const double inertia = 2 * ((0.25 + 0.01) / 3 + 0.25);  // about the hinge
+  for (int frame = 0; frame < 30; ++frame) world.step();
+  EXPECT_NEAR(to_double(world.states[bar].spin.z), 1.5 / inertia * 0.5, 0.02);
+  for (int frame = 0; frame < 90; ++frame) world.step();
+  EXPECT_NEAR(to_double(world.states[bar].spin.z), 4, tolerance<S>(2e-3, 1e-2));
+}
+
+TYPED_TEST(Joints, MotorTooWeakForTheLoadLetsItFall) {
+  using S = TypeParam;
+  for (const double torque : {4.0, 6.0}) {  // the bar's weight asks for 1 * 10 * 0.5 = 5 N m
+    JointWorld<S> world;
+    const std::uint32_t bar = world.add_box({0.5, 0, 0}, 1, {0.5, 0.05, 0.05});
+    JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
+    hinge.flags = joint_flag::kMotor;
+    hinge.motor_torque = JointWorld<S>::number(torque);
+    for (int frame = 0; frame < 60; ++frame) world.step();
+    if (torque < 5) {
+      EXPECT_LT(world.axis(bar, 0).y, -0.5);
+    } else {
+      EXPECT_NEAR(world.axis(bar, 0).y, 0, 0.005);
+    }
+  }
+}
+
+TYPED_TEST(Joints, HingeSpringSwingsAtItsFrequency) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.gravity = {0, 0, 0};
+  const std::uint32_t bar = world.add_box({0, -0.5, 0}, 1, {0.05, 0.5, 0.05});
+  JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
+  hinge.flags = joint_flag::kSpring;
+  hinge.spring_frequency = S(2);
+  hinge.spring_damping = S(0);
+  hinge.spring_target = S(0);
+  world.states[bar].orientation = rotation<S>({Unit<S>(0), Unit<S>(0), Unit<S>(1)}, S(0.2));
+  world.states[bar].centre = JointWorld<S>::vector({0.5 * std::sin(0.2), -0.5 * std::cos(0.2), 0});
+  EXPECT_NEAR(period_of(world, bar, 3), 0.5, 0.01);
+}
+
+// ---- fixed
+
+TYPED_TEST(Joints, WeldedBoxesTumbleAsOne) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.gravity = {0, 0, 0};
+  const std::uint32_t a = world.add_box({-0.5, 0, 0}, 1, {0.5, 0.3, 0.2});
+  const std::uint32_t b = world.add_box({0.5, 0, 0}, 4, {0.5, 0.3, 0.2});
+  world.join(JointType::fixed, a, b, {0, 0.1, 0});
+  world.states[a].velocity = JointWorld<S>::velocity({0, 1.5, 0});
+  world.states[b].spin = JointWorld<S>::velocity({1, 2, 3});
+  for (int frame = 0; frame < 240; ++frame) {
+    world.step();
+    EXPECT_LT(world.worst_separation(), tolerance<S>(1e-3, 2e-3));
+    for (int i = 0; i < 3; ++i) EXPECT_LT(norm(world.axis(a, i) - world.axis(b, i)), tolerance<S>(2e-3, 4e-3));
+  }
+  EXPECT_GT(norm(JointWorld<S>::wide_of(world.states[a].spin)), 0.5);
+}
+
+TYPED_TEST(Joints, CantileverOfEightWeldedBoxesStaysStraight) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  std::uint32_t last = kNoBody;
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t box = world.add_box({0.25 + 0.5 * i, 0, 0}, 1, {0.25, 0.1, 0.1});
+    world.join(JointType::fixed, last, box, {0.5 * i, 0, 0});
+    last = box;
+  }
+  for (int frame = 0; frame < 120; ++frame) world.step();
+  EXPECT_NEAR(world.centre(last).y, 0, tolerance<S>(2e-3, 0.3));
+}
+
+// ---- distance
+
+TYPED_TEST(Joints, RopeHoldsAtItsLengthAndNotBefore) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t weight = world.add_box({0, -0.5, 0}, 5, {0.2, 0.2, 0.2});
+  JointProperties<S>& rope = world.join(JointType::distance, kNoBody, weight, {0, 0, 0});
+  rope.frame_b.position = Vec3<S>::zero();
+  rope.upper = S(2);
+  for (int frame = 0; frame < 20; ++frame) world.step();
+  EXPECT_NEAR(world.centre(weight).y, -0.5 - 5 * (1 / 9.0), 0.05);  // falls freely for a third of a second
+  double longest = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    world.step();
+    longest = std::max(longest, norm(world.between(0)));
+  }
+  EXPECT_LT(longest, 2.005);
+  EXPECT_NEAR(norm(world.between(0)), 2, 0.002);
+}
+
+TYPED_TEST(Joints, SpringHangsAtGravityOverItsFrequencySquared) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t weight = world.add_box({0, -1, 0}, 3, {0.2, 0.2, 0.2});
+  JointProperties<S>& spring = world.join(JointType::distance, kNoBody, weight, {0, 0, 0});
+  spring.frame_b.position = Vec3<S>::zero();
+  spring.flags = joint_flag::kSpring;
+  spring.spring_target = S(1);
+  spring.spring_frequency = S(1);
+  spring.spring_damping = S(0.5);
+  double deepest = 0;
+  for (int frame = 0; frame < 600; ++frame) {
+    world.step();
+    deepest = std::max(deepest, norm(world.between(0)) - 1);
+  }
+  const double stretch = 10 / (4 * kPi * kPi);
+  EXPECT_NEAR(norm(world.between(0)) - 1, stretch, 0.01 * stretch);
+  // The step response of a damping ratio of one half overshoots by exp(-pi / sqrt(3)).
+  EXPECT_NEAR(deepest / stretch, 1 + std::exp(-kPi / std::sqrt(3.0)), 0.05);
+}
+
+// ---- laws
+
+template <class S> void build_creature(JointWorld<S>& world) {
+  const std::uint32_t pelvis = world.add_box({0, 0, 0}, 1, {0.15, 0.1, 0.1});
+  const std::uint32_t torso = world.add_box({0, 0.34, 0}, 2, {0.18, 0.22, 0.11});
+  const std::uint32_t head = world.add_box({0, 0.7, 0}, 0.5, {0.12, 0.12, 0.12});
+  const std::uint32_t left = world.add_box({0.35, 0.48, 0}, 0.25, {0.15, 0.05, 0.05});
+  const std::uint32_t right = world.add_box({-0.35, 0.48, 0}, 0.25, {0.15, 0.05, 0.05});
+  const std::uint32_t leg = world.add_box({0.09, -0.32, 0}, 0.75, {0.07, 0.2, 0.07});
+  world.join(JointType::fixed, pelvis, torso, {0, 0.11, 0});
+  world.join(JointType::ball, torso, head, {0, 0.57, 0});
+  world.join(JointType::hinge, torso, left, {0.19, 0.48, 0});
+  world.join(JointType::ball, torso, right, {-0.19, 0.48, 0});
+  world.join(JointType::ball, pelvis, leg, {0.09, -0.11, 0});
+  world.states[pelvis].velocity = JointWorld<S>::velocity({1, 0, 0.5});
+  world.states[torso].spin = JointWorld<S>::velocity({0.5, 3, -1});
+  world.states[head].velocity = JointWorld<S>::velocity({0, 1, 0});
+}
+
+TYPED_TEST(Joints, JointsWithoutTheWorldConserveMomentum) {
+  using S = TypeParam;
+  for (const bool one_by_one : {false, true}) {
+    JointWorld<S> world;
+    world.one_by_one = one_by_one;
+    world.gravity = {0, 0, 0};
+    build_creature(world);
+    // One sub-step's impulses, before bodies move: what their change of inertia does later is not the joints' doing.
+    for (int frame = 0; frame < 60; ++frame) {
+      for (auto& impulse : world.impulses) impulse.point = JointWorld<S>::velocity({0.1, -0.2, 0.05});
+      world.gather();
+      const auto before = world.momentum();
+      const JointStep<S> sub = world.substep();
+      if (one_by_one) warm_start_joints(std::span<JointConstraint<S>>(world.constraints), sub);
+      if (!one_by_one) world.trees.warm_start(world.constraints, sub);
+      world.solve(sub, false);
+      world.solve(sub, true);
+      for (std::size_t r = 0; r < world.states.size(); ++r) {
+        world.states[r].velocity = world.bodies.velocity[r + 1].linear;
+        world.states[r].spin = world.bodies.velocity[r + 1].angular;
+      }
+      const auto after = world.momentum();
+      EXPECT_LT(norm(after.first - before.first), tolerance<S>(1e-5, 1e-4));
+      EXPECT_LT(norm(after.second - before.second), tolerance<S>(1e-5, 1e-3));
+      world.step();
+    }
+  }
+}
+
+TYPED_TEST(Joints, OnePassOverATreeLeavesNoRelativeSpeedAtItsJoints) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  build_creature(world);
+  world.join(JointType::ball, kNoBody, 2, {0, 0.8, 0});
+  world.gather();
+  const JointStep<S> sub = world.substep();
+  world.trees.warm_start(world.constraints, sub);
+  world.trees.solve(world.constraints, sub, true);
+  for (const JointConstraint<S>& joint : world.constraints) {
+    const JointMotion<S> m = isostep::gather(world.bodies, joint.row_a, joint.row_b);
+    for (std::uint32_t b = 0; b < joint.block_count; ++b) {
+      EXPECT_LT(norm(JointWorld<S>::wide_of(speed_along(joint.blocks[b], m))), tolerance<S>(1e-3, 2e-2));
+    }
+  }
+}
+
+TYPED_TEST(Joints, OneByOneJointsReachTheSameVelocitiesAsATree) {
+  using S = TypeParam;
+  JointWorld<S> worlds[2];
+  for (JointWorld<S>& world : worlds) {
+    build_creature(world);
+    world.gather();
+    const JointStep<S> sub = world.substep();
+    world.trees.warm_start(world.constraints, sub);
+    if (&world == &worlds[0]) {
+      world.trees.solve(world.constraints, sub, true);
+    } else {
+      warm_start_joints(std::span<JointConstraint<S>>(world.constraints), sub);
+      for (int i = 0; i < 400; ++i) solve_joints(std::span<JointConstraint<S>>(world.constraints), sub, true);
+    }
+  }
+  for (std::size_t r = 1; r <= worlds[0].states.size(); ++r) {
+    const auto& a = worlds[0].bodies.velocity[r];
+    const auto& b = worlds[1].bodies.velocity[r];
+    EXPECT_LT(norm(JointWorld<S>::wide_of(a.linear - b.linear)), tolerance<S>(1e-3, 2e-2));
+    EXPECT_LT(norm(JointWorld<S>::wide_of(a.angular - b.angular)), tolerance<S>(1e-2, 0.2));
+  }
+}
+
+// ---- chains, bridges, loops
+
+template <class S> std::uint32_t build_chain(JointWorld<S>& world, int links, double weight, bool hanging) {
+  std::uint32_t last = kNoBody;
+  const double along = 0.0013, across = 0.016;  // [m^2] of a capsule of radius 0.05 and half height 0.2
+  for (int i = 0; i <= links; ++i) {
+    const double at = i < links ? 0.25 + 0.5 * i : 0.5 * links + 0.5;
+    const bool ball = i == links;
+    const D3 inertia = ball ? D3{0.1, 0.1, 0.1} : hanging ? D3{across, along, across} : D3{along, across, across};
+    const std::uint32_t body = world.add_body(hanging ? D3{0, 30 - at, 0} : D3{at, 30, 0}, ball ? weight : 1, inertia);
+    world.join(JointType::ball, last, body, hanging ? D3{0, 30 - 0.5 * i, 0} : D3{0.5 * i, 30, 0});
+    last = body;
+  }
+  return last;
+}
+
+TYPED_TEST(Joints, ChainOfFiftyLinksBearsAHundredTimesALinksMass) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t ball = build_chain(world, 50, 100, true);
+  for (int frame = 0; frame < 300; ++frame) world.step();
+  EXPECT_NEAR(world.centre(ball).y, 30 - 25.5, tolerance<S>(1e-3, 5e-3));
+}
+
+TYPED_TEST(Joints, SwingingChainStaysTogetherAndGainsNoEnergy) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const bool narrow = std::is_same_v<S, Q16_16>;
+  build_chain(world, narrow ? 12 : 50, narrow ? 10 : 100, false);
+  const double start = world.energy();
+  double worst = 0, highest = start;
+  for (int frame = 0; frame < 600; ++frame) {
+    world.step();
+    worst = std::max(worst, world.worst_separation());
+    highest = std::max(highest, world.energy());
+  }
+  EXPECT_LT(worst, 0.02);
+  EXPECT_LT(highest - start, std::abs(start) * 1e-3);
+  if (!narrow) {
+    EXPECT_GT(world.energy() - start, -20 * 150);  // 20 of 250 J/kg
+  }
+}
+
+TYPED_TEST(Joints, BridgeHeldAtBothEndsSagsAndSettles) {
+  using S = TypeParam;
+  for (const JointType type : {JointType::ball, JointType::hinge}) {
+    JointWorld<S> world;
+    std::uint32_t last = kNoBody;
+    const int planks = 16;  // 8 m of them over 7.6 m, at first as a V
+    const double dx = 3.8 / 8, dy = std::sqrt(0.25 - dx * dx);
+    const auto height = [&](double i) { return -dy * (8 - std::abs(i - 8)); };
+    for (int i = 0; i < planks; ++i) {
+      const std::uint32_t plank = world.add_box({dx * (i + 0.5), height(i + 0.5), 0}, 1, {0.25, 0.05, 0.5});
+      world.join(type, last, plank, {dx * i, height(i), 0});
+      last = plank;
+    }
+    world.join(type, last, kNoBody, {dx * planks, 0, 0});
+    for (int frame = 0; frame < 900; ++frame) world.step();
+    // A parabola of length L over a span s sags by about sqrt(3 s (L - s) / 8).
+    EXPECT_NEAR(world.centre(planks / 2).y, -std::sqrt(3 * 7.6 * 0.4 / 8), 0.3);
+    EXPECT_LT(world.worst_separation(), tolerance<S>(0.01, 0.03));
+  }
+}
+
+TYPED_TEST(Joints, RingOfBodiesHoldsThoughItsLastJointIsSolvedApart) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const int count = 6;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * i / count;
+    world.add_box({std::cos(angle), std::sin(angle), 0}, 1, {0.2, 0.2, 0.2});
+  }
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * (i + 0.5) / count, r = std::cos(kPi / count);
+    world.join(JointType::ball, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>((i + 1) % count),
+               {r * std::cos(angle), r * std::sin(angle), 0});
+  }
+  world.join(JointType::ball, kNoBody, 1, {std::cos(kPi / 3), std::sin(kPi / 3) + 0.2, 0});
+  for (int frame = 0; frame < 300; ++frame) {
+    world.step();
+    EXPECT_LT(world.worst_separation(), 0.02);
+  }
+}
+
+TYPED_TEST(Joints, BodyWithMoreJointsThanATreeTakesKeepsThemAll) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t hub = world.add_box({0, 0, 0}, 5, {0.3, 0.3, 0.3});
+  world.join(JointType::ball, kNoBody, hub, {0, 0.3, 0});
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2 * kPi * i / 12;
+    const std::uint32_t spoke = world.add_box({0.8 * std::cos(angle), 0, 0.8 * std::sin(angle)}, 0.5, {0.2, 0.2, 0.2});
+    world.join(JointType::ball, hub, spoke, {0.4 * std::cos(angle), 0, 0.4 * std::sin(angle)});
+  }
+  for (int frame = 0; frame < 300; ++frame) {
+    world.step();
+    EXPECT_LT(world.worst_separation(), 0.02);
+  }
+}
+
+// ---- what is stored
+
+TYPED_TEST(Joints, AJointThatHangsStillKeepsItsLoadAsImpulse) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t weight = world.add_box({0, -1, 0}, 3, {0.2, 0.2, 0.2});
+  world.join(JointType::ball, kNoBody, weight, {0, 0, 0});
+  for (int frame = 0; frame < 10; ++frame) world.step();
+  EXPECT_NEAR(to_double(world.impulses[0].point.y), 10.0 / 240, 1e-4);  // weight h over the reduced mass
+  EXPECT_NEAR(to_double(world.impulses[0].point.x), 0, 1e-5);
+}
+
+TYPED_TEST(Joints, JointsBetweenThingsThatDoNotMoveAreIdle) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.add_body({1, 0, 0}, 0, {0, 0, 0});
+  world.join(JointType::fixed, kNoBody, 0, {0, 0, 0});
+  world.states[0].centre.y = S(1);
+  for (int frame = 0; frame < 10; ++frame) world.step();
+  EXPECT_EQ(world.centre(0).y, 1);
+  EXPECT_EQ(to_double(world.impulses[0].point.y), 0);
+}
+
+}  // namespace
+}  // namespace isostep

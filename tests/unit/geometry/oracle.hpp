@@ -1,0 +1,126 @@
+// Oracles in double for the geometry and query tests: random shapes, distance fields and quadrature clouds.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep::oracle {
+
+using D3 = Vec3<double>;
+
+inline double length(D3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+inline D3 unit(D3 v) { return v * (1 / length(v)); }
+
+template <class S> D3 real(Vec3<S> v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
+template <class S> Vec3<S> made(D3 v) { return {from_double<S>(v.x), from_double<S>(v.y), from_double<S>(v.z)}; }
+template <class S> Primitive<double> real(const Primitive<S>& p) {
+  return {p.type, 0, real(p.half), to_double(p.radius), real(p.normal), to_double(p.offset)};
+}
+template <class S> Transform<double> real(const Transform<S>& t) {
+  return {real(t.position), {{real(t.rotation.rows[0]), real(t.rotation.rows[1]), real(t.rotation.rows[2])}}};
+}
+
+/// Numbers from raw generator words: the standard's distributions differ between libraries.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double in(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
+  /// Spread evenly over orders of magnitude.
+  double size(double low, double high) { return low * std::exp(in(0, std::log(high / low))); }
+  D3 point(double reach) {
+    const double x = in(-reach, reach), y = in(-reach, reach);
+    return {x, y, in(-reach, reach)};
+  }
+  D3 direction() {
+    for (;;) {
+      const D3 v = point(1);
+      if (length(v) > 0.1 && length(v) < 1) return unit(v);
+    }
+  }
+  template <class S> Quat<Unit<S>> orientation() {
+    const D3 axis = direction();
+    const double half = in(-3, 3);
+    using U = Unit<S>;
+    return normalise(Quat<U>{from_double<U>(axis.x * std::sin(half)), from_double<U>(axis.y * std::sin(half)),
+                             from_double<U>(axis.z * std::sin(half)), from_double<U>(std::cos(half))});
+  }
+  /// kind 0 sphere, 1 box, 2 capsule.
+  template <class S> Primitive<S> primitive(int kind, double low, double high) {
+    const double a = size(low, high), b = size(low, high), c = size(low, high);
+    if (kind == 0) return primitive_of(Sphere<S>{from_double<S>(a)});
+    if (kind == 1) return primitive_of(Box<S>{made<S>({a, b, c})});
+    return primitive_of(Capsule<S>{from_double<S>(a), from_double<S>(b)});
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Signed distance of p, in the primitive's frame: exact everywhere.
+inline double signed_distance(const Primitive<double>& s, D3 p) {
+  if (s.type == ShapeType::half_space) return dot(s.normal, p) - s.offset;
+  if (s.type == ShapeType::sphere) return length(p) - s.radius;
+  if (s.type == ShapeType::capsule) {
+    const double past = std::fabs(p.y) - s.half.y;
+    return (past > 0 ? std::hypot(p.x, past, p.z) : std::hypot(p.x, p.z)) - s.radius;
+  }
+  const D3 q = {std::fabs(p.x) - s.half.x, std::fabs(p.y) - s.half.y, std::fabs(p.z) - s.half.z};
+  const double inside = std::fmax(q.x, std::fmax(q.y, q.z));
+  return inside < 0 ? inside : std::hypot(std::fmax(q.x, 0), std::fmax(q.y, 0), std::fmax(q.z, 0));
+}
+
+struct PointMass { D3 at; double volume; };
+
+/// Two-point Gauss rule on [low, high]: exact for cubics.
+inline void gauss(double low, double high, double (&x)[2]) {
+  const double mid = (low + high) / 2, off = (high - low) / 2 / std::sqrt(3.0);
+  x[0] = mid - off;
+  x[1] = mid + off;
+}
+
+/// Discs stacked along y between low and high, squared radius q(y) at most quadratic: Gauss of six points along y, two
+/// in radius squared, eight angles. Exact for second moments, which are polynomials of degree six in y.
+template <class Q> void add_revolved(std::vector<PointMass>& cloud, double low, double high, Q q) {
+  static const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+  static const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+  for (int i = 0; i < 6; ++i) {
+    const double y = (low + high) / 2 + (high - low) / 2 * (i < 3 ? -node[i] : node[i - 3]);
+    double squares[2];
+    gauss(0, q(y), squares);
+    for (double square : squares) {
+      const double volume = (high - low) / 2 * weight[i % 3] * q(y) / 2 * std::acos(-1.0) / 8;
+      for (int a = 0; a < 8; ++a) {
+        const double angle = a * std::acos(-1.0) / 4, r = std::sqrt(square);
+        cloud.push_back({{r * std::cos(angle), y, r * std::sin(angle)}, volume});
+      }
+    }
+  }
+}
+
+/// Point masses of density 1 with the primitive's volume and first and second moments, in its frame.
+inline std::vector<PointMass> cloud_of(const Primitive<double>& p) {
+  std::vector<PointMass> cloud;
+  const double h = p.half.y, r = p.radius;
+  if (p.type == ShapeType::box) {
+    double x[2], y[2], z[2];
+    gauss(-p.half.x, p.half.x, x);
+    gauss(-p.half.y, p.half.y, y);
+    gauss(-p.half.z, p.half.z, z);
+    for (double a : x) {
+      for (double b : y) {
+        for (double c : z) cloud.push_back({{a, b, c}, p.half.x * p.half.y * p.half.z});
+      }
+    }
+    return cloud;
+  }
+  add_revolved(cloud, -h - r, -h, [&](double y) { return r * r - (y + h) * (y + h); });
+  add_revolved(cloud, h, h + r, [&](double y) { return r * r - (y - h) * (y - h); });
+  if (h > 0) add_revolved(cloud, -h, h, [&](double) { return r * r; });
+  return cloud;
+}
+
+}  // namespace isostep::oracle

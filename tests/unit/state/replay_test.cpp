@@ -1,0 +1,307 @@
+// Replays of a toy game: what is recorded verifies, and what differs is named.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "recording.hpp"
+
+namespace isostep {
+namespace {
+
+using toy::Buffer;
+
+TEST(Replay, ARecordingVerifies) {
+  for (const std::uint64_t frames : {0u, 1u, 59u, 60u, 61u, 120u, 500u}) {
+    const Buffer file = toy::record(frames);
+    const VerifyResult result = toy::verify_toy(file);
+    EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+    EXPECT_EQ(result.frames, frames);
+    EXPECT_EQ(exit_code(result.outcome), 0);
+  }
+}
+
+TEST(Replay, EveryFrameIsFoundByItsNumber) {
+  const Buffer file = toy::record(130, 7);
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.status(), ReplayStatus::complete);
+  ASSERT_EQ(replay.frame_count(), 130u);
+  toy::Game game;
+  for (std::uint64_t i = 0; i < 130; ++i) {
+    const Bytes input = replay.frame(i).input;
+    EXPECT_EQ(Buffer(input.begin(), input.end()), toy::input_of(i));
+    ASSERT_TRUE(game.step_recorded(input));
+    EXPECT_EQ(replay.frame(i).hash, game.hash());
+  }
+}
+
+TEST(Replay, WatchingTwiceWithOneSimulationGivesTheSame) {
+  const Buffer file = toy::record(70);
+  const ReplayReader replay(file);
+  const ReplayHeader here = toy::header();
+  toy::Game game;
+  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
+  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
+}
+
+TEST(Replay, AnotherSimulationDivergesAtTheFrameWhereItDiffers) {
+  const Buffer file = toy::record(200);
+  const ReplayReader replay(file);
+  const ReplayHeader here = toy::header();
+  for (const std::uint64_t frame : {0u, 1u, 59u, 60u, 137u, 199u}) {
+    toy::Game game;
+    game.bug_at = frame;
+    const VerifyResult result = verify(replay, game, SameHeader{here});
+    EXPECT_EQ(result.outcome, VerifyOutcome::diverged);
+    EXPECT_EQ(exit_code(result.outcome), 1);
+    EXPECT_EQ(result.frames, frame);
+    EXPECT_EQ(result.expected, replay.frame(frame).hash);
+    EXPECT_EQ(result.actual, game.hash());
+    EXPECT_NE(result.actual, result.expected);
+  }
+}
+
+TEST(Replay, ACutFileWhosePrefixDivergesIsDiverged) {
+  const Buffer file = toy::record(200, 0, false);
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.status(), ReplayStatus::truncated);
+  const ReplayHeader here = toy::header();
+  toy::Game game;
+  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::truncated);
+  game.bug_at = 100;
+  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::diverged);
+}
+
+TEST(Replay, WithoutItsEndAFilePlaysItsWholeBlocks) {
+  const Buffer file = toy::record(200, 0, false);
+  const VerifyResult result = toy::verify_toy(file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::truncated);
+  EXPECT_EQ(exit_code(result.outcome), 3);
+  EXPECT_EQ(result.frames, 180u);
+  EXPECT_EQ(result.offset, file.size());
+}
+
+TEST(Replay, KeyframesAreCheckedAgainstTheStateReached) {
+  const Buffer file = toy::record(100, 25);
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.keyframes().size(), 4u);
+  EXPECT_EQ(replay.keyframes()[1].frames, 50u);
+  EXPECT_EQ(toy::verify_toy(file).outcome, VerifyOutcome::verified);
+
+  toy::Game seeker;
+  Reader reader(replay.keyframes()[1].state);
+  ASSERT_TRUE(seeker.read_portable(reader));
+  for (std::uint64_t i = 50; i < 100; ++i) ASSERT_TRUE(seeker.step_recorded(replay.frame(i).input));
+  EXPECT_EQ(seeker.hash(), replay.frame(99).hash);
+}
+
+TEST(Replay, EveryRequiredFieldOfTheHeaderIsNamedWhenItDiffers) {
+  const Buffer file = toy::record(3);
+  const ReplayReader replay(file);
+  const ReplayHeader good = toy::header();
+  int required = 0;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    ReplayHeader here = good;
+    ASSERT_TRUE(here.set(good[i].key.view(), "other", good[i].required));
+    toy::Game game;
+    const VerifyResult result = verify(replay, game, SameHeader{here});
+    if (!good[i].required) {
+      EXPECT_EQ(result.outcome, VerifyOutcome::verified) << good[i].key.view();
+      continue;
+    }
+    ++required;
+    EXPECT_EQ(result.outcome, VerifyOutcome::incompatible);
+    EXPECT_EQ(exit_code(result.outcome), 2);
+    EXPECT_EQ(result.mismatch.key.view(), good[i].key.view());
+    EXPECT_EQ(result.mismatch.in_file.view(), good[i].value.view());
+    EXPECT_EQ(result.mismatch.here.view(), "other");
+  }
+  EXPECT_EQ(required, 9);
+}
+
+TEST(Replay, ARequiredFieldThatOnlyOneSideKnowsIsNamed) {
+  ReplayHeader more = toy::header();
+  ASSERT_TRUE(more.set("input", "v2", true));
+  HeaderMismatch mismatch = compare_headers(more, toy::header());
+  EXPECT_EQ(mismatch.key.view(), "input");
+  EXPECT_TRUE(mismatch.here.empty());
+  mismatch = compare_headers(toy::header(), more);
+  EXPECT_EQ(mismatch.key.view(), "input");
+  EXPECT_TRUE(mismatch.in_file.empty());
+  ASSERT_TRUE(more.set("input", "v2", false));
+  EXPECT_TRUE(compare_headers(more, toy::header()).key.empty());
+}
+
+TEST(Replay, TheIdentityComesBack) {
+  const ReplayHeader header = toy::header();
+  const Result<ReplayIdentity> read = identity_of(header);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read.value().behaviour, 0x1122334455667788u);
+  EXPECT_EQ(read.value().scalar, "q32.32");
+  EXPECT_EQ(read.value().scalar_id, ScalarTraits<Q32_32>::kId);
+  EXPECT_EQ(read.value().hz, 60u);
+  EXPECT_EQ(read.value().substeps, 4u);
+  EXPECT_EQ(read.value().solver, "soft_step");
+  EXPECT_EQ(read.value().settings_digest, 0xabcdefu);
+  EXPECT_EQ(read.value().scene, "toy");
+  EXPECT_EQ(read.value().hash_algorithm, "xxh3-64");
+  EXPECT_EQ(read.value().engine, kVersionText);
+}
+
+TEST(Replay, AnIdentityThatIsNotOneNamesTheField) {
+  for (const char* value : {"sixty", "-1", "60.0", "4294967296", "99999999999999999999", "0x10"}) {
+    ReplayHeader header = toy::header();
+    ASSERT_TRUE(header.set("hz", value, true));
+    const Result<ReplayIdentity> read = identity_of(header);
+    ASSERT_FALSE(read) << value;
+    EXPECT_EQ(read.error().place.view(), "HEAD hz");
+  }
+  for (const char* value : {"12", "00000000000000zz", "00000000000000AB"}) {
+    ReplayHeader header = toy::header();
+    ASSERT_TRUE(header.set("settings", value, true));
+    ASSERT_FALSE(identity_of(header)) << value;
+    EXPECT_EQ(identity_of(header).error().place.view(), "HEAD settings");
+  }
+  ReplayIdentity nameless = toy::identity();
+  nameless.scene = "";
+  EXPECT_FALSE(make_replay_header(nameless));
+}
+
+TEST(Replay, AHeaderTakesOnlyShortPrintableFieldsAndNotTooMany) {
+  ReplayHeader header;
+  EXPECT_FALSE(header.set("", "x", true));
+  EXPECT_FALSE(header.set("x", "", true));
+  EXPECT_FALSE(header.set("line\n", "x", true));
+  EXPECT_FALSE(header.set("x", "caf\xc3\xa9", true));
+  EXPECT_FALSE(header.set(std::string(kReplayKeyCap + 1, 'k'), "x", true));
+  EXPECT_FALSE(header.set("x", std::string(kReplayValueCap + 1, 'v'), true));
+  for (std::size_t i = 0; i < kReplayFieldCap; ++i) EXPECT_TRUE(header.set(std::to_string(i), "x", true));
+  EXPECT_FALSE(header.set("one more", "x", true));
+  EXPECT_TRUE(header.set("7", "replaced", true));
+  EXPECT_EQ(header.size(), kReplayFieldCap);
+}
+
+TEST(Replay, OutcomesAreDescribedInOneLine) {
+  const Buffer file = toy::record(130);
+  EXPECT_EQ(describe(toy::verify_toy(file)), "VERIFIED 130 frames");
+  EXPECT_EQ(describe(toy::verify_toy(Bytes(file).first(file.size() - 1))),
+            "TRUNCATED at frame 130: the file ends inside a chunk (byte " + std::to_string(file.size() - 32) + ")");
+  const ReplayReader replay(file);
+  ReplayHeader here = toy::header();
+  ASSERT_TRUE(here.set("hz", "120", true));
+  toy::Game game;
+  EXPECT_EQ(describe(verify(replay, game, SameHeader{here})),
+            "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
+}
+
+TEST(ReplayWriter, WritesTheSameBytesWhateverTheSinkIs) {
+  struct Counter {
+    Buffer bytes;
+    std::size_t calls = 0;
+  } counter;
+  const ReplaySink sink = {[](void* context, const std::uint8_t* bytes, std::size_t size) {
+                             auto& c = *static_cast<Counter*>(context);
+                             c.bytes.insert(c.bytes.end(), bytes, bytes + size);
+                             ++c.calls;
+                             return true;
+                           },
+                           &counter};
+  toy::Game game;
+  Recorder<toy::Game> recorder(sink);
+  ASSERT_TRUE(recorder.begin(game, toy::header()));
+  for (std::uint64_t i = 0; i < 70; ++i) {
+    ASSERT_TRUE(game.step_recorded(toy::input_of(i)));
+    ASSERT_TRUE(recorder.frame(toy::input_of(i), game.hash()));
+  }
+  ASSERT_TRUE(recorder.finish());
+  EXPECT_EQ(counter.bytes, toy::record(70));
+  EXPECT_GT(counter.calls, 6u);
+}
+
+TEST(ReplayWriter, ARefusingSinkEndsTheRecordingAndLeavesAValidBeginning) {
+  struct Disk {
+    Buffer bytes;
+    std::size_t room;
+  };
+  const std::size_t full = toy::record(70).size();
+  for (std::size_t room = 0; room < full; room += 13) {
+    Disk disk{{}, room};
+    const ReplaySink sink = {[](void* context, const std::uint8_t* bytes, std::size_t size) {
+                               auto& d = *static_cast<Disk*>(context);
+                               if (d.bytes.size() + size > d.room) return false;
+                               d.bytes.insert(d.bytes.end(), bytes, bytes + size);
+                               return true;
+                             },
+                             &disk};
+    toy::Game game;
+    Recorder<toy::Game> recorder(sink);
+    bool ok = recorder.begin(game, toy::header()).ok();
+    for (std::uint64_t i = 0; i < 70; ++i) {
+      ASSERT_TRUE(game.step_recorded(toy::input_of(i)));
+      ok = recorder.frame(toy::input_of(i), game.hash()).ok() && ok;
+    }
+    const Result<void> finished = recorder.finish();
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().code, ErrorCode::sink);
+    EXPECT_EQ(toy::verify_toy(disk.bytes).outcome, VerifyOutcome::truncated);
+  }
+}
+
+TEST(ReplayWriter, RefusesCallsOutOfOrder) {
+  Buffer file;
+  ReplayWriter early(sink_to(file));
+  EXPECT_FALSE(early.frame({}, 0));
+  EXPECT_FALSE(early.begin(toy::header(), {}, 0));
+  ReplayWriter twice(sink_to(file));
+  EXPECT_TRUE(twice.begin(toy::header(), {}, 0));
+  EXPECT_FALSE(twice.begin(toy::header(), {}, 0));
+  ReplayWriter late(sink_to(file));
+  EXPECT_TRUE(late.begin(toy::header(), {}, 0));
+  EXPECT_TRUE(late.finish());
+  EXPECT_FALSE(late.frame({}, 0));
+}
+
+TEST(ReplayWriter, LargeInputsEndABlockEarlyAndTooLargeOnesAreRefused) {
+  Buffer file;
+  ReplayWriter writer(sink_to(file));
+  ASSERT_TRUE(writer.begin(toy::header(), {}, 0));
+  const Buffer large(kReplayFrameInputCap, 0x5a);
+  for (std::uint64_t i = 0; i < 20; ++i) ASSERT_TRUE(writer.frame(large, i));
+  ASSERT_TRUE(writer.finish());
+  const ReplayReader replay(file);
+  EXPECT_EQ(replay.status(), ReplayStatus::complete);
+  ASSERT_EQ(replay.frame_count(), 20u);
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(replay.frame(i).input.size(), large.size());
+    EXPECT_EQ(replay.frame(i).hash, i);
+  }
+  ReplayWriter refuses(sink_to(file));
+  ASSERT_TRUE(refuses.begin(toy::header(), {}, 0));
+  const Result<void> result = refuses.frame(Buffer(kReplayFrameInputCap + 1), 0);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::limit);
+}
+
+TEST(ReplayWriter, AChunkOfTheCallersOwnIsSkippedByReaders) {
+  Buffer file;
+  toy::Game game;
+  Recorder<toy::Game> recorder(sink_to(file));
+  ASSERT_TRUE(recorder.begin(game, toy::header()));
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    ASSERT_TRUE(game.step_recorded(toy::input_of(i)));
+    ASSERT_TRUE(recorder.frame(toy::input_of(i), game.hash()));
+    const Buffer chat = {'h', 'i'};
+    if (i % 10 == 0) {
+      ASSERT_TRUE(recorder.writer().ancillary(replay_chunk_type('c', 'H', 'A', 'T'), chat));
+    }
+  }
+  ASSERT_TRUE(recorder.finish());
+  EXPECT_EQ(toy::verify_toy(file).outcome, VerifyOutcome::verified);
+  for (const std::uint32_t type : {replay_chunk_type('C', 'H', 'A', 'T'), replay_chunk_type('c', 'H', 'A', '1'), 0u}) {
+    Buffer other;
+    ReplayWriter writer(sink_to(other));
+    ASSERT_TRUE(writer.begin(toy::header(), {}, 0));
+    EXPECT_FALSE(writer.ancillary(type, {}));
+  }
+}
+
+}  // namespace
+}  // namespace isostep
