@@ -1,0 +1,27 @@
+# Install rules and the package that find_package(isostep CONFIG) finds.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set_target_properties(isostep_deterministic_flags PROPERTIES EXPORT_NAME deterministic_flags)
+install(TARGETS isostep isostep_scalar isostep_deterministic_flags EXPORT isostep
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY scalar/include/ include/ DESTINATION include FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/isostep)
+
+set(isostep_package ${CMAKE_INSTALL_LIBDIR}/cmake/isostep)
+install(EXPORT isostep NAMESPACE isostep:: FILE isostep-targets.cmake DESTINATION ${isostep_package})
+configure_package_config_file(cmake/isostep-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/isostep-config.cmake
+  INSTALL_DESTINATION ${isostep_package} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change hashes and interface.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/isostep-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/isostep-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/isostep-config-version.cmake
+  cmake/add_scalar.cmake
+  DESTINATION ${isostep_package})
+if(ISOSTEP_TOOL AND TARGET isostep_tool)
+  install(TARGETS isostep_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used.
@@ -11,11 +13,11 @@ template <class Tag> struct Id {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  // 0: null
 
-  constexpr explicit operator bool() const { return generation != 0; }
-  friend constexpr bool operator==(Id a, Id b) { return a.slot == b.slot && a.generation == b.generation; }
-  friend constexpr bool operator!=(Id a, Id b) { return !(a == b); }
+  ISO_INLINE constexpr explicit operator bool() const { return generation != 0; }
+  friend ISO_INLINE constexpr bool operator==(Id a, Id b) { return a.slot == b.slot && a.generation == b.generation; }
+  friend ISO_INLINE constexpr bool operator!=(Id a, Id b) { return !(a == b); }
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
     visit("generation", self.generation);
   }

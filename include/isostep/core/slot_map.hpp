@@ -17,7 +17,7 @@ struct SlotEntry {
   static constexpr std::uint32_t kTaken = 0xffffffffu;
   static constexpr std::uint32_t kEnd = 0xfffffffeu;
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("generation", self.generation);
     visit("next_free", self.next_free);
   }
@@ -26,7 +26,7 @@ static_assert(kHasNoPadding<SlotEntry>);
 
 class SlotMap {
  public:
-  template <class AnyId> AnyId take() {
+  template <class AnyId> ISO_INLINE AnyId take() {
     if (first_free_ == SlotEntry::kEnd) {
       entries_.push_back({1, SlotEntry::kTaken});
       return {static_cast<std::uint32_t>(entries_.size() - 1), 1};
@@ -37,22 +37,22 @@ class SlotMap {
     entry.next_free = SlotEntry::kTaken;
     return {slot, entry.generation};
   }
-  void give_back(std::uint32_t slot) {
+  ISO_INLINE void give_back(std::uint32_t slot) {
     SlotEntry& entry = entries_[slot];
     entry.generation += entry.generation == 0xffffffffu ? 2u : 1u;  // 0 stays null
     entry.next_free = first_free_;
     first_free_ = slot;
   }
-  template <class AnyId> bool holds(AnyId id) const {
+  template <class AnyId> ISO_INLINE bool holds(AnyId id) const {
     return id.slot < entries_.size() && is_taken(id.slot) && entries_[id.slot].generation == id.generation;
   }
-  bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
-  template <class AnyId> AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
+  ISO_INLINE bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
+  template <class AnyId> ISO_INLINE AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
 
-  const std::vector<SlotEntry>& entries() const { return entries_; }
-  std::uint32_t first_free() const { return first_free_; }
+  ISO_INLINE const std::vector<SlotEntry>& entries() const { return entries_; }
+  ISO_INLINE std::uint32_t first_free() const { return first_free_; }
   /// From a file: false when the free list is not one list of just the free slots.
-  bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
+  ISO_INLINE bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
     std::size_t free = 0, met = 0;
     for (const SlotEntry& entry : entries) {
       if (entry.generation == 0) return false;

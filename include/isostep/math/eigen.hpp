@@ -49,7 +49,7 @@ template <class D> ISO_INLINE auto vec3_from(const Eigen::MatrixBase<D>& v) -> V
 }
 template <class D> ISO_INLINE auto mat3_from(const Eigen::MatrixBase<D>& m) -> Mat3<NativeScalar<typename D::Scalar>> {
   EIGEN_STATIC_ASSERT_MATRIX_SPECIFIC_SIZE(D, 3, 3)
-  const auto row = [&](int i) { return vec3_from(m.row(i).transpose()); };
+  const auto row = [&](int i) ISO_INLINE_LAMBDA { return vec3_from(m.row(i).transpose()); };
   return {{row(0), row(1), row(2)}};
 }
 template <class D> ISO_INLINE auto quat_from(const Eigen::QuaternionBase<D>& q) -> Quat<NativeScalar<typename D::Scalar>> {

@@ -48,12 +48,13 @@ template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q) {
   const auto xx = product(q.x, q.x), yy = product(q.y, q.y), zz = product(q.z, q.z);
   const auto xy = product(q.x, q.y), xz = product(q.x, q.z), yz = product(q.y, q.z);
   const auto wx = product(q.w, q.x), wy = product(q.w, q.y), wz = product(q.w, q.z);
-  const U one = U(1);
-  // Sums stay below 1/2 in magnitude before doubling, so U's range of two is enough.
-  const auto twice = [](auto sum) { return round_to<U>(sum + sum); };
-  return {{{one - twice(yy + zz), twice(xy - wz), twice(xz + wy)},
-           {twice(xy + wz), one - twice(xx + zz), twice(yz - wx)},
-           {twice(xz - wy), twice(yz + wx), one - twice(xx + yy)}}};
+  const auto one = widen<Sum<U>>(U(1));
+  // 2 (y^2 + z^2) is 2 at half a turn, which U cannot hold but the exact sum can.
+  const auto twice = [](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(sum + sum); };
+  const auto rest = [one](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(one - (sum + sum)); };
+  return {{{rest(yy + zz), twice(xy - wz), twice(xz + wy)},
+           {twice(xy + wz), rest(xx + zz), twice(yz - wx)},
+           {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
 }
 
 /// R diag(d) R^T: a tensor with principal values d, seen from the frame that R leads to. Symmetric bit for bit.

@@ -55,9 +55,9 @@ template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn) {
 /// The rotation by `angle` [rad] about the unit vector `axis`.
 template <class S> ISO_INLINE Quat<Unit<S>> rotation(Vec3<Unit<S>> axis, S angle) {
   using U = Unit<S>;
-  const SinCos<S> half = sin_cos(S(0.5) * angle);
-  const Vec3<U> v = axis * convert<U>(half.sin);
-  return normalise(Quat<U>{v.x, v.y, v.z, convert<U>(half.cos)});
+  const SinCos<U> half = sin_cos_to<U>(S(0.5) * angle);
+  const Vec3<U> v = axis * half.sin;
+  return normalise(Quat<U>{v.x, v.y, v.z, half.cos});
 }
 
 }  // namespace isostep

@@ -80,8 +80,10 @@ template <class U> struct Tangents {
 /// Differs: x and z trade places, so that the seam lies at n.z = 0 rather than along a floor's normal.
 template <class U> ISO_INLINE constexpr Tangents<U> tangents_of(Vec3<U> n) {
   const bool negative = n.z < U(0);
-  const U divisor = negative ? U(-1) + n.z : U(1) + n.z;
-  const U a = -divide_to<U>(U(1), divisor);
+  // Halved above and below: 1 + n.z may be 2, which U cannot hold.
+  const U half_z = n.z * U(0.5);
+  const U divisor = negative ? U(-0.5) + half_z : U(0.5) + half_z;
+  const U a = -divide_to<U>(U(0.5), divisor);
   const U b = n.x * (n.y * a);
   const U xx = n.x * (n.x * a);
   const U yy = n.y * (n.y * a);

@@ -9,6 +9,32 @@
 
 namespace isostep {
 
+namespace detail {
+/// Points keep the impulse of their feature. What no feature claims is shared among the points that found none: when two
+/// boxes trade places as reference every feature changes at once, and the load they carry must not vanish with the names.
+template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& contact) {
+  using V = Velocity<S>;
+  bool claimed[kMaxContactPoints] = {};
+  bool found[kMaxContactPoints] = {};
+  std::uint32_t missing = 0;
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    for (std::uint32_t q = 0; q < old.count; ++q) {
+      if (old.features[q] != contact.features[p]) continue;
+      contact.normal_impulse[p] = old.normal_impulse[q];
+      found[p] = claimed[q] = true;
+    }
+    missing += found[p] ? 0u : 1u;
+  }
+  V left = V(0);
+  for (std::uint32_t q = 0; q < old.count; ++q) left += claimed[q] ? V(0) : old.normal_impulse[q];
+  if (missing == 0 || !(left > V(0))) return;
+  const V share = left / V(missing);
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    if (!found[p]) contact.normal_impulse[p] = share;
+  }
+}
+}  // namespace detail
+
 template <class S> std::uint32_t WorldEngine<S>::row_of(std::uint32_t slot) const {
   if (slot == kNoBody) return 0;
   const Location at = locations_[slot];
@@ -122,11 +148,7 @@ void WorldEngine<S>::add_contact(const ContactKey& key, const Manifold<S>& manif
     contact.flags = old.flags;
     contact.friction_impulse = old.friction_impulse;
     contact.twist_impulse = old.twist_impulse;
-    for (std::uint32_t p = 0; p < contact.count; ++p) {
-      for (std::uint32_t q = 0; q < old.count; ++q) {
-        if (old.features[q] == contact.features[p]) contact.normal_impulse[p] = old.normal_impulse[q];
-      }
-    }
+    detail::inherit_impulses(old, contact);
   }
   state_.contacts.push_back(contact);
   geometry_.push_back(g);

@@ -29,7 +29,7 @@ template <class S> struct Events {
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<BodyId> fell_asleep, woke;
 
-  void clear() {
+  ISO_INLINE void clear() {
     contact_begin.clear();
     contact_end.clear();
     sensor_begin.clear();
@@ -57,7 +57,7 @@ struct StepReport {
   std::uint32_t clamped_speed = 0;      // bodies whose speed was cut to Limits<S>
   std::uint32_t clamped_position = 0;   // bodies held at the edge of the world
   std::uint32_t stopped = 0;            // bodies put back and stopped because a number was not finite
-  constexpr bool clean() const { return clamped_speed == 0 && clamped_position == 0 && stopped == 0; }
+  ISO_INLINE constexpr bool clean() const { return clamped_speed == 0 && clamped_position == 0 && stopped == 0; }
 };
 
 }  // namespace isostep

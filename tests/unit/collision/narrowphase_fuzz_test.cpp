@@ -39,19 +39,21 @@ template <class S> Primitive<S> any_primitive(Random& random, int type, double l
   if (type == 0) return sphere_of<S>(x);
   if (type == 1) return box_of<S>(x, y, z);
   if (type == 2) return capsule_of<S>(x, y);
-  return half_space_of<S>(random.direction(), random.in(-largest, largest));
+  const Point normal = random.direction();
+  return half_space_of<S>(normal, random.in(-largest, largest));
 }
 /// Upright, by a quarter turn, a hair off either, or any way.
 template <class S> Transform<S> any_pose(Random& random, Point p) {
   const Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Point axis = axes[random.below(3)];
-  const double quarter = std::acos(0.0);
+  const Point any = random.direction();
+  const double quarters = std::acos(0.0) * random.below(4), hair = std::pow(10, random.in(-9, -1));
   switch (random.below(5)) {
     case 0: return at<S>(p);
-    case 1: return at<S>(p, axis, quarter * random.below(4));
-    case 2: return at<S>(p, axis, quarter * random.below(4) + std::pow(10, random.in(-9, -1)));
-    case 3: return at<S>(p, random.direction(), std::pow(10, random.in(-9, -1)));
-    default: return at<S>(p, random.direction(), random.in(-3, 3));
+    case 1: return at<S>(p, axis, quarters);
+    case 2: return at<S>(p, axis, quarters + hair);
+    case 3: return at<S>(p, any, hair);
+    default: return at<S>(p, any, random.in(-3, 3));
   }
 }
 /// What rounding is relative to [m].

@@ -157,7 +157,8 @@ TYPED_TEST(NarrowPhase, HalfSpaceKeepsTheFourDeepestOfEightVertices) {
   using S = TypeParam;
   Random random(11);
   for (int n = 0; n < 200; ++n) {
-    const auto crate = box_of<S>(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
+    const double x = random.in(0.1, 1), y = random.in(0.1, 1);
+    const auto crate = box_of<S>(x, y, random.in(0.1, 1));
     const auto pose = random_pose<S>(random, 1);
     const auto ground = half_space_of<S>(random.direction(), 5);  // all eight are under it
     const auto m = touch(crate, pose, ground, at<S>({0, 0, 0}));

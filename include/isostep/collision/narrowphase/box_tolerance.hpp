@@ -24,8 +24,7 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S>
   return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
 }
 
-/// A gap between cores up to this has no direction worth the name: rounding where the shapes are up to `extent` apart
-/// or long.
+/// A gap between cores up to this has no direction worth the name: rounding where shapes are `extent` apart or long.
 template <class S> ISO_INLINE constexpr S gap_noise(S extent) {
   return extent * resolution<Unit<S>>() * S(8) + resolution<S>() * S(16);
 }

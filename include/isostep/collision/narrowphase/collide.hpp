@@ -9,12 +9,10 @@
 namespace isostep {
 
 /// Fills `out` with the points whose separation is at most `margin` >= 0; none leaves count 0 and a zero normal.
-/// Frame:  both transforms lead to one frame near the shapes, its origin at a body's centre of mass, axes as the
-/// world's. Only the
-///         difference of the positions enters normal, separation and features; it shifts the points exactly.
-/// Order:  collide(b, a) gives the same points with the opposite normal to rounding; exactly, between unlike types. Two
-/// boxes
-///         whose best faces agree within axis_tolerance take a's as reference; features name a and b by their order.
+/// Frame:  both transforms lead to one frame near the shapes: origin at a body's centre of mass, axes as the world's.
+///         Only the difference of the positions enters normal, separation and features; moving both moves the points.
+/// Order:  collide(b, a) gives the same points and the opposite normal to rounding; between unlike types exactly.
+///         Two boxes whose best faces agree within axis_tolerance take a's as reference, so there the order shows.
 /// Limits: Q16.16: extents and distances below 100 m; Q32.32: 1000 m. Degenerate sizes (0) are allowed. Two half-spaces
 ///         never touch.
 template <class S>

@@ -14,8 +14,7 @@ template <class S> struct FacePair {
   int axis;
 };
 
-/// A corner of the contact polygon. Its two edges name it: 0..3 edges of the incident face, 4..7 sides of the
-/// reference.
+/// A corner of the contact polygon. Its edges name it: 0..3 edges of the incident face, 4..7 sides of the reference.
 template <class S> struct ClipPoint {
   S u, v;                       // [m] in the reference face
   S height;                     // [m] above it
@@ -29,8 +28,7 @@ template <class S> struct ClipPolygon {
   int count;
 };
 
-/// Cuts off what lies beyond `side` (0: u < -half, 1: u > half, 2, 3: v). A corner on the line stays and is not
-/// doubled.
+/// Cuts off what lies beyond `side` (0: u < -half, 1: u > half, 2, 3: v). A corner on the line stays, not doubled.
 template <class S> ISO_INLINE void clip_side(ClipPolygon<S>& polygon, unsigned side, S half) {
   S beyond[kClipPoints];
   bool cuts = false;
@@ -65,9 +63,13 @@ template <class S> ISO_INLINE Sum<S> area2(const ClipPoint<S>& a, const ClipPoin
   return product(b.u - a.u, c.v - a.v) - product(b.v - a.v, c.u - a.u);
 }
 
+template <class S> ISO_INLINE Sum<S> distance2(const ClipPoint<S>& a, const ClipPoint<S>& b) {
+  return product(b.u - a.u, b.u - a.u) + product(b.v - a.v, b.v - a.v);
+}
+
 /// Four of up to eight corners: the deepest (within `tie` the first); the one furthest from it; the one that spans the
-/// largest triangle with these; the one that adds most area outside it. In the polygon's order. Ties go to the lowest
-/// index.
+/// largest triangle with these; the one that adds most area outside it. Kept in the polygon's order; ties go to the
+/// lowest index.
 template <class S> ISO_INLINE void reduce_to_four(ClipPolygon<S>& polygon, S tie) {
   const ClipPoint<S>* p = polygon.points;
   S lowest = p[0].height;
@@ -75,14 +77,11 @@ template <class S> ISO_INLINE void reduce_to_four(ClipPolygon<S>& polygon, S tie
   int first = 0;
   while (p[first].height > lowest + tie) ++first;
   int second = first == 0 ? 1 : 0, third = -1, fourth = -1;
-  const auto distance2 = [&](int i) {
-    const S du = p[i].u - p[first].u, dv = p[i].v - p[first].v;
-    return product(du, du) + product(dv, dv);
-  };
-  auto furthest = distance2(second);
+  auto furthest = distance2(p[first], p[second]);
   for (int i = second + 1; i < polygon.count; ++i) {
-    if (i == first || !(distance2(i) > furthest)) continue;
-    furthest = distance2(i);
+    const auto distance = distance2(p[first], p[i]);
+    if (i == first || !(distance > furthest)) continue;
+    furthest = distance;
     second = i;
   }
   auto largest = furthest;

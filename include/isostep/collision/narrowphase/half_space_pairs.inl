@@ -25,6 +25,22 @@ ISO_INLINE void touch_plane(Vec3<S> p, S height, S radius, S margin, std::uint32
   out.add(p + out.normal * ((height + radius) * S(0.5)), height - radius, feature);
 }
 
+/// A box's axes by how much they raise a vertex over the plane.
+template <class S> struct RaiseOrder {
+  int axes[3];
+  S rise[3];  // [m]
+
+  ISO_INLINE constexpr void descend(int i, int j) {
+    if (!(rise[i] < rise[j])) return;
+    const S r = rise[i];
+    const int k = axes[i];
+    rise[i] = rise[j];
+    axes[i] = axes[j];
+    rise[j] = r;
+    axes[j] = k;
+  }
+};
+
 }  // namespace detail
 
 template <class S>
@@ -63,20 +79,12 @@ void collide_box_half_space(const Primitive<S>& a, const Transform<S>& ta, const
   if (lowest - a.radius > margin) return;
   out.normal = -plane.up;
 
-  int axes[3] = {0, 1, 2};
-  S rise[3] = {size.x, size.y, size.z};
-  const auto order = [&](int i, int j) {
-    if (!(rise[i] < rise[j])) return;
-    const S r = rise[i];
-    const int k = axes[i];
-    rise[i] = rise[j];
-    axes[i] = axes[j];
-    rise[j] = r;
-    axes[j] = k;
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
+  detail::RaiseOrder<S> order = {{0, 1, 2}, {size.x, size.y, size.z}};
+  order.descend(0, 1);
+  order.descend(1, 2);
+  order.descend(0, 1);
+  const int* axes = order.axes;
+  const S* rise = order.rise;
 
   const std::uint32_t down = (lift.x < S(0) ? 1u : 0u) | (lift.y < S(0) ? 2u : 0u) | (lift.z < S(0) ? 4u : 0u);
   const std::uint32_t bit[3] = {1u << axes[0], 1u << axes[1], 1u << axes[2]};

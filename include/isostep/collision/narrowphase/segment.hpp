@@ -26,8 +26,7 @@ template <class S> struct ClosestPair {
 /// Differs: with unit directions only lengths are divided, never squares: t = -(r . w) / |w|, where w is b's direction
 ///          without its part along a's. The root's error is epsilon / sine, its effect on the distance epsilon.
 /// Limits:  below a sine of 2 sqrt(resolution) the segments count as parallel: the middle of their overlap is taken,
-/// which
-///          errs by that sine times the overlap.
+///          which errs by that sine times the overlap.
 template <class S> ISO_INLINE ClosestPair<S> closest_points(const Segment<S>& a, const Segment<S>& b) {
   using U = Unit<S>;
   const Vec3<S> r = b.centre - a.centre;

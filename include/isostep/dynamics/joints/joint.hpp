@@ -124,10 +124,11 @@ template <class S> struct JointStep {
   Softness<S> softness;
 };
 
-/// How soft joints outside a JointSystem's trees are: a quarter of the sub-step rate as frequency, the stiffest that an
-/// explicit scheme carries; damping ratio 2: measured best for the worst separation of a swinging chain.
+/// How soft joints are that no JointTrees solves at once, and how fast those that it does close their errors: a quarter
+/// of the sub-step rate as frequency, and a damping ratio of 5. On S6 ratios 1, 2, 5, 10 leave one-by-one joints (two
+/// sweeps) 0.52, 0.18, 0.09, 0.08 m apart and trees 1.3, 1.9, 3.4, 5.2 mm.
 template <class S> ISO_INLINE constexpr Softness<S> joint_softness(S rate) {
-  return soften(S(1.5707963267948966), S(2), rate);
+  return soften(S(1.5707963267948966), S(5), rate);
 }
 
 /// Once a step. Masses and rows must be gathered.

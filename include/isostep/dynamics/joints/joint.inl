@@ -227,8 +227,8 @@ template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& ka
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) detail::set_turns(joint.drives[i].row, kappa_a, kappa_b);
 }
 
-/// What a push along the drive moves once the joint's own point has answered it: a door turns about its hinge, not about
-/// its centre. Never less than what truly moves, so repeated passes converge.
+/// What a push along the drive moves once the joint's own point has answered it: a door turns about its hinge, not
+/// about its centre. Never less than what truly moves, so repeated passes converge.
 template <class S> void weigh_drives(JointConstraint<S>& joint) {
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];

@@ -85,10 +85,9 @@ template <class S, class V> ISO_INLINE Vec3<V> saturated_times(const Mat3<S>& m,
 }
 /// old + change within the speed limit.
 template <class S> ISO_INLINE Vec3<Velocity<S>> saturated_sum(Vec3<Velocity<S>> old, Vec3<Velocity<S>> change) {
-  using V = Velocity<S>;
-  const V most = convert<V>(Limits<S>::speed());
-  const auto sum = [&](V a, V b) { return clamp(a + b, -most, most); };
-  return {sum(old.x, change.x), sum(old.y, change.y), sum(old.z, change.z)};
+  const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
+  const Vec3<Velocity<S>> bound = {most, most, most};
+  return min(max(old + change, -bound), bound);
 }
 /// m v at the precision of velocities.
 template <class S, class V> ISO_INLINE Vec3<V> times(const Mat3<S>& m, Vec3<V> v) {
@@ -160,18 +159,15 @@ template <class S> ISO_INLINE Mat3<S> invert_symmetric(const Mat3<S>& m, S softn
 }
 
 /// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
-template <class S>
-ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {
-  const auto x = [&](int j) {
-    return round_to<S>(product(angular[0].y, turn[j].y) + product(angular[0].z, turn[j].z));
-  };
-  const auto y = [&](int j) {
-    return round_to<S>(product(angular[1].x, turn[j].x) + product(angular[1].z, turn[j].z));
-  };
-  const auto z = [&](int j) {
-    return round_to<S>(product(angular[2].x, turn[j].x) + product(angular[2].y, turn[j].y));
-  };
-  return {{{x(0), x(1), x(2)}, {y(0), y(1), y(2)}, {z(0), z(1), z(2)}}};
+template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {
+  Mat3<S> k;
+  for (int j = 0; j < 3; ++j) {
+    const Vec3<S> t = turn[j];
+    k.rows[0].set(j, round_to<S>(product(angular[0].y, t.y) + product(angular[0].z, t.z)));
+    k.rows[1].set(j, round_to<S>(product(angular[1].x, t.x) + product(angular[1].z, t.z)));
+    k.rows[2].set(j, round_to<S>(product(angular[2].x, t.x) + product(angular[2].y, t.y)));
+  }
+  return k;
 }
 
 /// linear . linear + angular . kappa angular of one body's halves of two rows.

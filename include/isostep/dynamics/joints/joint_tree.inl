@@ -132,8 +132,8 @@ void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const 
 }
 
 /// Source:  Andrews, Teichmann, Kovecses 2017, Geometric Stiffness for Real-time Constrained Multibody Dynamics,
-///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link enters its inertia as an implicit
-///          integrator would have it, and only as far as the sub-step is too long for it.
+///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link enters its inertia as an
+///          implicit integrator would have it, and only as far as the sub-step is too long for it.
 /// Symbols: kappa tension = (angular frequency h)^2; explicit steps follow it below 4.
 template <class S> void JointTrees<S>::stiffen(const SolverBodies<S>& bodies) {
   for (const std::uint32_t row : taut_) {
@@ -183,7 +183,9 @@ void JointTrees<S>::solve(std::span<JointConstraint<S>> joints, const JointStep<
   for (JointConstraint<S>& joint : joints) {
     if (joint.holds && joint.drive_count > 0) solve_drives(joint, step, relax);
   }
-  for (const std::uint32_t j : loose_) solve_blocks(joints[j], step, relax);
+  for (int sweep = 0; sweep < kLooseSweeps; ++sweep) {
+    for (const std::uint32_t j : loose_) solve_blocks(joints[j], step, relax);
+  }
   find_right_sides(joints, step, relax);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];

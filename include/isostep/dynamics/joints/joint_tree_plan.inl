@@ -8,6 +8,8 @@ namespace isostep {
 
 namespace detail {
 enum JointRole : std::uint8_t { kIdle, kLoose, kTree, kClosing, kQueued, kDone };
+/// [1] what a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
+template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
 }  // namespace detail
 
 template <class S> void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
@@ -47,24 +49,51 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
     }
     if (a_moves && b_moves && sets_.find(joint.row_a) == sets_.find(joint.row_b)) fits = false;
     role_[j] = fits ? detail::kTree : detail::kLoose;
-    if (!fits) {
-      loose_.push_back(j);
-      continue;
-    }
+    if (!fits) continue;
     if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
     if (a_moves) blocks_[joint.row_a] += joint.block_count;
     if (b_moves) blocks_[joint.row_b] += joint.block_count;
-    if (a_moves) ++degree_[joint.row_a];
-    if (b_moves) ++degree_[joint.row_b];
+  }
+  weigh_sets(joints, bodies);
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] == detail::kTree) place_in_tree(joints, bodies, j);
+    if (role_[j] == detail::kLoose) loose_.push_back(j);
+  }
+}
+
+/// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
+template <class S>
+void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+  set_mass_.assign(blocks_.size(), S(0));
+  set_lightest_.assign(blocks_.size(), Limits<S>::mass());
+  for (std::uint32_t row = 0; row < blocks_.size(); ++row) {
+    if (blocks_[row] == 0) continue;
+    S& mass = set_mass_[sets_.find(row)];
+    mass = min(mass + min(bodies.mass[row].mass, Limits<S>::mass()), Limits<S>::mass());
   }
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     if (role_[j] != detail::kTree) continue;
-    const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
-    if (a_moves && b_moves) continue;
-    std::uint8_t& anchored = anchored_[sets_.find(a_moves ? joints[j].row_a : joints[j].row_b)];
-    if (anchored != 0) role_[j] = detail::kClosing;
-    anchored = 1;
+    const bool a_moves = bodies.moves(joints[j].row_a);
+    const std::uint32_t row = a_moves ? joints[j].row_a : joints[j].row_b;
+    S& lightest = set_lightest_[sets_.find(row)];
+    lightest = min(lightest, bodies.mass[row].mass * (a_moves ? joints[j].share.a : joints[j].share.b));
   }
+}
+
+template <class S>
+void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+                                  std::uint32_t j) {
+  const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
+  const std::uint32_t set = sets_.find(a_moves ? joints[j].row_a : joints[j].row_b);
+  if (set_mass_[set] * detail::kLeastCompliance<S> > set_lightest_[set]) {
+    role_[j] = detail::kLoose;
+    return;
+  }
+  if (a_moves) ++degree_[joints[j].row_a];
+  if (b_moves) ++degree_[joints[j].row_b];
+  if (a_moves && b_moves) return;
+  if (anchored_[set] != 0) role_[j] = detail::kClosing;
+  anchored_[set] = 1;
 }
 
 template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const JointConstraint<S>> joints) {
@@ -83,7 +112,7 @@ template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const Joi
   }
 }
 
-/// Leaves first: a joint's turn comes when one of its bodies has no other joint left. Rows that do not move have degree 0.
+/// Leaves first: a joint's turn comes when one of its bodies has no other joint left. What does not move has degree 0.
 template <class S> void JointTrees<S>::eliminate_all(std::span<const JointConstraint<S>> joints) {
   node_of_.assign(joints.size() * 2, 0);
   closing_.resize(joints.size());

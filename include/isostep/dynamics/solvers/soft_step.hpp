@@ -10,6 +10,7 @@
 #include "isostep/dynamics/colouring.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 
@@ -69,6 +70,7 @@ template <class S> class SoftStep {
   void solve_contacts(const ContactPass<S>& pass);
 
   SolverBodies<S> bodies_;
+  JointTrees<S> joint_trees_;
   std::vector<Vec3<S>> inertia_;           // [1] principal moments over the largest, where the gyroscopic term acts
   Colouring colouring_;
   std::vector<std::uint32_t> bucket_;      // of each contact: colour * variants + variant

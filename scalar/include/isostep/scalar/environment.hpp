@@ -159,8 +159,9 @@ ISO_INLINE bool pair_is_fused() {
 /// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's.
 ISO_INLINE std::uint32_t probe_environment_here() {
   std::uint32_t found = 0;
-  const auto check = [&](bool deviates, Deviation deviation) { found |= deviates ? bit_of(deviation) : 0u; };
-  const auto is_zero = [](auto x) {  // by bits: a comparison takes denormals for zero as well
+  const auto check = [&](bool deviates, Deviation deviation) ISO_INLINE_LAMBDA { found |= deviates ? bit_of(deviation) : 0u; };
+  // By bits: a comparison takes denormals for zero as well.
+  const auto is_zero = [](auto x) ISO_INLINE_LAMBDA {
     if constexpr (sizeof(x) == 4) return (std::bit_cast<std::uint32_t>(x) << 1) == 0;
     if constexpr (sizeof(x) == 8) return (std::bit_cast<std::uint64_t>(x) << 1) == 0;
   };

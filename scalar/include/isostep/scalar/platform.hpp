@@ -15,8 +15,11 @@
 /// compiled with -mfma and the linker may keep it for the whole program. Always inlining leaves nothing to keep.
 #if defined(_MSC_VER) && !defined(__clang__)
 #define ISO_INLINE __forceinline
+#define ISO_INLINE_LAMBDA
 #else
 #define ISO_INLINE inline __attribute__((always_inline))
+/// For a lambda in such a function, whose call operator is a function too: `[&](S x) ISO_INLINE_LAMBDA { ... }`.
+#define ISO_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
 /// Caller's bug: checked in builds that define ISOSTEP_ASSERTS, free elsewhere.

@@ -130,7 +130,7 @@ ISO_INLINE constexpr std::uint64_t rsqrt_q64(std::uint64_t m) {
 template <class Wide> ISO_INLINE constexpr std::uint64_t nearest_root(Wide n_less_guess_squared, std::uint64_t guess) {
   Wide d = n_less_guess_squared;
   std::uint64_t s = guess;
-  const auto wide = [](std::uint64_t value) {
+  const auto wide = [](std::uint64_t value) ISO_INLINE_LAMBDA {
     if constexpr (sizeof(Wide) == 8) return static_cast<std::int64_t>(value);
     if constexpr (sizeof(Wide) == 16) return int128_from({0, value});
   };

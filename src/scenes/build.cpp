@@ -1,0 +1,182 @@
+// The builder, for every scalar of the library.
+// SPDX-License-Identifier: MIT
+#include "build.hpp"
+
+#include <map>
+
+#include "isostep/geometry/validate.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+template <class T> T read(const Number& number, const std::string& place) {
+  T value{};
+  TextError error = TextError::none;
+  if (number.read(value, error)) return value;
+  const std::string scalar = ScalarTraits<T>::kName;
+  throw SceneError(place, error == TextError::out_of_range ? number.text() + " is out of range for " + scalar
+                                                           : "expected a number, found " + number.text());
+}
+template <class T> Vec3<T> read(const Vector& v, const std::string& place) {
+  const T x = read<T>(v[0], place + "/0");
+  const T y = read<T>(v[1], place + "/1");
+  return {x, y, read<T>(v[2], place + "/2")};
+}
+template <class U> Quat<U> read(const Rotation& q, const std::string& place) {
+  const U x = read<U>(q[0], place + "/0");
+  const U y = read<U>(q[1], place + "/1");
+  const U z = read<U>(q[2], place + "/2");
+  return {x, y, z, read<U>(q[3], place + "/3")};
+}
+
+template <class S> Primitive<S> primitive(const ScenePart& part, const std::string& place) {
+  switch (part.type) {
+    case ShapeType::sphere: return primitive_of(Sphere<S>{read<S>(part.radius, place + "/radius")});
+    case ShapeType::box: return primitive_of(Box<S>{read<S>(part.half_extents, place + "/half_extents")});
+    case ShapeType::capsule: {
+      const S radius = read<S>(part.radius, place + "/radius");
+      return primitive_of(Capsule<S>{radius, read<S>(part.half_height, place + "/half_height")});
+    }
+    case ShapeType::half_space: {
+      const Vec3<Unit<S>> normal = read<Unit<S>>(part.normal, place + "/normal");
+      return primitive_of(HalfSpace<S>{normal, read<S>(part.offset, place + "/offset")});
+    }
+  }
+  throw SceneError(place, "no such shape");
+}
+
+template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, const std::string& place) {
+  std::vector<Child<S>> children;
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    const std::string at = place + "/shapes/" + std::to_string(i);
+    const Primitive<S> shape = primitive<S>(body.parts[i], at);
+    const Vec3<S> position = read<S>(body.parts[i].position, at + "/position");
+    children.push_back({shape, {position, read<Unit<S>>(body.parts[i].orientation, at + "/orientation")}});
+    if (shape.type == ShapeType::half_space && body.type == BodyType::dynamic) {
+      throw SceneError(at, "a half_space is for static bodies");
+    }
+    const ShapeFault fault = validate(std::span<const Child<S>>(&children.back(), 1));
+    if (fault != ShapeFault::none) throw SceneError(at, describe(fault));
+  }
+  const ShapeId shape = world.add_shape(std::span<const Child<S>>(children));
+  if (!shape) throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
+                                                      ? fault_text(world.fault())
+                                                      : describe(validate(std::span<const Child<S>>(children))));
+  return shape;
+}
+
+template <class S>
+BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint64_t user_data, const std::string& place) {
+  BodyDefinition<S> d;
+  d.type = body.type;
+  d.shape = shape;
+  d.position = read<S>(body.position, place + "/position");
+  d.orientation = read<Unit<S>>(body.orientation, place + "/orientation");
+  d.velocity = read<S>(body.velocity, place + "/velocity");
+  d.angular_velocity = read<S>(body.angular_velocity, place + "/angular_velocity");
+  d.density = read<S>(body.density, place + "/density");
+  d.mass = read<S>(body.mass, place + "/mass");
+  d.inertia = read<S>(body.inertia, place + "/inertia");
+  d.material.friction = read<S>(body.friction, place + "/friction");
+  d.material.restitution = read<S>(body.restitution, place + "/restitution");
+  d.gravity_scale = read<S>(body.gravity_scale, place + "/gravity_scale");
+  d.linear_damping = read<S>(body.linear_damping, place + "/linear_damping");
+  d.angular_damping = read<S>(body.angular_damping, place + "/angular_damping");
+  d.filter.group = body.group;
+  d.user_data = user_data;
+  d.sensor = body.sensor;
+  d.allow_sleep = body.allow_sleep;
+  d.collide = body.collide;
+  return d;
+}
+
+template <class S> BodyId create(World<S>& world, const BodyDefinition<S>& definition, const std::string& place) {
+  const BodyId id = world.create(definition);
+  if (!id) throw SceneError(place, std::string("the body is refused: ") + fault_text(world.fault()));
+  return id;
+}
+
+/// Bodies of equal parts share one shape.
+std::string key_of(const SceneBody& body) {
+  std::string key;
+  for (const ScenePart& part : body.parts) {
+    key += std::to_string(static_cast<unsigned>(part.type));
+    for (const Vector* v : {&part.half_extents, &part.normal, &part.position}) {
+      for (const Number& number : *v) key += ' ' + number.text();
+    }
+    for (const Number& number : part.orientation) key += ' ' + number.text();
+    for (const Number* number : {&part.radius, &part.half_height, &part.offset}) key += ' ' + number->text();
+  }
+  return key;
+}
+
+template <class S>
+JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<BodyId>& bodies, const std::string& place) {
+  const auto body = [&](int index) { return index < 0 ? BodyId{} : bodies[static_cast<std::size_t>(index)]; };
+  const Quat<Unit<S>> axes = read<Unit<S>>(joint.orientation, place + "/orientation");
+  const Pose<S> frame = {read<S>(joint.anchor, place + "/anchor"), axes};
+  JointProperties<S> properties = world.joint_at(joint.type, body(joint.a), body(joint.b), frame);
+  if (joint.type == JointType::distance) {
+    const Pose<S> other = {read<S>(joint.anchor_b, place + "/anchor_b"), axes};
+    properties.frame_b = world.joint_at(joint.type, body(joint.a), body(joint.b), other).frame_b;
+  }
+  properties.flags = joint.flags;
+  properties.lower = read<S>(joint.lower, place + "/lower");
+  properties.upper = read<S>(joint.upper, place + "/upper");
+  properties.cone = read<S>(joint.cone, place + "/cone");
+  properties.motor_speed = read<S>(joint.motor_speed, place + "/motor_speed");
+  properties.motor_torque = read<S>(joint.motor_torque, place + "/motor_torque");
+  properties.spring_target = read<S>(joint.spring_target, place + "/spring_target");
+  properties.spring_frequency = read<S>(joint.spring_frequency, place + "/spring_frequency");
+  properties.spring_damping = read<S>(joint.spring_damping, place + "/spring_damping");
+  const JointId id = world.create(properties);
+  if (!id) throw SceneError(place, std::string("the joint is refused: ") + fault_text(world.fault()));
+  return id;
+}
+
+}  // namespace
+
+template <class S> S value_of(const Number& number, const std::string& place) { return read<S>(number, place); }
+
+template <class S> Settings<S> settings_of(const Scene& scene, int hz, int substeps) {
+  Settings<S> settings;
+  settings.hz = hz;
+  settings.substeps = substeps;
+  settings.gravity = read<S>(scene.gravity, "/gravity");
+  settings.allow_sleep = scene.allow_sleep;
+  if (const World<S> probe(settings); probe.fault() != Fault::none) {
+    throw SceneError("/gravity", std::string("beyond the greatest speed of ") + ScalarTraits<S>::kName);
+  }
+  return settings;
+}
+
+template <class S>
+BodyId add_body(World<S>& world, const SceneBody& body, std::uint64_t user_data, const std::string& place) {
+  const ShapeId shape = add_shape<S>(world, body, place);
+  return create(world, definition_of<S>(body, shape, user_data, place), place);
+}
+
+template <class S> Built<S> build(const Scene& scene, World<S>& world) {
+  Built<S> built;
+  std::map<std::string, ShapeId> shapes;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    const std::string place = "/bodies/" + std::to_string(i);
+    ShapeId& shape = shapes[key_of(body)];
+    if (!shape) shape = add_shape<S>(world, body, place);
+    built.bodies.push_back(create(world, definition_of<S>(body, shape, i + 1, place), place));
+  }
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    built.joints.push_back(add_joint<S>(world, scene.joints[i], built.bodies, "/joints/" + std::to_string(i)));
+  }
+  return built;
+}
+
+#define ISO_INSTANTIATE(S)                                                                              \
+  template Settings<S> settings_of<S>(const Scene&, int, int);                                          \
+  template Built<S> build<S>(const Scene&, World<S>&);                                                  \
+  template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&);          \
+  template S value_of<S>(const Number&, const std::string&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+
+}  // namespace isostep::scenes

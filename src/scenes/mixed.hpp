@@ -1,0 +1,17 @@
+// What the scene `mixed` and its script share.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "shapes.hpp"
+
+namespace isostep::scenes {
+
+/// Frames in which the script acts; in between the pile may fall asleep.
+inline bool is_lively(std::uint64_t frame) { return frame % 200 < 100; }
+
+/// A single or compound body somewhere above the pile.
+SceneBody mixed_body(Draws& draws);
+
+}  // namespace isostep::scenes

@@ -1,0 +1,58 @@
+// The list of named scenes, and their variants.
+// SPDX-License-Identifier: MIT
+#include "named.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+Scene sleeping(Scene scene) {
+  scene.allow_sleep = true;
+  return scene;
+}
+Scene small_stack() { return stack(5); }
+Scene half_stack() { return stack(10); }
+Scene tall_stack() { return stack(20); }
+Scene sleeping_stack() { return sleeping(stack(20)); }
+Scene full_pile() { return pile(1000); }
+Scene small_pile() { return pile(200); }
+Scene swinging_chain() { return chain(false); }
+Scene hanging_chain() { return chain(true); }
+Scene sleeping_pyramid() {
+  Scene scene = sleeping(pyramid());
+  scene.frames = 900;
+  return scene;
+}
+
+constexpr NamedScene kScenes[] = {
+    {"S1", "20 unit boxes stacked", tall_stack},
+    {"S1x5", "5 unit boxes stacked", small_stack},
+    {"S1x10", "10 unit boxes stacked", half_stack},
+    {"S1s", "S1 with sleep", sleeping_stack},
+    {"S2", "a wall of 210 boxes", wall},
+    {"S3", "a square pyramid of 1240 boxes", pyramid},
+    {"S4", "1000 boxes, spheres and capsules fall into a pit", full_pile},
+    {"S4s", "the first 200 bodies of S4", small_pile},
+    {"S5", "4000 spheres fall into a pit", rain},
+    {"S6", "a chain of 50 links swings with a heavy ball", swinging_chain},
+    {"S6v", "the chain hangs at rest", hanging_chain},
+    {"S7", "50 ragdolls fall into a pit", ragdolls},
+    {"S8", "S3 with sleep", sleeping_pyramid},
+    {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
+    {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
+};
+
+}  // namespace
+
+std::span<const NamedScene> named_scenes() { return kScenes; }
+
+std::optional<Scene> find_scene(std::string_view name) {
+  for (const NamedScene& entry : kScenes) {
+    if (name != entry.name) continue;
+    Scene scene = entry.make();
+    scene.name = entry.name;
+    return scene;
+  }
+  return std::nullopt;
+}
+
+}  // namespace isostep::scenes

@@ -1,0 +1,36 @@
+// The named scenes: benchmarks, and `mixed` for the laws of restoring.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "scene.hpp"
+
+namespace isostep::scenes {
+
+struct NamedScene {
+  const char* name;
+  const char* description;
+  Scene (*make)();
+};
+std::span<const NamedScene> named_scenes();
+/// Nothing for a name that no scene has.
+std::optional<Scene> find_scene(std::string_view name);
+
+// Makers, one file a family.
+Scene stack(int boxes);
+Scene wall();
+Scene pyramid();
+Scene pile(int bodies);
+Scene rain();
+Scene chain(bool hanging);
+Scene ragdolls();
+Scene mixer();
+Scene mixed();
+
+/// The n-th body of the mixer, the first 600 inside the drum, later ones created in its middle.
+SceneBody mixer_body(int n);
+
+}  // namespace isostep::scenes

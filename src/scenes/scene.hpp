@@ -1,0 +1,114 @@
+// A scene as data, before any scalar is chosen: what the named scenes, scene files and their writer share.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/geometry/shape.hpp"
+#include "isostep/scalar/text.hpp"
+
+namespace isostep::scenes {
+
+/// A number is its decimal text and enters a scalar by one rounding, wherever it comes from: so a named scene, and the
+/// file written of it, are the same scene in every scalar. Computed numbers are doubles whose shortest decimal counts.
+class Number {
+ public:
+  Number(double value) : text_(to_text(value)) {}
+  explicit Number(std::string text) : text_(std::move(text)) {}
+
+  const std::string& text() const { return text_; }
+  template <class S> bool read(S& out, TextError& error) const { return from_text(text_, out, error); }
+  friend bool operator==(const Number& a, const Number& b) { return a.text_ == b.text_; }
+
+ private:
+  std::string text_;
+};
+
+using Vector = std::array<Number, 3>;
+using Rotation = std::array<Number, 4>;  // x y z w
+
+inline Vector zero_vector() { return {0, 0, 0}; }
+inline Rotation no_rotation() { return {0, 0, 0, 1}; }
+
+/// One primitive of a body; of the sizes only those of its type count.
+struct ScenePart {
+  ShapeType type = ShapeType::box;
+  Vector half_extents = zero_vector();  // [m] box
+  Number radius = 0;                    // [m] sphere, capsule
+  Number half_height = 0;               // [m] capsule
+  Vector normal = {0, 1, 0};            // [1] half-space
+  Number offset = 0;                    // [m] half-space
+  Vector position = zero_vector();      // [m] in the body's frame
+  Rotation orientation = no_rotation();
+};
+
+struct SceneBody {
+  BodyType type = BodyType::dynamic;
+  std::vector<ScenePart> parts;
+  Vector position = zero_vector();          // [m]
+  Rotation orientation = no_rotation();
+  Vector velocity = zero_vector();          // [m/s]
+  Vector angular_velocity = zero_vector();  // [rad/s]
+  Number density = 1;                       // [kg/m^3]
+  Number mass = 0;                          // [kg] 0: from density
+  Vector inertia = zero_vector();           // [kg m^2] 0: from the shape
+  Number friction = 0.5;                    // [1]
+  Number restitution = 0;                   // [1]
+  Number gravity_scale = 1;                 // [1]
+  Number linear_damping = 0;                // [1/s]
+  Number angular_damping = 0;               // [1/s]
+  std::uint32_t group = 0;
+  bool allow_sleep = true;
+  bool collide = true;
+  bool sensor = false;
+};
+
+/// Frames as they lie at the start, world.
+struct SceneJoint {
+  JointType type = JointType::ball;
+  int a = -1, b = -1;                    // indices of bodies; -1: the world
+  Vector anchor = zero_vector();         // [m]
+  Vector anchor_b = zero_vector();       // [m] distance joints: the end on b; others: as anchor
+  Rotation orientation = no_rotation();  // of the joint's frame, whose axis is z
+  std::uint32_t flags = 0;               // joint_flag
+  Number lower = 0, upper = 0;           // [rad] or, distance, [m]
+  Number cone = 0;                       // [rad]
+  Number motor_speed = 0;                // [rad/s]
+  Number motor_torque = 0;               // [N m]
+  Number spring_target = 0;              // [rad] or, distance, [m]
+  Number spring_frequency = 0;           // [Hz]
+  Number spring_damping = 0;             // [1]
+};
+
+/// What happens between frames: closed, so that a scene file can name it.
+enum class Script : std::uint32_t { none, mixer, mixed };
+inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed"};
+
+struct Scene {
+  std::string name = "scene";
+  Vector gravity = {0, -10, 0};  // [m/s^2]
+  bool allow_sleep = true;
+  int frames = 600;              // of a run that asks for no other count
+  Script script = Script::none;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
+};
+
+/// A scene that cannot be; `place` is a JSON pointer into its file, "" for the whole.
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(std::string place, const std::string& message)
+      : std::runtime_error(place.empty() ? message : place + ": " + message), place_(std::move(place)) {}
+  const std::string& place() const { return place_; }
+
+ private:
+  std::string place_;
+};
+
+}  // namespace isostep::scenes

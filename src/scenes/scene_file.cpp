@@ -1,0 +1,137 @@
+// The reader of scene files.
+// SPDX-License-Identifier: MIT
+#include "scene_file.hpp"
+
+#include "object_reader.hpp"
+#include "scene_keys.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+std::string item(const std::string& place, const char* list, std::size_t i) {
+  return place + "/" + list + "/" + std::to_string(i);
+}
+
+ScenePart read_part(const JsonNode& node, const std::string& place) {
+  ObjectReader reader(node, place);
+  ScenePart part;
+  part.type = static_cast<ShapeType>(reader.choice("type", kShapeNames));
+  switch (part.type) {
+    case ShapeType::box:
+      reader.require("half_extents");
+      reader.vector("half_extents", part.half_extents);
+      break;
+    case ShapeType::capsule:
+      reader.require("half_height");
+      reader.positive("half_height", part.half_height);
+      [[fallthrough]];
+    case ShapeType::sphere:
+      reader.require("radius");
+      reader.positive("radius", part.radius);
+      break;
+    case ShapeType::half_space:
+      reader.require("normal");
+      reader.vector("normal", part.normal);
+      reader.number("offset", part.offset);
+      break;
+  }
+  reader.vector("position", part.position);
+  reader.rotation("orientation", part.orientation);
+  reader.finish();
+  return part;
+}
+
+SceneBody read_body(const JsonNode& node, const std::string& place) {
+  ObjectReader reader(node, place);
+  SceneBody body;
+  body.type = static_cast<BodyType>(reader.choice("type", kBodyNames));
+  reader.vector("position", body.position);
+  reader.rotation("orientation", body.orientation);
+  reader.vector("velocity", body.velocity);
+  reader.vector("angular_velocity", body.angular_velocity);
+  reader.positive("density", body.density);
+  if (body.type == BodyType::dynamic) reader.positive("mass", body.mass);
+  else reader.number("mass", body.mass);
+  reader.vector("inertia", body.inertia);
+  reader.number("friction", body.friction);
+  reader.number("restitution", body.restitution);
+  reader.number("gravity_scale", body.gravity_scale);
+  reader.number("linear_damping", body.linear_damping);
+  reader.number("angular_damping", body.angular_damping);
+  std::int64_t group = 0;
+  reader.integer("group", 0, 0xffffffff, group);
+  body.group = static_cast<std::uint32_t>(group);
+  reader.flag("allow_sleep", body.allow_sleep);
+  reader.flag("collide", body.collide);
+  reader.flag("sensor", body.sensor);
+  const auto parts = reader.array("shapes");
+  for (std::size_t i = 0; i < parts.size(); ++i) body.parts.push_back(read_part(parts[i].second, item(place, "shapes", i)));
+  if (parts.empty()) throw SceneError(place, "a body needs \"shapes\", one or more");
+  reader.finish();
+  return body;
+}
+
+int read_end(ObjectReader& reader, const char* key, std::size_t bodies) {
+  reader.require(key);
+  std::int64_t index = -1;
+  reader.integer(key, -1, static_cast<std::int64_t>(bodies) - 1, index);
+  return static_cast<int>(index);
+}
+
+SceneJoint read_joint(const JsonNode& node, const std::string& place, std::size_t bodies) {
+  ObjectReader reader(node, place);
+  SceneJoint joint;
+  joint.type = static_cast<JointType>(reader.choice("type", kJointNames));
+  joint.a = read_end(reader, "a", bodies);
+  joint.b = read_end(reader, "b", bodies);
+  if (joint.a == joint.b) throw SceneError(place, "a joint needs two different bodies");
+  reader.require("anchor");
+  reader.vector("anchor", joint.anchor);
+  if (joint.type == JointType::distance) {
+    reader.require("anchor_b");
+    reader.vector("anchor_b", joint.anchor_b);
+  }
+  reader.rotation("orientation", joint.orientation);
+  for (const auto& [key, flag] : kJointFlags) {
+    bool set = false;
+    reader.flag(key, set);
+    if (set) joint.flags |= flag;
+  }
+  for (const auto& [key, member] : kJointNumbers) reader.number(key, joint.*member);
+  reader.finish();
+  return joint;
+}
+
+void read_name(ObjectReader& reader, Scene& scene) {
+  constexpr std::size_t kMaxName = 128;  // what a replay's header holds
+  reader.text("name", scene.name);
+  bool printable = !scene.name.empty() && scene.name.size() <= kMaxName;
+  for (const char c : scene.name) printable = printable && c >= 0x20 && c < 0x7f;
+  if (!printable) throw SceneError("/name", "expected 1 to 128 printable ASCII characters");
+}
+
+}  // namespace
+
+Scene read_scene(std::string_view json) {
+  const JsonNode root = parse_json(json);
+  ObjectReader reader(root, "");
+  Scene scene;
+  read_name(reader, scene);
+  reader.vector("gravity", scene.gravity);
+  reader.flag("allow_sleep", scene.allow_sleep);
+  std::int64_t frames = scene.frames;
+  reader.integer("frames", 0, 1'000'000'000, frames);
+  scene.frames = static_cast<int>(frames);
+  if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
+  reader.require("bodies");
+  const auto bodies = reader.array("bodies");
+  for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(read_body(bodies[i].second, item("", "bodies", i)));
+  const auto joints = reader.array("joints");
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    scene.joints.push_back(read_joint(joints[i].second, item("", "joints", i), scene.bodies.size()));
+  }
+  reader.finish();
+  return scene;
+}
+
+}  // namespace isostep::scenes

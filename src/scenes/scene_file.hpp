@@ -1,0 +1,19 @@
+// Scene files: JSON in and out. The format is in README; whatever it does not know is an error that names its place.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene.hpp"
+
+namespace isostep::scenes {
+
+/// Throws SceneError: "/bodies/3/mass: expected a number, found a string", or "12:5: ..." where it is no JSON.
+/// What only a scalar can tell, its range and what its world accepts, `build` tells.
+Scene read_scene(std::string_view json);
+
+/// Reads back as the same scene, number for number.
+std::string write_scene(const Scene& scene);
+
+}  // namespace isostep::scenes

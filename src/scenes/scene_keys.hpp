@@ -1,0 +1,36 @@
+// The words of scene files that reader and writer share, in the order of the enumerations.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene.hpp"
+
+namespace isostep::scenes {
+
+inline constexpr const char* kShapeNames[] = {"sphere", "box", "capsule", "half_space"};
+inline constexpr const char* kBodyNames[] = {"static", "kinematic", "dynamic"};
+inline constexpr const char* kJointNames[] = {"ball", "hinge", "fixed", "distance"};
+
+struct JointFlagKey {
+  const char* key;
+  std::uint32_t flag;
+};
+inline constexpr JointFlagKey kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
+                                               {"limit", joint_flag::kLimit},
+                                               {"motor", joint_flag::kMotor},
+                                               {"spring", joint_flag::kSpring},
+                                               {"limit_cone", joint_flag::kCone}};
+
+struct JointNumberKey {
+  const char* key;
+  Number SceneJoint::*member;
+};
+inline constexpr JointNumberKey kJointNumbers[] = {{"lower", &SceneJoint::lower},
+                                                   {"upper", &SceneJoint::upper},
+                                                   {"cone", &SceneJoint::cone},
+                                                   {"motor_speed", &SceneJoint::motor_speed},
+                                                   {"motor_torque", &SceneJoint::motor_torque},
+                                                   {"spring_target", &SceneJoint::spring_target},
+                                                   {"spring_frequency", &SceneJoint::spring_frequency},
+                                                   {"spring_damping", &SceneJoint::spring_damping}};
+
+}  // namespace isostep::scenes

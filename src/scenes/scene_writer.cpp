@@ -1,0 +1,114 @@
+// The writer of scene files: one body a line, members only where they differ from what their absence means.
+// SPDX-License-Identifier: MIT
+#include "scene_file.hpp"
+#include "scene_keys.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+template <std::size_t N> std::string list(const std::array<Number, N>& numbers) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < N; ++i) text += (i == 0 ? "" : ", ") + numbers[i].text();
+  return text + "]";
+}
+std::string list(const Number& number) { return number.text(); }
+std::string list(bool flag) { return flag ? "true" : "false"; }
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+class ObjectWriter {
+ public:
+  explicit ObjectWriter(std::string type) { raw("type", quoted(type)); }
+  void raw(const char* key, const std::string& value) {
+    text_ += (text_.empty() ? "\"" : ", \"") + std::string(key) + "\": " + value;
+  }
+  template <class T> void member(const char* key, const T& value) { raw(key, list(value)); }
+  template <class T> void member(const char* key, const T& value, const T& otherwise) {
+    if (!(value == otherwise)) member(key, value);
+  }
+  std::string text() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+std::string text_of(const ScenePart& part) {
+  const ScenePart plain;
+  ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
+  if (part.type == ShapeType::box) out.member("half_extents", part.half_extents);
+  if (part.type == ShapeType::sphere || part.type == ShapeType::capsule) out.member("radius", part.radius);
+  if (part.type == ShapeType::capsule) out.member("half_height", part.half_height);
+  if (part.type == ShapeType::half_space) {
+    out.member("normal", part.normal);
+    out.member("offset", part.offset);
+  }
+  out.member("position", part.position, plain.position);
+  out.member("orientation", part.orientation, plain.orientation);
+  return out.text();
+}
+
+std::string text_of(const SceneBody& body) {
+  const SceneBody plain;
+  ObjectWriter out(kBodyNames[static_cast<std::size_t>(body.type)]);
+  out.member("position", body.position);
+  out.member("orientation", body.orientation, plain.orientation);
+  out.member("velocity", body.velocity, plain.velocity);
+  out.member("angular_velocity", body.angular_velocity, plain.angular_velocity);
+  out.member("density", body.density, plain.density);
+  out.member("mass", body.mass, plain.mass);
+  out.member("inertia", body.inertia, plain.inertia);
+  out.member("friction", body.friction);
+  out.member("restitution", body.restitution, plain.restitution);
+  out.member("gravity_scale", body.gravity_scale, plain.gravity_scale);
+  out.member("linear_damping", body.linear_damping, plain.linear_damping);
+  out.member("angular_damping", body.angular_damping, plain.angular_damping);
+  if (body.group != plain.group) out.raw("group", std::to_string(body.group));
+  out.member("allow_sleep", body.allow_sleep, plain.allow_sleep);
+  out.member("collide", body.collide, plain.collide);
+  out.member("sensor", body.sensor, plain.sensor);
+  std::string parts;
+  for (const ScenePart& part : body.parts) parts += (parts.empty() ? "" : ", ") + text_of(part);
+  out.raw("shapes", "[" + parts + "]");
+  return out.text();
+}
+
+std::string text_of(const SceneJoint& joint) {
+  const SceneJoint plain;
+  ObjectWriter out(kJointNames[static_cast<std::size_t>(joint.type)]);
+  out.raw("a", std::to_string(joint.a));
+  out.raw("b", std::to_string(joint.b));
+  out.member("anchor", joint.anchor);
+  if (joint.type == JointType::distance) out.member("anchor_b", joint.anchor_b);
+  out.member("orientation", joint.orientation, plain.orientation);
+  for (const auto& [key, flag] : kJointFlags) out.member(key, (joint.flags & flag) != 0, false);
+  for (const auto& [key, member] : kJointNumbers) out.member(key, joint.*member, plain.*member);
+  return out.text();
+}
+
+template <class T> std::string lines_of(const std::vector<T>& items) {
+  std::string text;
+  for (const T& item : items) text += (text.empty() ? "\n  " : ",\n  ") + text_of(item);
+  return text;
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  std::string text = "{\"name\": " + quoted(scene.name) + ", \"gravity\": " + list(scene.gravity) +
+                     ", \"allow_sleep\": " + list(scene.allow_sleep) + ", \"frames\": " + std::to_string(scene.frames);
+  if (scene.script != Script::none) {
+    text += ", \"script\": " + quoted(kScriptNames[static_cast<std::size_t>(scene.script)]);
+  }
+  text += ",\n \"bodies\": [" + lines_of(scene.bodies) + "]";
+  if (!scene.joints.empty()) text += ",\n \"joints\": [" + lines_of(scene.joints) + "]";
+  return text + "}\n";
+}
+
+}  // namespace isostep::scenes

@@ -1,0 +1,146 @@
+// The scripts: S9's exchange of bodies, and the many commands of `mixed`.
+// SPDX-License-Identifier: MIT
+#include "script.hpp"
+
+#include "build.hpp"
+#include "isostep/world/state.hpp"
+#include "mixed.hpp"
+#include "named.hpp"
+#include "shapes.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+constexpr char kPlace[] = "script";
+
+template <class S> S scalar(double value) { return value_of<S>(value, kPlace); }
+template <class S> Vec3<S> vector(double x, double y, double z) {
+  const S sx = scalar<S>(x), sy = scalar<S>(y);
+  return {sx, sy, scalar<S>(z)};
+}
+
+/// With the body its shape goes, unless another body has it too.
+template <class S> void destroy_with_shape(World<S>& world, BodyId body) {
+  const auto find = [&](const BodySet<S>& set, std::uint32_t& shape) {
+    for (std::size_t i = 0; i < set.states.size(); ++i) {
+      if (set.states[i].slot == body.slot) shape = set.properties[i].shape;
+    }
+  };
+  std::uint32_t shape = 0;
+  find(world.state().fixed, shape);
+  find(world.state().awake, shape);
+  for (const auto& island : world.state().frozen) find(island->bodies, shape);
+  const ShapeId id = world.state().shape_slots.template id_of<ShapeId>(shape);
+  world.destroy(body);
+  world.remove_shape(id);
+}
+
+template <class S> std::vector<BodyId> dynamic_bodies(const World<S>& world) {
+  std::vector<BodyId> bodies;
+  for (const BodyId body : world.bodies()) {
+    if (world.type(body) == BodyType::dynamic) bodies.push_back(body);
+  }
+  return bodies;
+}
+template <class S> BodyId oldest(const World<S>& world, const std::vector<BodyId>& bodies) {
+  BodyId first = bodies.front();
+  for (const BodyId body : bodies) {
+    if (world.user_data(body) < world.user_data(first)) first = body;
+  }
+  return first;
+}
+
+/// From frame 4 on, every 4th frame the oldest body is replaced by a new one in the drum's middle.
+template <class S> void stir(World<S>& world) {
+  constexpr int kFirstNew = 600;
+  if (world.tick() < 4 || world.tick() % 4 != 0) return;
+  const int n = kFirstNew + static_cast<int>(world.tick() / 4) - 1;
+  const std::vector<BodyId> bodies = dynamic_bodies(world);
+  if (!bodies.empty()) destroy_with_shape(world, oldest(world, bodies));
+  add_body(world, mixer_body(n), static_cast<std::uint64_t>(n) + 2, kPlace);  // the drum is the first body
+}
+
+/// The commands of one frame of `mixed`.
+template <class S> class Mixing {
+ public:
+  explicit Mixing(World<S>& world)
+      : world_(world), frame_(world.tick()), draws_(static_cast<std::uint32_t>(frame_) * 2654435761u + 99u) {
+    for (int i = 0; i < 3; ++i) draws_.next();
+  }
+
+  void run() {
+    if (!is_lively(frame_)) return;
+    if (frame_ % 6 == 3) add_body(world_, mixed_body(draws_), 100000 + frame_, kPlace);
+    if (frame_ % 9 == 7) destroy_with_shape(world_, any_body());
+    if (frame_ % 7 == 1) push();
+    if (frame_ % 12 == 5) tie();
+    if (frame_ % 17 == 11) untie();
+    if (frame_ % 21 == 13) change();
+    if (frame_ % 40 == 20) world_.set_gravity(vector<S>(1, -9.5, 0.5));
+    if (frame_ % 40 == 35) world_.set_gravity(vector<S>(0, -10, 0));
+  }
+
+ private:
+  std::size_t any(std::size_t count) { return draws_.next() % 4096 * count / 4096; }
+  BodyId any_body() {
+    const std::vector<BodyId> bodies = dynamic_bodies(world_);
+    return bodies.empty() ? BodyId{} : bodies[any(bodies.size())];
+  }
+
+  void push() {
+    const BodyId body = any_body();
+    const double x = draws_.between(-1, 1), z = draws_.between(-1, 1);
+    const S mass = world_.mass(body);
+    world_.apply_impulse(body, vector<S>(x, 3, z) * mass, vector<S>(0, 0, 0));
+    world_.apply_force_at(any_body(), vector<S>(2 * x, 4, 2 * z), vector<S>(x, 1, z));
+  }
+  /// A ball joint where two bodies touch.
+  void tie() {
+    const auto& contacts = world_.state().contacts;
+    if (contacts.empty()) return;
+    const ContactKey key = contacts[any(contacts.size())].key;
+    const SlotMap& slots = world_.state().body_slots;
+    const BodyId a = slots.id_of<BodyId>(key.body_a), b = slots.id_of<BodyId>(key.body_b);
+    if (world_.type(a) != BodyType::dynamic || world_.type(b) != BodyType::dynamic) return;
+    const Vec3<S> middle = (world_.centre(a) + world_.centre(b)) * scalar<S>(0.5);
+    world_.create(world_.joint_at(JointType::ball, a, b, {middle, Quat<Unit<S>>::identity()}));
+  }
+  void untie() {
+    const std::vector<JointId> joints = world_.joints();
+    if (!joints.empty()) world_.destroy(joints[any(joints.size())]);
+  }
+  void change() {
+    const BodyId body = any_body();
+    Material<S> material;
+    material.friction = scalar<S>(draws_.between(0, 1));
+    material.restitution = scalar<S>(draws_.between(0, 0.5));
+    world_.set_material(body, material);
+    world_.set_filter(any_body(), Filter{1, 0xffffffffu, 7});
+    world_.set_motion(any_body(), scalar<S>(0.5), scalar<S>(0.1), scalar<S>(0.2), body_flag::kLockAngularX);
+    world_.set_pose(any_body(), {vector<S>(0.5, 5, -0.5), Quat<Unit<S>>::identity()});
+    world_.set_velocity(any_body(), vector<S>(1, 2, -1), vector<S>(0, 3, 1));
+    world_.wake(any_body());
+    const std::vector<JointId> joints = world_.joints();
+    if (joints.empty()) return;
+    const JointId id = joints[any(joints.size())];
+    JointProperties<S> joint = *world_.joint(id);
+    joint.motor_speed = -joint.motor_speed;
+    world_.set_joint(id, joint);
+  }
+
+  World<S>& world_;
+  std::uint64_t frame_;
+  Draws draws_;
+};
+
+}  // namespace
+
+template <class S> void before_step(Script script, World<S>& world) {
+  if (script == Script::mixer) stir(world);
+  if (script == Script::mixed) Mixing<S>(world).run();
+}
+
+#define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+
+}  // namespace isostep::scenes

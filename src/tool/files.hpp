@@ -1,0 +1,44 @@
+// Files: read whole, written whole or not at all, or grown as a replay grows.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "isostep/state/replay_format.hpp"
+
+namespace isostep::tool {
+
+/// Throws ToolError 66.
+std::vector<std::uint8_t> read_file(const std::string& path);
+
+/// Beside the place and then moved there, so that nobody meets half a file; devices and pipes are written directly.
+/// Throws ToolError 74.
+void write_file(const std::string& path, std::string_view content);
+void write_file(const std::string& path, Bytes content);
+
+/// Open for a replay from `open` to `close`; what is cut short is a valid beginning.
+class ReplayFile {
+ public:
+  /// Throws ToolError 74.
+  explicit ReplayFile(const std::string& path);
+  ~ReplayFile();
+  ReplayFile(const ReplayFile&) = delete;
+  ReplayFile& operator=(const ReplayFile&) = delete;
+
+  ReplaySink sink();
+  /// Throws ToolError 74 when the bytes are not safely there.
+  void close();
+
+ private:
+  std::string path_;
+  std::FILE* file_;
+};
+
+/// Throws ToolError 74 for an error of writing.
+void expect_written(const Result<void>& result);
+
+}  // namespace isostep::tool

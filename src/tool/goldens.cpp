@@ -1,0 +1,57 @@
+// Golden files as text, and their digest.
+// SPDX-License-Identifier: MIT
+#include "goldens.hpp"
+
+#include <charconv>
+
+#include "isostep/state/hash.hpp"
+#include "tool.hpp"
+
+namespace isostep::tool {
+
+std::uint64_t behaviour_version() {
+  HashStream stream;
+  for (const GoldenText& golden : golden_texts()) {
+    const std::string_view name = golden.name, text = golden.text;
+    stream.update(name.data(), name.size());
+    stream.update("\n", 1);
+    stream.update(text.data(), text.size());
+  }
+  return stream.value();
+}
+
+std::optional<GoldenName> parse_golden_name(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  constexpr std::string_view kEnd = ".txt";
+  if (dot == std::string::npos || name.size() < dot + kEnd.size() + 2) return std::nullopt;
+  if (name.compare(name.size() - kEnd.size(), kEnd.size(), kEnd) != 0) return std::nullopt;
+  return GoldenName{name.substr(0, dot), name.substr(dot + 1, name.size() - kEnd.size() - dot - 1)};
+}
+std::string golden_name(const std::string& scene, const std::string& scalar) { return scene + "." + scalar + ".txt"; }
+
+std::string hash_lines(const std::vector<std::uint64_t>& hashes) {
+  std::string text;
+  for (std::size_t i = 0; i < hashes.size(); ++i) text += std::to_string(i) + " " + hex(hashes[i]) + "\n";
+  return text;
+}
+
+std::optional<std::vector<std::uint64_t>> parse_hash_lines(std::string_view text) {
+  std::vector<std::uint64_t> hashes;
+  while (!text.empty()) {
+    const std::string number = std::to_string(hashes.size()) + " ";
+    std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return std::nullopt;
+    std::string_view line = text.substr(0, end);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    std::uint64_t hash = 0;
+    if (line.size() != number.size() + 16 || line.substr(0, number.size()) != number) return std::nullopt;
+    const char* first = line.data() + number.size();
+    const auto [stop, error] = std::from_chars(first, first + 16, hash, 16);
+    if (error != std::errc{} || stop != first + 16) return std::nullopt;
+    hashes.push_back(hash);
+    text.remove_prefix(end + 1);
+  }
+  return hashes;
+}
+
+}  // namespace isostep::tool

@@ -1,0 +1,192 @@
+// Looks into object files: weak symbols that a linker could take from a user's file, and fused instructions.
+// SPDX-License-Identifier: MIT
+//
+// symbols consumer NM OBJDUMP OBJECT...   a user's files leave no weak function of ours behind
+// symbols library NM OBJECT...            no weak function of ours is in two objects; kernels' objects have none at all
+// symbols fused OBJDUMP FILE...           exits 0 when no instruction multiplies and adds in one
+// symbols notfused OBJDUMP FILE...        exits 0 when one does: shows that `fused` can see them
+
+#include <cxxabi.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+int findings = 0;
+void report(const std::string& where, const std::string& what) {
+  std::printf("%s: %s\n", where.c_str(), what.c_str());
+  ++findings;
+}
+
+/// Calls `each(line)` for every line that a command prints; false when it fails.
+template <class Each> bool run(const std::string& command, Each&& each) {
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return false;
+  std::string line;
+  for (int c; (c = std::fgetc(pipe)) != EOF;) {
+    if (c == '\n') {
+      each(line);
+      line.clear();
+    } else {
+      line += static_cast<char>(c);
+    }
+  }
+  return pclose(pipe) == 0;
+}
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+struct Symbol {
+  char kind;         // of nm: W weak function, V weak object, u unique object
+  std::string raw;   // mangled
+  std::string name;  // demangled
+
+  bool is_weak() const { return kind == 'W' || kind == 'w' || kind == 'V' || kind == 'v' || kind == 'u'; }
+};
+
+std::string demangled(const std::string& raw) {
+  int status = 0;
+  char* text = abi::__cxa_demangle(raw.c_str(), nullptr, nullptr, &status);
+  std::string name = status == 0 ? text : raw;
+  std::free(text);
+  return name;
+}
+
+std::vector<Symbol> defined_symbols(const std::string& nm, const std::string& object) {
+  std::vector<Symbol> symbols;
+  const bool ok = run(quoted(nm) + " --defined-only " + quoted(object), [&](const std::string& line) {
+    const std::size_t at = line.find(' ');
+    if (at != std::string::npos && at + 3 < line.size()) symbols.push_back({line[at + 1], line.substr(at + 3), {}});
+  });
+  for (Symbol& symbol : symbols) symbol.name = symbol.is_weak() ? demangled(symbol.raw) : symbol.raw;
+  if (!ok || symbols.empty()) report(object, "nm tells nothing of it");
+  return symbols;
+}
+
+/// The scope that ends at `end`: "isostep::f<int>(int)" of "std::g<isostep::f<int>(int)::{lambda()#1}>".
+std::string scope_before(const std::string& name, std::size_t end) {
+  int depth = 0;
+  std::size_t begin = end;
+  for (; begin > 0; --begin) {
+    const char c = name[begin - 1];
+    if (c == ')' || c == '>' || c == ']') ++depth;
+    if (depth == 0 && (c == '<' || c == '(' || c == ',')) break;
+    if (c == '(' || c == '<' || c == '[') --depth;
+    if (depth == 0 && c == ' ' && name.compare(begin, 5, "const") != 0) break;
+  }
+  return name.substr(begin, end - begin);
+}
+
+/// In our namespace, or something of the standard library that calls a lambda of ours.
+bool is_ours(const Symbol& symbol) {
+  static const std::regex own("^_Z(GV|GR|TV|TI|TS)?Z*N[VKRO]*7isostep.*");
+  if (std::regex_match(symbol.raw, own)) return true;
+  for (std::size_t at = symbol.name.find("::{lambda"); at != std::string::npos; at = symbol.name.find("::{lambda", at + 1)) {
+    if (scope_before(symbol.name, at).rfind("isostep::", 0) == 0) return true;
+  }
+  return false;
+}
+
+/// "isostep::Settings<float>::~Settings()": nobody wrote it, or it would be always_inline; see `check_consumer`.
+bool is_structor(const std::string& name) {
+  static const std::regex pattern("(?:^|::)~?(\\w+)(?:<.*>)?::~?\\1\\(\\)(?: \\[clone.*)?$");
+  return std::regex_search(name, pattern);
+}
+/// A constexpr variable has the same bits in every build. Ours are called kName.
+bool is_constant(const Symbol& symbol) {
+  static const std::regex pattern("::k[A-Z]\\w*(?:<.*>)?$");
+  return (symbol.kind == 'u' || symbol.kind == 'V') && std::regex_search(symbol.name, pattern);
+}
+
+/// Default constructors and destructors that the compiler makes of a struct's members stay weak at -O0. They may store
+/// constants and free memory; that they calculate nothing is read from their instructions.
+void check_calculates_nothing(const std::string& objdump, const std::string& object) {
+  static const std::regex header("^[0-9a-f]+ <(.*)>:$");
+  static const std::regex arithmetic(
+      "\\t(v?(add|sub|mul|div|sqrt|fn?m(add|sub)[0-9]+)[sp][sd]|f(add|sub|mul|div|sqrt|n?madd|n?msub|mla|mls))\\b");
+  std::string function;
+  const bool ok = run(quoted(objdump) + " -d -C --no-show-raw-insn " + quoted(object), [&](const std::string& line) {
+    std::smatch match;
+    if (!line.empty() && line.back() == ':' && std::regex_match(line, match, header)) {
+      function = match[1];
+      if (function.rfind("isostep::", 0) != 0 || !is_structor(function)) function.clear();
+    } else if (!function.empty() && std::regex_search(line, arithmetic)) {
+      report(object, function + " calculates: write ISO_INLINE before it");
+      function.clear();
+    }
+  });
+  if (!ok) report(object, "objdump fails");
+}
+
+void check_consumer(const std::string& nm, const std::string& objdump, const std::vector<std::string>& objects) {
+  for (const std::string& object : objects) {
+    for (const Symbol& symbol : defined_symbols(nm, object)) {
+      if (!symbol.is_weak() || !is_ours(symbol) || is_constant(symbol) || is_structor(symbol.name)) continue;
+      report(object, std::string("weak ") + symbol.kind + " " + symbol.name);
+    }
+    check_calculates_nothing(objdump, object);
+  }
+}
+
+void check_library(const std::string& nm, const std::vector<std::string>& objects) {
+  std::map<std::string, std::string> homes;
+  for (const std::string& object : objects) {
+    const bool kernel = contains(object, "kernels_avx2") || contains(object, "kernels_sse2") || contains(object, "kernels_neon");
+    std::set<std::string> names;  // an object may hold a constructor two or three times over
+    for (const Symbol& symbol : defined_symbols(nm, object)) {
+      if (!symbol.is_weak() || symbol.name.rfind("DW.ref.", 0) == 0) continue;
+      if (kernel && symbol.kind == 'W') report(object, "compiled for one instruction set, has the weak " + symbol.name);
+      if (is_ours(symbol) && !is_constant(symbol) && !is_structor(symbol.name)) names.insert(symbol.name);
+    }
+    for (const std::string& name : names) {
+      const auto [home, fresh] = homes.insert({name, object});
+      if (!fresh) report(object, name + " is also in " + home->second);
+    }
+  }
+}
+
+void check_fused(const std::string& objdump, const std::vector<std::string>& files, bool wanted) {
+  static const std::regex fused("\\t(v?fn?m(add|sub)\\w*|vfm(addsub|subadd)\\w*|fn?m(add|sub)|fml[as])\\s");
+  static const std::regex header("^[0-9a-f]+ <(.*)>:$");
+  std::size_t instructions = 0, found = 0;
+  std::string function;
+  for (const std::string& file : files) {
+    const bool ok = run(quoted(objdump) + " -d -C --no-show-raw-insn " + quoted(file), [&](const std::string& line) {
+      std::smatch match;
+      if (line.find('\t') != std::string::npos) {
+        ++instructions;
+        if (line.find("\tvf") == std::string::npos && line.find("\tf") == std::string::npos) return;
+        if (!std::regex_search(line, match, fused)) return;
+        ++found;
+        if (!wanted && found <= 20) std::printf("%s: %s in %s\n", file.c_str(), match.str(1).c_str(), function.c_str());
+      } else if (!line.empty() && line.back() == ':' && std::regex_match(line, match, header)) {
+        function = match[1];
+      }
+    });
+    if (!ok) report(file, "objdump fails");
+  }
+  std::printf("%zu instructions, %zu fused\n", instructions, found);
+  if (instructions == 0) report("all", "no instruction was read");
+  if (!wanted && found != 0) report("all", "the exact flags do not hold");
+  if (wanted && found == 0) report("all", "the control has no fused instruction, so the test would see none anywhere");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::vector<std::string> words(arguments + 1, arguments + count);
+  const std::string mode = words.empty() ? "" : words[0];
+  if (mode == "consumer" && count > 4) check_consumer(words[1], words[2], {words.begin() + 3, words.end()});
+  else if (mode == "library" && count > 3) check_library(words[1], {words.begin() + 2, words.end()});
+  else if (mode == "fused" && count > 3) check_fused(words[1], {words.begin() + 2, words.end()}, false);
+  else if (mode == "notfused" && count > 3) check_fused(words[1], {words.begin() + 2, words.end()}, true);
+  else return std::fprintf(stderr, "symbols consumer|library|fused|notfused TOOL... FILE...\n"), 64;
+  return findings == 0 ? 0 : 1;
+}
