@@ -1,5 +1,5 @@
-// A user's file that calls what the public headers offer inline, for every scalar. Compiled at -O0, and with -mfma for the
-// linker trap: whatever it leaves behind as a weak symbol, a linker may keep for the whole program.
+// A user's file that calls what the public headers offer inline, for every scalar. Compiled at -O0, and with
+// -mfma for the linker trap: whatever it leaves behind as a weak symbol, a linker may keep for the whole program.
 // SPDX-License-Identifier: MIT
 #include "all_headers.hpp"
 

@@ -11,7 +11,7 @@ namespace isostep {
 
 template <class S> struct BodyDefinition {
   BodyType type = BodyType::fixed;
-  ShapeId shape;
+  ShapeId shape = {};
   Vec3<S> position = {S(0), S(0), S(0)};           // [m] of the body's origin, world
   Quat<Unit<S>> orientation = Quat<Unit<S>>::identity();
   Vec3<S> velocity = {S(0), S(0), S(0)};           // [m/s] of the centre of mass
@@ -19,8 +19,8 @@ template <class S> struct BodyDefinition {
   S density = S(1);                                // [kg/m^3] where mass is 0
   S mass = S(0);                                   // [kg] 0: from density
   Vec3<S> inertia = {S(0), S(0), S(0)};            // [kg m^2] principal, body axes; 0: from the shape
-  Material<S> material;
-  Filter filter;
+  Material<S> material = {};
+  Filter filter = {};
   std::uint64_t user_data = 0;
   S gravity_scale = S(1);
   S linear_damping = S(0);                         // [1/s]

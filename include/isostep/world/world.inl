@@ -243,7 +243,10 @@ template <class S> void World<S>::save(Snapshot& to) const { *to.state_ = engine
 template <class S> void World<S>::load(const Snapshot& from) { engine_->load(*from.state_); }
 template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
 template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
-template <class S> Result<void> World<S>::read_portable(Reader& reader) { return engine_->read_portable(reader); }
+template <class S> Result<void> World<S>::read_portable(Reader& reader) {
+  const FloatEnvironment environment;
+  return engine_->read_portable(reader);
+}
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
   Reader reader(input);

@@ -42,11 +42,20 @@ template <class S> ISO_INLINE void pack(const void* from, std::size_t count, uns
     std::memcpy(to + (i * width + lane) * sizeof(S), source + i * sizeof(S), sizeof(S));
   }
 }
-/// The way back.
-template <class S> ISO_INLINE void unpack(const unsigned char* from, std::size_t count, std::size_t width, std::size_t lane, void* to) {
-  auto* target = static_cast<unsigned char*>(to);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::memcpy(target + i * sizeof(S), from + (i * width + lane) * sizeof(S), sizeof(S));
+/// The way back, for one field: `byte` is its place in a block of one contact.
+template <class S, class T> ISO_INLINE T unpack(const unsigned char* from, std::size_t byte, std::size_t width, std::size_t lane) {
+  static_assert(sizeof(T) == sizeof(S));
+  T value;
+  std::memcpy(&value, from + byte * width + lane * sizeof(S), sizeof(T));
+  return value;
+}
+
+/// No motion along and about locked axes, whatever pushed.
+template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
+  if ((flags & body_flag::kAllLocks) == 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
+    if ((flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
   }
 }
 
@@ -206,12 +215,7 @@ template <class S> void SoftStep<S>::integrate_velocities(const SolverInput<S>& 
     if ((body.flags & body_flag::kSpins) != 0) {
       row.angular = turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
     }
-    if ((body.flags & body_flag::kAllLocks) != 0) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if ((body.flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
-        if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
-      }
-    }
+    detail::hold_locks(body.flags, row);
   }
 }
 
@@ -221,7 +225,8 @@ template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& i
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = 0; i < input.states.size(); ++i) {
-    const MotionRow<V>& v = bodies_.velocity[i + 1];
+    MotionRow<V>& v = bodies_.velocity[i + 1];
+    detail::hold_locks(input.properties[i].flags, v);
     MotionRow<V>& d = bodies_.displacement[i + 1];
     BodyState<S>& state = input.states[i];
     const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
@@ -274,34 +279,50 @@ template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
   for (const Run& run : runs_) run.kernels->restitute[run.variant](blocks_of(run), pass);
 }
 
-template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input) {
+namespace detail {
+/// A solved contact's impulses out of lane `lane` of its block; answers the largest normal impulse of the step, points
+/// together.
+template <class S>
+ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t width, std::size_t lane, Contact<S>& contact) {
   using V = Velocity<S>;
+  using Block = ContactBlock<S, 1, kMaxContactPoints>;
+  using Row = AngularRow<S, 1>;
+  using Normal = NormalRow<S, 1>;
+  using Tangent = FrictionRow<S, 1>;
+  constexpr std::size_t impulse = offsetof(Row, impulse);
+  V peak = V(0);
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    const std::size_t normal = offsetof(Block, normals) + p * sizeof(Normal);
+    contact.normal_impulse[p] = unpack<S, V>(block, normal + impulse, width, lane);
+    peak += unpack<S, V>(block, normal + offsetof(Normal, max_impulse), width, lane);
+  }
+  contact.twist_impulse = unpack<S, V>(block, offsetof(Block, twist) + impulse, width, lane);
+  Vec3<V> friction = Vec3<V>::zero();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t tangent = offsetof(Block, tangents) + k * sizeof(Tangent);
+    const V size = unpack<S, V>(block, tangent + impulse, width, lane);
+    const auto part = [&](std::size_t axis) {
+      const std::size_t at = tangent + offsetof(Tangent, direction) + axis * sizeof(S);
+      return round_to<V>(product(unpack<S, S>(block, at, width, lane), size));
+    };
+    friction += {part(0), part(1), part(2)};
+  }
+  contact.friction_impulse = friction;
+  contact.flags = V(0) < peak ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
+  return peak;
+}
+}  // namespace detail
+
+template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input) {
   for (const Run& run : runs_) {
     const auto width = static_cast<std::size_t>(run.kernels->width);
     const detail::Variant<S> variant = detail::Variant<S>::of(run.variant);
     const std::size_t block_bytes = variant.words() * width * sizeof(S);
+    const std::size_t rolling_bytes = variant.rolling ? detail::rolling_words<S>() * width * sizeof(S) : 0;
     for (std::uint32_t i = 0; i < run.count; ++i) {
-      Contact<S>& contact = input.contacts[order_[run.first + i]];
-      const unsigned char* block = memory_.data()->bytes + run.offset + i / width * block_bytes;
-      if (variant.rolling) block += detail::rolling_words<S>() * width * sizeof(S);
-      ContactBlock<S, 1, kMaxContactPoints> one;
-      detail::unpack<S>(block, detail::contact_words<S>(contact.count), width, i % width, &one);
-      V peak = V(0);
-      for (std::uint32_t p = 0; p < contact.count; ++p) {
-        contact.normal_impulse[p] = one.normals[p].row.impulse[0];
-        peak += one.normals[p].max_impulse[0];
-      }
-      input.peak_impulses[order_[run.first + i]] = peak;
-      const bool touched = peak > V(0);
-      contact.flags = touched ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
-      contact.twist_impulse = one.twist.impulse[0];
-      Vec3<V> friction = Vec3<V>::zero();
-      for (const FrictionRow<S, 1>& t : one.tangents) {
-        const V impulse = t.row.impulse[0];
-        const auto part = [&](int axis) { return round_to<V>(product(t.direction[axis][0], impulse)); };
-        friction += {part(0), part(1), part(2)};
-      }
-      contact.friction_impulse = friction;
+      const std::uint32_t index = order_[run.first + i];
+      const unsigned char* block = memory_.data()->bytes + run.offset + i / width * block_bytes + rolling_bytes;
+      input.peak_impulses[index] = detail::read_impulses(block, width, i % width, input.contacts[index]);
     }
   }
   for (std::size_t i = 0; i < input.states.size(); ++i) {

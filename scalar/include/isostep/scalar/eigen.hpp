@@ -4,6 +4,8 @@
 
 // Eigen has no packets for these scalars, so its answers are those of its plain loops whatever EIGEN_DONT_VECTORIZE,
 // -mavx or -mfma say. Over raw float and double they are not: packets sum in another order and fuse by intrinsics.
+// Fixed wraps where Eigen expects infinity. Measured sound with room to spare in the format: everything in the list of
+// tests/unit/scalar/eigen_test.cpp. 3 x 3 inverse and determinant need the cube of the entries' range.
 // Where results are to agree between machines, Eigen gets Exact<float>, Exact<double> or Fixed, never float or double.
 
 #include <Eigen/Core>
@@ -166,48 +168,7 @@ template <class Rep, int F, isostep::Overflow P> struct random_default_impl<isos
   }
 };
 
-/// One step of JacobiSVD: both rotations that make the block of rows and columns p and q diagonal.
-/// Eigen's own step squares cotangents, which overflow every fixed-point format as the block becomes diagonal, and never
-/// ends. This is the hook that Eigen calls just before it; `false` says that the block is done. Here cosine and sine are
-/// the direction of a vector, which has no range to leave.
-/// Symbols: [m00 m01; m10 m11] the block; first turned to be symmetric, then by the angle whose double has the tangent
-///          2 m01 / (m00 - m11).
-template <class MatrixType, int QRPreconditioner, bool IsComplex> struct svd_precondition_2x2_block_to_be_real;
-
-template <class Rep, int F, isostep::Overflow P, int R, int C, int O, int MR, int MC, int QRPreconditioner>
-struct svd_precondition_2x2_block_to_be_real<Matrix<isostep::Fixed<Rep, F, P>, R, C, O, MR, MC>, QRPreconditioner, false> {
-  using Number = isostep::Fixed<Rep, F, P>;
-
-  template <class Work, class Svd>
-  static ISO_INLINE bool run(Work& work, Svd& svd, Index p, Index q, Number& largest) {
-    const Number zero(0), half = Number::from_raw(Rep{1} << (F - 1));
-    const Number t = work.coeff(p, p) + work.coeff(q, q), d = work.coeff(q, p) - work.coeff(p, q);
-    JacobiRotation<Number> left(Number(1), zero), right(Number(1), zero);
-    if (d != zero) left = rotation(d < zero ? -t : t, isostep::abs(d));
-    const Number m00 = left.c() * work.coeff(p, p) + left.s() * work.coeff(q, p);
-    const Number m01 = left.c() * work.coeff(p, q) + left.s() * work.coeff(q, q);
-    const Number m11 = left.c() * work.coeff(q, q) - left.s() * work.coeff(p, q);
-    const Number h = (m00 - m11) * half;
-    if (m01 != zero) {
-      const Number length = isostep::direction_of(h, m01, zero).length;
-      right = rotation(isostep::abs(h) + length, (h > zero) == (m01 > zero) ? -isostep::abs(m01) : isostep::abs(m01));
-    }
-    left = left * right.transpose();
-    work.applyOnTheLeft(p, q, left);
-    if (svd.computeU()) svd.m_matrixU.applyOnTheRight(p, q, left.transpose());
-    work.applyOnTheRight(p, q, right);
-    if (svd.computeV()) svd.m_matrixV.applyOnTheRight(p, q, right);
-    work.coeffRef(p, q) = work.coeffRef(q, p) = zero;  // all but rounding, which must not start the next sweep
-    largest = isostep::max(largest, isostep::max(isostep::abs(work.coeff(p, p)), isostep::abs(work.coeff(q, q))));
-    return false;
-  }
-
- private:
-  static ISO_INLINE JacobiRotation<Number> rotation(Number x, Number y) {
-    const isostep::Direction<Number> d = isostep::direction_of(x, y, Number(0));
-    return {isostep::convert<Number>(d.x), isostep::convert<Number>(d.y)};
-  }
-};
-
 }  // namespace internal
 }  // namespace Eigen
+
+#include "isostep/scalar/eigen_fixed.hpp"

@@ -1,0 +1,92 @@
+// isostep demo: records a few scenes in every scalar, replays each with other lanes, and shows that the hashes agree.
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "commands.hpp"
+#include "files.hpp"
+#include "replay_check.hpp"
+#include "run_report.hpp"
+#include "scene_game.hpp"
+#include "scenes/named.hpp"
+
+namespace isostep::tool {
+namespace {
+
+struct DemoScene {
+  const char* name;
+  int frames;
+};
+constexpr DemoScene kDemoScenes[] = {{"S1x5", 120}, {"S6", 120}, {"S4s", 180}, {"mixed", 240}};
+
+struct Recording {
+  std::vector<std::uint8_t> bytes;
+  std::uint64_t hash = 0;
+  double milliseconds = 0;  // median of a step
+  const char* simd = "";
+};
+
+template <class S> Recording record(const DemoScene& demo) {
+  Recording recording;
+  SceneGame<S> game(*scenes::find_scene(demo.name));
+  WorldRecorder<S> recorder(game.world, sink_to(recording.bytes));
+  expect_written(recorder.begin(demo.name));
+  std::vector<double> ms;
+  for (int i = 0; i < demo.frames; ++i) {
+    stop_if_interrupted();
+    recorder.start_frame();
+    scenes::before_step(game.script, game.world);
+    const double before = thread_milliseconds();
+    game.world.step();
+    ms.push_back(thread_milliseconds() - before);
+    recording.hash = game.world.hash();
+    expect_written(recorder.end_frame(recording.hash));
+  }
+  expect_written(recorder.finish());
+  recording.milliseconds = summarise(ms).median;
+  recording.simd = game.world.simd_name();
+  return recording;
+}
+
+template <class S> bool show(const DemoScene& demo, const std::string& out) {
+  std::printf("%-6s %-7s %6d  ", demo.name, ScalarTraits<S>::kName, demo.frames);
+  std::fflush(stdout);
+  Recording recording = record<S>(demo);
+  if (!out.empty()) {
+    const std::string path = out + "/" + demo.name + "." + ScalarTraits<S>::kName + ".replay";
+    write_file(path, Bytes(recording.bytes));
+    recording.bytes = read_file(path);
+  }
+  const CheckedFile checked = check_replay(recording.bytes, Simd::scalar);
+  std::printf("%9.4f %8.1f  %s  %-7s %s\n", recording.milliseconds, static_cast<double>(recording.bytes.size()) / 1024,
+              hex(recording.hash).c_str(), recording.simd, text_of(checked).c_str());
+  std::fflush(stdout);
+  return status_of(checked) == exit_status::kOk;
+}
+
+}  // namespace
+
+int command_demo(const DemoOptions& options) {
+  if (!options.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
+  }
+  std::printf("Each scene is recorded with the widest lanes this processor has, then replayed from its file with one lane:\n"
+              "every frame's hash must come out the same.\n\n");
+  std::printf("%-6s %-7s %6s  %9s %8s  %-16s  %-7s %s\n", "scene", "scalar", "frames", "ms/step", "KB", "last hash", "lanes", "replayed");
+  int files = 0, verified = 0;
+  for (const DemoScene& demo : kDemoScenes) {
+    any_scalar([&](auto tag) {
+      ++files;
+      verified += show<typename decltype(tag)::Type>(demo, options.out) ? 1 : 0;
+      return false;
+    });
+  }
+  std::printf("\n%d of %d replays verified. Behaviour version %s.\n", verified, files, hex(behaviour_version()).c_str());
+  if (!options.out.empty()) std::printf("The recordings are in %s: try `./isostep verify %s`.\n", options.out.c_str(), options.out.c_str());
+  return verified == files ? exit_status::kOk : exit_status::kDifferent;
+}
+
+}  // namespace isostep::tool

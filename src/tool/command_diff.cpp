@@ -1,0 +1,2 @@
+#include "commands.hpp"
+namespace isostep::tool { int command_diff(const DiffOptions&) { return 70; } }

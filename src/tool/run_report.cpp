@@ -1,0 +1,91 @@
+// The figures of a run as text.
+// SPDX-License-Identifier: MIT
+#include "run_report.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tool.hpp"
+
+namespace isostep::tool {
+namespace {
+
+/// Of ascending values: the smallest that at least `percent` of them do not exceed.
+double percentile(const std::vector<double>& sorted, std::size_t percent) {
+  if (sorted.empty()) return 0;
+  const std::size_t rank = (sorted.size() * percent + 99) / 100;
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+std::string line(const char* format, ...) {
+  char text[256];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return std::string(text) + "\n";
+}
+
+}  // namespace
+
+StepTimes summarise(std::vector<double> ms) {
+  StepTimes times;
+  if (ms.empty()) return times;
+  std::vector<double> settled(ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());
+  std::sort(ms.begin(), ms.end());
+  std::sort(settled.begin(), settled.end());
+  for (const double t : ms) times.mean += t / static_cast<double>(ms.size());
+  times.median = percentile(ms, 50);
+  times.p99 = percentile(ms, 99);
+  times.max = ms.back();
+  times.median_settled = percentile(settled, 50);
+  return times;
+}
+
+std::string json_of(const RunReport& r) {
+  nlohmann::ordered_json json = {{"scene", r.scene},
+                                 {"scalar", r.scalar},
+                                 {"solver", r.solver},
+                                 {"substeps", r.substeps},
+                                 {"threads", r.threads},
+                                 {"simd", r.simd},
+                                 {"frames", r.frames},
+                                 {"hash", hex(r.hash)},
+                                 {"ms_median", r.ms.median},
+                                 {"ms_mean", r.ms.mean},
+                                 {"ms_p99", r.ms.p99},
+                                 {"ms_max", r.ms.max},
+                                 {"ms_median_settled", r.ms.median_settled},
+                                 {"contacts", r.contacts},
+                                 {"points", r.points},
+                                 {"bodies", r.bodies},
+                                 {"awake", r.awake},
+                                 {"penetration_max", r.penetration_max},
+                                 {"joint_error_max", r.joint_error_max},
+                                 {"energy_start", r.energy_start},
+                                 {"energy_end", r.energy_end},
+                                 {"asleep_at", nullptr},
+                                 {"faults", r.faults}};
+  if (r.asleep_at >= 0) json["asleep_at"] = r.asleep_at;
+  return json.dump() + "\n";
+}
+
+std::string table_of(const RunReport& r) {
+  std::string text;
+  text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), r.solver.c_str(), r.substeps,
+               r.simd.c_str(), r.frames);
+  text += line("hash          %s", hex(r.hash).c_str());
+  text += line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f", r.ms.median,
+               r.ms.mean, r.ms.p99, r.ms.max, r.ms.median_settled);
+  text += line("at the end    %u bodies, %u awake, %u contacts with %u points", r.bodies, r.awake, r.contacts, r.points);
+  text += line("penetration   %.3f mm worst, %.3f mm mean of pairs closer than 1 cm", 1e3 * r.penetration_max, 1e3 * r.penetration_mean);
+  text += line("joint error   %.4f mm worst over the run", 1e3 * r.joint_error_max);
+  text += line("energy        %.6g J at the start, %.6g J at the end; unrest %.3g J/kg", r.energy_start, r.energy_end, r.unrest);
+  text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);
+  text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
+  return text;
+}
+
+}  // namespace isostep::tool

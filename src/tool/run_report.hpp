@@ -1,0 +1,40 @@
+// What `run` reports of a run: one set of figures for people and for programs.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace isostep::tool {
+
+/// CPU time of the step calls alone [ms].
+struct StepTimes {
+  double median = 0, mean = 0, p99 = 0, max = 0;
+  double median_settled = 0;  // over the second half of the run
+};
+/// Percentiles by nearest rank; of an even count the median is the lower middle.
+StepTimes summarise(std::vector<double> milliseconds);
+
+struct RunReport {
+  std::string scene, scalar, solver, simd;
+  int substeps = 0, threads = 1, frames = 0;
+  std::uint64_t hash = 0;
+  StepTimes ms;
+  std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
+  double penetration_max = 0;                  // [m] at the end
+  double joint_error_max = 0;                  // [m] over the run
+  double energy_start = 0, energy_end = 0;     // [J] kinetic and potential, of all dynamic bodies
+  int asleep_at = -1;                          // first frame, from 0, that ends with nobody awake; -1: none
+  std::uint64_t faults = 0;                    // all that the step reports named
+
+  // For people alone.
+  double penetration_mean = 0;                 // [m] over pairs closer than 1 cm
+  double unrest = 0;                           // [J/kg] kinetic energy, mean of the last 60 frames
+};
+
+/// One JSON object, exactly the members that README lists.
+std::string json_of(const RunReport& report);
+std::string table_of(const RunReport& report);
+
+}  // namespace isostep::tool

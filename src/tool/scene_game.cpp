@@ -1,0 +1,42 @@
+// Scenes by name or by file.
+// SPDX-License-Identifier: MIT
+#include "scene_game.hpp"
+
+#include "files.hpp"
+#include "scenes/named.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace isostep::tool {
+namespace {
+
+bool looks_like_file(const std::string& name) {
+  return name.find('/') != std::string::npos || name.find(".json") != std::string::npos;
+}
+
+}  // namespace
+
+void fail_scene(const std::string& name_or_file, const scenes::SceneError& error) {
+  throw ToolError(exit_status::kUsage, name_or_file + ":" + (error.place().empty() ? " " : "") + error.what());
+}
+
+scenes::Scene load_scene(const std::string& name_or_file) {
+  if (std::optional<scenes::Scene> scene = scenes::find_scene(name_or_file)) return *scene;
+  if (!looks_like_file(name_or_file)) {
+    throw ToolError(exit_status::kUsage, "no scene is named \"" + name_or_file + "\": `isostep scenes` lists them, a file ends in .json");
+  }
+  const std::vector<std::uint8_t> bytes = read_file(name_or_file);
+  try {
+    return scenes::read_scene(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  } catch (const scenes::SceneError& error) {
+    fail_scene(name_or_file, error);
+  }
+}
+
+Simd simd_named(const std::string& name) {
+  if (name == "scalar") return Simd::scalar;
+  if (name == "sse2") return Simd::sse2;
+  if (name == "avx2") return Simd::avx2;
+  return Simd::best;
+}
+
+}  // namespace isostep::tool

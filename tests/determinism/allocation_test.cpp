@@ -1,0 +1,121 @@
+// A warm world steps, saves, loads and hashes without asking for memory. The executable counts every operator new.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "isostep/world/world.hpp"
+
+namespace {
+bool counting = false;
+std::size_t allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  if (counting) ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
+  if (memory == nullptr) std::abort();
+  return memory;
+}
+}  // namespace
+
+// Not inlined: gcc would take one half of a pair for a mismatch with the other.
+#define NOT_INLINED __attribute__((noinline))
+NOT_INLINED void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+NOT_INLINED void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, std::size_t(alignment)); }
+NOT_INLINED void operator delete(void* memory) noexcept { std::free(memory); }
+NOT_INLINED void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+NOT_INLINED void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+NOT_INLINED void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace isostep {
+namespace {
+
+/// Counts from here to the end of the scope.
+class Count {
+ public:
+  Count() {
+    allocations = 0;
+    counting = true;
+  }
+  ~Count() { counting = false; }
+  std::size_t so_far() const { return allocations; }
+};
+
+template <class S> class Allocation : public testing::Test {
+ protected:
+  /// 100 spheres and 100 boxes in columns of five that touch, awake for good.
+  Allocation() : world_(settings()) {
+    const ShapeId ground = world_.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)});
+    const ShapeId ball = world_.add_shape(Sphere{0.5});
+    const ShapeId crate = world_.add_shape(Box{{0.5, 0.5, 0.5}});
+    world_.create({.shape = ground});
+    for (int i = 0; i < 200; ++i) {
+      BodyDefinition<S> body;
+      body.type = BodyType::dynamic;
+      body.shape = i / 5 % 2 == 0 ? ball : crate;
+      body.position = {S(i / 5 % 8) - S(4), S(0.5) + S(i % 5) * S(1.03125), S(i / 40)};
+      bodies_.push_back(world_.create(body));
+    }
+    for (int frame = 0; frame < 240; ++frame) world_.step();
+  }
+
+  static Settings<S> settings() {
+    Settings<S> settings;
+    settings.allow_sleep = false;
+    return settings;
+  }
+
+  World<S> world_;
+  std::vector<BodyId> bodies_;
+};
+using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
+TYPED_TEST_SUITE(Allocation, Scalars);
+
+TYPED_TEST(Allocation, TheCounterCounts) {
+  const Count count;
+  this->world_.add_shape(Sphere{0.25});
+  EXPECT_GT(count.so_far(), 0u);
+}
+
+TYPED_TEST(Allocation, ASettledPileStepsWithoutAny) {
+  EXPECT_EQ(this->world_.counts().awake, 200u);
+  EXPECT_GT(this->world_.counts().contacts, 200u);
+  const Count count;
+  for (int frame = 0; frame < 60; ++frame) this->world_.step();
+  EXPECT_EQ(count.so_far(), 0u);
+}
+
+TYPED_TEST(Allocation, AWarmSnapshotIsSavedLoadedAndHashedWithoutAny) {
+  typename World<TypeParam>::Snapshot frame;
+  this->world_.save(frame);
+  this->world_.step();
+  this->world_.load(frame);
+  const Count count;
+  for (int round = 0; round < 10; ++round) {
+    this->world_.save(frame);
+    const std::uint64_t before = this->world_.hash();
+    this->world_.step();
+    this->world_.load(frame);
+    EXPECT_EQ(this->world_.hash(), before);
+  }
+  EXPECT_EQ(count.so_far(), 0u);
+}
+
+TYPED_TEST(Allocation, CommandsThatChangeNoCountNeedNone) {
+  const BodyId body = this->bodies_[7];
+  this->world_.apply_impulse(body, {TypeParam(0), TypeParam(1), TypeParam(0)});
+  this->world_.apply_force(body, {TypeParam(0), TypeParam(1), TypeParam(0)});
+  for (int frame = 0; frame < 60; ++frame) this->world_.step();
+  const Count count;
+  this->world_.apply_impulse(body, {TypeParam(0), TypeParam(0.125), TypeParam(0)});
+  this->world_.apply_force(body, {TypeParam(0), TypeParam(0.125), TypeParam(0)});
+  this->world_.set_velocity(body, Vec3<TypeParam>::zero(), Vec3<TypeParam>::zero());
+  this->world_.set_user_data(body, 9);
+  this->world_.step();
+  EXPECT_EQ(count.so_far(), 0u);
+}
+
+}  // namespace
+}  // namespace isostep

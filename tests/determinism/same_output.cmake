@@ -1,0 +1,11 @@
+# cmake -DA=program -DB=program -P same_output.cmake: both print the same, and something.
+foreach(name A B)
+  execute_process(COMMAND ${${name}} OUTPUT_VARIABLE output_${name} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${${name}} ends with ${result}")
+  endif()
+endforeach()
+message("${output_A}")
+if(NOT output_A STREQUAL output_B OR output_A STREQUAL "")
+  message(FATAL_ERROR "differs from\n${output_B}")
+endif()

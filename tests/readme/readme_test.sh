@@ -1,0 +1,36 @@
+#!/bin/sh
+# README tells the truth: its commands run, its code is the example's, the files it links to exist.
+# usage: readme_test.sh REPOSITORY TOOL
+set -u
+repository=$1
+tool=$2
+readme=$repository/README.md
+failures=0
+fail() {
+  echo "README: $1" >&2
+  failures=$((failures + 1))
+}
+
+# Commands of sh blocks. demo and test build everything and are CI's own first and last word.
+commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
+  grep -v -e '^\./isostep demo$' -e '^\./isostep test$')
+[ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || fail "fewer commands than expected were found to run"
+while IFS= read -r command; do
+  arguments=${command#./isostep }
+  # Word splitting is wanted: the commands hold no quotes.
+  "$tool" $arguments >/dev/null 2>&1 || fail "'$command' exits $?"
+done <<LIST
+$commands
+LIST
+
+# The C++ block is the part of hello.cpp between its marks, less the indentation.
+quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
+shown=$(awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' "$repository/src/examples/hello.cpp" | sed 's/^  //')
+[ "$quoted" = "$shown" ] || fail "the C++ block differs from src/examples/hello.cpp"
+
+for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
+  [ -e "$repository/$link" ] || fail "links to $link, which does not exist"
+done
+
+[ "$failures" -eq 0 ] && echo "README: all true"
+exit "$failures"
