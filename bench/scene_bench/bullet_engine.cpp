@@ -34,7 +34,7 @@ class BulletEngine : public Peer {
     world_.setGravity(bt(gravity()));
     for (const PeerBody& body : bodies()) {
       bodies_.push_back(make(body));
-      add(body);
+      add(bodies_.back(), body);
     }
     for (const PeerJoint& joint : joints()) connect(joint);
   }
@@ -65,10 +65,8 @@ class BulletEngine : public Peer {
   }
   void replace(std::size_t i, const PeerBody& by) override {
     world_.removeRigidBody(bodies_[i].body.get());
-    std::swap(bodies_[i], bodies_.back());
-    bodies_.back() = make(by);
-    add(by);
-    std::swap(bodies_[i], bodies_.back());
+    bodies_[i] = make(by);
+    add(bodies_[i], by);
   }
   /// Bullet asks a kinematic body's motion state where it will be at the end of the step.
   void drive(int frame) override {
@@ -77,7 +75,7 @@ class BulletEngine : public Peer {
       const Vec3<double> spin = bodies()[i].spin;
       const double speed = sqrt(dot(spin, spin));
       const btQuaternion turn(bt(spin * (1 / speed)), bt(speed * (frame + 1) / 60));
-      bodies_[i].path->setWorldTransform({turn * bt(bodies()[i].orientation), bt(bodies()[i].position)});
+      bodies_[i].path->setWorldTransform(btTransform(turn * bt(bodies()[i].orientation), bt(bodies()[i].position)));
     }
   }
 
@@ -87,7 +85,7 @@ class BulletEngine : public Peer {
     if (from.parts.size() == 1) return made.shapes.front().get();
     auto compound = std::make_unique<btCompoundShape>();
     for (std::size_t i = 0; i < from.parts.size(); ++i) {
-      compound->addChildShape({bt(from.parts[i].orientation), bt(from.parts[i].position)}, made.shapes[i].get());
+      compound->addChildShape(btTransform(bt(from.parts[i].orientation), bt(from.parts[i].position)), made.shapes[i].get());
     }
     made.shapes.push_back(std::move(compound));
     return made.shapes.back().get();
@@ -110,12 +108,11 @@ class BulletEngine : public Peer {
   /// Bullet multiplies the two coefficients of a pair.
   static double friction_of_one(double pair) { return sqrt(pair); }
 
-  void add(const PeerBody& from) {
-    btRigidBody* body = bodies_.back().body.get();
+  void add(const BulletBody& made, const PeerBody& from) {
     if (from.collide) {
-      world_.addRigidBody(body);
+      world_.addRigidBody(made.body.get());
     } else {
-      world_.addRigidBody(body, btBroadphaseProxy::DefaultFilter, 0);
+      world_.addRigidBody(made.body.get(), btBroadphaseProxy::DefaultFilter, 0);
     }
   }
   void connect(const PeerJoint& joint) {

@@ -16,7 +16,7 @@ template <class S> struct Built {
 };
 
 /// Throws SceneError when gravity is no number of S.
-template <class S> Settings<S> settings_of(const Scene& scene, int hz = 60, int substeps = 4);
+template <class S> Settings<S> settings_of(const Scene& scene, int hz = Settings<S>{}.hz, int substeps = Settings<S>{}.substeps);
 /// Into a world that is empty. A body's user data is its place in the order of creation, from 1. Throws SceneError.
 template <class S> Built<S> build(const Scene& scene, World<S>& world);
 

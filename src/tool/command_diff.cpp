@@ -1,2 +1,181 @@
+// isostep diff: the first frame, stage, record and field at which two replays part, or in which two snapshots differ.
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <cstring>
+
 #include "commands.hpp"
-namespace isostep::tool { int command_diff(const DiffOptions&) { return 70; } }
+#include "files.hpp"
+#include "isostep/state/verify.hpp"
+#include "scene_game.hpp"
+#include "stage_trace.hpp"
+
+namespace isostep::tool {
+namespace {
+
+constexpr std::size_t kShown = 8;  // differences printed
+
+template <class S> void print(const DiffReport& report, const WorldState<S>& a) {
+  for (const Difference& difference : report.kept()) {
+    const std::string owner = owner_of(a, difference.path.view());
+    std::printf("  %s%s\n", describe(difference).c_str(), owner.empty() ? "" : (" [" + owner + "]").c_str());
+  }
+  if (report.count() > report.kept().size()) {
+    std::printf("  and %llu more\n", static_cast<unsigned long long>(report.count() - report.kept().size()));
+  }
+}
+
+struct Input {
+  std::string path;
+  std::vector<std::uint8_t> bytes;
+
+  explicit Input(const std::string& p) : path(p), bytes(read_file(p)) {}
+  bool is_replay() const {
+    return bytes.size() >= sizeof kReplayMagic && std::memcmp(bytes.data(), kReplayMagic, sizeof kReplayMagic) == 0;
+  }
+};
+/// With the exit status of `verify` for such a file.
+[[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error) {
+  throw ToolError(exit_code(outcome), path + ": " + std::string(error.message.view()) + " (" + std::string(error.place.view()) + ")");
+}
+
+/// One of the two replays, played here.
+template <class S> class Player {
+ public:
+  explicit Player(const Input& input) : input_(input), replay_(input.bytes) {
+    Reader reader(replay_.state());
+    const Result<void> read = world_.read_portable(reader);
+    if (!read) refuse(input.path, VerifyOutcome::corrupt, read.error());
+  }
+  std::uint64_t frames() const { return replay_.frame_count(); }
+  ReplayFrame frame(std::uint64_t i) const { return replay_.frame(i); }
+  World<S>& world() { return world_; }
+
+  /// Keeps the state before, then plays.
+  void step(std::uint64_t i) {
+    world_.save(before_);
+    const Result<void> stepped = world_.step_recorded(frame(i).input);
+    if (!stepped) refuse(input_.path, VerifyOutcome::corrupt, stepped.error());
+  }
+  std::vector<WorldState<S>> trace_again(std::uint64_t i) {
+    world_.load(before_);
+    return trace_frame(world_, frame(i).input);
+  }
+
+ private:
+  const Input& input_;
+  ReplayReader replay_;
+  World<S> world_;
+  typename World<S>::Snapshot before_;
+};
+
+template <class S> int report_frame(Player<S>& a, Player<S>& b, std::uint64_t frame) {
+  DiffReport report(kShown);
+  const std::vector<WorldState<S>> trace_a = a.trace_again(frame), trace_b = b.trace_again(frame);
+  const StageDifference found = first_different_stage(trace_a, trace_b, report);
+  std::printf("frame %llu, stage %s\n", static_cast<unsigned long long>(frame), found.stage);
+  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("  the inputs of this frame differ\n");
+  print(report, trace_a[found.index]);
+  return exit_status::kDifferent;
+}
+
+/// Played here they agree, so at least one was recorded by something that behaves otherwise.
+int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::uint64_t here) {
+  const char* verdict = a == here ? "B was made by something that behaves otherwise"
+                        : b == here ? "A was made by something that behaves otherwise"
+                                    : "neither was made by something that behaves as this does";
+  std::printf("frame %llu: recorded as %s and %s, both come out as %s here: %s\n", static_cast<unsigned long long>(frame),
+              hex(a).c_str(), hex(b).c_str(), hex(here).c_str(), verdict);
+  return exit_status::kDifferent;
+}
+
+template <class S> int diff_as(const Input& input_a, const Input& input_b) {
+  Player<S> a(input_a), b(input_b);
+  DiffReport start(kShown);
+  diff_states(a.world().state(), b.world().state(), start);
+  if (start.any()) {
+    std::printf("the start, before frame 0\n");
+    print(start, a.world().state());
+    return exit_status::kDifferent;
+  }
+  for (std::uint64_t i = 0; i < a.frames() && i < b.frames(); ++i) {
+    stop_if_interrupted();
+    a.step(i);
+    b.step(i);
+    const std::uint64_t hash = a.world().hash();
+    if (hash != b.world().hash()) return report_frame(a, b, i);
+    if (a.frame(i).hash != b.frame(i).hash) return report_recorded(i, a.frame(i).hash, b.frame(i).hash, hash);
+  }
+  if (a.frames() != b.frames()) {
+    std::printf("the same as far as both go: %llu and %llu frames\n", static_cast<unsigned long long>(a.frames()),
+                static_cast<unsigned long long>(b.frames()));
+    return exit_status::kDifferent;
+  }
+  std::printf("the same: %llu frames\n", static_cast<unsigned long long>(a.frames()));
+  return exit_status::kOk;
+}
+
+/// The scalar's number in HEAD, once the file is known to be whole blocks with a start.
+std::uint64_t scalar_of(const Input& input) {
+  const ReplayReader replay(input.bytes);
+  if (replay.status() == ReplayStatus::corrupt) refuse(input.path, VerifyOutcome::corrupt, replay.error());
+  if (replay.status() == ReplayStatus::incompatible) refuse(input.path, VerifyOutcome::incompatible, replay.error());
+  if (!replay.has_state()) refuse(input.path, VerifyOutcome::truncated, replay.error());
+  const Result<std::uint64_t> id = replay.header().number("scalar_id");
+  if (!id) refuse(input.path, VerifyOutcome::incompatible, id.error());
+  return id.value();
+}
+
+int diff_replays(const Input& a, const Input& b) {
+  const std::uint64_t scalar = scalar_of(a);
+  if (scalar != scalar_of(b)) {
+    std::printf("the scalars differ\n");
+    return exit_status::kDifferent;
+  }
+  int status = exit_code(VerifyOutcome::incompatible);
+  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar), [&](auto tag) {
+    status = diff_as<typename decltype(tag)::Type>(a, b);
+  });
+  if (!found) throw ToolError(status, a.path + ": of a scalar that this build lacks");
+  return status;
+}
+
+template <class S> void load(World<S>& world, const Input& input) {
+  Reader reader(input.bytes);
+  Result<void> read = world.read_portable(reader);
+  if (read) {
+    reader.expect_end();
+    read = reader.result("snapshot");
+  }
+  if (!read) refuse(input.path, VerifyOutcome::corrupt, read.error());
+}
+
+int diff_snapshots(const Input& a, const Input& b) {
+  std::uint32_t scalar = 0;
+  Reader(a.bytes).read(scalar);
+  int status = exit_status::kOk;
+  const bool found = with_scalar_id(scalar, [&](auto tag) {
+    using S = typename decltype(tag)::Type;
+    World<S> world_a, world_b;
+    load(world_a, a);
+    load(world_b, b);
+    DiffReport report(kShown);
+    diff_states(world_a.state(), world_b.state(), report);
+    print(report, world_a.state());
+    if (!report.any()) std::printf("the same: %s\n", hex(world_a.hash()).c_str());
+    status = report.any() ? exit_status::kDifferent : exit_status::kOk;
+  });
+  if (!found) {
+    throw ToolError(exit_code(VerifyOutcome::corrupt), a.path + ": neither a replay nor a portable snapshot of a scalar of this build");
+  }
+  return status;
+}
+
+}  // namespace
+
+int command_diff(const DiffOptions& options) {
+  const Input a(options.a), b(options.b);
+  if (a.is_replay() != b.is_replay()) throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");
+  return a.is_replay() ? diff_replays(a, b) : diff_snapshots(a, b);
+}
+
+}  // namespace isostep::tool

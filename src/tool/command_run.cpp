@@ -57,7 +57,7 @@ template <class S> class Run {
         scene_(scene),
         game_(scene, options.hz > 0 ? options.hz : kDefaultHz, options.substeps > 0 ? options.substeps : kDefaultSubsteps) {
     if (!options.load.empty()) load_snapshot(game_.world, options);
-    game_.use_simd(simd_named(options.simd));
+    use_lanes(game_.world, simd_named(options.simd));
   }
 
   int run() {

@@ -1,2 +1,110 @@
+// isostep selftest: the law of restoring. A world that saves, runs ahead and loads is at every frame what a world is that
+// never did, and so is a world rebuilt from the portable form.
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <vector>
+
 #include "commands.hpp"
-namespace isostep::tool { int command_selftest(const SelftestOptions&) { return 70; } }
+#include "scene_game.hpp"
+#include "state_diff.hpp"
+
+namespace isostep::tool {
+namespace {
+
+constexpr std::size_t kShown = 8;
+
+template <class S> class Selftest {
+ public:
+  Selftest(const SelftestOptions& options, const scenes::Scene& scene) : options_(options), scene_(scene), game_(scene) {}
+
+  int run() {
+    const int frames = options_.frames >= 0 ? options_.frames : scene_.frames;
+    SceneGame<S> straight(scene_);
+    truth_.push_back(straight.world.hash());
+    const std::vector<std::uint64_t> hashes = hashes_of(straight, frames + options_.rollback);
+    truth_.insert(truth_.end(), hashes.begin(), hashes.end());
+    for (int frame = 0; frame <= frames; ++frame) {
+      stop_if_interrupted();
+      if (frame > 0) game_.advance();
+      if (!is_true(game_.world, frame, "a world that was loaded and runs on")) return exit_status::kDifferent;
+      if (frame % options_.every == 0 && !restore(frame)) return exit_status::kDifferent;
+    }
+    std::printf("%s in %s: %d frames, %d times saved, run %d frames ahead, loaded and run again, and rebuilt: all the same, %s\n",
+                scene_.name.c_str(), ScalarTraits<S>::kName, frames, restores_, options_.rollback, hex(game_.world.hash()).c_str());
+    return exit_status::kOk;
+  }
+
+ private:
+  /// `frame` steps were taken.
+  bool is_true(const World<S>& world, int frame, const char* who) {
+    const std::uint64_t expected = truth_[static_cast<std::size_t>(frame)];
+    if (world.hash() == expected) return true;
+    std::printf("DIFFERENT after %d frames: %s has %s, a world that never saved has %s\n", frame, who, hex(world.hash()).c_str(),
+                hex(expected).c_str());
+    SceneGame<S> straight(scene_);
+    for (int i = 0; i < frame; ++i) straight.advance();
+    DiffReport report(kShown);
+    diff_states(straight.world.state(), world.state(), report);
+    for (const Difference& difference : report.kept()) std::printf("  %s\n", describe(difference).c_str());
+    return false;
+  }
+
+  bool ahead(World<S>& world, int frame, const char* who) {
+    for (int i = 1; i <= options_.rollback; ++i) {
+      scenes::before_step(scene_.script, world);
+      world.step();
+      if (!is_true(world, frame + i, who)) return false;
+    }
+    return true;
+  }
+
+  bool restore(int frame) {
+    ++restores_;
+    World<S>& world = game_.world;
+    world.save(snapshot_);
+    if (!ahead(world, frame, "a world that saved and runs ahead")) return false;
+    world.load(snapshot_);
+    if (!is_true(world, frame, "a world that was loaded")) return false;
+    if (!ahead(world, frame, "a world that runs again")) return false;
+    world.load(snapshot_);
+
+    bytes_.clear();
+    Writer writer(bytes_);
+    world.write_portable(writer);
+    Reader reader(bytes_);
+    World<S> rebuilt;
+    if (const Result<void> read = rebuilt.read_portable(reader); !read) {
+      std::printf("DIFFERENT after %d frames: the portable form is refused: %.*s\n", frame,
+                  static_cast<int>(read.error().message.view().size()), read.error().message.view().data());
+      return false;
+    }
+    return is_true(rebuilt, frame, "a rebuilt world") && ahead(rebuilt, frame, "a rebuilt world that runs ahead");
+  }
+
+  const SelftestOptions& options_;
+  const scenes::Scene& scene_;
+  SceneGame<S> game_;
+  std::vector<std::uint64_t> truth_;  // after 0, 1, ... frames
+  typename World<S>::Snapshot snapshot_;
+  std::vector<std::uint8_t> bytes_;
+  int restores_ = 0;
+};
+
+}  // namespace
+
+int command_selftest(const SelftestOptions& options) {
+  const scenes::Scene scene = load_scene(options.scene);
+  int status = exit_status::kSoftware;
+  const bool found = with_scalar(options.scalar, [&](auto tag) {
+    using S = typename decltype(tag)::Type;
+    try {
+      status = Selftest<S>(options, scene).run();
+    } catch (const scenes::SceneError& error) {
+      fail_scene(options.scene, error);
+    }
+  });
+  if (!found) throw ToolError(exit_status::kUsage, "this build has no scalar " + options.scalar);
+  return status;
+}
+
+}  // namespace isostep::tool

@@ -8,7 +8,7 @@
 
 #include "commands.hpp"
 #include "isostep/core/version.hpp"
-#include "scenes/scene.hpp"
+#include "scene_game.hpp"
 #include "tool.hpp"
 
 namespace {
@@ -58,11 +58,11 @@ class CommandLine {
     command->add_option("scene", run_.scene, "a named scene, or a scene file")->required();
     add_scalar(command, run_.scalar);
     add_frames(command, run_.frames);
-    command->add_option("--hz", run_.hz, "steps per second [60]")->check(CLI::Range(10, 1000));
-    command->add_option("--substeps", run_.substeps, "per step [4]")->check(CLI::Range(1, 64));
+    command->add_option("--hz", run_.hz, "steps per second [" + std::to_string(tool::kDefaultHz) + "]")->check(CLI::Range(10, 1000));
+    command->add_option("--substeps", run_.substeps, "per step [" + std::to_string(tool::kDefaultSubsteps) + "]")->check(CLI::Range(1, 64));
     command->add_option("--solver", run_.solver, "how contacts are solved")->check(CLI::IsMember({"soft_step"}))->capture_default_str();
     command->add_option("--threads", run_.threads, "only 1")->check(CLI::Range(1, 1))->capture_default_str();
-    command->add_option("--simd", run_.simd, "lanes; never changes a bit")
+    command->add_option("--simd", run_.simd, "widest lanes to use; never changes a bit")
         ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2"}))
         ->capture_default_str();
     command->add_option("--load", run_.load, "begin with this portable snapshot");

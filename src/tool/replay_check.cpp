@@ -43,13 +43,13 @@ template <class S> VerifyResult verify_as(const ReplayReader& replay, const Repl
   const Result<ReplayHeader> here = header_here<S>(replay, claimed);
   if (!here) return corrupt(0, "the header's scene or solver cannot be read");
   World<S> world;
-  world.use_simd(simd);
+  use_lanes(world, simd);
   return verify(replay, world, SameHeader{here.value()});
 }
 
 template <class S> VerifyResult replay_golden(const scenes::Scene& scene, const std::vector<std::uint64_t>& expected, Simd simd) {
   SceneGame<S> game(scene);
-  game.use_simd(simd);
+  use_lanes(game.world, simd);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     stop_if_interrupted();
     game.advance();

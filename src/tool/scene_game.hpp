@@ -14,7 +14,7 @@
 
 namespace isostep::tool {
 
-inline constexpr int kDefaultHz = 60, kDefaultSubsteps = 4;
+inline constexpr int kDefaultHz = Settings<double>{}.hz, kDefaultSubsteps = Settings<double>{}.substeps;
 
 /// A named scene, or the file of that path. Throws ToolError 64 or 66, SceneError's text included.
 scenes::Scene load_scene(const std::string& name_or_file);
@@ -22,14 +22,17 @@ scenes::Scene load_scene(const std::string& name_or_file);
 [[noreturn]] void fail_scene(const std::string& name_or_file, const scenes::SceneError& error);
 
 Simd simd_named(const std::string& name);
+/// These lanes, or the widest narrower ones that processor, build and scalar have.
+template <class S> void use_lanes(World<S>& world, Simd simd) {
+  if (world.use_simd(simd)) return;
+  if (simd == Simd::avx2 && world.use_simd(Simd::sse2)) return;
+  world.use_simd(Simd::scalar);
+}
 
 template <class S> struct SceneGame {
   explicit SceneGame(const scenes::Scene& scene, int hz = kDefaultHz, int substeps = kDefaultSubsteps)
       : script(scene.script), world(scenes::settings_of<S>(scene, hz, substeps)) {
     scenes::build(scene, world);
-  }
-  void use_simd(Simd simd) {
-    if (!world.use_simd(simd)) throw ToolError(exit_status::kUsage, "this processor or build lacks these lanes");
   }
   void advance() {
     scenes::before_step(script, world);

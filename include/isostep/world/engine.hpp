@@ -106,6 +106,7 @@ template <class S> class WorldEngine {
   void wake_touching(std::uint32_t slot);
   Location locate(BodyId body) const;
   BodyState<S>* wake_for_change(BodyId body);
+  BodyState<S>* wake_for_push(BodyId body);
 
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);

@@ -159,6 +159,16 @@ template <class S> BodyState<S>* WorldEngine<S>::wake_for_change(BodyId body) {
   return &state;
 }
 
+/// The same for what forces move: a kinematic body is refused before it is touched.
+template <class S> BodyState<S>* WorldEngine<S>::wake_for_push(BodyId body) {
+  const Location at = locate(body);
+  if (at.set != Location::kNone && properties_at(at).type != BodyType::dynamic) {
+    refuse(Fault::not_dynamic);
+    return nullptr;
+  }
+  return wake_for_change(body);
+}
+
 template <class S> S WorldEngine<S>::joint_error(JointId joint) const {
   const JointProperties<S>* properties = properties_of(joint);
   if (properties == nullptr) return S(0);

@@ -15,6 +15,37 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
 }
+
+// Forces and impulses have no range of their own: what they would do beyond the scalar's is cut, on exact products, so
+// that nothing wraps. Speeds are cut a quarter above their limit: the step then cuts them again and reports it.
+template <class S> S bounded_quotient(S x, S divisor, S limit) {
+  const auto value = product(x, S(1)), bound = product(limit, divisor);
+  if (bound < value) return limit;
+  if (value < -bound) return -limit;
+  return clamp(x / divisor, -limit, limit);
+}
+template <class S> Vec3<S> bounded_quotient(Vec3<S> v, S divisor, S limit) {
+  return {bounded_quotient(v.x, divisor, limit), bounded_quotient(v.y, divisor, limit), bounded_quotient(v.z, divisor, limit)};
+}
+template <class S> Vec3<S> bounded_product(const Mat3<S>& m, Vec3<S> v, S limit) {
+  const auto row = [&](int i) {
+    const auto sum = dot_sum(m.rows[i], v), bound = product(limit, S(1));
+    return bound < sum ? limit : sum < -bound ? -limit : round_to<S>(sum);
+  };
+  return {row(0), row(1), row(2)};
+}
+template <class S> Vec3<S> bounded_sum(Vec3<S> a, Vec3<S> b, S limit) {
+  const auto part = [&](S x, S y) { return clamp(x + y, -limit, limit); };  // twice the limit fits
+  return {part(a.x, b.x), part(a.y, b.y), part(a.z, b.z)};
+}
+template <class S> Vec3<Velocity<S>> bounded_velocity(Vec3<Velocity<S>> a, Vec3<S> b, S limit) {
+  using V = Velocity<S>;
+  const auto part = [&](V x, S y) {
+    const S sum = convert<S>(x) + y;
+    return limit < sum ? convert<V>(limit) : sum < -limit ? convert<V>(-limit) : x + convert<V>(y);
+  };
+  return {part(a.x, b.x), part(a.y, b.y), part(a.z, b.z)};
+}
 }  // namespace detail
 
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
@@ -194,11 +225,9 @@ template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
 
 template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
   if (!is_finite(command.force) || !is_finite(command.torque)) return refuse(Fault::not_finite);
-  BodyState<S>* state = wake_for_change(command.body);
+  BodyState<S>* state = wake_for_push(command.body);
   if (state == nullptr) return false;
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
-  if (body.type != BodyType::dynamic) return refuse(Fault::not_dynamic);
-  const auto per_mass = [&](Vec3<S> v) { return Vec3<S>{v.x / body.mass, v.y / body.mass, v.z / body.mass}; };
   const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
   std::size_t at = 0;
   while (at < state_.forces.size() && state_.forces[at].slot < state->slot) ++at;
@@ -206,25 +235,28 @@ template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
     state_.forces.insert(state_.forces.begin() + static_cast<std::ptrdiff_t>(at),
                          {state->slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
   }
-  state_.forces[at].linear += per_mass(command.force);
-  state_.forces[at].angular += kappa * per_mass(command.torque);
+  // At most a quarter of the speed limit a step: velocities then stay within their format, and sums of two fit.
+  const S steps = S(state_.settings.hz) * S(0.25);
+  const S most = steps * Limits<S>::speed(), most_turning = steps * Limits<S>::spin();
+  const Vec3<S> linear = detail::bounded_quotient(command.force, body.mass, most);
+  const Vec3<S> torque = detail::bounded_quotient(command.torque, body.mass, Limits<S>::mass());
+  PendingForce<S>& force = state_.forces[at];
+  force.linear = detail::bounded_sum(force.linear, linear, most);
+  force.angular = detail::bounded_sum(force.angular, detail::bounded_product(kappa, torque, most_turning), most_turning);
   return true;
 }
 
 template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) {
   if (!is_finite(command.linear) || !is_finite(command.angular)) return refuse(Fault::not_finite);
-  BodyState<S>* state = wake_for_change(command.body);
+  BodyState<S>* state = wake_for_push(command.body);
   if (state == nullptr) return false;
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
-  if (body.type != BodyType::dynamic) return refuse(Fault::not_dynamic);
-  const auto per_mass = [&](Vec3<S> v) { return Vec3<S>{v.x / body.mass, v.y / body.mass, v.z / body.mass}; };
   const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
-  const S speed = Limits<S>::speed(), spin = Limits<S>::spin();
-  const auto bounded = [](Vec3<S> v, S limit) {
-    return Vec3<S>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
-  };
-  state->velocity += convert<Velocity<S>>(bounded(per_mass(command.linear), speed));
-  state->spin += convert<Velocity<S>>(bounded(kappa * per_mass(command.angular), spin));
+  const S speed = Limits<S>::speed() * S(1.25), spin = Limits<S>::spin() * S(1.25);
+  const Vec3<S> linear = detail::bounded_quotient(command.linear, body.mass, speed);
+  const Vec3<S> angular = detail::bounded_quotient(command.angular, body.mass, Limits<S>::mass());
+  state->velocity = detail::bounded_velocity<S>(state->velocity, linear, speed);
+  state->spin = detail::bounded_velocity<S>(state->spin, detail::bounded_product(kappa, angular, spin), spin);
   return true;
 }
 

@@ -95,7 +95,7 @@ template <class S> class StateValidator {
 
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
-    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || !is_finite(s.gravity) ||
+    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate || !is_finite(s.gravity) ||
         Limits<S>::speed() < max_abs(s.gravity) || s.solver != SolverName::soft_step) {
       return "settings out of range";
     }

@@ -108,7 +108,8 @@ template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
     state.spin = Vec3<V>::zero();
     ++report_.stopped;
   }
-  const V speed = convert<V>(Limits<S>::speed()), spin = convert<V>(Limits<S>::spin());
+  const V speed = convert<V>(Limits<S>::speed());
+  const V spin = spin_limit<S>(state_.settings.hz * state_.settings.substeps);
   const auto bounded = [](Vec3<V> v, V limit) {
     return Vec3<V>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
   };

@@ -23,7 +23,7 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) : ke
   state_.settings = settings;
   Settings<S>& s = state_.settings;
   s.hz = clamp(s.hz, 10, 1000);
-  s.substeps = clamp(s.substeps, 1, 64);
+  s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
   const S limit = Limits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];

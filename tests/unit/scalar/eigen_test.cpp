@@ -156,19 +156,19 @@ TYPED_TEST(EigenOver, EigenvaluesAndVectorsAreFound) {
 
 TYPED_TEST(EigenOver, DecompositionsOfTwelveRowsEnd) {
   using S = TypeParam;
-  using Big = Eigen::Matrix<S, 12, 12>;
-  Big m;
+  using Big = Eigen::MatrixX<S>;  // sized at run time: unrolled, twelve rows take a minute to compile
+  Big m(12, 12);
   for (int r = 0; r < 12; ++r) {
     for (int c = 0; c < 12; ++c) m(r, c) = this->vector(2)[0];
   }
-  const Eigen::Matrix<double, 12, 12> n = m.template cast<double>();
+  const Eigen::MatrixXd n = m.template cast<double>();
   const Eigen::JacobiSVD<Big> svd(m);
-  this->expect_near(svd.singularValues(), Eigen::JacobiSVD<Eigen::Matrix<double, 12, 12>>(n).singularValues(), 512);
+  this->expect_near(svd.singularValues(), Eigen::JacobiSVD<Eigen::MatrixXd>(n).singularValues(), 512);
   const Eigen::SelfAdjointEigenSolver<Big> solver(Big(m + m.transpose()));
   EXPECT_EQ(solver.info(), Eigen::Success);
-  const Eigen::Matrix<double, 12, 12> symmetric = n + n.transpose();
+  const Eigen::MatrixXd symmetric = n + n.transpose();
   this->expect_near(solver.eigenvalues(),
-                    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 12, 12>>(symmetric).eigenvalues(), 512);
+                    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues(), 512);
 }
 
 TYPED_TEST(EigenOver, QuaternionsRotate) {

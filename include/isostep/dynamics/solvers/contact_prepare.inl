@@ -31,7 +31,8 @@ template <class S> struct RowMaker {
       row.spin_a[i][0] = spin_a[i];
       row.spin_b[i][0] = spin_b[i];
     }
-    row.effective_mass[0] = k > S(0) ? S(1) / k : S(0);
+    // Rows that push have k >= 1. A turning row with less than an eighth has hardly a lever: it resists nothing.
+    row.effective_mass[0] = k > S(0.125) ? S(1) / k : S(0);
     row.impulse[0] = Velocity<S>(0);
   }
   ISO_INLINE void pushing(Vec3<S> direction, Vec3<S> arm_a, Vec3<S> arm_b, AngularRow<S, 1>& row) const {

@@ -13,6 +13,7 @@
 #include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/geometry/limits.hpp"
 
 namespace isostep {
 
@@ -21,6 +22,11 @@ template <class S> struct Acceleration {
   Vec3<S> linear;   // [m/s^2]
   Vec3<S> angular;  // [rad/s^2]
 };
+
+/// No body turns by more than a radian about an axis in a sub-step [rad/s]: beyond, a turn is no longer small.
+template <class S> ISO_INLINE constexpr Velocity<S> spin_limit(std::int32_t rate) {
+  return convert<Velocity<S>>(min(Limits<S>::spin(), S(rate)));
+}
 
 /// What the solver is given: awake bodies in order, the contacts between them and their joints in canonical order.
 template <class S> struct SolverInput {

@@ -223,6 +223,7 @@ template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& i
   using V = Velocity<S>;
   const std::int32_t rate = input.hz * input.substeps;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const V fastest = spin_limit<S>(rate);
   const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = 0; i < input.states.size(); ++i) {
     MotionRow<V>& v = bodies_.velocity[i + 1];
@@ -230,7 +231,7 @@ template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& i
     MotionRow<V>& d = bodies_.displacement[i + 1];
     BodyState<S>& state = input.states[i];
     const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
-    const auto turn = [&](V w) { return round_to<Unit<S>>(product(w, h)); };
+    const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
     // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
     const Vec3<S> before = convert<S>(d.linear);
     d.linear += move;

@@ -59,7 +59,7 @@ template <int Whole, int Frac> inline constexpr FixedName<Whole, Frac> kFixedNam
 template <class Rep, int F, Overflow P> struct ScalarTraits<Fixed<Rep, F, P>> {
   static constexpr int kBits = Fixed<Rep, F, P>::kBits;
   using Unit = Fixed<Rep, kBits - 2, P>;
-  using Velocity = Fixed<Rep, (kBits == 32 && F < 24) ? 24 : F, P>;  // Q8.24: 128 m/s, 0.06 um/s
+  using Velocity = Fixed<Rep, (kBits == 32 && F < 20) ? 20 : F, P>;  // Q12.20: 2048 m/s, 1 um/s
   using Step = Fixed<Rep, kBits - 1, P>;
   using Raw = std::conditional_t<sizeof(Rep) == 4, std::uint32_t, std::uint64_t>;
   static constexpr const char* kName = detail::kFixedName<kBits - F, F>.text;

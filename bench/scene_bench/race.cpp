@@ -1,0 +1,137 @@
+// The race: blocks of frames in turn, so that what slows the machine for a while slows all engines.
+// SPDX-License-Identifier: MIT
+#include "race.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "clock.hpp"
+#include "verdict.hpp"
+
+namespace isostep::bench {
+namespace {
+
+constexpr int kEnergyFrames = 60;
+
+/// One engine's run, and what is noted beside it.
+struct Lane {
+  std::unique_ptr<Engine> engine;
+  std::vector<Place> start;
+  scenes::Energy energy_start;
+  std::vector<double> times;  // [ms] a frame
+  double kinetic = 0, joint_worst = 0;
+  int asleep_at = -1;
+};
+
+double square_across(Vec3<double> v) { return v.x * v.x + v.z * v.z; }
+
+void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
+  for (int frame = from; frame < to; ++frame) {
+    lane.engine->before_step(frame);
+    const double start = thread_milliseconds();
+    lane.engine->step();
+    lane.times.push_back(thread_milliseconds() - start);
+    if (!scene.joints.empty()) lane.joint_worst = std::max(lane.joint_worst, lane.engine->joint_error());
+    if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
+    if (frame < scene.frames - kEnergyFrames) continue;
+    const scenes::Energy energy = lane.engine->energy();
+    lane.kinetic += energy.kinetic / energy.mass / kEnergyFrames;
+  }
+}
+
+/// Reach: from the world's end of the first joint to the last body, straight chains only.
+void measure_places(const Lane& lane, const scenes::Scene& scene, Row& row) {
+  const std::vector<Place> now = lane.engine->places();
+  row.outside = count_outside(scene, now);
+  if (scene.script != scenes::Script::none) return;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!now[i].dynamic) continue;
+    const Vec3<double> by = now[i].centre - lane.start[i].centre;
+    row.moved = std::max(row.moved, std::sqrt(dot(by, by)));
+    row.drift = std::max(row.drift, std::sqrt(square_across(by)));
+    row.drop = std::max(row.drop, -by.y);
+  }
+  row.top_error = now.back().centre.y - lane.start.back().centre.y;
+  if (scene.joints.empty()) return;
+  const Vec3<double> top = {0, 30, 0}, before = lane.start.back().centre - top, after = now.back().centre - top;
+  row.reach_error = std::sqrt(dot(after, after)) - std::sqrt(dot(before, before));
+}
+
+/// Too short for a clock, so a thousand at once.
+double time_asleep(Engine& engine) {
+  constexpr int kSteps = 1000;
+  const auto thousand = [&] {
+    for (int i = 0; i < kSteps; ++i) engine.step();
+  };
+  return median_milliseconds(5, [] {}, thousand) / kSteps;
+}
+
+void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
+  measure_places(lane, scene, row);
+  const scenes::Energy end = lane.engine->energy();
+  row.settings = lane.engine->settings();
+  row.faults = lane.engine->faults();
+  row.overlap = lane.engine->overlap();
+  row.kinetic = lane.kinetic;
+  row.energy_loss = (lane.energy_start.total() - end.total()) / end.mass;
+  row.joint_worst = lane.joint_worst;
+  row.joint_end = lane.engine->joint_error();
+  row.asleep_at = lane.asleep_at < 0 ? -1 : lane.asleep_at / 60.0;
+}
+
+struct Times {
+  std::vector<double> ms, p99, max, asleep;
+};
+
+void note_times(Lane& lane, const scenes::Scene& scene, Times& times) {
+  const std::ptrdiff_t skipped = scene.script == scenes::Script::none ? scene.frames / 2 : 0;
+  const std::vector<double> counted(lane.times.begin() + skipped, lane.times.end());
+  times.ms.push_back(median(counted));
+  times.p99.push_back(quantile(counted, 0.99));
+  times.max.push_back(quantile(counted, 1));
+  if (lane.asleep_at >= 0) times.asleep.push_back(time_asleep(*lane.engine));
+}
+
+std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers, const RaceOptions& options) {
+  std::vector<Lane> lanes;
+  for (const Maker& maker : makers) {
+    Lane lane;
+    lane.engine = maker.make(scene, options.engine);
+    lane.start = lane.engine->places();
+    lane.energy_start = lane.engine->energy();
+    lanes.push_back(std::move(lane));
+  }
+  return lanes;
+}
+
+}  // namespace
+
+std::vector<Row> race(const scenes::Scene& scene, const std::vector<Maker>& makers, const RaceOptions& options) {
+  std::vector<Row> rows(makers.size());
+  std::vector<Times> times(makers.size());
+  for (int round = 0; round < options.rounds; ++round) {
+    std::fprintf(stderr, "%s: round %d of %d\n", scene.name.c_str(), round + 1, options.rounds);
+    std::vector<Lane> lanes = start_lanes(scene, makers, options);
+    for (int from = 0; from < scene.frames; from += options.block) {
+      for (Lane& lane : lanes) run_frames(lane, scene, from, std::min(from + options.block, scene.frames));
+    }
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      if (round == 0) measure(lanes[i], scene, rows[i]);
+      note_times(lanes[i], scene, times[i]);
+    }
+  }
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    Row& row = rows[i];
+    row.scene = scene.name;
+    row.engine = makers[i].name;
+    row.ours = makers[i].ours;
+    row.ms = median(times[i].ms);
+    row.p99 = median(times[i].p99);
+    row.max = median(times[i].max);
+    if (!times[i].asleep.empty()) row.asleep_ms = median(times[i].asleep);
+    judge(row);
+  }
+  return rows;
+}
+
+}  // namespace isostep::bench

@@ -1,0 +1,131 @@
+// The range contract: inside Limits<S> no intermediate of a step overflows. The engine runs here over scalars that stop
+// the program where an exact answer does not fit; what would wrap silently elsewhere kills these tests.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/random.hpp"
+#include "isostep/geometry/limits.hpp"
+#include "isostep/world/world.hpp"
+
+namespace isostep {
+namespace {
+
+using TrappingQ16 = Fixed<std::int32_t, 16, Overflow::trap>;
+using TrappingQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
+
+template <class S> class RangeContract : public ::testing::Test {
+ public:
+  World<S> world{};
+  std::vector<BodyId> bodies;
+
+  ShapeId floor() {
+    const ShapeId shape = world.add_shape(Box{{50, 1, 50}});
+    world.create({.shape = shape, .position = {0, -1, 0}});
+    return shape;
+  }
+  BodyId add(ShapeId shape, Vec3<S> position, S mass) {
+    const BodyId body = world.create({.type = dynamic, .shape = shape, .position = position, .mass = mass});
+    EXPECT_TRUE(body) << fault_text(world.fault());
+    bodies.push_back(body);
+    return body;
+  }
+  /// Fault-free, and something touched.
+  void step(int frames) {
+    std::uint32_t points = 0;
+    for (int i = 0; i < frames; ++i) {
+      world.step();
+      points = max(points, world.counts().points);
+    }
+    EXPECT_GT(points, 0u);
+  }
+};
+using Scalars = ::testing::Types<TrappingQ16, TrappingQ32>;
+TYPED_TEST_SUITE(RangeContract, Scalars);
+
+TYPED_TEST(RangeContract, APileOfEveryShapeSettles) {
+  using S = TypeParam;
+  this->floor();
+  const ShapeId shapes[3] = {this->world.add_shape(Box{{0.25, 0.375, 0.5}}), this->world.add_shape(Sphere{0.25}),
+                             this->world.add_shape(Capsule{0.25, 0.25})};
+  for (int i = 0; i < 60; ++i) {
+    const S x = S(i % 4) * S(0.75) + S(i % 3) * S(0.0625), z = S(i / 4 % 4) * S(0.75);
+    this->add(shapes[i % 3], {x, S(1 + i / 16), z}, S(1 + i % 5));
+  }
+  this->step(240);
+}
+
+TYPED_TEST(RangeContract, MassesAtTheRatioLimitPress) {
+  using S = TypeParam;
+  this->floor();
+  const ShapeId box = this->world.add_shape(Box{{0.5, 0.5, 0.5}});
+  this->add(box, {0, S(0.5), 0}, S(1));
+  this->add(box, {0, S(1.5), 0}, Limits<S>::mass_ratio());
+  this->add(box, {5, S(0.5), 0}, Limits<S>::mass());
+  this->add(box, {5, S(1.5), 0}, Limits<S>::mass());
+  this->step(120);
+}
+
+TYPED_TEST(RangeContract, BodiesAtTheSpeedLimitCollide) {
+  using S = TypeParam;
+  this->floor();
+  const ShapeId ball = this->world.add_shape(Sphere{0.5});
+  const S speed = Limits<S>::speed() * S(0.5);  // each: they close at the limit
+  for (int i = 0; i < 8; ++i) {
+    const S gap = S(0.5) + speed * S(2.0 / 60) * S(i) * S(0.125);
+    const BodyId left = this->add(ball, {-gap, S(1 + 2 * i), 0}, S(1)), right = this->add(ball, {gap, S(1 + 2 * i), 0}, S(3));
+    this->world.set_velocity(left, {speed, 0, 0}, {0, 0, Limits<S>::spin()});
+    this->world.set_velocity(right, {-speed, 0, 0}, {0, Limits<S>::spin(), 0});
+  }
+  this->step(60);
+}
+
+TYPED_TEST(RangeContract, DeepOverlapsArePushedApart) {
+  using S = TypeParam;
+  this->floor();
+  const ShapeId box = this->world.add_shape(Box{{1, 1, 1}});
+  for (int i = 0; i < 5; ++i) this->add(box, {S(i) * S(0.125), S(1), S(0)}, S(1));
+  this->step(120);
+}
+
+TYPED_TEST(RangeContract, SmallAndLargeBodiesMeet) {
+  using S = TypeParam;
+  this->floor();
+  const ShapeId crumb = this->world.add_shape(Sphere{0.03125}), slab = this->world.add_shape(Box{{20, 0.25, 20}});
+  this->add(slab, {0, S(0.25), 0}, S(100));
+  for (int i = 0; i < 10; ++i) this->add(crumb, {S(i), S(1), S(0)}, S(1));
+  this->step(120);
+}
+
+TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
+  using S = TypeParam;
+  const ShapeId link = this->world.add_shape(Capsule{0.125, 0.25}), weight = this->world.add_shape(Sphere{0.5});
+  BodyId last = {};
+  for (int i = 0; i < 12; ++i) {
+    const BodyId body = this->add(i < 11 ? link : weight, {S(i), S(10), 0}, i < 11 ? S(1) : S(20));
+    JointProperties<S> joint = this->world.joint_at(static_cast<JointType>(i % 4), last, body,
+                                                    {{S(i) - S(0.5), S(10), 0}, Quat<Unit<S>>::identity()});
+    if (joint.type == JointType::distance) joint.upper = S(0.5);
+    EXPECT_TRUE(this->world.create(joint)) << fault_text(this->world.fault());
+    last = body;
+  }
+  for (int i = 0; i < 120; ++i) this->world.step();
+  EXPECT_LT(this->world.centre(last).y, S(9));
+}
+
+TYPED_TEST(RangeContract, TheEdgeOfTheWorldHolds) {
+  using S = TypeParam;
+  const ShapeId ball = this->world.add_shape(Sphere{0.5});
+  const S edge = Limits<S>::position();
+  const BodyId body = this->add(ball, {edge - S(1), 0, S(1) - edge}, S(1));
+  this->world.set_velocity(body, {Limits<S>::speed(), 0, -Limits<S>::speed()}, {0, 0, 0});
+  std::uint32_t clamped = 0;
+  for (int i = 0; i < 60; ++i) clamped += this->world.step().clamped_position;
+  EXPECT_GT(clamped, 0u);
+  EXPECT_LE(this->world.centre(body).x, edge);
+}
+
+}  // namespace
+}  // namespace isostep
