@@ -85,7 +85,8 @@ class BulletEngine : public Peer {
     if (from.parts.size() == 1) return made.shapes.front().get();
     auto compound = std::make_unique<btCompoundShape>();
     for (std::size_t i = 0; i < from.parts.size(); ++i) {
-      compound->addChildShape(btTransform(bt(from.parts[i].orientation), bt(from.parts[i].position)), made.shapes[i].get());
+      compound->addChildShape(btTransform(bt(from.parts[i].orientation), bt(from.parts[i].position)),
+                              made.shapes[i].get());
     }
     made.shapes.push_back(std::move(compound));
     return made.shapes.back().get();
@@ -94,7 +95,8 @@ class BulletEngine : public Peer {
     BulletBody made;
     const btTransform pose(bt(from.orientation), bt(from.position));
     if (from.type == BodyType::kinematic) made.path = std::make_unique<btDefaultMotionState>(pose);
-    btRigidBody::btRigidBodyConstructionInfo info(bt(from.mass), made.path.get(), assemble(made, from), bt(from.inertia));
+    btRigidBody::btRigidBodyConstructionInfo info(bt(from.mass), made.path.get(), assemble(made, from),
+                                                  bt(from.inertia));
     info.m_startWorldTransform = pose;
     info.m_friction = bt(friction_of_one(from.friction));
     made.body = std::make_unique<btRigidBody>(info);

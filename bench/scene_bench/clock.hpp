@@ -22,7 +22,8 @@ inline double thread_milliseconds() {
 /// Of a copy, nearest rank; 0 of nothing.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
-  const std::size_t rank = std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())));
+  const std::size_t rank =
+      std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
   return values[rank];
 }

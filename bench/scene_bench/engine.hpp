@@ -28,8 +28,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  /// What the scene's script does between frames.
-  virtual void before_step(int frame) = 0;
+  /// What happens between frames: kinematic bodies move on, and where `script` is set the scene's script acts.
+  virtual void before_step(int frame, bool script) = 0;
   virtual void step() = 0;
 
   virtual bool all_asleep() const = 0;
@@ -37,10 +37,10 @@ class Engine {
   virtual int faults() const = 0;
   /// In the order of the scene.
   virtual std::vector<Place> places() const = 0;
-  virtual double joint_error() const = 0;          // [m] largest separation of anchors
+  virtual double joint_error() const = 0;  // [m] largest separation of anchors
   virtual scenes::Energy energy() const = 0;
   virtual scenes::Overlap overlap() const = 0;
-  virtual std::string settings() const = 0;        // for the report: "avx2, 8 sub-steps"
+  virtual std::string settings() const = 0;  // for the report: "avx2, 8 sub-steps"
 };
 
 struct EngineOptions {

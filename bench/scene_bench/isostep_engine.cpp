@@ -15,7 +15,9 @@ template <class S> class OurEngine : public Engine {
     bodies_ = scenes::build(scene, world_).bodies;
   }
 
-  void before_step(int) override { scenes::before_step(script_, world_); }
+  void before_step(int, bool script) override {
+    if (script) scenes::before_step(script_, world_);
+  }
   void step() override {
     if (!world_.step().clean()) ++faults_;
   }

@@ -1,4 +1,4 @@
-// isostep_scene_bench: the benchmark scenes in every scalar, beside Bullet and ODE where they are installed, in one run.
+// isostep_scene_bench: the benchmark scenes in every scalar, beside Bullet and ODE where installed, in one run.
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -80,9 +80,12 @@ int main(int count, char** words) {
   isostep::bench::Arguments arguments;
   CLI::App app("The benchmark scenes in every scalar, beside Bullet and ODE");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas")->delimiter(',');
-  app.add_option("--engines", arguments.engines, "Scalars, bullet, ode, separated by commas; none: all")->delimiter(',');
-  app.add_option("--rounds", arguments.race.rounds, "Runs of each scene; times are medians over them")->check(CLI::Range(1, 99));
-  app.add_option("--block", arguments.race.block, "Frames an engine runs before the next has its turn")->check(CLI::Range(1, 1000));
+  app.add_option("--engines", arguments.engines, "Scalars, bullet, ode, separated by commas; none: all")
+      ->delimiter(',');
+  app.add_option("--rounds", arguments.race.rounds, "Runs of each scene; times are medians over them")
+      ->check(CLI::Range(1, 99));
+  app.add_option("--block", arguments.race.block, "Frames an engine runs before the next has its turn")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--substeps", arguments.race.engine.substeps, "Of ours; 0: the default")->check(CLI::Range(0, 64));
   app.add_flag("--no-rollback", arguments.no_rollback, "Leave the rollback table out");
   app.add_option("--json", arguments.json, "Write every figure to this file");

@@ -27,7 +27,7 @@ class OdeEngine : public Peer {
   explicit OdeEngine(const scenes::Scene& scene) : Peer(scene) {
     start_ode();
     world_ = dWorldCreate();
-    space_ = dHashSpaceCreate(nullptr);
+    space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XZY);
     touching_ = dJointGroupCreate(0);
     dWorldSetGravity(world_, gravity().x, gravity().y, gravity().z);
     dWorldSetAutoDisableFlag(world_, allow_sleep() ? 1 : 0);
@@ -122,7 +122,8 @@ class OdeEngine : public Peer {
   /// ODE's capsules lie along z, ours along y.
   static void place(dGeomID geom, const PeerPart& part, const PeerBody& body, bool on_body) {
     const double half = sqrt(0.5);
-    const Quat<double> upright = part.type == ShapeType::capsule ? Quat<double>{-half, 0, 0, half} : Quat<double>::identity();
+    const Quat<double> upright =
+        part.type == ShapeType::capsule ? Quat<double>{-half, 0, 0, half} : Quat<double>::identity();
     const Quat<double> local = part.orientation * upright;
     dQuaternion q;
     if (on_body) {
@@ -148,7 +149,8 @@ class OdeEngine : public Peer {
   void touch(dGeomID a, dGeomID b) {
     const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
     if (body_a == body_b) return;
-    if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
+    if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0)
+      return;
     constexpr int kMost = 8;  // box against box finds no more
     dContact contacts[kMost];
     const int count = dCollide(a, b, kMost, &contacts[0].geom, sizeof(dContact));

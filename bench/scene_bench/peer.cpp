@@ -18,7 +18,7 @@ Quat<double> real(const scenes::Rotation& q) { return {real(q[0]), real(q[1]), r
 
 PeerPart peer_part(const scenes::ScenePart& part) {
   if (part.type == ShapeType::half_space) throw scenes::SceneError("", "peers are not given half-spaces");
-  return {part.type,      real(part.half_extents), real(part.radius), real(part.half_height),
+  return {part.type,           real(part.half_extents), real(part.radius), real(part.half_height),
           real(part.position), real(part.orientation)};
 }
 
@@ -72,7 +72,8 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(real(scene.grav
     return transposed_times(to_matrix(at.orientation), anchor - at.position);
   };
   for (const scenes::SceneJoint& joint : scene.joints) {
-    if (joint.type != JointType::ball || joint.flags != 0) throw scenes::SceneError("", "peers are given plain ball joints");
+    if (joint.type != JointType::ball || joint.flags != 0)
+      throw scenes::SceneError("", "peers are given plain ball joints");
     const Vec3<double> anchor = real(joint.anchor);
     joints_.push_back({joint.a, joint.b, anchor});
     anchors_.push_back({local(joint.a, anchor), local(joint.b, anchor)});
@@ -80,9 +81,9 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(real(scene.grav
 }
 
 /// As scenes::before_step does it for a World: the drum is body 0, the others are replaced in turn.
-void Peer::before_step(int frame) {
+void Peer::before_step(int frame, bool script) {
   drive(frame);
-  if (scene_.script != scenes::Script::mixer || frame < 4 || frame % 4 != 0) return;
+  if (!script || scene_.script != scenes::Script::mixer || frame < 4 || frame % 4 != 0) return;
   const int turn = frame / 4 - 1;
   const std::size_t oldest = 1 + static_cast<std::size_t>(turn) % (bodies_.size() - 1);
   scene_.bodies[oldest] = scenes::mixer_body(static_cast<int>(bodies_.size()) - 1 + turn);
@@ -126,7 +127,8 @@ scenes::Energy Peer::energy() const {
     if (bodies_[i].type != BodyType::dynamic) continue;
     const Motion at = motion(i);
     const Vec3<double> spin = transposed_times(to_matrix(at.orientation), at.spin);
-    energy.kinetic += 0.5 * (bodies_[i].mass * dot(at.velocity, at.velocity) + dot(spin, scale(bodies_[i].inertia, spin)));
+    energy.kinetic +=
+        0.5 * (bodies_[i].mass * dot(at.velocity, at.velocity) + dot(spin, scale(bodies_[i].inertia, spin)));
     energy.potential -= bodies_[i].mass * dot(gravity_, at.position);
     energy.mass += bodies_[i].mass;
   }

@@ -9,9 +9,9 @@ namespace isostep::bench {
 
 struct PeerPart {
   ShapeType type;
-  Vec3<double> half_extents;  // [m] box
-  double radius, half_height; // [m] sphere, capsule along local y
-  Vec3<double> position;      // [m] in the body's frame
+  Vec3<double> half_extents;   // [m] box
+  double radius, half_height;  // [m] sphere, capsule along local y
+  Vec3<double> position;       // [m] in the body's frame
   Quat<double> orientation;
 };
 /// A body of one part at its origin, or one that no force moves: so its origin is its centre of mass.
@@ -42,7 +42,7 @@ class Peer : public Engine {
  public:
   explicit Peer(const scenes::Scene& scene);
 
-  void before_step(int frame) override;
+  void before_step(int frame, bool script) override;
   int faults() const override;
   std::vector<Place> places() const override;
   double joint_error() const override;

@@ -27,7 +27,7 @@ double square_across(Vec3<double> v) { return v.x * v.x + v.z * v.z; }
 
 void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
   for (int frame = from; frame < to; ++frame) {
-    lane.engine->before_step(frame);
+    lane.engine->before_step(frame, true);
     const double start = thread_milliseconds();
     lane.engine->step();
     lane.times.push_back(thread_milliseconds() - start);
@@ -63,7 +63,18 @@ double time_asleep(Engine& engine) {
   const auto thousand = [&] {
     for (int i = 0; i < kSteps; ++i) engine.step();
   };
-  return median_milliseconds(5, [] {}, thousand) / kSteps;
+  return median_milliseconds(
+             5, [] {}, thousand) /
+         kSteps;
+}
+
+/// S9 creates bodies inside others; a second without that shows what the solver leaves.
+scenes::Overlap calm_overlap(Engine& engine, int frames) {
+  for (int frame = frames; frame < frames + 60; ++frame) {
+    engine.before_step(frame, false);
+    engine.step();
+  }
+  return engine.overlap();
 }
 
 void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
@@ -76,6 +87,7 @@ void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   row.energy_loss = (lane.energy_start.total() - end.total()) / end.mass;
   row.joint_worst = lane.joint_worst;
   row.joint_end = lane.engine->joint_error();
+  if (scene.script != scenes::Script::none) row.calm = calm_overlap(*lane.engine, scene.frames);
   row.asleep_at = lane.asleep_at < 0 ? -1 : lane.asleep_at / 60.0;
 }
 
@@ -92,7 +104,8 @@ void note_times(Lane& lane, const scenes::Scene& scene, Times& times) {
   if (lane.asleep_at >= 0) times.asleep.push_back(time_asleep(*lane.engine));
 }
 
-std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers, const RaceOptions& options) {
+std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers,
+                              const RaceOptions& options) {
   std::vector<Lane> lanes;
   for (const Maker& maker : makers) {
     Lane lane;

@@ -11,22 +11,23 @@ struct Row {
   std::string scene, engine, settings;
   bool ours = false;
   // CPU time of the step, medians over the rounds.
-  double ms = 0, p99 = 0, max = 0;          // [ms] over the second half; S9: over the whole run
-  double asleep_ms = -1;                    // [ms] a step with everybody asleep; less than 0: never
+  double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9: over the whole run
+  double asleep_ms = -1;            // [ms] a step with everybody asleep; less than 0: never
   // Measures, of the first round.
   int faults = 0;
-  scenes::Overlap overlap;                  // [m] at the end
-  double kinetic = 0;                       // [J/kg] mean of the last 60 steps
-  double energy_loss = 0;                   // [J/kg] from start to end
-  double moved = 0, drift = 0, drop = 0;    // [m] largest: from the start; horizontally; downwards
-  double top_error = 0;                     // [m] of the last body's height, against the start
-  double reach_error = 0;                   // [m] last body from the first joint's anchor, against the start
-  double joint_worst = 0, joint_end = 0;    // [m] over the run; at the end
-  int outside = 0;                          // bodies that left the pit, the floor or the drum
-  double asleep_at = -1;                    // [s] first frame with nobody awake; less than 0: never
+  scenes::Overlap overlap;                // [m] at the end
+  scenes::Overlap calm;                   // [m] a scripted scene: 1 s later, in which the script did not act
+  double kinetic = 0;                     // [J/kg] mean of the last 60 steps
+  double energy_loss = 0;                 // [J/kg] from start to end
+  double moved = 0, drift = 0, drop = 0;  // [m] largest: from the start; horizontally; downwards
+  double top_error = 0;                   // [m] of the last body's height, against the start
+  double reach_error = 0;                 // [m] last body from the first joint's anchor, against the start
+  double joint_worst = 0, joint_end = 0;  // [m] over the run; at the end
+  int outside = 0;                        // bodies that left the pit, the floor or the drum
+  double asleep_at = -1;                  // [s] first frame with nobody awake; less than 0: never
   // Judged by verdict.hpp.
   bool failed = false;
-  std::string bar;                          // "aim", "must", "misses" or "-"
+  std::string bar;  // "aim", "must", "misses" or "-"
 };
 
 struct RaceOptions {

@@ -51,11 +51,13 @@ std::string particular(const Row& row) {
   } else if (is(row, {"S2", "S3", "S8"})) {
     text = print("moved %.1f mm, drop %.1f mm", 1e3 * row.moved, 1e3 * row.drop);
   } else if (is(row, {"S6", "S6v"})) {
-    text = print("joint %.2f mm, reach %+.2f mm, loss %.2f J/kg", 1e3 * row.joint_worst, 1e3 * row.reach_error, row.energy_loss);
+    text = print("joint %.2f mm, reach %+.2f mm, loss %.2f J/kg", 1e3 * row.joint_worst, 1e3 * row.reach_error,
+                 row.energy_loss);
   } else if (is(row, {"S7"})) {
     text = print("joint %.2f mm, at the end %.3f mm", 1e3 * row.joint_worst, 1e3 * row.joint_end);
   } else if (is(row, {"S9"})) {
-    text = print("longest step %.3f ms", row.max);
+    text = print("longest step %.3f ms; 1 s after the last new body worst %.1f mm, %u deep", row.max,
+                 1e3 * row.calm.worst, row.calm.deep);
   }
   if (row.outside > 0) text += print("%s%d outside", text.empty() ? "" : ", ", row.outside);
   if (row.faults > 0) text += print("%s%d faulty steps", text.empty() ? "" : ", ", row.faults);
@@ -80,6 +82,7 @@ Json json_of(const Row& row, const std::vector<Row>& rows) {
                {"penetration_p99", row.overlap.p99},
                {"deeper_than_5cm", row.overlap.deep},
                {"close_pairs", row.overlap.pairs},
+               {"calm_penetration_worst", row.calm.worst},
                {"kinetic_per_kg", row.kinetic},
                {"energy_loss_per_kg", row.energy_loss},
                {"moved", row.moved},
@@ -99,15 +102,17 @@ Json json_of(const Row& row, const std::vector<Row>& rows) {
 }  // namespace
 
 std::string heading() {
-  return "| scene | engine | ms | p99 | / Bullet | / ODE | worst mm | mean mm | p99 mm | > 5 cm | J/kg | of this scene | bar |\n"
+  return "| scene | engine | ms | p99 | / Bullet | / ODE | worst mm | mean mm | p99 mm | > 5 cm | J/kg | of this scene "
+         "| bar |\n"
          "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 std::string table_of(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
-    text += print("| %s | %s | %.4f%s | %.4f | %s | %s | ", row.scene.c_str(), row.engine.c_str(), row.ms, row.failed ? " x" : "",
-                  row.p99, ratio_text(ratio(row, rows, "bullet")).c_str(), ratio_text(ratio(row, rows, "ode")).c_str());
+    text += print("| %s | %s | %.4f%s | %.4f | %s | %s | ", row.scene.c_str(), row.engine.c_str(), row.ms,
+                  row.failed ? " x" : "", row.p99, ratio_text(ratio(row, rows, "bullet")).c_str(),
+                  ratio_text(ratio(row, rows, "ode")).c_str());
     text += overlap_text(row) + print(" | %.1e | ", row.kinetic) + particular(row) + " | " + row.bar + " |\n";
   }
   return text;
@@ -115,17 +120,22 @@ std::string table_of(const std::vector<Row>& rows) {
 
 std::string table_of(const std::vector<RollbackRow>& rows) {
   std::string text =
-      "| scalar | save us | load us | hash us | step ms | load + 8 x (step, save, hash) ms | snapshot bytes | per awake body |\n"
+      "| scalar | save us | load us | hash us | step ms | load + 8 x (step, save, hash) ms | snapshot bytes | per "
+      "awake body |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const RollbackRow& row : rows) {
-    text += print("| %s | %.1f | %.1f | %.1f | %.3f | %.2f | %zu | %.0f |\n", row.scalar.c_str(), row.save_us, row.load_us,
-                  row.hash_us, row.step_ms, row.eight_frames_ms, row.snapshot_bytes, row.bytes_per_awake);
+    text += print("| %s | %.1f | %.1f | %.1f | %.3f | %.2f | %zu | %.0f |\n", row.scalar.c_str(), row.save_us,
+                  row.load_us, row.hash_us, row.step_ms, row.eight_frames_ms, row.snapshot_bytes, row.bytes_per_awake);
   }
   return text;
 }
 
-std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback, const RaceOptions& options) {
-  Json json = {{"rounds", options.rounds}, {"block_frames", options.block}, {"runs", Json::array()}, {"rollback", Json::array()}};
+std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback,
+                    const RaceOptions& options) {
+  Json json = {{"rounds", options.rounds},
+               {"block_frames", options.block},
+               {"runs", Json::array()},
+               {"rollback", Json::array()}};
   for (const Row& row : rows) json["runs"].push_back(json_of(row, rows));
   for (const RollbackRow& row : rollback) {
     json["rollback"].push_back({{"scalar", row.scalar},

@@ -59,9 +59,9 @@ std::vector<RollbackRow> measure_rollback(std::string_view name, const std::vect
   std::vector<RollbackRow> rows;
   const std::optional<scenes::Scene> scene = scenes::find_scene(name);
   if (!scene) return rows;
-#define ISO_MEASURE(S)                                                                             \
-  if (std::count(scalars.begin(), scalars.end(), std::string(ScalarTraits<S>::kName)) != 0) {      \
-    rows.push_back(measure<S>(*scene));                                                            \
+#define ISO_MEASURE(S)                                                                        \
+  if (std::count(scalars.begin(), scalars.end(), std::string(ScalarTraits<S>::kName)) != 0) { \
+    rows.push_back(measure<S>(*scene));                                                       \
   }
   ISO_FOR_EACH_SCALAR(ISO_MEASURE)
 #undef ISO_MEASURE

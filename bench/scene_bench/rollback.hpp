@@ -12,7 +12,7 @@ struct RollbackRow {
   std::string scalar;
   double save_us = 0, load_us = 0, hash_us = 0;
   double step_ms = 0;
-  double eight_frames_ms = 0;     // load, then eight times step, save and hash
+  double eight_frames_ms = 0;  // load, then eight times step, save and hash
   std::size_t snapshot_bytes = 0;
   double bytes_per_awake = 0;
 };

@@ -380,7 +380,7 @@ Digits shortest(std::uint64_t significand, int exponent, bool narrow) {
 std::string arrange(const Digits& digits) {
   const int count = static_cast<int>(digits.text.size());
   const auto zeros = [](int n) { return std::string(static_cast<std::size_t>(n), '0'); };
-  if (digits.point > 21 || digits.point <= -7) {
+  if (digits.point > 21 || digits.point <= -6) {
     std::string result = digits.text.substr(0, 1);
     if (count > 1) result += '.' + digits.text.substr(1);
     return result + 'e' + std::to_string(digits.point - 1);

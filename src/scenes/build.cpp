@@ -59,14 +59,16 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
     if (fault != ShapeFault::none) throw SceneError(at, describe(fault));
   }
   const ShapeId shape = world.add_shape(std::span<const Child<S>>(children));
-  if (!shape) throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
-                                                      ? fault_text(world.fault())
-                                                      : describe(validate(std::span<const Child<S>>(children))));
+  if (!shape)
+    throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
+                                            ? fault_text(world.fault())
+                                            : describe(validate(std::span<const Child<S>>(children))));
   return shape;
 }
 
 template <class S>
-BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint64_t user_data, const std::string& place) {
+BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint64_t user_data,
+                                const std::string& place) {
   BodyDefinition<S> d;
   d.type = body.type;
   d.shape = shape;
@@ -111,7 +113,8 @@ std::string key_of(const SceneBody& body) {
 }
 
 template <class S>
-JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<BodyId>& bodies, const std::string& place) {
+JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<BodyId>& bodies,
+                  const std::string& place) {
   const auto body = [&](int index) { return index < 0 ? BodyId{} : bodies[static_cast<std::size_t>(index)]; };
   const Quat<Unit<S>> axes = read<Unit<S>>(joint.orientation, place + "/orientation");
   const Pose<S> frame = {read<S>(joint.anchor, place + "/anchor"), axes};
@@ -172,10 +175,10 @@ template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   return built;
 }
 
-#define ISO_INSTANTIATE(S)                                                                              \
-  template Settings<S> settings_of<S>(const Scene&, int, int);                                          \
-  template Built<S> build<S>(const Scene&, World<S>&);                                                  \
-  template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&);          \
+#define ISO_INSTANTIATE(S)                                                                     \
+  template Settings<S> settings_of<S>(const Scene&, int, int);                                 \
+  template Built<S> build<S>(const Scene&, World<S>&);                                         \
+  template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&); \
   template S value_of<S>(const Number&, const std::string&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 

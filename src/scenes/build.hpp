@@ -16,7 +16,8 @@ template <class S> struct Built {
 };
 
 /// Throws SceneError when gravity is no number of S.
-template <class S> Settings<S> settings_of(const Scene& scene, int hz = Settings<S>{}.hz, int substeps = Settings<S>{}.substeps);
+template <class S>
+Settings<S> settings_of(const Scene& scene, int hz = Settings<S>{}.hz, int substeps = Settings<S>{}.substeps);
 /// Into a world that is empty. A body's user data is its place in the order of creation, from 1. Throws SceneError.
 template <class S> Built<S> build(const Scene& scene, World<S>& world);
 
@@ -26,10 +27,10 @@ BodyId add_body(World<S>& world, const SceneBody& body, std::uint64_t user_data,
 /// The number, or a SceneError.
 template <class S> S value_of(const Number& number, const std::string& place);
 
-#define ISO_EXTERN(S)                                                                                             \
-  extern template Settings<S> settings_of<S>(const Scene&, int, int);                                            \
-  extern template Built<S> build<S>(const Scene&, World<S>&);                                                    \
-  extern template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&);            \
+#define ISO_EXTERN(S)                                                                                 \
+  extern template Settings<S> settings_of<S>(const Scene&, int, int);                                 \
+  extern template Built<S> build<S>(const Scene&, World<S>&);                                         \
+  extern template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&); \
   extern template S value_of<S>(const Number&, const std::string&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -74,7 +74,8 @@ double segment_to_box(const Solid& segment, const Solid& box) {
     for (int corner = 0; corner < 4; ++corner) {
       const V side = column(box.axes, u) * ((corner & 1) != 0 ? box.half[u] : -box.half[u]) +
                      column(box.axes, v) * ((corner & 2) != 0 ? box.half[v] : -box.half[v]);
-      nearest = min(nearest, segment_to_segment(segment.centre, d, box.centre + side, column(box.axes, axis) * box.half[axis]));
+      nearest = min(nearest,
+                    segment_to_segment(segment.centre, d, box.centre + side, column(box.axes, axis) * box.half[axis]));
     }
   }
   return nearest;
@@ -91,7 +92,8 @@ double core_distance(const Solid& a, const Solid& b) {
 }  // namespace
 
 double signed_distance(const Solid& a, const Solid& b) {
-  if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return std::numeric_limits<double>::infinity();
+  if (a.type == ShapeType::half_space && b.type == ShapeType::half_space)
+    return std::numeric_limits<double>::infinity();
   if (a.type == ShapeType::half_space) return signed_distance(b, a);
   if (b.type == ShapeType::half_space) return dot(b.normal, a.centre) - b.offset - reach(a, b.normal) - a.radius;
   return core_distance(a, b) - a.radius - b.radius;

@@ -10,12 +10,12 @@ namespace isostep::scenes {
 /// A primitive where it lies in the world.
 struct Solid {
   ShapeType type;
-  Vec3<double> centre;     // [m]
-  Mat3<double> axes;       // [1] to world
-  Vec3<double> half;       // [m] of the core: box, or (0, half height, 0) of a capsule
-  double radius;           // [m] around the core
-  Vec3<double> normal;     // [1] half-space, world
-  double offset;           // [m] half-space, world: normal . p <= offset is inside
+  Vec3<double> centre;  // [m]
+  Mat3<double> axes;    // [1] to world
+  Vec3<double> half;    // [m] of the core: box, or (0, half height, 0) of a capsule
+  double radius;        // [m] around the core
+  Vec3<double> normal;  // [1] half-space, world
+  double offset;        // [m] half-space, world: normal . p <= offset is inside
 };
 
 /// Greater than 0: the gap [m], or less than it where no axis shows all of it; less than 0: the overlap, the shortest

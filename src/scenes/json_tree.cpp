@@ -42,22 +42,22 @@ class TreeBuilder {
   explicit TreeBuilder(std::string_view text) : text_(text) {}
 
   bool null() { return add({}); }
-  bool boolean(bool value) { return add({JsonKind::boolean, value, {}, {}}); }
+  bool boolean(bool value) { return add({JsonKind::boolean, value, {}, {}, {}}); }
   /// Only a negative integer comes here, so zero was written "-0".
   bool number_integer(std::int64_t value) { return number(value == 0 ? "-0" : std::to_string(value)); }
   bool number_unsigned(std::uint64_t value) { return number(std::to_string(value)); }
   bool number_float(double, const std::string& text) { return number(text); }
-  bool string(std::string& text) { return add({JsonKind::text, false, text, {}}); }
+  bool string(std::string& text) { return add({JsonKind::text, false, text, {}, {}}); }
   bool binary(nlohmann::json::binary_t&) { return false; }
   bool start_object(std::size_t) { return open(JsonKind::object); }
   bool start_array(std::size_t) { return open(JsonKind::array); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool key(std::string& name) {
-    for (const auto& item : path_.back()->items) {
-      if (item.first == name) throw SceneError(pointer(), "the key \"" + name + "\" comes twice");
+    for (const std::string& other : path_.back()->keys) {
+      if (other == name) throw SceneError(pointer(), "the key \"" + name + "\" comes twice");
     }
-    key_ = name;
+    path_.back()->keys.push_back(name);
     return true;
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) {
@@ -67,20 +67,19 @@ class TreeBuilder {
   JsonNode take() { return std::move(root_); }
 
  private:
-  bool number(std::string text) { return add({JsonKind::number, false, std::move(text), {}}); }
+  bool number(std::string text) { return add({JsonKind::number, false, std::move(text), {}, {}}); }
   JsonNode* place(JsonNode node) {
     if (path_.empty()) {
       root_ = std::move(node);
       return &root_;
     }
-    path_.back()->items.emplace_back(std::move(key_), std::move(node));
-    key_.clear();
-    return &path_.back()->items.back().second;
+    path_.back()->items.push_back(std::move(node));
+    return &path_.back()->items.back();
   }
   bool add(JsonNode node) { return place(std::move(node)) != nullptr; }
   bool open(JsonKind kind) {
     if (path_.size() >= kMaxDepth) throw SceneError(pointer(), "nested too deeply");
-    path_.push_back(place({kind, false, {}, {}}));
+    path_.push_back(place({kind, false, {}, {}, {}}));
     return true;
   }
   bool close() {
@@ -91,7 +90,7 @@ class TreeBuilder {
     std::string text;
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
       const JsonNode& node = *path_[i];
-      text += '/' + (node.kind == JsonKind::array ? std::to_string(node.items.size() - 1) : node.items.back().first);
+      text += '/' + (node.kind == JsonKind::array ? std::to_string(node.items.size() - 1) : node.keys.back());
     }
     return text;
   }
@@ -99,7 +98,6 @@ class TreeBuilder {
   std::string_view text_;
   JsonNode root_;
   std::vector<JsonNode*> path_;  // open nodes; an ancestor's items do not grow while a child is open
-  std::string key_;
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace isostep::scenes {
@@ -14,8 +13,9 @@ enum class JsonKind { null, boolean, number, text, array, object };
 struct JsonNode {
   JsonKind kind = JsonKind::null;
   bool flag = false;
-  std::string text;                                     // of a number or a string
-  std::vector<std::pair<std::string, JsonNode>> items;  // of an array, without keys, or of an object
+  std::string text;               // of a number or a string
+  std::vector<std::string> keys;  // of an object, one for each item
+  std::vector<JsonNode> items;    // of an array or an object
 };
 
 /// Throws SceneError with line and column for what is no JSON, and with a pointer for a key that comes twice.

@@ -99,7 +99,8 @@ template <class S> std::set<std::pair<std::uint32_t, std::uint32_t>> joined_pair
 }
 
 bool close(const Part& a, const Part& b, double margin) {
-  return a.low.y <= b.high.y + margin && b.low.y <= a.high.y + margin && a.low.z <= b.high.z + margin && b.low.z <= a.high.z + margin;
+  return a.low.y <= b.high.y + margin && b.low.y <= a.high.y + margin && a.low.z <= b.high.z + margin &&
+         b.low.z <= a.high.z + margin;
 }
 
 Overlap summary(std::vector<double> depths) {
@@ -163,9 +164,9 @@ template <class S> double largest_joint_error(const World<S>& world) {
   return largest;
 }
 
-#define ISO_INSTANTIATE(S)                                \
-  template Overlap measure_overlap<S>(const World<S>&);   \
-  template Energy measure_energy<S>(const World<S>&);     \
+#define ISO_INSTANTIATE(S)                              \
+  template Overlap measure_overlap<S>(const World<S>&); \
+  template Energy measure_energy<S>(const World<S>&);   \
   template double largest_joint_error<S>(const World<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 

@@ -10,10 +10,10 @@ namespace isostep::scenes {
 
 /// Over pairs of parts that may collide and are closer than 1 cm, overlapping ones included.
 struct Overlap {
-  double worst = 0;            // [m]
-  double mean = 0;             // [m] over the pairs, a gap counting as 0
-  double p99 = 0;              // [m]
-  std::uint32_t deep = 0;      // pairs deeper than 5 cm
+  double worst = 0;        // [m]
+  double mean = 0;         // [m] over the pairs, a gap counting as 0
+  double p99 = 0;          // [m]
+  std::uint32_t deep = 0;  // pairs deeper than 5 cm
   std::uint32_t pairs = 0;
 };
 template <class S> Overlap measure_overlap(const World<S>& world);
@@ -30,9 +30,9 @@ template <class S> Energy measure_energy(const World<S>& world);
 /// The largest separation of any joint's anchors [m].
 template <class S> double largest_joint_error(const World<S>& world);
 
-#define ISO_EXTERN(S)                                            \
-  extern template Overlap measure_overlap<S>(const World<S>&);   \
-  extern template Energy measure_energy<S>(const World<S>&);     \
+#define ISO_EXTERN(S)                                          \
+  extern template Overlap measure_overlap<S>(const World<S>&); \
+  extern template Energy measure_energy<S>(const World<S>&);   \
   extern template double largest_joint_error<S>(const World<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

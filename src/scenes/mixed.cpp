@@ -92,9 +92,7 @@ Scene mixed() {
   for (int n = 0; n < 48; ++n) {
     const int layer = n / 16, column = n % 16;
     const Point at = {(column % 4 - 1.5) * 1.3, 0.6 + 1.1 * layer, (column / 4 - 1.5) * 1.3};
-    scene.bodies.push_back(n % 8 == 3   ? dumbbell(at)
-                           : n % 8 == 6 ? bracket(at)
-                                        : drawn_body(n, at, draws, 1));
+    scene.bodies.push_back(n % 8 == 3 ? dumbbell(at) : n % 8 == 6 ? bracket(at) : drawn_body(n, at, draws, 1));
   }
   for (int n = 0; n < 18; ++n) {  // stacks beside the pit, islands of their own that fall asleep
     scene.bodies.push_back(body_of(box_part({0.4, 0.3, 0.4}), {8.0 + 2.0 * (n / 3), 0.3 + 0.6 * (n % 3), 0}));

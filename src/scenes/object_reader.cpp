@@ -30,8 +30,9 @@ ObjectReader::ObjectReader(const JsonNode& node, std::string place) : node_(node
 
 const JsonNode* ObjectReader::find(const char* key, JsonKind kind) {
   known_.push_back(key);
-  for (const auto& [name, value] : node_.items) {
-    if (name != key) continue;
+  for (std::size_t i = 0; i < node_.keys.size(); ++i) {
+    if (node_.keys[i] != key) continue;
+    const JsonNode& value = node_.items[i];
     if (value.kind != kind) wrong_kind(place_of(key), kind, value.kind);
     return &value;
   }
@@ -39,7 +40,7 @@ const JsonNode* ObjectReader::find(const char* key, JsonKind kind) {
 }
 
 bool ObjectReader::has(const char* key) const {
-  return std::any_of(node_.items.begin(), node_.items.end(), [&](const auto& item) { return item.first == key; });
+  return std::find(node_.keys.begin(), node_.keys.end(), key) != node_.keys.end();
 }
 void ObjectReader::require(const char* key) const {
   if (!has(key)) throw SceneError(place_, std::string("the key \"") + key + "\" is missing");
@@ -64,11 +65,11 @@ template <std::size_t N> void ObjectReader::numbers(const char* key, std::array<
   const JsonNode* node = find(key, JsonKind::array);
   if (node == nullptr) return;
   if (node->items.size() != N) {
-    throw SceneError(place_of(key),
-                     "expected " + std::to_string(N) + " numbers, found " + std::to_string(node->items.size()) + " items");
+    throw SceneError(place_of(key), "expected " + std::to_string(N) + " numbers, found " +
+                                        std::to_string(node->items.size()) + " items");
   }
   for (std::size_t i = 0; i < N; ++i) {
-    const JsonNode& item = node->items[i].second;
+    const JsonNode& item = node->items[i];
     if (item.kind != JsonKind::number) wrong_kind(place_of(key) + "/" + std::to_string(i), JsonKind::number, item.kind);
     to[i] = Number(item.text);
   }
@@ -86,11 +87,12 @@ void ObjectReader::text(const char* key, std::string& to) {
 void ObjectReader::integer(const char* key, std::int64_t low, std::int64_t high, std::int64_t& to) {
   const JsonNode* node = find(key, JsonKind::number);
   if (node == nullptr) return;
-  const bool digits = node->text.size() <= 12 && node->text.find_first_not_of("0123456789", node->text[0] == '-') == std::string::npos;
+  const bool digits =
+      node->text.size() <= 12 && node->text.find_first_not_of("0123456789", node->text[0] == '-') == std::string::npos;
   if (digits) to = std::stoll(node->text);
   if (!digits || to < low || to > high) {
-    throw SceneError(place_of(key), "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
-                                        ", found " + node->text);
+    throw SceneError(place_of(key), "expected a whole number from " + std::to_string(low) + " to " +
+                                        std::to_string(high) + ", found " + node->text);
   }
 }
 
@@ -105,16 +107,16 @@ std::size_t ObjectReader::choice(const char* key, std::span<const char* const> n
   throw SceneError(place_of(key), "expected " + list + ", found \"" + text + "\"");
 }
 
-std::span<const std::pair<std::string, JsonNode>> ObjectReader::array(const char* key) {
+std::span<const JsonNode> ObjectReader::array(const char* key) {
   const JsonNode* node = find(key, JsonKind::array);
   if (node == nullptr) return {};
   return node->items;
 }
 
 void ObjectReader::finish() const {
-  for (const auto& item : node_.items) {
-    const bool known = std::any_of(known_.begin(), known_.end(), [&](const char* key) { return item.first == key; });
-    if (!known) throw SceneError(place_ + "/" + escaped(item.first), "unknown key");
+  for (const std::string& name : node_.keys) {
+    const bool known = std::any_of(known_.begin(), known_.end(), [&](const char* key) { return name == key; });
+    if (!known) throw SceneError(place_ + "/" + escaped(name), "unknown key");
   }
 }
 

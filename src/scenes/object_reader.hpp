@@ -28,7 +28,7 @@ class ObjectReader {
   /// The index of the member's text in `names`.
   std::size_t choice(const char* key, std::span<const char* const> names);
   /// An array's nodes; empty when absent.
-  std::span<const std::pair<std::string, JsonNode>> array(const char* key);
+  std::span<const JsonNode> array(const char* key);
 
   bool has(const char* key) const;
   void require(const char* key) const;

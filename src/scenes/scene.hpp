@@ -51,7 +51,7 @@ struct ScenePart {
 struct SceneBody {
   BodyType type = BodyType::dynamic;
   std::vector<ScenePart> parts;
-  Vector position = zero_vector();          // [m]
+  Vector position = zero_vector();  // [m]
   Rotation orientation = no_rotation();
   Vector velocity = zero_vector();          // [m/s]
   Vector angular_velocity = zero_vector();  // [rad/s]
@@ -94,7 +94,7 @@ struct Scene {
   std::string name = "scene";
   Vector gravity = {0, -10, 0};  // [m/s^2]
   bool allow_sleep = true;
-  int frames = 600;              // of a run that asks for no other count
+  int frames = 600;  // of a run that asks for no other count
   Script script = Script::none;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;

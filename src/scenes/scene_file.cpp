@@ -65,7 +65,7 @@ SceneBody read_body(const JsonNode& node, const std::string& place) {
   reader.flag("collide", body.collide);
   reader.flag("sensor", body.sensor);
   const auto parts = reader.array("shapes");
-  for (std::size_t i = 0; i < parts.size(); ++i) body.parts.push_back(read_part(parts[i].second, item(place, "shapes", i)));
+  for (std::size_t i = 0; i < parts.size(); ++i) body.parts.push_back(read_part(parts[i], item(place, "shapes", i)));
   if (parts.empty()) throw SceneError(place, "a body needs \"shapes\", one or more");
   reader.finish();
   return body;
@@ -125,10 +125,10 @@ Scene read_scene(std::string_view json) {
   if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
   reader.require("bodies");
   const auto bodies = reader.array("bodies");
-  for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(read_body(bodies[i].second, item("", "bodies", i)));
+  for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(read_body(bodies[i], item("", "bodies", i)));
   const auto joints = reader.array("joints");
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    scene.joints.push_back(read_joint(joints[i].second, item("", "joints", i), scene.bodies.size()));
+    scene.joints.push_back(read_joint(joints[i], item("", "joints", i), scene.bodies.size()));
   }
   reader.finish();
   return scene;

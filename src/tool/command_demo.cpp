@@ -73,9 +73,11 @@ int command_demo(const DemoOptions& options) {
     std::filesystem::create_directories(options.out, error);
     if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
   }
-  std::printf("Each scene is recorded with the widest lanes this processor has, then replayed from its file with one lane:\n"
-              "every frame's hash must come out the same.\n\n");
-  std::printf("%-6s %-7s %6s  %9s %8s  %-16s  %-7s %s\n", "scene", "scalar", "frames", "ms/step", "KB", "last hash", "lanes", "replayed");
+  std::printf(
+      "Each scene is recorded with the widest lanes this processor has, then replayed from its file with one lane:\n"
+      "every frame's hash must come out the same.\n\n");
+  std::printf("%-6s %-7s %6s  %9s %8s  %-16s  %-7s %s\n", "scene", "scalar", "frames", "ms/step", "KB", "last hash",
+              "lanes", "replayed");
   int files = 0, verified = 0;
   for (const DemoScene& demo : kDemoScenes) {
     any_scalar([&](auto tag) {
@@ -84,8 +86,10 @@ int command_demo(const DemoOptions& options) {
       return false;
     });
   }
-  std::printf("\n%d of %d replays verified. Behaviour version %s.\n", verified, files, hex(behaviour_version()).c_str());
-  if (!options.out.empty()) std::printf("The recordings are in %s: try `./isostep verify %s`.\n", options.out.c_str(), options.out.c_str());
+  std::printf("\n%d of %d replays verified. Behaviour version %s.\n", verified, files,
+              hex(behaviour_version()).c_str());
+  if (!options.out.empty())
+    std::printf("The recordings are in %s: try `./isostep verify %s`.\n", options.out.c_str(), options.out.c_str());
   return verified == files ? exit_status::kOk : exit_status::kDifferent;
 }
 

@@ -35,7 +35,8 @@ struct Input {
 };
 /// With the exit status of `verify` for such a file.
 [[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error) {
-  throw ToolError(exit_code(outcome), path + ": " + std::string(error.message.view()) + " (" + std::string(error.place.view()) + ")");
+  throw ToolError(exit_code(outcome),
+                  path + ": " + std::string(error.message.view()) + " (" + std::string(error.place.view()) + ")");
 }
 
 /// One of the two replays, played here.
@@ -73,18 +74,19 @@ template <class S> int report_frame(Player<S>& a, Player<S>& b, std::uint64_t fr
   const std::vector<WorldState<S>> trace_a = a.trace_again(frame), trace_b = b.trace_again(frame);
   const StageDifference found = first_different_stage(trace_a, trace_b, report);
   std::printf("frame %llu, stage %s\n", static_cast<unsigned long long>(frame), found.stage);
-  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("  the inputs of this frame differ\n");
+  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input))
+    std::printf("  the inputs of this frame differ\n");
   print(report, trace_a[found.index]);
   return exit_status::kDifferent;
 }
 
 /// Played here they agree, so at least one was recorded by something that behaves otherwise.
 int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::uint64_t here) {
-  const char* verdict = a == here ? "B was made by something that behaves otherwise"
+  const char* verdict = a == here   ? "B was made by something that behaves otherwise"
                         : b == here ? "A was made by something that behaves otherwise"
                                     : "neither was made by something that behaves as this does";
-  std::printf("frame %llu: recorded as %s and %s, both come out as %s here: %s\n", static_cast<unsigned long long>(frame),
-              hex(a).c_str(), hex(b).c_str(), hex(here).c_str(), verdict);
+  std::printf("frame %llu: recorded as %s and %s, both come out as %s here: %s\n",
+              static_cast<unsigned long long>(frame), hex(a).c_str(), hex(b).c_str(), hex(here).c_str(), verdict);
   return exit_status::kDifferent;
 }
 
@@ -132,9 +134,8 @@ int diff_replays(const Input& a, const Input& b) {
     return exit_status::kDifferent;
   }
   int status = exit_code(VerifyOutcome::incompatible);
-  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar), [&](auto tag) {
-    status = diff_as<typename decltype(tag)::Type>(a, b);
-  });
+  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar),
+                                    [&](auto tag) { status = diff_as<typename decltype(tag)::Type>(a, b); });
   if (!found) throw ToolError(status, a.path + ": of a scalar that this build lacks");
   return status;
 }
@@ -165,7 +166,8 @@ int diff_snapshots(const Input& a, const Input& b) {
     status = report.any() ? exit_status::kDifferent : exit_status::kOk;
   });
   if (!found) {
-    throw ToolError(exit_code(VerifyOutcome::corrupt), a.path + ": neither a replay nor a portable snapshot of a scalar of this build");
+    throw ToolError(exit_code(VerifyOutcome::corrupt),
+                    a.path + ": neither a replay nor a portable snapshot of a scalar of this build");
   }
   return status;
 }
@@ -174,7 +176,8 @@ int diff_snapshots(const Input& a, const Input& b) {
 
 int command_diff(const DiffOptions& options) {
   const Input a(options.a), b(options.b);
-  if (a.is_replay() != b.is_replay()) throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");
+  if (a.is_replay() != b.is_replay())
+    throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");
   return a.is_replay() ? diff_replays(a, b) : diff_snapshots(a, b);
 }
 

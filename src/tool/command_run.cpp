@@ -6,15 +6,17 @@
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "isostep/world/state.hpp"
 #include "run_report.hpp"
 #include "scene_game.hpp"
-#include "isostep/world/state.hpp"
 #include "scenes/measure.hpp"
 
 namespace isostep::tool {
 namespace {
 
-template <class T> std::string list(const Vec3<T>& v) { return "[" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + "]"; }
+template <class T> std::string list(const Vec3<T>& v) {
+  return "[" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + "]";
+}
 template <class U> std::string list(const Quat<U>& q) {
   return "[" + to_text(q.x) + ", " + to_text(q.y) + ", " + to_text(q.z) + ", " + to_text(q.w) + "]";
 }
@@ -22,7 +24,8 @@ template <class U> std::string list(const Quat<U>& q) {
 /// Bodies in the order of their creation, which is their user data.
 template <class S> std::string dump_of(const World<S>& world) {
   std::vector<BodyId> bodies = world.bodies();
-  std::stable_sort(bodies.begin(), bodies.end(), [&](BodyId a, BodyId b) { return world.user_data(a) < world.user_data(b); });
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [&](BodyId a, BodyId b) { return world.user_data(a) < world.user_data(b); });
   std::string text = "{\"bodies\": [";
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Pose<S> pose = world.pose(bodies[i]);
@@ -45,7 +48,8 @@ template <class S> void load_snapshot(World<S>& world, const RunOptions& options
     throw ToolError(exit_status::kUsage, options.load + ": " + std::string(read.error().message.view()) + " (" +
                                              std::string(read.error().place.view()) + ")");
   }
-  if ((options.hz > 0 && options.hz != world.settings().hz) || (options.substeps > 0 && options.substeps != world.settings().substeps)) {
+  if ((options.hz > 0 && options.hz != world.settings().hz) ||
+      (options.substeps > 0 && options.substeps != world.settings().substeps)) {
     throw ToolError(exit_status::kUsage, options.load + ": a snapshot keeps its own hz and substeps");
   }
 }
@@ -55,7 +59,8 @@ template <class S> class Run {
   Run(const RunOptions& options, const scenes::Scene& scene)
       : options_(options),
         scene_(scene),
-        game_(scene, options.hz > 0 ? options.hz : kDefaultHz, options.substeps > 0 ? options.substeps : kDefaultSubsteps) {
+        game_(scene, options.hz > 0 ? options.hz : kDefaultHz,
+              options.substeps > 0 ? options.substeps : kDefaultSubsteps) {
     if (!options.load.empty()) load_snapshot(game_.world, options);
     use_lanes(game_.world, simd_named(options.simd));
   }

@@ -28,7 +28,8 @@ void print_table() {
   std::printf("%-6s %6s %7s %7s  %s\n", "scene", "frames", "bodies", "joints", "what");
   for (const scenes::NamedScene& entry : scenes::named_scenes()) {
     const scenes::Scene scene = *scenes::find_scene(entry.name);
-    std::printf("%-6s %6d %7zu %7zu  %s\n", entry.name, scene.frames, scene.bodies.size(), scene.joints.size(), entry.description);
+    std::printf("%-6s %6d %7zu %7zu  %s\n", entry.name, scene.frames, scene.bodies.size(), scene.joints.size(),
+                entry.description);
   }
 }
 

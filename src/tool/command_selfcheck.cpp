@@ -54,7 +54,8 @@ template <class S> bool check_scalar() {
 }  // namespace
 
 int command_selfcheck() {
-  std::printf("isostep %s, %s, %s, behaviour %s\n", kVersionText, compiler_name(), architecture_name(), hex(behaviour_version()).c_str());
+  std::printf("isostep %s, %s, %s, behaviour %s\n", kVersionText, compiler_name(), architecture_name(),
+              hex(behaviour_version()).c_str());
   bool sound = check_environment();
   any_scalar([&](auto tag) {
     sound = check_scalar<typename decltype(tag)::Type>() && sound;

@@ -1,5 +1,4 @@
-// isostep selftest: the law of restoring. A world that saves, runs ahead and loads is at every frame what a world is that
-// never did, and so is a world rebuilt from the portable form.
+// isostep selftest: a world that saves, runs ahead and loads, or is rebuilt, is what one is that never did.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <vector>
@@ -15,7 +14,8 @@ constexpr std::size_t kShown = 8;
 
 template <class S> class Selftest {
  public:
-  Selftest(const SelftestOptions& options, const scenes::Scene& scene) : options_(options), scene_(scene), game_(scene) {}
+  Selftest(const SelftestOptions& options, const scenes::Scene& scene)
+      : options_(options), scene_(scene), game_(scene) {}
 
   int run() {
     const int frames = options_.frames >= 0 ? options_.frames : scene_.frames;
@@ -29,8 +29,11 @@ template <class S> class Selftest {
       if (!is_true(game_.world, frame, "a world that was loaded and runs on")) return exit_status::kDifferent;
       if (frame % options_.every == 0 && !restore(frame)) return exit_status::kDifferent;
     }
-    std::printf("%s in %s: %d frames, %d times saved, run %d frames ahead, loaded and run again, and rebuilt: all the same, %s\n",
-                scene_.name.c_str(), ScalarTraits<S>::kName, frames, restores_, options_.rollback, hex(game_.world.hash()).c_str());
+    std::printf(
+        "%s in %s: %d frames, %d times saved, run %d frames ahead, loaded and run again, and rebuilt: all the same, "
+        "%s\n",
+        scene_.name.c_str(), ScalarTraits<S>::kName, frames, restores_, options_.rollback,
+        hex(game_.world.hash()).c_str());
     return exit_status::kOk;
   }
 
@@ -39,8 +42,8 @@ template <class S> class Selftest {
   bool is_true(const World<S>& world, int frame, const char* who) {
     const std::uint64_t expected = truth_[static_cast<std::size_t>(frame)];
     if (world.hash() == expected) return true;
-    std::printf("DIFFERENT after %d frames: %s has %s, a world that never saved has %s\n", frame, who, hex(world.hash()).c_str(),
-                hex(expected).c_str());
+    std::printf("DIFFERENT after %d frames: %s has %s, a world that never saved has %s\n", frame, who,
+                hex(world.hash()).c_str(), hex(expected).c_str());
     SceneGame<S> straight(scene_);
     for (int i = 0; i < frame; ++i) straight.advance();
     DiffReport report(kShown);

@@ -48,7 +48,8 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
 /// Workers take the next file; results land in the files' order. The first exception ends all.
 class Checking {
  public:
-  Checking(const std::vector<std::string>& paths, bool show) : paths_(paths), results_(paths.size()), done_(paths.size()), show_(show) {}
+  Checking(const std::vector<std::string>& paths, bool show)
+      : paths_(paths), results_(paths.size()), done_(paths.size()), show_(show) {}
 
   std::vector<CheckedFile> run(int jobs) {
     std::vector<std::thread> workers;
@@ -104,8 +105,8 @@ const char* word_of(const CheckedFile& file) {
 }
 
 nlohmann::ordered_json json_of(const CheckedFile& file) {
-  nlohmann::ordered_json json = {{"path", file.path},     {"outcome", word_of(file)},       {"scene", file.scene},
-                                 {"scalar", file.scalar}, {"frames", file.result.frames},   {"message", text_of(file)}};
+  nlohmann::ordered_json json = {{"path", file.path},     {"outcome", word_of(file)},     {"scene", file.scene},
+                                 {"scalar", file.scalar}, {"frames", file.result.frames}, {"message", text_of(file)}};
   if (file.missing.empty() && file.result.outcome == VerifyOutcome::diverged) {
     json["expected"] = hex(file.result.expected);
     json["actual"] = hex(file.result.actual);

@@ -59,4 +59,7 @@ int command_demo(const DemoOptions& options);
 
 int command_selfcheck();
 
+/// The whole program: an exit status for these words.
+int run_command_line(int argc, const char* const* argv);
+
 }  // namespace isostep::tool

@@ -81,7 +81,8 @@ void ReplayFile::close() {
 }
 
 void expect_written(const Result<void>& result) {
-  if (!result) throw ToolError(exit_status::kOutput, "the recording stopped: " + std::string(result.error().message.view()));
+  if (!result)
+    throw ToolError(exit_status::kOutput, "the recording stopped: " + std::string(result.error().message.view()));
 }
 
 }  // namespace isostep::tool

@@ -47,7 +47,8 @@ template <class S> VerifyResult verify_as(const ReplayReader& replay, const Repl
   return verify(replay, world, SameHeader{here.value()});
 }
 
-template <class S> VerifyResult replay_golden(const scenes::Scene& scene, const std::vector<std::uint64_t>& expected, Simd simd) {
+template <class S>
+VerifyResult replay_golden(const scenes::Scene& scene, const std::vector<std::uint64_t>& expected, Simd simd) {
   SceneGame<S> game(scene);
   use_lanes(game.world, simd);
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -124,7 +125,8 @@ CheckedFile check_file(const std::string& path) {
     const std::vector<std::uint8_t> bytes = read_file(path);
     const std::filesystem::path place(path);
     file = place.extension() == ".txt"
-               ? check_golden(place.filename().string(), std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()))
+               ? check_golden(place.filename().string(),
+                              std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()))
                : check_replay(bytes);
   } catch (const ToolError& error) {
     if (error.status() != exit_status::kNoInput) throw;

@@ -13,7 +13,7 @@ struct CheckedFile {
   std::string path;
   std::string scene, scalar;  // empty where the file does not tell
   VerifyResult result{};
-  std::string missing;        // why the file could not be read; empty: it was
+  std::string missing;  // why the file could not be read; empty: it was
 };
 /// 0..4 as `verify` exits, or 66.
 int status_of(const CheckedFile& file);

@@ -19,6 +19,11 @@ double percentile(const std::vector<double>& sorted, std::size_t percent) {
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
+/// To the nanosecond: a clock has no more.
+double rounded(double milliseconds) {
+  return static_cast<double>(static_cast<std::int64_t>(milliseconds * 1e6 + 0.5)) / 1e6;
+}
+
 std::string line(const char* format, ...) {
   char text[256];
   std::va_list arguments;
@@ -53,11 +58,11 @@ std::string json_of(const RunReport& r) {
                                  {"simd", r.simd},
                                  {"frames", r.frames},
                                  {"hash", hex(r.hash)},
-                                 {"ms_median", r.ms.median},
-                                 {"ms_mean", r.ms.mean},
-                                 {"ms_p99", r.ms.p99},
-                                 {"ms_max", r.ms.max},
-                                 {"ms_median_settled", r.ms.median_settled},
+                                 {"ms_median", rounded(r.ms.median)},
+                                 {"ms_mean", rounded(r.ms.mean)},
+                                 {"ms_p99", rounded(r.ms.p99)},
+                                 {"ms_max", rounded(r.ms.max)},
+                                 {"ms_median_settled", rounded(r.ms.median_settled)},
                                  {"contacts", r.contacts},
                                  {"points", r.points},
                                  {"bodies", r.bodies},
@@ -74,15 +79,18 @@ std::string json_of(const RunReport& r) {
 
 std::string table_of(const RunReport& r) {
   std::string text;
-  text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), r.solver.c_str(), r.substeps,
-               r.simd.c_str(), r.frames);
+  text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), r.solver.c_str(),
+               r.substeps, r.simd.c_str(), r.frames);
   text += line("hash          %s", hex(r.hash).c_str());
-  text += line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f", r.ms.median,
-               r.ms.mean, r.ms.p99, r.ms.max, r.ms.median_settled);
-  text += line("at the end    %u bodies, %u awake, %u contacts with %u points", r.bodies, r.awake, r.contacts, r.points);
-  text += line("penetration   %.3f mm worst, %.3f mm mean of pairs closer than 1 cm", 1e3 * r.penetration_max, 1e3 * r.penetration_mean);
+  text += line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f",
+               r.ms.median, r.ms.mean, r.ms.p99, r.ms.max, r.ms.median_settled);
+  text +=
+      line("at the end    %u bodies, %u awake, %u contacts with %u points", r.bodies, r.awake, r.contacts, r.points);
+  text += line("penetration   %.3f mm worst, %.3f mm mean of pairs closer than 1 cm", 1e3 * r.penetration_max,
+               1e3 * r.penetration_mean);
   text += line("joint error   %.4f mm worst over the run", 1e3 * r.joint_error_max);
-  text += line("energy        %.6g J at the start, %.6g J at the end; unrest %.3g J/kg", r.energy_start, r.energy_end, r.unrest);
+  text += line("energy        %.6g J at the start, %.6g J at the end; unrest %.3g J/kg", r.energy_start, r.energy_end,
+               r.unrest);
   text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);
   text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
   return text;

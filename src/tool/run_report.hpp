@@ -22,15 +22,15 @@ struct RunReport {
   std::uint64_t hash = 0;
   StepTimes ms;
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
-  double penetration_max = 0;                  // [m] at the end
-  double joint_error_max = 0;                  // [m] over the run
-  double energy_start = 0, energy_end = 0;     // [J] kinetic and potential, of all dynamic bodies
-  int asleep_at = -1;                          // first frame, from 0, that ends with nobody awake; -1: none
-  std::uint64_t faults = 0;                    // all that the step reports named
+  double penetration_max = 0;                                     // [m] at the end
+  double joint_error_max = 0;                                     // [m] over the run
+  double energy_start = 0, energy_end = 0;                        // [J] kinetic and potential, of all dynamic bodies
+  int asleep_at = -1;        // first frame, from 0, that ends with nobody awake; -1: none
+  std::uint64_t faults = 0;  // all that the step reports named
 
   // For people alone.
-  double penetration_mean = 0;                 // [m] over pairs closer than 1 cm
-  double unrest = 0;                           // [J/kg] kinetic energy, mean of the last 60 frames
+  double penetration_mean = 0;  // [m] over pairs closer than 1 cm
+  double unrest = 0;            // [J/kg] kinetic energy, mean of the last 60 frames
 };
 
 /// One JSON object, exactly the members that README lists.

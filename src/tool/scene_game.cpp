@@ -22,7 +22,8 @@ void fail_scene(const std::string& name_or_file, const scenes::SceneError& error
 scenes::Scene load_scene(const std::string& name_or_file) {
   if (std::optional<scenes::Scene> scene = scenes::find_scene(name_or_file)) return *scene;
   if (!looks_like_file(name_or_file)) {
-    throw ToolError(exit_status::kUsage, "no scene is named \"" + name_or_file + "\": `isostep scenes` lists them, a file ends in .json");
+    throw ToolError(exit_status::kUsage,
+                    "no scene is named \"" + name_or_file + "\": `isostep scenes` lists them, a file ends in .json");
   }
   const std::vector<std::uint8_t> bytes = read_file(name_or_file);
   try {

@@ -41,7 +41,8 @@ struct StageDifference {
 };
 /// The first stage after which the traces differ, with the differences in `report`.
 template <class S>
-StageDifference first_different_stage(const std::vector<WorldState<S>>& a, const std::vector<WorldState<S>>& b, DiffReport& report) {
+StageDifference first_different_stage(const std::vector<WorldState<S>>& a, const std::vector<WorldState<S>>& b,
+                                      DiffReport& report) {
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
     diff_states(a[i], b[i], report);
     if (report.any()) return {i == 0 ? "commands" : kStageNames[i - 1], i};

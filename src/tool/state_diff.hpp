@@ -11,7 +11,8 @@ namespace detail {
 template <class T>
 void diff_array(const PathPart& path, const std::vector<T>& a, const std::vector<T>& b, DiffReport& report) {
   if (a.size() != b.size()) report.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) diff_value(PathPart{&path, nullptr, i}, a[i], b[i], report);
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    diff_value(PathPart{&path, nullptr, i}, a[i], b[i], report);
 }
 inline void diff_slots(const char* name, const SlotMap& a, const SlotMap& b, DiffReport& report) {
   const PathPart path{nullptr, name, 0};
@@ -19,7 +20,8 @@ inline void diff_slots(const char* name, const SlotMap& a, const SlotMap& b, Dif
   diff_array(path, a.entries(), b.entries(), report);
 }
 /// Walks two objects' sections side by side.
-template <class Object> void diff_sections(const PathPart* outer, const Object& a, const Object& b, DiffReport& report) {
+template <class Object>
+void diff_sections(const PathPart* outer, const Object& a, const Object& b, DiffReport& report) {
   std::size_t index = 0;
   Object::sections(
       [&](const char* name, const auto& of_a) {

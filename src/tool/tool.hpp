@@ -32,9 +32,7 @@ class ToolError : public std::runtime_error {
   int status_;
 };
 
-template <class S> struct ScalarTag {
-  using Type = S;
-};
+template <class S> struct ScalarTag { using Type = S; };
 
 /// Calls visit(ScalarTag<S>{}) for each scalar of this build until one call returns true; whether one did.
 template <class Visit> bool any_scalar(Visit&& visit) {

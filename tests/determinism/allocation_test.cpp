@@ -23,7 +23,9 @@ void* counted(std::size_t size, std::size_t alignment) {
 // Not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
 NOT_INLINED void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-NOT_INLINED void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, std::size_t(alignment)); }
+NOT_INLINED void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, std::size_t(alignment));
+}
 NOT_INLINED void operator delete(void* memory) noexcept { std::free(memory); }
 NOT_INLINED void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 NOT_INLINED void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }

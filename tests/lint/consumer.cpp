@@ -1,9 +1,9 @@
 // A user's file that calls what the public headers offer inline, for every scalar. Compiled at -O0, and with
 // -mfma for the linker trap: whatever it leaves behind as a weak symbol, a linker may keep for the whole program.
 // SPDX-License-Identifier: MIT
-#include "all_headers.hpp"
-
 #include <cstring>
+
+#include "all_headers.hpp"
 
 namespace {
 
@@ -105,9 +105,7 @@ template <class S, int W, class Isa> void use_lanes() {
 }
 
 struct Ignore {
-  template <class T> ISO_INLINE void operator()(const char*, T&& value) const {
-    keep(value);
-  }
+  template <class T> ISO_INLINE void operator()(const char*, T&& value) const { keep(value); }
 };
 
 template <class S> void use_state(World<S>& world) {
@@ -189,7 +187,8 @@ template <class S> void use_all_of() {
 template <class T> void use_exact() {
   Exact<T> a = unknown(Exact<T>(T(2)));
   a += a * a - a / a, a *= a, a -= a, a /= Exact<T>(3);
-  keep(sqrt(a)), keep(abs(a)), keep(min(a, a)), keep(max(a, a)), keep(sin(a)), keep(a < a), keep(a == a), keep(a.value());
+  keep(sqrt(a)), keep(abs(a)), keep(min(a, a)), keep(max(a, a)), keep(sin(a)), keep(a < a), keep(a == a),
+      keep(a.value());
 }
 
 void use_the_rest() {

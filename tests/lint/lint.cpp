@@ -56,7 +56,8 @@ std::vector<std::string> code_of(const std::vector<std::string>& lines) {
       } else if (line.compare(i, 3, "R\"(") == 0) {
         in_raw = true;
         i += 2;
-      } else if (line[i] == '"' || (line[i] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(line[i - 1])) == 0))) {
+      } else if (line[i] == '"' ||
+                 (line[i] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(line[i - 1])) == 0))) {
         const char quote = line[i];
         for (++i; i < line.size() && line[i] != quote; ++i) i += line[i] == '\\';
         out += quote;
@@ -100,9 +101,9 @@ std::string folder_of(const std::string& path) {
 
 void check_floors(const fs::path& root) {
   // From DESIGN: scalar is below core, for it is a target of its own.
-  const std::map<std::string, int> floors = {{"scalar", 0},   {"core", 1},      {"math", 2},     {"state", 2},
-                                             {"geometry", 3}, {"particles", 3}, {"session", 3},  {"collision", 4},
-                                             {"dynamics", 5}, {"world", 6},     {"effects", 6},  {"src", 7}};
+  const std::map<std::string, int> floors = {{"scalar", 0},   {"core", 1},      {"math", 2},    {"state", 2},
+                                             {"geometry", 3}, {"particles", 3}, {"session", 3}, {"collision", 4},
+                                             {"dynamics", 5}, {"world", 6},     {"effects", 6}, {"src", 7}};
   static const std::regex include("^\\s*#include \"((?:isostep/)[^\"]+)\".*");
   std::map<std::string, std::vector<std::string>> graph;
   for (const File& file : read_tree(root, {"scalar/include", "include", "src"})) {
@@ -116,7 +117,8 @@ void check_floors(const fs::path& root) {
       if (!std::regex_match(file.lines[i], match, include)) continue;
       const std::string target = match[1];
       const std::string to = folder_of(target);
-      graph[file.path.substr(file.path.find("isostep/") == std::string::npos ? 0 : file.path.find("isostep/"))].push_back(target);
+      graph[file.path.substr(file.path.find("isostep/") == std::string::npos ? 0 : file.path.find("isostep/"))]
+          .push_back(target);
       if (floors.count(to) == 0) {
         report(file, i, target + " has no floor");
         continue;
@@ -145,7 +147,8 @@ void check_floors(const fs::path& root) {
         continue;
       }
       const std::string next = graph[node][stack.back().second++];
-      const bool halves = ends_with(node, "lanes_avx2_fixed.hpp") || ends_with(next, "lanes_avx2_fixed.hpp");  // of one header
+      const bool halves =
+          ends_with(node, "lanes_avx2_fixed.hpp") || ends_with(next, "lanes_avx2_fixed.hpp");  // of one header
       if (state[next] == 1 && !halves) report({node, {}, {}}, 0, "includes " + next + ", which leads back here");
       if (state[next] == 0) {
         state[next] = 1;
@@ -163,16 +166,19 @@ struct Ban {
   bool above_scalar;  // only in include/
 };
 const Ban kBans[] = {
-    {"std::(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|fma|fmod|"
+    {"std::(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|fma|"
+     "fmod|"
      "remainder|fmin|fmax|round|rint|nearbyint|lround|ldexp|frexp)\\b",
      "the C library's answer differs between machines", false},
-    {"std::(sort|partial_sort|nth_element|make_heap|push_heap|pop_heap)\\b", "order of equals is unspecified: use stable_sort.hpp",
-     false},
+    {"std::(sort|partial_sort|nth_element|make_heap|push_heap|pop_heap)\\b",
+     "order of equals is unspecified: use stable_sort.hpp", false},
     {"std::(unordered_|hash\\b)", "iteration order and hash values differ between libraries", false},
     {"std::(function|any|bind|regex|thread|mutex|async)\\b", "not in the engine", false},
-    {"std::(random_device|mt19937|minstd|.*_distribution|shuffle)", "differs between libraries: use core/random.hpp", false},
+    {"std::(random_device|mt19937|minstd|.*_distribution|shuffle)", "differs between libraries: use core/random.hpp",
+     false},
     {"std::(chrono|clock|time)\\b|\\bclock_gettime\\b|\\b__rdtsc\\b", "a step knows no clock", false},
-    {"std::(cout|cerr|clog|printf|fprintf|puts|fopen|ofstream|ifstream)\\b|\\bprintf\\s*\\(", "the library does not print", false},
+    {"std::(cout|cerr|clog|printf|fprintf|puts|fopen|ofstream|ifstream)\\b|\\bprintf\\s*\\(",
+     "the library does not print", false},
     {"std::(exit|abort|terminate)\\b|\\b(exit|abort|terminate)\\s*\\(", "the library does not end programs", false},
     {"(^|[^_:.>a-z])(rand|srand|time|clock|malloc|realloc)\\s*\\(", "not reproducible, or not ours to call", false},
     {"\\b(throw|try|catch|dynamic_cast|typeid)\\b", "built without exceptions and RTTI as well", false},
@@ -181,11 +187,14 @@ const Ban kBans[] = {
     {"\\bgoto\\b", "no", false},
     {"\\bdouble_t\\b|\\bfloat_t\\b|\\blong double\\b", "its width differs between platforms", false},
     {"\\bassert\\s*\\(", "ISO_ASSERT", false},
-    {"#include <(cmath|math\\.h|random|functional|unordered_map|unordered_set|chrono|ctime|thread|mutex|iostream|cstdio|regex|"
+    {"#include "
+     "<(cmath|math\\.h|random|functional|unordered_map|unordered_set|chrono|ctime|thread|mutex|iostream|cstdio|regex|"
      "algorithm|numeric)>",
      "see the words that it brings", false},
-    {"[0-9]\\.?[0-9]*(e[-+]?[0-9]+|p[-+]?[0-9]+)?[fF]\\b(?!\\.)", "constants enter as S(0.5), which is every scalar's own", true},
-    {"\\b(kIsFixed|floating_point|is_floating_point(_v)?|kExact)\\b", "what tells float from fixed lives in scalar/", true},
+    {"[0-9]\\.?[0-9]*(e[-+]?[0-9]+|p[-+]?[0-9]+)?[fF]\\b(?!\\.)",
+     "constants enter as S(0.5), which is every scalar's own", true},
+    {"\\b(kIsFixed|floating_point|is_floating_point(_v)?|kExact)\\b", "what tells float from fixed lives in scalar/",
+     true},
     {"\\b(same_as|is_same_v)<S, (float|double)>", "what tells float from fixed lives in scalar/", true},
 };
 
@@ -245,17 +254,22 @@ void check_form(const fs::path& root) {
       report(file, 0, "begins with a comment that ends in \"" + licence + "\"");
       continue;
     }
-    if (spdx == 0 || (!ends_with(file.lines[spdx - 1], ".") && !ends_with(file.lines[spdx - 1], "?"))) report(file, 0, "first says in a sentence what it is for");
+    if (spdx == 0 || (!ends_with(file.lines[spdx - 1], ".") && !ends_with(file.lines[spdx - 1], "?")))
+      report(file, 0, "first says in a sentence what it is for");
     if (!ends_with(file.path, ".cpp")) {
-      const auto first = std::find_if(file.code.begin(), file.code.end(), [](const std::string& line) { return !line.empty(); });
-      if (first == file.code.end() || *first != "#pragma once") report(file, spdx, "#pragma once comes before everything else");
+      const auto first =
+          std::find_if(file.code.begin(), file.code.end(), [](const std::string& line) { return !line.empty(); });
+      if (first == file.code.end() || *first != "#pragma once")
+        report(file, spdx, "#pragma once comes before everything else");
     }
     for (std::size_t i = 0; i < file.lines.size(); ++i) {
       const std::string& line = file.lines[i];
       if (columns(line) > kColumns) report(file, i, std::to_string(columns(line)) + " columns, more than 120");
-      if (line.find('\t') != std::string::npos || line.find('\r') != std::string::npos) report(file, i, "tab or carriage return");
+      if (line.find('\t') != std::string::npos || line.find('\r') != std::string::npos)
+        report(file, i, "tab or carriage return");
       if (ends_with(line, " ")) report(file, i, "blank at the end");
-      if (fs::path(file.path).filename() != self && std::regex_search(line, unfinished)) report(file, i, "unfinished work");
+      if (fs::path(file.path).filename() != self && std::regex_search(line, unfinished))
+        report(file, i, "unfinished work");
     }
   }
 }

@@ -88,7 +88,8 @@ std::string scope_before(const std::string& name, std::size_t end) {
 bool is_ours(const Symbol& symbol) {
   static const std::regex own("^_Z(GV|GR|TV|TI|TS)?Z*N[VKRO]*7isostep.*");
   if (std::regex_match(symbol.raw, own)) return true;
-  for (std::size_t at = symbol.name.find("::{lambda"); at != std::string::npos; at = symbol.name.find("::{lambda", at + 1)) {
+  for (std::size_t at = symbol.name.find("::{lambda"); at != std::string::npos;
+       at = symbol.name.find("::{lambda", at + 1)) {
     if (scope_before(symbol.name, at).rfind("isostep::", 0) == 0) return true;
   }
   return false;
@@ -138,7 +139,8 @@ void check_consumer(const std::string& nm, const std::string& objdump, const std
 void check_library(const std::string& nm, const std::vector<std::string>& objects) {
   std::map<std::string, std::string> homes;
   for (const std::string& object : objects) {
-    const bool kernel = contains(object, "kernels_avx2") || contains(object, "kernels_sse2") || contains(object, "kernels_neon");
+    const bool kernel =
+        contains(object, "kernels_avx2") || contains(object, "kernels_sse2") || contains(object, "kernels_neon");
     std::set<std::string> names;  // an object may hold a constructor two or three times over
     for (const Symbol& symbol : defined_symbols(nm, object)) {
       if (!symbol.is_weak() || symbol.name.rfind("DW.ref.", 0) == 0) continue;

@@ -52,7 +52,8 @@ template <class D> ISO_INLINE auto mat3_from(const Eigen::MatrixBase<D>& m) -> M
   const auto row = [&](int i) ISO_INLINE_LAMBDA { return vec3_from(m.row(i).transpose()); };
   return {{row(0), row(1), row(2)}};
 }
-template <class D> ISO_INLINE auto quat_from(const Eigen::QuaternionBase<D>& q) -> Quat<NativeScalar<typename D::Scalar>> {
+template <class D>
+ISO_INLINE auto quat_from(const Eigen::QuaternionBase<D>& q) -> Quat<NativeScalar<typename D::Scalar>> {
   return {detail::native(q.x()), detail::native(q.y()), detail::native(q.z()), detail::native(q.w())};
 }
 

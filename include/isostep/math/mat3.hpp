@@ -26,7 +26,8 @@ template <class T> ISO_INLINE constexpr Mat3<T> transpose(const Mat3<T>& m) {
 }
 
 /// m v; every component rounded once.
-template <class A, class B> ISO_INLINE constexpr auto operator*(const Mat3<A>& m, Vec3<B> v) -> Vec3<decltype(A{} * B{})> {
+template <class A, class B>
+ISO_INLINE constexpr auto operator*(const Mat3<A>& m, Vec3<B> v) -> Vec3<decltype(A{} * B{})> {
   return {dot(m.rows[0], v), dot(m.rows[1], v), dot(m.rows[2], v)};
 }
 /// Transposed m times v: a rotation matrix undone.
@@ -34,7 +35,8 @@ template <class A, class B>
 ISO_INLINE constexpr auto transposed_times(const Mat3<A>& m, Vec3<B> v) -> Vec3<decltype(A{} * B{})> {
   return {dot(m.column(0), v), dot(m.column(1), v), dot(m.column(2), v)};
 }
-template <class A, class B> ISO_INLINE constexpr auto operator*(const Mat3<A>& a, const Mat3<B>& b) -> Mat3<decltype(A{} * B{})> {
+template <class A, class B>
+ISO_INLINE constexpr auto operator*(const Mat3<A>& a, const Mat3<B>& b) -> Mat3<decltype(A{} * B{})> {
   using R = decltype(A{} * B{});
   Mat3<R> result;
   for (int i = 0; i < 3; ++i) {

@@ -17,6 +17,13 @@
 
 namespace isostep {
 
+namespace detail {
+/// Every component from -limit to limit. By comparison on both sides: the lowest fixed-point number has no magnitude.
+template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
+  return -limit <= v.x && v.x <= limit && -limit <= v.y && v.y <= limit && -limit <= v.z && v.z <= limit;
+}
+}  // namespace detail
+
 /// Where a body or joint of a slot lies.
 struct Location {
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -90,7 +97,6 @@ template <class S> class WorldEngine {
   const ContactKernels<S>* kernels_;
   std::vector<std::uint8_t>* tape_ = nullptr;
   std::vector<RenderPose> render_poses_;
-  bool poses_current_ = false;              // start_poses_ belong to the awake bodies as they are
 
  private:
   // engine_bodies.inl
@@ -103,7 +109,9 @@ template <class S> class WorldEngine {
   void relabel_joints(const JointSet<S>& set, std::uint32_t set_name, std::size_t from);
   void renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always);
   void forget_contacts(std::uint32_t slot);
+  void draw_from_here(const BodyState<S>& state);
   void wake_touching(std::uint32_t slot);
+  void wake_joined(std::uint32_t slot);
   Location locate(BodyId body) const;
   BodyState<S>* wake_for_change(BodyId body);
   BodyState<S>* wake_for_push(BodyId body);
@@ -154,7 +162,8 @@ template <class S> class WorldEngine {
   // One step's scratch.
   SoftStep<S> solver_;
   std::vector<Acceleration<S>> accelerations_;
-  std::vector<Pose<S>> start_poses_;        // of awake bodies' centres
+  std::vector<Pose<S>> start_poses_;        // of the centres of bodies awake when the step began
+  std::vector<std::uint32_t> start_slots_;  // of those bodies, ascending; drawing asks for them after the step
   std::vector<Mat3<Unit<S>>> rotations_;    // of awake bodies
   std::vector<Contact<S>> old_contacts_;
   std::size_t old_cursor_ = 0;

@@ -129,6 +129,17 @@ template <class S> void WorldEngine<S>::forget_contacts(std::uint32_t slot) {
   state_.contacts.resize(kept);
 }
 
+/// What a command puts somewhere is drawn there and not on the way from where its slot was before.
+template <class S> void WorldEngine<S>::draw_from_here(const BodyState<S>& state) {
+  std::size_t low = 0, high = start_slots_.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (start_slots_[middle] < state.slot) low = middle + 1;
+    else high = middle;
+  }
+  if (low < start_slots_.size() && start_slots_[low] == state.slot) start_poses_[low] = {state.centre, state.orientation};
+}
+
 /// Thaws every island that a body's fat box meets: what is moved, changed or taken away may have held them up.
 template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   if (!proxies_.present(slot)) return;
@@ -140,6 +151,17 @@ template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   std::vector<std::uint64_t> scratch(met.size());
   stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
   for (const std::uint64_t other : met) thaw_body(static_cast<std::uint32_t>(other));
+}
+
+/// Thaws every island with a joint to a body that no island holds: what hangs from it is moved when it moves.
+template <class S> void WorldEngine<S>::wake_joined(std::uint32_t slot) {
+  for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); i-- > 0;) {
+    for (const JointProperties<S>& joint : state_.frozen[i]->joints.properties) {
+      if (joint.body_a != slot && joint.body_b != slot) continue;
+      thaw(i);
+      break;
+    }
+  }
 }
 
 /// The awake state of a moving body about to be changed; null and a fault when it is stale or fixed.

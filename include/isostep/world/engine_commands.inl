@@ -10,7 +10,8 @@
 namespace isostep {
 
 namespace detail {
-template <class S> bool within(Vec3<S> v, S limit) { return max_abs(v) <= limit; }
+/// A factor of gravity: the product of two numbers up to the speed limit fits.
+template <class S> bool is_scale(S factor) { return within({factor, S(0), S(0)}, Limits<S>::speed()); }
 template <class S> bool is_unit(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
@@ -95,7 +96,8 @@ template <class S> bool WorldEngine<S>::check(const BodyDefinition<S>& d) {
     return refuse(Fault::not_finite);
   }
   if (!detail::within(d.position, Limits<S>::position()) || !detail::within(d.velocity, Limits<S>::speed()) ||
-      !detail::within(d.angular_velocity, Limits<S>::spin()) || !detail::within(m.surface_velocity, Limits<S>::speed())) {
+      !detail::within(d.angular_velocity, Limits<S>::spin()) || !detail::within(m.surface_velocity, Limits<S>::speed()) ||
+      !detail::is_scale(d.gravity_scale)) {
     return refuse(Fault::out_of_range);
   }
   if (!detail::is_unit<S>(d.orientation)) return refuse(Fault::bad_argument);
@@ -156,11 +158,12 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
   }
   const BodyId id = state_.body_slots.template take<BodyId>();
   state.slot = id.slot;
+  draw_from_here(state);
   renew_fat_box(state, body, true);
   const bool fixed = d.type == BodyType::fixed;
   insert_body(fixed ? state_.fixed : state_.awake, fixed ? Location::kFixed : Location::kAwake, state, body);
   proxies_.place(state, body, !fixed);
-  if (fixed) wake_touching(id.slot);
+  if (d.type != BodyType::dynamic) wake_touching(id.slot);
   return id;
 }
 
@@ -198,6 +201,7 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
   if (!detail::is_unit<S>(command.pose.orientation)) return refuse(Fault::bad_argument);
   const std::uint32_t slot = command.body.slot;
   wake_touching(slot);
+  if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_joined(slot);
   if (at.set != Location::kFixed) wake_for_change(command.body);
   const Location now = locations_[slot];
   BodySet<S>& set = now.set == Location::kFixed ? state_.fixed : state_.awake;
@@ -205,6 +209,7 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
   const BodyProperties<S>& body = set.properties[now.index];
   state.orientation = normalise(command.pose.orientation);
   state.centre = command.pose.position + to_matrix(state.orientation) * body.local_centre;
+  draw_from_here(state);
   renew_fat_box(state, body, true);
   proxies_.place(state, body, now.set == Location::kAwake);
   wake_touching(slot);
@@ -216,8 +221,9 @@ template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
   if (!detail::within(command.linear, Limits<S>::speed()) || !detail::within(command.angular, Limits<S>::spin())) {
     return refuse(Fault::out_of_range);
   }
-  BodyState<S>* state = wake_for_change(command.body);
-  if (state == nullptr) return false;
+  if (wake_for_change(command.body) == nullptr) return false;
+  if (properties_at(locations_[command.body.slot]).type == BodyType::kinematic) wake_joined(command.body.slot);
+  BodyState<S>* state = &state_.awake.states[locations_[command.body.slot].index];
   state->velocity = convert<Velocity<S>>(command.linear);
   state->spin = convert<Velocity<S>>(command.angular);
   return true;
@@ -294,6 +300,7 @@ template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
   if (!is_finite(command.gravity_scale) || !is_finite(command.linear_damping) || !is_finite(command.angular_damping)) {
     return refuse(Fault::not_finite);
   }
+  if (!detail::is_scale(command.gravity_scale)) return refuse(Fault::out_of_range);
   if (command.linear_damping < S(0) || command.angular_damping < S(0) || (command.locks & ~body_flag::kAllLocks) != 0) {
     return refuse(Fault::bad_argument);
   }

@@ -20,7 +20,7 @@ template <class S> bool sees(const QueryFilter& filter, const BodyProperties<S>&
 template <class S>
 std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
   const S edge = Limits<S>::position();
-  if (!is_finite(origin) || !is_finite(translation) || edge < max_abs(origin) || edge < max_abs(translation)) return {};
+  if (!is_finite(origin) || !is_finite(translation) || !detail::within(origin, edge) || !detail::within(translation, edge)) return {};
   std::optional<RayCastHit<S>> best;
   const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
   proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
@@ -44,7 +44,7 @@ std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> tr
 template <class S>
 std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const S edge = Limits<S>::position();
-  if (!is_finite(point) || !is_finite(max_distance) || edge < max_abs(point) || max_distance < S(0)) return {};
+  if (!is_finite(point) || !is_finite(max_distance) || !detail::within(point, edge) || max_distance < S(0)) return {};
   std::optional<ClosestBody<S>> best;
   const S reach = min(max_distance, edge);
   proxies_.tree().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
@@ -110,10 +110,13 @@ template <class S> void WorldEngine<S>::fill_render_poses(float alpha) {
     for (int i = 0; i < 4; ++i) o[i] /= size;
     render_poses_.push_back(pose);
   };
-  // A body created since the last step, or woken by it, has no earlier pose and is drawn where it is.
-  const bool known = start_poses_.size() == state_.awake.states.size() && poses_current_;
+  // A body created or woken since the last step has no earlier pose and is drawn where it is. Both lists ascend.
+  std::size_t start = 0;
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
-    add(state_.awake.states[i], state_.awake.properties[i], known ? &start_poses_[i] : nullptr);
+    const std::uint32_t slot = state_.awake.states[i].slot;
+    while (start < start_slots_.size() && start_slots_[start] < slot) ++start;
+    const bool known = start < start_slots_.size() && start_slots_[start] == slot;
+    add(state_.awake.states[i], state_.awake.properties[i], known ? &start_poses_[start] : nullptr);
   }
   for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) {
     for (std::size_t i = 0; i < island->bodies.states.size(); ++i) add(island->bodies.states[i], island->bodies.properties[i], nullptr);

@@ -61,7 +61,10 @@ template <class S> void WorldEngine<S>::update_sleep_clocks() {
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
     const bool may = (body.flags & body_flag::kAllowSleep) != 0;
-    const bool rests = max_abs(state.velocity) < limit && max_abs(state.spin) < limit;
+    // A kinematic body rests when told to: however slow, it carries what lies on it.
+    const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.spin == Vec3<Velocity<S>>::zero();
+    const bool slow = max_abs(state.velocity) < limit && max_abs(state.spin) < limit;
+    const bool rests = body.type == BodyType::kinematic ? still : slow;
     state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
   }
   // What rests on something that moves is not at rest: a drum or a conveyor carries it.

@@ -50,7 +50,7 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   report_ = {};
   fault_ = Fault::none;
   woke_reported_ = 0;
-  poses_current_ = false;
+  start_slots_.clear();
   refresh_caches();
 }
 
@@ -96,7 +96,7 @@ template <class S> class StateValidator {
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
     if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate || !is_finite(s.gravity) ||
-        Limits<S>::speed() < max_abs(s.gravity) || s.solver != SolverName::soft_step) {
+        !detail::within(s.gravity, Limits<S>::speed()) || s.solver != SolverName::soft_step) {
       return "settings out of range";
     }
     body_met_.assign(state_.body_slots.entries().size(), 0);
@@ -146,12 +146,12 @@ template <class S> class StateValidator {
       const BodyProperties<S>& p = set.properties[i];
       if (b.slot >= body_met_.size() || body_met_[b.slot] != 0) return "a body's slot is unknown or twice used";
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
-      body_met_[b.slot] = p.type == BodyType::dynamic ? 2 : 1;
+      body_met_[b.slot] = p.type == BodyType::dynamic && &set == &state_.awake ? 2 : 1;
       if (p.type > BodyType::dynamic || (p.type == BodyType::fixed) != fixed) return "a body's type does not fit its set";
       if (p.shape >= state_.shapes.size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
       const Pose<S> pose = {b.centre, b.orientation};
       const Pose<S> axes = {p.local_centre, p.principal};
-      if (validate(pose) != ShapeFault::none || validate(axes) != ShapeFault::none || Limits<S>::position() < max_abs(b.centre)) {
+      if (validate(pose) != ShapeFault::none || validate(axes) != ShapeFault::none || !detail::within(b.centre, Limits<S>::position())) {
         return "a body's pose is out of range";
       }
       if (!is_finite(b.velocity) || !is_finite(b.spin) || !is_finite(b.fat.low) || !is_finite(b.fat.high)) return "a body's number is not finite";
@@ -185,7 +185,7 @@ template <class S> class StateValidator {
   }
   const char* others() const {
     for (std::size_t i = 0; i < state_.forces.size(); ++i) {
-      if (!is_body(state_.forces[i].slot) || body_met_[state_.forces[i].slot] != 2) return "a force acts on no dynamic body";
+      if (!is_body(state_.forces[i].slot) || body_met_[state_.forces[i].slot] != 2) return "a force acts on no dynamic body that is awake";
       if (i > 0 && !(state_.forces[i - 1].slot < state_.forces[i].slot)) return "forces ascend by slot";
     }
     for (std::size_t i = 0; i < state_.overlaps.size(); ++i) {
@@ -196,7 +196,7 @@ template <class S> class StateValidator {
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint8_t> body_met_;   // 0 unmet, 1 met, 2 dynamic
+  std::vector<std::uint8_t> body_met_;   // 0 unmet, 1 met, 2 dynamic and awake
   std::vector<std::uint8_t> joint_met_;
 };
 

@@ -46,7 +46,6 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_sleep);
   ++state_.tick;
   woke_reported_ = events_.woke.size();
-  poses_current_ = true;
   return report_;
 }
 
@@ -61,8 +60,10 @@ template <class S> void WorldEngine<S>::begin_events() {
 
 template <class S> void WorldEngine<S>::apply_forces() {
   start_poses_.resize(state_.awake.states.size());
+  start_slots_.resize(start_poses_.size());
   for (std::size_t i = 0; i < start_poses_.size(); ++i) {
     start_poses_[i] = {state_.awake.states[i].centre, state_.awake.states[i].orientation};
+    start_slots_[i] = state_.awake.states[i].slot;
   }
   accelerations_.clear();
   if (state_.forces.empty()) return;

@@ -14,9 +14,10 @@
 #include "isostep/scalar/math.inl"
 #include "isostep/world/world.inl"
 
-/// World<S> and what the public headers beneath it declare, for an S = Fixed<Rep, FracBits> that is not a shipped one. One
-/// file a scalar; isostep_add_scalar in CMake writes such a file and gives it the flags that exactness needs. Contacts are
-/// solved by the kernels of one lane: wider ones need files with flags of their own. Functions of Unit<S> are in the library.
+/// World<S> and what the public headers beneath it declare, for an S = Fixed<Rep, FracBits> that is not a shipped one.
+/// One file a scalar; isostep_add_scalar in CMake writes such a file and gives it the flags that exactness needs.
+/// Contacts are solved by the kernels of one lane: wider ones need files with flags of their own. Functions of Unit<S>
+/// are in the library.
 #define ISO_INSTANTIATE_ENGINE(...)                                                                          \
   namespace isostep {                                                                                        \
   using OwnScalar = __VA_ARGS__;                                                                             \

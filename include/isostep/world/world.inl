@@ -93,12 +93,14 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
   return detail::run(*engine_, ApplyForce<S>{body, force, torque});
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
+  const FloatEnvironment environment;
   return apply_force(body, force, cross(point - centre(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
   return detail::run(*engine_, ApplyImpulse<S>{body, impulse, angular_impulse});
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
+  const FloatEnvironment environment;
   return apply_impulse(body, impulse, cross(point - centre(body), impulse));
 }
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) {
@@ -109,11 +111,15 @@ template <class S> bool World<S>::set_joint(JointId joint, const JointProperties
   return detail::run(*engine_, SetJoint<S>{joint, properties});
 }
 template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const { return engine_->properties_of(joint); }
-template <class S> S World<S>::joint_error(JointId joint) const { return engine_->joint_error(joint); }
+template <class S> S World<S>::joint_error(JointId joint) const {
+  const FloatEnvironment environment;
+  return engine_->joint_error(joint);
+}
 
 /// Both frames from one frame in the world, as the bodies lie now.
 template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
+  const FloatEnvironment environment;
   JointProperties<S> joint;
   joint.type = type;
   const auto local = [&](BodyId body, std::uint32_t& slot) {
@@ -146,6 +152,7 @@ template <class S> BodyType World<S>::type(BodyId body) const {
   return properties == nullptr ? BodyType::fixed : properties->type;
 }
 template <class S> Pose<S> World<S>::pose(BodyId body) const {
+  const FloatEnvironment environment;
   if (!contains(body)) return Pose<S>::identity();
   return engine_->origin_pose(*engine_->state_of(body), *engine_->properties_of(body));
 }
@@ -240,7 +247,10 @@ template <class S> std::size_t World<S>::Snapshot::bytes() const {
   return total + state_->frozen.size() * sizeof(state_->frozen[0]);
 }
 template <class S> void World<S>::save(Snapshot& to) const { *to.state_ = engine_->state_; }
-template <class S> void World<S>::load(const Snapshot& from) { engine_->load(*from.state_); }
+template <class S> void World<S>::load(const Snapshot& from) {
+  const FloatEnvironment environment;
+  engine_->load(*from.state_);
+}
 template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
 template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
 template <class S> Result<void> World<S>::read_portable(Reader& reader) {

@@ -1,5 +1,6 @@
-// The user's side of the linker trap, compiled with -mfma, without inlining, and linked first: the linker keeps its copies of whatever
-// inline functions both sides left behind. Exits 0 when the trap is real and does not catch our headers.
+// The user's side of the linker trap, compiled with -mfma, without inlining, and linked first: the linker keeps its
+// copies of whatever inline functions both sides left behind. Exits 0 when the trap is real and does not catch our
+// headers.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 

@@ -1,10 +1,10 @@
-// Steps a pile of every scalar and prints its hashes: linked against the library, and against the library at -O0 behind a
-// user's file that was compiled with -mfma.
+// Steps a pile of every scalar and prints its hashes: linked against the library, and against the library at -O0 behind
+// a user's file that was compiled with -mfma.
 // SPDX-License-Identifier: MIT
+#include "isostep/world/world.hpp"
+
 #include <cinttypes>
 #include <cstdio>
-
-#include "isostep/world/world.hpp"
 
 namespace {
 

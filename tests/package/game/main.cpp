@@ -5,10 +5,9 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
-
 #include <isostep/state/record.hpp>
 #include <isostep/world/world.hpp>
+#include <vector>
 
 namespace iso = isostep;
 using Number = iso::Q32_32;

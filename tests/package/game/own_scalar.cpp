@@ -1,7 +1,6 @@
 // A world over the game's own number format: a crate falls onto the ground and rests there.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
-
 #include <isostep/world/world.hpp>
 
 #include "number.hpp"

@@ -88,14 +88,17 @@ class Draw {
 };
 
 inline void expect_near(const RealVec& a, const RealVec& b, Real tolerance) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(a[i] - b[i]), 0, static_cast<double>(tolerance)) << "row " << i;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(static_cast<double>(a[i] - b[i]), 0, static_cast<double>(tolerance)) << "row " << i;
+  }
 }
 inline void expect_near(const RealMat& a, const RealMat& b, Real tolerance) {
   for (int i = 0; i < 3; ++i) expect_near(RealVec(a.row(i)), RealVec(b.row(i)), tolerance);
 }
 inline void expect_near(const RealQuat& a, const RealQuat& b, Real tolerance) {
   for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(static_cast<double>(a.coeffs()[i] - b.coeffs()[i]), 0, static_cast<double>(tolerance)) << "component " << i;
+    const auto difference = static_cast<double>(a.coeffs()[i] - b.coeffs()[i]);
+    EXPECT_NEAR(difference, 0, static_cast<double>(tolerance)) << "component " << i;
   }
 }
 

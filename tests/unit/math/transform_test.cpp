@@ -36,7 +36,8 @@ TYPED_TEST(TransformTest, PointsGoToTheWorldAndBack) {
     const RealVec local = test::real(t.rotation).transpose() * (test::real(p) - test::real(t.position));
     expect_near(test::real(to_local(t, p)), local, bound<S>(1, 6, 384));
     // There and back: each way's rounding, and how far the matrix is from orthogonal over a lever of 111.
-    expect_near(test::real(to_local(t, to_world(t, p))), test::real(p), bound<S>(4, 16, 384) + 128 * bound<U>(24, 24, 1));
+    expect_near(test::real(to_local(t, to_world(t, p))), test::real(p),
+                bound<S>(4, 16, 384) + 128 * bound<U>(24, 24, 1));
   }
 }
 
@@ -74,7 +75,8 @@ TYPED_TEST(TransformTest, PosesComposeAsTheirTransforms) {
   for (int i = 0; i < kDraws; ++i) {
     const Pose<S> a = {draw.vector<S>(6), draw.rotation<S>()}, b = {draw.vector<S>(6), draw.rotation<S>()};
     const Pose<S> c = compose(a, b);
-    const RealVec position = test::real(a.position) + test::real(a.orientation).toRotationMatrix() * test::real(b.position);
+    const RealMat rotation = test::real(a.orientation).toRotationMatrix();
+    const RealVec position = test::real(a.position) + rotation * test::real(b.position);
     expect_near(test::real(c.position), position, bound<S>(1, 5, 256) + 192 * bound<U>(1, 5, 2));
     expect_near(test::real(c.orientation), (test::real(a.orientation) * test::real(b.orientation)).normalized(),
                 bound<U>(6, 12, 1));

@@ -161,7 +161,9 @@ TYPED_TEST(Vec3Test, TangentsHoldAtTheSeamAndAtThePoles) {
     // normalised in U itself, for a double is not fine enough for Q2.62
     const auto tilted = [k](int x, int y, int z) {
       const U tilt = from_double<U>(std::ldexp(0.5, -k));
-      const auto part = [tilt](int i) { return i == 2 ? U(0.5) : i == -2 ? U(-0.5) : i == 1 ? tilt : i == -1 ? -tilt : U(0); };
+      const auto part = [tilt](int i) {
+        return i == 2 ? U(0.5) : i == -2 ? U(-0.5) : i == 1 ? tilt : i == -1 ? -tilt : U(0);
+      };
       const Quat<U> q = normalise(Quat<U>{part(x), part(y), part(z), U(0)});
       return Vec3<U>{q.x, q.y, q.z};
     };

@@ -49,13 +49,14 @@ ISO_INLINE auto operator/(const Eigen::DenseBase<D>& m, Literal constant) {
 // Eigen writes 2 * epsilon(): a whole multiple, exact while it fits.
 template <std::integral I, class Rep, int F, Overflow P>
 ISO_INLINE constexpr Fixed<Rep, F, P> operator*(I n, Fixed<Rep, F, P> a) {
-  return Fixed<Rep, F, P>::from_raw(Fixed<Rep, F, P>::narrow(Wide<Rep>(a.raw()) * Wide<Rep>(static_cast<std::int64_t>(n))));
+  using S = Fixed<Rep, F, P>;
+  return S::from_raw(S::narrow(Wide<Rep>(a.raw()) * Wide<Rep>(static_cast<std::int64_t>(n))));
 }
 template <std::integral I, class Rep, int F, Overflow P>
 ISO_INLINE constexpr Fixed<Rep, F, P> operator*(Fixed<Rep, F, P> a, I n) { return n * a; }
 
-// What Eigen finds by argument-dependent lookup beside the functions of scalar.hpp, math.hpp and exact.hpp. It looks for
-// min and max in std too, where they are as good a match as those of scalar.hpp; these are better ones.
+// What Eigen finds by argument-dependent lookup beside the functions of scalar.hpp, math.hpp and exact.hpp. It looks
+// for min and max in std too, where they are as good a match as those of scalar.hpp; these are better ones.
 template <class Rep, int F, Overflow P>
 ISO_INLINE constexpr Fixed<Rep, F, P> min(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) { return b < a ? b : a; }
 template <class Rep, int F, Overflow P>
@@ -119,8 +120,8 @@ namespace Eigen {
 template <class Rep, int F, isostep::Overflow P>
 struct NumTraits<isostep::Fixed<Rep, F, P>> : GenericNumTraits<isostep::Fixed<Rep, F, P>> {
   enum { RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = sizeof(Rep) == 4 ? 2 : 4 };
-  /// What Eigen's algorithms take for rounding noise: an entry of a decomposition is a few products, each rounded to half
-  /// a raw unit.
+  /// What Eigen's algorithms take for rounding noise: an entry of a decomposition is a few products, each rounded to
+  /// half a raw unit.
   static constexpr isostep::Fixed<Rep, F, P> epsilon() { return isostep::Fixed<Rep, F, P>::from_raw(8); }
   /// Its square is still a raw unit, which is what isApprox compares with.
   static constexpr isostep::Fixed<Rep, F, P> dummy_precision() {
@@ -141,7 +142,8 @@ template <class Rep, int F, isostep::Overflow P> struct promote_scalar_arg<isost
 template <class Rep, int F, isostep::Overflow P> struct promote_scalar_arg<isostep::Fixed<Rep, F, P>, double, false> {};
 
 /// m.cast<double>() and m.cast<Exact<double>>(): for people and tests, as to_double.
-template <class Rep, int F, isostep::Overflow P, class To> requires(std::floating_point<To> || isostep::detail::kIsExactType<To>)
+template <class Rep, int F, isostep::Overflow P, class To>
+  requires(std::floating_point<To> || isostep::detail::kIsExactType<To>)
 struct cast_impl<isostep::Fixed<Rep, F, P>, To> {
   static ISO_INLINE To run(isostep::Fixed<Rep, F, P> x) { return static_cast<To>(isostep::to_double(x)); }
 };

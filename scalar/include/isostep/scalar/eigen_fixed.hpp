@@ -39,7 +39,8 @@ namespace internal {
 template <class MatrixType, int QRPreconditioner, bool IsComplex> struct svd_precondition_2x2_block_to_be_real;
 
 template <class Rep, int F, isostep::Overflow P, int R, int C, int O, int MR, int MC, int QRPreconditioner>
-struct svd_precondition_2x2_block_to_be_real<Matrix<isostep::Fixed<Rep, F, P>, R, C, O, MR, MC>, QRPreconditioner, false> {
+struct svd_precondition_2x2_block_to_be_real<Matrix<isostep::Fixed<Rep, F, P>, R, C, O, MR, MC>, QRPreconditioner,
+                                             false> {
   using S = isostep::Fixed<Rep, F, P>;
 
   template <class Work, class Svd> static ISO_INLINE bool run(Work& work, Svd& svd, Index p, Index q, S& largest) {
@@ -64,7 +65,8 @@ struct svd_precondition_2x2_block_to_be_real<Matrix<isostep::Fixed<Rep, F, P>, R
 
 }  // namespace internal
 
-/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix whose lower half is given, by cyclic Jacobi rotations.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix whose lower half is given, by cyclic Jacobi
+/// rotations.
 /// Eigen's tridiagonal QR iteration squares numbers divided by epsilon, which wraps, and then takes a matrix for
 /// diagonal that is not. Both `compute` and `computeDirect` are this one.
 /// Error:  a few raw units times the largest entry; measured in tests/unit/scalar/eigen_test.cpp.

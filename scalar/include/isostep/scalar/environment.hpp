@@ -136,8 +136,9 @@ enum class Deviation : std::uint8_t {
 };
 inline constexpr int kDeviationCount = 14;
 inline constexpr const char* kDeviationNames[kDeviationCount] = {
-    "flush-float",    "flush-double", "zero-float",   "zero-double",     "rounding",   "contract-float", "contract-double",
-    "contract-pair",  "excess-float", "excess-double", "double-rounding", "reciprocal", "nan-equal",      "zero-sign"};
+    "flush-float",     "flush-double",  "zero-float",   "zero-double",   "rounding",
+    "contract-float",  "contract-double", "contract-pair", "excess-float", "excess-double",
+    "double-rounding", "reciprocal",    "nan-equal",    "zero-sign"};
 ISO_INLINE constexpr std::uint32_t bit_of(Deviation deviation) { return 1u << static_cast<unsigned>(deviation); }
 
 namespace detail {
@@ -159,7 +160,9 @@ ISO_INLINE bool pair_is_fused() {
 /// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's.
 ISO_INLINE std::uint32_t probe_environment_here() {
   std::uint32_t found = 0;
-  const auto check = [&](bool deviates, Deviation deviation) ISO_INLINE_LAMBDA { found |= deviates ? bit_of(deviation) : 0u; };
+  const auto check = [&](bool deviates, Deviation deviation) ISO_INLINE_LAMBDA {
+    found |= deviates ? bit_of(deviation) : 0u;
+  };
   // By bits: a comparison takes denormals for zero as well.
   const auto is_zero = [](auto x) ISO_INLINE_LAMBDA {
     if constexpr (sizeof(x) == 4) return (std::bit_cast<std::uint32_t>(x) << 1) == 0;

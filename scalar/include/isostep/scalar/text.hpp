@@ -44,7 +44,7 @@ void write_text(std::ostream& out, std::string_view text);
 
 /// The decimal of fewest digits that `from_text` reads back as `value`, bit for bit; of those the nearest. Always JSON,
 /// but for "inf", "-inf" and "nan", which `from_text` refuses. Fixed point is written without an exponent, float and
-/// double without one from 1e-7 up to 1e21.
+/// double without one from 1e-6 up to 1e21.
 template <class S> ISO_INLINE std::string to_text(S value) {
   if constexpr (kIsFixed<S>) {
     return detail::text_of_fixed(detail::magnitude(value.raw()), value.raw() < 0, S::kFracBits);

@@ -1,0 +1,330 @@
+// Questions about space, against a search of every body; and worlds that move, replay and take commands as data.
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <optional>
+
+#include "determinism/mess.hpp"
+#include "isostep/collision/narrowphase/collide.hpp"
+#include "isostep/collision/query/closest_point.hpp"
+#include "isostep/collision/query/ray_cast.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class WorldQuestions : public ::testing::Test {
+ protected:
+  WorldQuestions() : world(settings<S>(-10, 60, 4)), mess(build_mess(world)) {
+    for (int i = 0; i < 200; ++i) world.step();
+    EXPECT_GT(world.counts().asleep, 0u);
+    EXPECT_GT(world.counts().awake, 10u);
+  }
+
+  /// visit(id, child, transform) for every part of every body that the filter sees, ascending by slot.
+  template <class Visit> void visit_parts(QueryFilter filter, Visit&& visit) const {
+    for (const BodyId id : world.bodies()) {
+      const BodyProperties<S>& body = properties(id);
+      if ((body.filter.category & filter.mask) == 0 || (!filter.sensors && (body.flags & body_flag::kSensor) != 0)) continue;
+      const Transform<S> placed = Transform<S>::of(world.pose(id));
+      const ShapeRecord& shape = world.state().shapes[body.shape];
+      for (std::uint32_t i = 0; i < shape.child_count; ++i) {
+        const Child<S>& child = world.state().children[shape.first_child + i];
+        visit(id, child.primitive, compose(placed, Transform<S>::of(child.pose)));
+      }
+    }
+  }
+  const BodyProperties<S>& properties(BodyId id) const {
+    const BodySet<S>* sets[] = {&world.state().fixed, &world.state().awake};
+    for (const BodySet<S>* set : sets) {
+      for (std::size_t i = 0; i < set->states.size(); ++i) {
+        if (set->states[i].slot == id.slot) return set->properties[i];
+      }
+    }
+    for (const auto& island : world.state().frozen) {
+      for (std::size_t i = 0; i < island->bodies.states.size(); ++i) {
+        if (island->bodies.states[i].slot == id.slot) return island->bodies.properties[i];
+      }
+    }
+    ADD_FAILURE() << "a body in no set";
+    return world.state().fixed.properties[0];
+  }
+
+  World<S> world;
+  Mess<S> mess;
+};
+TYPED_TEST_SUITE(WorldQuestions, AllScalars);
+
+TYPED_TEST(WorldQuestions, a_ray_meets_what_a_search_of_every_body_says_it_meets_first) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  Dice dice(3);
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3<S> origin = vec<S>(dice.point(6) + D3{0, 7, 0}), along = vec<S>(dice.point(12));
+    QueryFilter filter;
+    filter.sensors = i % 3 == 0;
+    const auto found = w.cast_ray(origin, along, filter);
+    std::optional<S> best;
+    BodyId nearest;
+    this->visit_parts(filter, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
+      RayHit<S> hit;
+      if (!ray_cast(primitive, at, origin, along, S(1), hit)) return;
+      if (best && !(hit.fraction < *best)) return;
+      best = hit.fraction;
+      nearest = id;
+    });
+    ASSERT_EQ(found.has_value(), best.has_value()) << "ray " << i;
+    if (!found) {
+      ++misses;
+      continue;
+    }
+    ++hits;
+    EXPECT_EQ(found->fraction, *best) << "ray " << i;
+    EXPECT_EQ(found->body, nearest) << "ray " << i;
+    EXPECT_LE(dot(real(found->normal), real(along)), 1e-3);
+  }
+  EXPECT_GT(hits, 50);
+  EXPECT_GT(misses, 20);
+}
+
+TYPED_TEST(WorldQuestions, of_two_bodies_in_one_place_a_ray_and_a_point_find_the_lower_slot) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
+  std::vector<BodyId> twins;
+  for (int i = 0; i < 6; ++i) twins.push_back(w.create(still<S>(box, {3, 1, 0})));
+  for (int i = 0; i < 40; ++i) w.create(still<S>(box, {i * 0.7 - 14, 8, 1}));
+  w.destroy(twins[0]);
+  w.destroy(twins[1]);
+  const BodyId late = w.create(still<S>(box, {3, 1, 0}));
+  EXPECT_EQ(late.slot, twins[1].slot);
+  EXPECT_EQ(w.cast_ray(vec<S>(-4, 1, 0), vec<S>(16, 0, 0))->body, late);
+  EXPECT_EQ(w.closest(vec<S>(3, 3, 0), S(4))->body, late);
+}
+
+TYPED_TEST(WorldQuestions, the_closest_body_is_the_closest_of_all) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  Dice dice(4);
+  int found_any = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3<S> point = vec<S>(dice.point(5) + D3{0, 4, 0});
+    const S reach = num<S>(dice.in(0, 3));
+    const auto found = w.closest(point, reach);
+    std::optional<S> best;
+    BodyId nearest;
+    this->visit_parts({}, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
+      const S distance = closest_point(primitive, at, point).distance;
+      if (reach < distance || (best && !(distance < *best))) return;
+      best = distance;
+      nearest = id;
+    });
+    ASSERT_EQ(found.has_value(), best.has_value()) << i;
+    if (!found) continue;
+    ++found_any;
+    EXPECT_EQ(found->distance, *best);
+    EXPECT_EQ(found->body, nearest);
+    const double off = length(real(point) - real(found->point));
+    EXPECT_NEAR(off, std::fabs(to_double(found->distance)), 64 * grain<S>(8));
+  }
+  EXPECT_GT(found_any, 40);
+}
+
+TYPED_TEST(WorldQuestions, an_overlap_names_every_body_it_meets_once_in_order) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  Dice dice(6);
+  std::size_t total = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Pose<S> pose = {vec<S>(dice.point(2.5) + D3{0, 1.5, 0}), dice.orientation<S>()};
+    const Primitive<S> shape = i % 2 == 0 ? primitive_of(Box<S>{vec<S>(0.75, 0.5, 1)}) : primitive_of(Sphere<S>{S(1)});
+    std::vector<BodyId> found, expected;
+    w.overlapping(shape, pose, found);
+    this->visit_parts({}, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
+      Manifold<S> manifold;
+      const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation});
+      collide(shape, here, primitive, Transform<S>{at.position - pose.position, at.rotation}, S(0), manifold);
+      if (manifold.count > 0 && (expected.empty() || expected.back() != id)) expected.push_back(id);
+    });
+    // A hair's breadth may fall on either side, for the search composes its frames in another order.
+    std::vector<BodyId> difference;
+    const auto before = [](BodyId a, BodyId b) { return a.slot < b.slot; };
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), before));
+    std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(), std::back_inserter(difference), before);
+    EXPECT_TRUE(difference.empty()) << i;
+    total += found.size();
+  }
+  EXPECT_GT(total, 150u);
+}
+
+TYPED_TEST(WorldQuestions, masks_and_sensors_decide_what_is_seen) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  BodyDefinition<S> d = still<S>(add_ball(w, 0.5), {0, 0, 0});
+  d.filter.category = 2;
+  const BodyId tagged = w.create(d);
+  d.position = vec<S>(2, 0, 0);
+  d.filter.category = 4;
+  d.sensor = true;
+  const BodyId sensor = w.create(d);
+  const Vec3<S> left = vec<S>(-5, 0, 0), right = vec<S>(5, 0, 0), along = vec<S>(10, 0, 0);
+  EXPECT_EQ(w.cast_ray(left, along)->body, tagged);
+  EXPECT_EQ(w.cast_ray(right, -along)->body, tagged);
+  EXPECT_EQ(w.cast_ray(right, -along, {0xffffffffu, true})->body, sensor);
+  EXPECT_FALSE(w.cast_ray(left, along, {1, false}).has_value());
+  EXPECT_EQ(w.closest(right, S(10), {4, true})->body, sensor);
+  EXPECT_FALSE(w.closest(right, S(10), {4, false}).has_value());
+  std::vector<BodyId> found;
+  w.overlapping(primitive_of(Sphere<S>{S(4)}), Pose<S>::identity(), found, {0xffffffffu, true});
+  EXPECT_EQ(found, (std::vector<BodyId>{tagged, sensor}));
+}
+
+TYPED_TEST(WorldQuestions, questions_that_cannot_be_answered_find_nothing) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  const Vec3<S> outside = {Limits<S>::position() + S(1), S(0), S(0)};
+  EXPECT_FALSE(w.cast_ray(outside, vec<S>(-1, 0, 0)).has_value());
+  EXPECT_FALSE(w.cast_ray(vec<S>(0, 5, 0), outside).has_value());
+  EXPECT_FALSE(w.closest(outside, S(1)).has_value());
+  EXPECT_FALSE(w.closest(vec<S>(0, 1, 0), S(-1)).has_value());
+  std::vector<BodyId> found;
+  w.overlapping(primitive_of(Sphere<S>{S(-1)}), Pose<S>::identity(), found);
+  EXPECT_TRUE(found.empty());
+}
+
+TYPED_TEST(WorldQuestions, a_created_or_teleported_body_is_found_before_any_step) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
+  EXPECT_EQ(w.cast_ray(vec<S>(0, 5, 0), vec<S>(0, -10, 0))->body, id);
+  ASSERT_TRUE(w.set_pose(id, {vec<S>(9, 0, 0), Quat<Unit<S>>::identity()}));
+  EXPECT_FALSE(w.cast_ray(vec<S>(0, 5, 0), vec<S>(0, -10, 0)).has_value());
+  EXPECT_EQ(w.cast_ray(vec<S>(9, 5, 0), vec<S>(0, -10, 0))->body, id);
+  ASSERT_TRUE(w.destroy(id));
+  EXPECT_FALSE(w.cast_ray(vec<S>(9, 5, 0), vec<S>(0, -10, 0)).has_value());
+}
+
+TYPED_TEST(WorldQuestions, a_moved_world_goes_on_as_it_was) {
+  using S = TypeParam;
+  World<S> w(settings<S>()), twin(settings<S>());
+  build_mess(w);
+  build_mess(twin);
+  for (int i = 0; i < 30; ++i) w.step(), twin.step();
+  World<S> moved(std::move(w));
+  EXPECT_EQ(moved.hash(), twin.hash());
+  for (int i = 0; i < 30; ++i) moved.step(), twin.step();
+  EXPECT_EQ(moved.hash(), twin.hash());
+  w = std::move(moved);
+  w.step();
+  twin.step();
+  EXPECT_EQ(w.hash(), twin.hash());
+}
+
+TYPED_TEST(WorldQuestions, commands_given_as_data_do_what_the_calls_do) {
+  using S = TypeParam;
+  World<S> called(settings<S>()), told(settings<S>());
+  const auto both = [&](const Command<S>& command, auto&& call) {
+    const bool a = static_cast<bool>(call(called)), b = told.apply(command);
+    EXPECT_EQ(a, b) << command.index();
+    EXPECT_EQ(called.fault(), told.fault());
+    EXPECT_EQ(called.hash(), told.hash()) << command.index();
+    return a;
+  };
+  const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
+  EXPECT_TRUE(both(AddShape<S>{{ball}}, [&](auto& w) { return w.add_shape(std::span<const Child<S>>(&ball, 1)); }));
+  EXPECT_TRUE(both(AddShape<S>{{ball, ball}}, [&](auto& w) {
+    const Child<S> two[] = {ball, ball};
+    return w.add_shape(std::span<const Child<S>>(two));
+  }));
+  const ShapeId shape = {0, 1};
+  const BodyDefinition<S> d = moving<S>(shape, {0, 2, 0}, {1, 0, 0}), e = moving<S>(shape, {0, 4, 0});
+  EXPECT_TRUE(both(CreateBody<S>{d}, [&](auto& w) { return w.create(d); }));
+  EXPECT_TRUE(both(CreateBody<S>{e}, [&](auto& w) { return w.create(e); }));
+  const BodyId a = called.bodies()[0], b = called.bodies()[1];
+  EXPECT_TRUE(both(RemoveShape{{1, 1}}, [](auto& w) { return w.remove_shape({1, 1}); }));
+  EXPECT_FALSE(both(RemoveShape{shape}, [&](auto& w) { return w.remove_shape(shape); }));
+  EXPECT_TRUE(both(WakeBody{a}, [&](auto& w) { return w.wake(a); }));
+  const Pose<S> pose = {vec<S>(1, 2, 3), turn<S>({0, 1, 0}, 1)};
+  EXPECT_TRUE(both(SetPose<S>{a, pose}, [&](auto& w) { return w.set_pose(a, pose); }));
+  const Vec3<S> v = vec<S>(1, -2, 3), u = vec<S>(0.5, 0.25, -1);
+  EXPECT_TRUE(both(SetVelocity<S>{a, v, u}, [&](auto& w) { return w.set_velocity(a, v, u); }));
+  EXPECT_TRUE(both(ApplyForce<S>{a, v, u}, [&](auto& w) { return w.apply_force(a, v, u); }));
+  EXPECT_TRUE(both(ApplyImpulse<S>{a, v, u}, [&](auto& w) { return w.apply_impulse(a, v, u); }));
+  Material<S> material;
+  material.friction = num<S>(0.25);
+  EXPECT_TRUE(both(SetMaterial<S>{a, material}, [&](auto& w) { return w.set_material(a, material); }));
+  EXPECT_TRUE(both(SetFilter{a, {2, 3, 4}}, [&](auto& w) { return w.set_filter(a, {2, 3, 4}); }));
+  EXPECT_TRUE(both(SetMotion<S>{a, S(1), S(1), S(2), body_flag::kLockX}, [&](auto& w) {
+    return w.set_motion(a, S(1), S(1), S(2), body_flag::kLockX);
+  }));
+  EXPECT_TRUE(both(SetUserData{a, 9}, [&](auto& w) { return w.set_user_data(a, 9); }));
+  EXPECT_TRUE(both(SetGravity<S>{u}, [&](auto& w) { return w.set_gravity(u); }));
+  JointProperties<S> joint = called.joint_at(JointType::ball, a, b, pose);
+  EXPECT_TRUE(both(CreateJoint<S>{joint}, [&](auto& w) { return w.create(joint); }));
+  joint.user_data = 3;
+  EXPECT_TRUE(both(SetJoint<S>{{0, 1}, joint}, [&](auto& w) { return w.set_joint({0, 1}, joint); }));
+  called.step();
+  told.step();
+  EXPECT_TRUE(both(DestroyJoint{{0, 1}}, [](auto& w) { return w.destroy(JointId{0, 1}); }));
+  EXPECT_TRUE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
+  EXPECT_FALSE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
+  static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
+}
+
+TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> tape;
+  w.record_to(&tape);
+  const ShapeId ball = add_ball(w, 0.5);
+  const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
+  w.destroy(id);
+  for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 1}) {
+    World<S> other(settings<S>());
+    EXPECT_FALSE(other.step_recorded({tape.data(), cut}).ok()) << cut;
+    EXPECT_EQ(other.tick(), 0u);
+  }
+  World<S> other(settings<S>());
+  const std::uint8_t unknown[] = {200};
+  EXPECT_FALSE(other.step_recorded(unknown).ok());
+  EXPECT_TRUE(other.step_recorded(tape).ok());
+  EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 9, 9}).ok()) << "the body is gone: a refused command";
+}
+
+TYPED_TEST(WorldQuestions, the_stages_of_a_step_are_reported_once_each_in_order) {
+  std::vector<Stage> seen;
+  StageObserver observer;
+  observer.user = &seen;
+  observer.after = [](void* user, Stage stage) { static_cast<std::vector<Stage>*>(user)->push_back(stage); };
+  const std::uint64_t before = this->world.hash();
+  this->world.step(observer);
+  EXPECT_NE(this->world.hash(), before);
+  ASSERT_EQ(seen.size(), kStages);
+  for (std::uint32_t i = 0; i < kStages; ++i) EXPECT_EQ(seen[i], static_cast<Stage>(i));
+}
+
+TYPED_TEST(WorldQuestions, a_portable_form_with_a_force_on_a_sleeper_is_refused) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  add_ground(w);
+  const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
+  const BodyId sleeper = w.create(moving<S>(box, {0, 0.5, 0}));
+  ASSERT_TRUE(settle(w));
+  const BodyId awake = w.create(moving<S>(box, {9, 9, 0}));
+  ASSERT_TRUE(w.apply_force(awake, vec<S>(3, 5, 7)));
+  ASSERT_EQ(w.state().forces.size(), 1u);
+  // The record as written: slot, zero, then the acceleration, whose bits occur once.
+  std::vector<std::uint8_t> record;
+  Writer(record).write(w.state().forces[0]);
+  std::vector<std::uint8_t> bytes = bytes_of(w);
+  const auto at = std::search(bytes.begin(), bytes.end(), record.begin(), record.end());
+  ASSERT_NE(at, bytes.end());
+  *at = static_cast<std::uint8_t>(sleeper.slot);
+  World<S> other(settings<S>());
+  Reader reader(bytes);
+  EXPECT_FALSE(other.read_portable(reader).ok());
+  EXPECT_EQ(other.counts().bodies, 0u);
+}
+
+}  // namespace
+}  // namespace isostep::test
