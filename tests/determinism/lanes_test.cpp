@@ -56,7 +56,8 @@ TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_
     if (!w.use_simd(simd)) continue;
     ++widths;
     build_mess(w);
-    for (std::uint64_t f = 0; f < kFrames; ++f) ASSERT_EQ(play(w, f), this->expected()[f]) << w.simd_name() << " frame " << f;
+    for (std::uint64_t f = 0; f < kFrames; ++f)
+      ASSERT_EQ(play(w, f), this->expected()[f]) << w.simd_name() << " frame " << f;
   }
   EXPECT_GE(widths, 2);
   World<S> w(settings<S>(-10, 60, 4));
@@ -124,7 +125,9 @@ TYPED_TEST(SameHashes, whatever_is_asked_of_the_world_on_the_way) {
 /// Sets the control bits of this thread and puts back what was there.
 class Hostile {
  public:
-  explicit Hostile(std::uint32_t control) : before_(static_cast<std::uint32_t>(isostep::detail::FloatState::read())) { set(control); }
+  explicit Hostile(std::uint32_t control) : before_(static_cast<std::uint32_t>(isostep::detail::FloatState::read())) {
+    set(control);
+  }
   ~Hostile() { isostep::detail::FloatState::write(before_); }
   static void set(std::uint32_t control) { isostep::detail::FloatState::write(control); }
   static std::uint32_t control() { return static_cast<std::uint32_t>(isostep::detail::FloatState::read()) & 0xffc0u; }
@@ -133,7 +136,8 @@ class Hostile {
   std::uint32_t before_;
 };
 
-constexpr std::uint32_t kMasks = 0x1f80, kDown = 0x2000, kUp = 0x4000, kTowardsZero = 0x6000, kFlush = 0x8000, kDenormalsAreZero = 0x40;
+constexpr std::uint32_t kMasks = 0x1f80, kDown = 0x2000, kUp = 0x4000, kTowardsZero = 0x6000, kFlush = 0x8000,
+                        kDenormalsAreZero = 0x40;
 
 /// Numbers enter before the environment turns hostile: what a caller computes in it is the caller's.
 template <class S> struct Script {
@@ -142,7 +146,10 @@ template <class S> struct Script {
 };
 template <class S> Script<S> script_of(std::uint64_t frame) {
   Dice dice(frame);
-  return {vec<S>(dice.point(2)), vec<S>(dice.point(1)), vec<S>(dice.point(9)), vec<S>(dice.point(2)),
+  return {vec<S>(dice.point(2)),
+          vec<S>(dice.point(1)),
+          vec<S>(dice.point(9)),
+          vec<S>(dice.point(2)),
           {vec<S>(dice.point(3) + D3{0, 5, 0}), dice.orientation<S>()}};
 }
 
@@ -155,8 +162,9 @@ template <class S> std::vector<std::uint64_t> run_scripted(std::uint32_t control
     x.mass = num<S>(1.7);
     return x;
   }();
-  const Child<S> parts[] = {{primitive_of(Box<S>{vec<S>(0.31, 0.17, 0.23)}), {vec<S>(0.1, 0.2, 0.3), turn<S>({0, 0.6, 0.8}, 0.3)}},
-                            {primitive_of(Sphere<S>{num<S>(0.37)}), {vec<S>(0.3, -0.2, 0.1), Quat<Unit<S>>::identity()}}};
+  const Child<S> parts[] = {
+      {primitive_of(Box<S>{vec<S>(0.31, 0.17, 0.23)}), {vec<S>(0.1, 0.2, 0.3), turn<S>({0, 0.6, 0.8}, 0.3)}},
+      {primitive_of(Sphere<S>{num<S>(0.37)}), {vec<S>(0.3, -0.2, 0.1), Quat<Unit<S>>::identity()}}};
   std::vector<std::uint64_t> hashes;
   for (std::uint64_t f = 0; f < 90; ++f) {
     const Script<S> s = script_of<S>(f);
@@ -191,11 +199,13 @@ template <class S> std::vector<std::uint64_t> run_scripted(std::uint32_t control
 TYPED_TEST(SameHashes, in_whatever_float_environment_the_caller_left) {
   using S = TypeParam;
   const std::vector<std::uint64_t> plain = run_scripted<S>(kMasks, false);
-  for (const std::uint32_t control : {0u, kMasks | kDown, kMasks | kUp, kMasks | kTowardsZero, kMasks | kFlush, kMasks | kDenormalsAreZero,
-                                      kMasks | kDown | kFlush | kDenormalsAreZero, kMasks | kUp | kFlush | kDenormalsAreZero}) {
+  for (const std::uint32_t control :
+       {0u, kMasks | kDown, kMasks | kUp, kMasks | kTowardsZero, kMasks | kFlush, kMasks | kDenormalsAreZero,
+        kMasks | kDown | kFlush | kDenormalsAreZero, kMasks | kUp | kFlush | kDenormalsAreZero}) {
     const Hostile scope(kMasks);
     const std::vector<std::uint64_t> hostile = run_scripted<S>(control, true);
-    for (std::size_t f = 0; f < plain.size(); ++f) ASSERT_EQ(hostile[f], plain[f]) << "control " << control << " frame " << f;
+    for (std::size_t f = 0; f < plain.size(); ++f)
+      ASSERT_EQ(hostile[f], plain[f]) << "control " << control << " frame " << f;
   }
 }
 

@@ -46,13 +46,15 @@ template <class S> struct Mess {
 template <class S> Mess<S> build_mess(World<S>& w, D3 at = {0, 0, 0}) {
   Mess<S> m;
   const auto place = [&](D3 p) { return p + at; };
-  BodyDefinition<S> d = still<S>(w.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}), place({0, 0, 0}));
+  BodyDefinition<S> d =
+      still<S>(w.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}), place({0, 0, 0}));
   m.ground = w.create(d);
   m.box = add_box(w, 0.5, 0.25, 0.375);
   m.ball = add_ball(w, 0.375);
   m.capsule = w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.375)});
-  const Child<S> parts[] = {{primitive_of(Box<S>{vec<S>(0.125, 0.5, 0.125)}), Pose<S>::identity()},
-                            {primitive_of(Box<S>{vec<S>(0.375, 0.25, 0.25)}), {vec<S>(0, 0.75, 0), Quat<Unit<S>>::identity()}}};
+  const Child<S> parts[] = {
+      {primitive_of(Box<S>{vec<S>(0.125, 0.5, 0.125)}), Pose<S>::identity()},
+      {primitive_of(Box<S>{vec<S>(0.375, 0.25, 0.25)}), {vec<S>(0, 0.75, 0), Quat<Unit<S>>::identity()}}};
   m.hammer = w.add_shape(std::span<const Child<S>>(parts));
   Dice dice(7);
   const ShapeId shapes[] = {m.box, m.ball, m.capsule, m.hammer};
@@ -70,7 +72,8 @@ template <class S> Mess<S> build_mess(World<S>& w, D3 at = {0, 0, 0}) {
   for (int i = 0; i < 6; ++i) {
     m.chain.push_back(w.create(moving<S>(m.capsule, place({-6.0, 8.0 - 1.25 * i, 0.25 * i}))));
     const Pose<S> frame = {vec<S>(place({-6.0, 8.625 - 1.25 * i, 0.25 * i - 0.125})), Quat<Unit<S>>::identity()};
-    const JointType kinds[] = {JointType::ball, JointType::hinge, JointType::ball, JointType::distance, JointType::fixed, JointType::ball};
+    const JointType kinds[] = {JointType::ball,     JointType::hinge, JointType::ball,
+                               JointType::distance, JointType::fixed, JointType::ball};
     JointProperties<S> j = w.joint_at(kinds[i], previous, m.chain.back(), frame);
     if (j.type == JointType::distance) j.upper = num<S>(0.25);
     if (!w.create(j)) ADD_FAILURE() << fault_text(w.fault());
@@ -107,7 +110,9 @@ struct Activity {
 template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activity = nullptr) {
   Dice dice(frame * 1000003 + 17);
   const std::vector<BodyId> bodies = w.bodies();
-  const auto body = [&] { return bodies.empty() ? BodyId{} : bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))]; };
+  const auto body = [&] {
+    return bodies.empty() ? BodyId{} : bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
+  };
   const auto shape = [&] {
     const SlotMap& slots = w.state().shape_slots;
     const std::uint32_t slot = dice.below(static_cast<std::uint32_t>(slots.entries().size()));
@@ -148,7 +153,10 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
       case 5: done = w.apply_impulse_at(b, point(2), w.centre(b) + point(0.25)); break;
       case 6: done = w.apply_force(b, point(20), point(3)); break;
       case 7: done = w.apply_force_at(b, point(20), w.centre(b) + point(0.25)); break;
-      case 8: done = w.type(b) != BodyType::fixed && w.set_pose(b, {vec<S>(dice.point(4) + D3{0, 5, 0}), dice.orientation<S>()}); break;
+      case 8:
+        done =
+            w.type(b) != BodyType::fixed && w.set_pose(b, {vec<S>(dice.point(4) + D3{0, 5, 0}), dice.orientation<S>()});
+        break;
       case 9: done = w.set_velocity(b, point(3), point(3)); break;
       case 10: {
         Material<S> material;
@@ -158,9 +166,13 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
         break;
       }
       case 11: done = w.set_filter(b, {1u << dice.below(2), 0xffffffffu, dice.below(8) == 0 ? 3u : 0u}); break;
-      case 12: done = w.set_motion(b, num<S>(dice.in(0.5, 1)), num<S>(dice.in(0, 0.5)), num<S>(dice.in(0, 0.5)), 0); break;
+      case 12:
+        done = w.set_motion(b, num<S>(dice.in(0.5, 1)), num<S>(dice.in(0, 0.5)), num<S>(dice.in(0, 0.5)), 0);
+        break;
       case 13: done = w.wake(b); break;
-      case 14: done = dice.below(8) == 0 ? w.set_gravity(vec<S>(0, -10 + dice.in(-1, 1), 0)) : w.set_user_data(b, dice.next()); break;
+      case 14:
+        done = dice.below(8) == 0 ? w.set_gravity(vec<S>(0, -10 + dice.in(-1, 1), 0)) : w.set_user_data(b, dice.next());
+        break;
       case 15: done = static_cast<bool>(w.add_shape(Box<S>{vec<S>(0.25 + dice.in(0, 0.5), 0.375, 0.25)})); break;
       case 16: done = w.counts().shapes > 6 && w.remove_shape(shape()); break;
       case 17: {

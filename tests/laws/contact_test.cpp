@@ -236,12 +236,16 @@ TYPED_TEST(ContactLaws, the_energy_of_a_settled_pile_does_not_rise) {
   using S = TypeParam;
   World<S> w = sleepless<S>();
   add_ground(w);
-  const ShapeId shapes[] = {add_box(w, 0.5, 0.25, 0.375), add_ball(w, 0.375), w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.375)})};
-  const D3 moments[] = {{(0.0625 + 0.140625) / 3, (0.25 + 0.140625) / 3, (0.25 + 0.0625) / 3}, {0.05625, 0.05625, 0.05625}, {0.1, 0.02, 0.1}};
+  const ShapeId shapes[] = {add_box(w, 0.5, 0.25, 0.375), add_ball(w, 0.375),
+                            w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.375)})};
+  const D3 moments[] = {{(0.0625 + 0.140625) / 3, (0.25 + 0.140625) / 3, (0.25 + 0.0625) / 3},
+                        {0.05625, 0.05625, 0.05625},
+                        {0.1, 0.02, 0.1}};
   std::vector<BodyId> ids;
   for (int i = 0; i < 5; ++i) {
     for (const D3 side : {D3{0, 0, -1.5}, D3{1.5, 0, 0}, D3{-1.5, 0, 0}, D3{0.2, 0, 1.5}}) {
-      BodyDefinition<S> d = moving<S>(shapes[static_cast<std::size_t>(i) % 3], side * (0.3 + 0.05 * i) + D3{0, 0.5 + 0.8 * i, 0});
+      BodyDefinition<S> d =
+          moving<S>(shapes[static_cast<std::size_t>(i) % 3], side * (0.3 + 0.05 * i) + D3{0, 0.5 + 0.8 * i, 0});
       d.mass = S(1);
       d.material.rolling_resistance = num<S>(0.03125);
       ids.push_back(w.create(d));

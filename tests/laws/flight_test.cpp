@@ -38,7 +38,8 @@ TYPED_TEST(FlightLaws, a_projectile_follows_the_recurrence_of_velocity_before_po
     // Fixed point: every sub-step rounds the speed and the move by half a unit of the speed's format, every step the place
     // by half a unit of its own, at worst always the same way.
     const double in_speed = kIsFixed<S> ? n / 2 * speed_grain<S>() + grain<S>() : pick<S>(2e-3, 1e-11, 0, 0);
-    const double in_place = kIsFixed<S> ? 8 * in_speed / 2 + n / 2 * speed_grain<S>() + 4.0 * rate.hz * grain<S>() : pick<S>(6e-3, 1e-10, 0, 0);
+    const double in_place = kIsFixed<S> ? 8 * in_speed / 2 + n / 2 * speed_grain<S>() + 4.0 * rate.hz * grain<S>()
+                                        : pick<S>(6e-3, 1e-10, 0, 0);
     expect_near(real(w.centre(id)), expected, in_place, "place");
     expect_near(real(w.velocity(id)), {9, 40 - 80, -5}, in_speed, "velocity");
     EXPECT_EQ(w.angular_velocity(id), Vec3<S>::zero());
@@ -138,12 +139,14 @@ TYPED_TEST(FlightLaws, two_balls_in_line_part_by_newtons_rule_and_keep_their_mom
       d.mass = S(1);
       const BodyId b = w.create(d);
       run(w, 30);
-      const double va = ((mass - e) * 5 + (1 + e) * -3) / (mass + 1), vb = ((1 - e * mass) * -3 + (1 + e) * mass * 5) / (mass + 1);
+      const double va = ((mass - e) * 5 + (1 + e) * -3) / (mass + 1),
+                   vb = ((1 - e * mass) * -3 + (1 + e) * mass * 5) / (mass + 1);
       // Without restitution the overlap that they met with is pushed apart softly.
       const double bound = e > 0 ? pick<S>(1e-4, 1e-9, 1e-3, 1e-7) : 0.2;
       EXPECT_NEAR(to_double(w.velocity(a).x), va, bound) << "e " << e << " mass " << mass;
       EXPECT_NEAR(to_double(w.velocity(b).x), vb, bound) << "e " << e << " mass " << mass;
-      EXPECT_NEAR(mass * to_double(w.velocity(a).x) + to_double(w.velocity(b).x), mass * 5 - 3, pick<S>(1e-4, 1e-12, 1e-2, 1e-7));
+      EXPECT_NEAR(mass * to_double(w.velocity(a).x) + to_double(w.velocity(b).x), mass * 5 - 3,
+                  pick<S>(1e-4, 1e-12, 1e-2, 1e-7));
       EXPECT_EQ(w.velocity(a).y, S(0));
     }
   }
@@ -189,9 +192,11 @@ TYPED_TEST(FlightLaws, a_blow_off_centre_turns_a_rod_as_its_impulse_says) {
   const double momentum = m_ball * to_double(w.velocity(ball).y) + m_rod * to_double(w.velocity(rod).y);
   EXPECT_NEAR(momentum, -m_ball * v, pick<S>(1e-5, 1e-13, 1e-3, 1e-8));
   const auto about_origin = [&](BodyId id, double m) {
-    return m * (to_double(w.centre(id).x) * to_double(w.velocity(id).y) - to_double(w.centre(id).y) * to_double(w.velocity(id).x));
+    return m * (to_double(w.centre(id).x) * to_double(w.velocity(id).y) -
+                to_double(w.centre(id).y) * to_double(w.velocity(id).x));
   };
-  const double angular = about_origin(ball, m_ball) + about_origin(rod, m_rod) + inertia * to_double(w.angular_velocity(rod).z);
+  const double angular =
+      about_origin(ball, m_ball) + about_origin(rod, m_rod) + inertia * to_double(w.angular_velocity(rod).z);
   EXPECT_NEAR(angular, -m_ball * v * arm, 0.01 * m_ball * v * arm);
 }
 

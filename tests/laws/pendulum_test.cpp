@@ -79,7 +79,8 @@ TYPED_TEST(PendulumLaws, a_bob_sent_round_draws_a_cone_in_its_time) {
   World<S> w(settings<S>());
   const double angle = 0.6, arm = 2, rate = std::sqrt(10 / (arm * std::cos(angle)));
   const double radius = arm * std::sin(angle);
-  const BodyId bob = w.create(moving<S>(add_ball(w, 0.25), {-0.001, 5 - arm * std::cos(angle), radius}, {radius * rate, 0, 0}));
+  const BodyId bob =
+      w.create(moving<S>(add_ball(w, 0.25), {-0.001, 5 - arm * std::cos(angle), radius}, {radius * rate, 0, 0}));
   JointProperties<S> rod = w.joint_at(JointType::distance, {}, bob, {vec<S>(0, 5, 0), Quat<Unit<S>>::identity()});
   rod.frame_b.position = Vec3<S>::zero();
   rod.lower = rod.upper = num<S>(arm);

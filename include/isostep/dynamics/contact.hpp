@@ -35,7 +35,7 @@ struct ContactKey {
 
 /// Bits of Contact::flags.
 namespace contact_flag {
-inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse or overlapped: what events speak of
+inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse in the last step: what events speak of
 }
 
 /// State: a contact that has points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).

@@ -14,6 +14,8 @@ namespace isostep {
 ///   spin()          [rad/s]  largest length of an angular velocity
 ///   mass()          [kg]     largest mass
 ///   mass_ratio()    [1]      largest ratio of two bodies' masses that keeps half of the format's digits
+///   leverage()      [1]      largest kappa arm^2 of a joint
+///   surface_speed() [m/s]    largest speed of a point of a body against its centre
 template <class S> struct Limits;
 
 /// Fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
@@ -25,8 +27,11 @@ template <class S> struct Limits;
 ///   minimum_size >= 2^-((W-3)/2), 2^(10-F)    kappa <= 5 / (2 size^2) <= 5/16 2^W fits; a size has three digits.
 ///   mass <= 2^(W-2)          the sum of two masses fits.
 ///   mass_ratio <= 2^(W/2)    its square fits.
+///   leverage <= 2^(W/2 + 1)  times an impulse of a few metres a second, and summed over a joint's rows, it fits.
+///   surface_speed            a quarter of what Velocity<S> holds: two bodies' points meet and are summed by axis.
 /// Beyond 2^20 m, 2^14 m, 2^14 m/s and below 2^-10 m they stop growing: no scene needs more.
-/// Q16.16: extent 128, size 1/64, position 512, speed 64, spin 64, mass 8192, ratio 128.
+/// Q16.16: extent 128, size 1/64, position 512, speed 64, spin 64, mass 8192, ratio 128, leverage 256,
+///         surface speed 512.
 /// Q32.32: extent 16384, size 1/1024, position 1048576, speed 16384, spin 16384, mass 2^29, ratio 32768.
 template <class Rep, int F, Overflow P> struct Limits<Fixed<Rep, F, P>> {
   using S = Fixed<Rep, F, P>;
@@ -41,6 +46,8 @@ template <class Rep, int F, Overflow P> struct Limits<Fixed<Rep, F, P>> {
   static ISO_INLINE constexpr S spin() { return power(least((kWhole - 3) / 2, 14)); }
   static ISO_INLINE constexpr S mass() { return power(kWhole - 2); }
   static ISO_INLINE constexpr S mass_ratio() { return power(kWhole / 2); }
+  static ISO_INLINE constexpr S leverage() { return power(kWhole / 2 + 1); }
+  static ISO_INLINE constexpr S surface_speed() { return power(least(S::kBits - 3 - Velocity<S>::kFracBits, 20)); }
 
  private:
   static ISO_INLINE constexpr S power(int exponent) { return S::from_raw(Rep(1) << (F + exponent)); }
@@ -57,6 +64,8 @@ template <> struct Limits<float> {
   static ISO_INLINE constexpr float spin() { return 0x1p14f; }
   static ISO_INLINE constexpr float mass() { return 0x1p40f; }
   static ISO_INLINE constexpr float mass_ratio() { return 0x1p12f; }
+  static ISO_INLINE constexpr float leverage() { return 0x1p30f; }
+  static ISO_INLINE constexpr float surface_speed() { return 0x1p30f; }
 };
 /// Spacing at the position limit: 2^-23 m.
 template <> struct Limits<double> {
@@ -67,6 +76,8 @@ template <> struct Limits<double> {
   static ISO_INLINE constexpr double spin() { return 0x1p17; }
   static ISO_INLINE constexpr double mass() { return 0x1p60; }
   static ISO_INLINE constexpr double mass_ratio() { return 0x1p26; }
+  static ISO_INLINE constexpr double leverage() { return 0x1p60; }
+  static ISO_INLINE constexpr double surface_speed() { return 0x1p60; }
 };
 
 }  // namespace isostep

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "isostep/state/archive.hpp"
+#include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
 
 namespace isostep {
 
 namespace detail {
-inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape in a command
-
 template <class C, class Variant> struct IndexOf;
 template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> { static constexpr std::uint8_t kValue = 0; };
 template <class C, class First, class... Rest> struct IndexOf<C, std::variant<First, Rest...>> {

@@ -11,18 +11,12 @@
 #include "isostep/collision/narrowphase/manifold.hpp"
 #include "isostep/dynamics/island.hpp"
 #include "isostep/dynamics/solvers/soft_step.hpp"
+#include "isostep/world/checks.hpp"
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/state.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
-
-namespace detail {
-/// Every component from -limit to limit. By comparison on both sides: the lowest fixed-point number has no magnitude.
-template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
-  return -limit <= v.x && v.x <= limit && -limit <= v.y && v.y <= limit && -limit <= v.z && v.z <= limit;
-}
-}  // namespace detail
 
 /// Where a body or joint of a slot lies.
 struct Location {
@@ -39,7 +33,8 @@ template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);
 
-  // engine_commands.inl: one function a command; each answers what it made or whether it was accepted.
+  // engine_commands.inl, engine_joint_commands.inl: one function a command; each answers what it made or whether it was
+  // accepted.
   ShapeId execute(const AddShape<S>& command);
   bool execute(const RemoveShape& command);
   BodyId execute(const CreateBody<S>& command);
@@ -111,15 +106,19 @@ template <class S> class WorldEngine {
   void forget_contacts(std::uint32_t slot);
   void draw_from_here(const BodyState<S>& state);
   void wake_touching(std::uint32_t slot);
-  void wake_joined(std::uint32_t slot);
+  void wake_held_by(std::uint32_t slot);
+  void restless(std::uint32_t slot);
   Location locate(BodyId body) const;
   BodyState<S>* wake_for_change(BodyId body);
   BodyState<S>* wake_for_push(BodyId body);
 
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);
-  bool check(const JointProperties<S>& joint);
+  bool accept(Fault fault);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+
+  // engine_joint_commands.inl
+  std::uint32_t wake_joint(JointId joint);
 
   // engine_contacts.inl
   void find_pairs();
@@ -142,6 +141,7 @@ template <class S> class WorldEngine {
   SolverInput<S> solver_input();
   void finalise_bodies();
   void finish_body(std::size_t index);
+  void discard_bad_impulses();
 
   // engine_sleep.inl
   void update_sleep();
@@ -159,7 +159,7 @@ template <class S> class WorldEngine {
   std::vector<Location> joint_locations_;   // by joint slot
   Proxies<S> proxies_;
 
-  // One step's scratch.
+  // One step's scratch; drawing and the next step's events read some of it.
   SoftStep<S> solver_;
   std::vector<Acceleration<S>> accelerations_;
   std::vector<Pose<S>> start_poses_;        // of the centres of bodies awake when the step began
@@ -174,7 +174,7 @@ template <class S> class WorldEngine {
   std::vector<SensorOverlap> overlap_scratch_;
   std::vector<std::uint64_t> sort_scratch_;
   std::vector<std::uint32_t> slots_;
-  std::vector<Velocity<S>> peak_impulses_;   // [m/s] per contact, largest of the step
+  std::vector<Velocity<S>> step_impulses_;   // [m/s] per contact, of the whole step
   std::size_t woke_reported_ = 0;            // of events_.woke, told by the last step
   std::vector<BodyId> woke_scratch_;
   DisjointSets islands_;

@@ -14,14 +14,18 @@ template <class S> inline constexpr S kFatMargin = S(0.1);
 /// [m] contacts are found this far ahead of touching, so that the solver sees them before they overlap.
 template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
 
-template <class Set> std::size_t lower_bound_slot(const Set& set, std::uint32_t slot) {
-  std::size_t low = 0, high = set.states.size();
+/// The first of 0..count-1 that is not before.
+template <class Before> std::size_t lower_bound(std::size_t count, const Before& before) {
+  std::size_t low = 0, high = count;
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
-    if (set.states[middle].slot < slot) low = middle + 1;
+    if (before(middle)) low = middle + 1;
     else high = middle;
   }
   return low;
+}
+template <class Set> std::size_t lower_bound_slot(const Set& set, std::uint32_t slot) {
+  return lower_bound(set.states.size(), [&](std::size_t i) { return set.states[i].slot < slot; });
 }
 }  // namespace detail
 
@@ -131,21 +135,23 @@ template <class S> void WorldEngine<S>::forget_contacts(std::uint32_t slot) {
 
 /// What a command puts somewhere is drawn there and not on the way from where its slot was before.
 template <class S> void WorldEngine<S>::draw_from_here(const BodyState<S>& state) {
-  std::size_t low = 0, high = start_slots_.size();
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (start_slots_[middle] < state.slot) low = middle + 1;
-    else high = middle;
-  }
-  if (low < start_slots_.size() && start_slots_[low] == state.slot) start_poses_[low] = {state.centre, state.orientation};
+  const std::size_t at = detail::lower_bound(start_slots_.size(), [&](std::size_t i) { return start_slots_[i] < state.slot; });
+  if (at < start_slots_.size() && start_slots_[at] == state.slot) start_poses_[at] = {state.centre, state.orientation};
 }
 
-/// Thaws every island that a body's fat box meets: what is moved, changed or taken away may have held them up.
+/// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
+template <class S> void WorldEngine<S>::restless(std::uint32_t slot) {
+  if (slot != kNoBody && locations_[slot].set == Location::kAwake) state_.awake.states[locations_[slot].index].sleep_clock = 0;
+}
+
+/// Wakes every island and every body that a body's fat box meets: what is moved, changed or taken away may have held
+/// them up.
 template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   if (!proxies_.present(slot)) return;
   std::vector<std::uint64_t> met;
   proxies_.tree().query(proxies_.tree().box(slot), [&](std::uint32_t other) {
     if (locations_[other].is_frozen()) met.push_back(other);
+    else if (other != slot) restless(other);
     return true;
   });
   std::vector<std::uint64_t> scratch(met.size());
@@ -153,14 +159,15 @@ template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   for (const std::uint64_t other : met) thaw_body(static_cast<std::uint32_t>(other));
 }
 
-/// Thaws every island with a joint to a body that no island holds: what hangs from it is moved when it moves.
-template <class S> void WorldEngine<S>::wake_joined(std::uint32_t slot) {
+/// Thaws every island with a joint to, or a contact with, a body that no island holds. Its box need not meet theirs any
+/// more: a contact is frozen as the last step found it.
+template <class S> void WorldEngine<S>::wake_held_by(std::uint32_t slot) {
   for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); i-- > 0;) {
-    for (const JointProperties<S>& joint : state_.frozen[i]->joints.properties) {
-      if (joint.body_a != slot && joint.body_b != slot) continue;
-      thaw(i);
-      break;
-    }
+    const FrozenIsland<S>& island = *state_.frozen[i];
+    bool held = false;
+    for (const JointProperties<S>& joint : island.joints.properties) held = held || joint.body_a == slot || joint.body_b == slot;
+    for (const Contact<S>& contact : island.contacts) held = held || contact.key.body_a == slot || contact.key.body_b == slot;
+    if (held) thaw(i);
   }
 }
 

@@ -2,21 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/mass_properties.hpp"
-#include "isostep/geometry/validate.hpp"
+#include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
 
 namespace detail {
-/// A factor of gravity: the product of two numbers up to the speed limit fits.
-template <class S> bool is_scale(S factor) { return within({factor, S(0), S(0)}, Limits<S>::speed()); }
-template <class S> bool is_unit(const Quat<Unit<S>>& q) {
-  const Pose<S> pose = {Vec3<S>::zero(), q};
-  return validate(pose) == ShapeFault::none;
-}
-
 // Forces and impulses have no range of their own: what they would do beyond the scalar's is cut, on exact products, so
 // that nothing wraps. Speeds are cut a quarter above their limit: the step then cuts them again and reports it.
 template <class S> S bounded_quotient(S x, S divisor, S limit) {
@@ -29,10 +21,7 @@ template <class S> Vec3<S> bounded_quotient(Vec3<S> v, S divisor, S limit) {
   return {bounded_quotient(v.x, divisor, limit), bounded_quotient(v.y, divisor, limit), bounded_quotient(v.z, divisor, limit)};
 }
 template <class S> Vec3<S> bounded_product(const Mat3<S>& m, Vec3<S> v, S limit) {
-  const auto row = [&](int i) {
-    const auto sum = dot_sum(m.rows[i], v), bound = product(limit, S(1));
-    return bound < sum ? limit : sum < -bound ? -limit : round_to<S>(sum);
-  };
+  const auto row = [&](int i) { return saturate_to<S>(dot_sum(m.rows[i], v), limit); };
   return {row(0), row(1), row(2)};
 }
 template <class S> Vec3<S> bounded_sum(Vec3<S> a, Vec3<S> b, S limit) {
@@ -49,7 +38,13 @@ template <class S> Vec3<Velocity<S>> bounded_velocity(Vec3<Velocity<S>> a, Vec3<
 }
 }  // namespace detail
 
+template <class S> bool WorldEngine<S>::accept(Fault fault) { return fault == Fault::none || refuse(fault); }
+
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
+  if (command.children.size() > detail::kMaxChildren) {
+    refuse(Fault::bad_shape);
+    return {};
+  }
   const ShapeFault fault = validate(std::span<const Child<S>>(command.children));
   if (fault != ShapeFault::none) {
     refuse(fault == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape);
@@ -85,29 +80,17 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
 /// Everything about a definition that needs no mass.
 template <class S> bool WorldEngine<S>::check(const BodyDefinition<S>& d) {
   if (!state_.shape_slots.holds(d.shape)) return refuse(Fault::stale_id);
-  const Material<S>& m = d.material;
-  const S numbers[] = {d.density,     d.mass,           d.gravity_scale,      d.linear_damping,
-                       d.angular_damping, m.friction,   m.restitution,        m.rolling_resistance};
-  for (const S number : numbers) {
-    if (!is_finite(number)) return refuse(Fault::not_finite);
-  }
-  if (!is_finite(d.position) || !is_finite(d.velocity) || !is_finite(d.angular_velocity) || !is_finite(d.inertia) ||
-      !is_finite(m.surface_velocity)) {
+  if (!is_finite(d.density) || !is_finite(d.mass) || !is_finite(d.position) || !is_finite(d.velocity) ||
+      !is_finite(d.angular_velocity) || !is_finite(d.inertia)) {
     return refuse(Fault::not_finite);
   }
   if (!detail::within(d.position, Limits<S>::position()) || !detail::within(d.velocity, Limits<S>::speed()) ||
-      !detail::within(d.angular_velocity, Limits<S>::spin()) || !detail::within(m.surface_velocity, Limits<S>::speed()) ||
-      !detail::is_scale(d.gravity_scale)) {
+      !detail::within(d.angular_velocity, Limits<S>::spin())) {
     return refuse(Fault::out_of_range);
   }
-  if (!detail::is_unit<S>(d.orientation)) return refuse(Fault::bad_argument);
-  if (d.type > BodyType::dynamic || (d.locks & ~body_flag::kAllLocks) != 0) return refuse(Fault::bad_argument);
-  const S zero = S(0);
-  if (m.friction < zero || m.restitution < zero || m.restitution > S(1) || m.rolling_resistance < zero ||
-      d.linear_damping < zero || d.angular_damping < zero) {
-    return refuse(Fault::bad_argument);
-  }
-  return true;
+  if (!detail::is_unit<S>(d.orientation) || d.type > BodyType::dynamic) return refuse(Fault::bad_argument);
+  return accept(detail::fault_of(d.material)) &&
+         accept(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks));
 }
 
 template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
@@ -121,10 +104,10 @@ template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, Bod
   if (d.type != BodyType::dynamic) return true;
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
-  if (!(chosen.mass > zero) || chosen.mass > Limits<S>::mass() || d.mass < zero || d.density < zero ||
-      d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero || shape.mass == zero) {
+  if (d.mass < zero || d.density < zero || d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero || shape.mass == zero) {
     return refuse(Fault::bad_mass);
   }
+  if (!accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
   body.mass = chosen.mass;
   body.kappa = chosen.kappa;
   body.principal = chosen.principal;
@@ -156,10 +139,14 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.spin = convert<Velocity<S>>(d.angular_velocity);
   }
+  renew_fat_box(state, body, true);
+  if (detail::overspins(state.spin, state.fat)) {
+    refuse(Fault::out_of_range);
+    return {};
+  }
   const BodyId id = state_.body_slots.template take<BodyId>();
   state.slot = id.slot;
   draw_from_here(state);
-  renew_fat_box(state, body, true);
   const bool fixed = d.type == BodyType::fixed;
   insert_body(fixed ? state_.fixed : state_.awake, fixed ? Location::kFixed : Location::kAwake, state, body);
   proxies_.place(state, body, !fixed);
@@ -180,6 +167,7 @@ template <class S> bool WorldEngine<S>::execute(const DestroyBody& command) {
     const JointProperties<S>& properties = *properties_of(id);
     if (properties.body_a == slot || properties.body_b == slot) execute(DestroyJoint{id});
   }
+  if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
   forget_contacts(slot);
   std::erase_if(state_.overlaps, [&](SensorOverlap o) { return o.sensor == slot || o.other == slot; });
   std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return f.slot == slot; });
@@ -201,7 +189,7 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
   if (!detail::is_unit<S>(command.pose.orientation)) return refuse(Fault::bad_argument);
   const std::uint32_t slot = command.body.slot;
   wake_touching(slot);
-  if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_joined(slot);
+  if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
   if (at.set != Location::kFixed) wake_for_change(command.body);
   const Location now = locations_[slot];
   BodySet<S>& set = now.set == Location::kFixed ? state_.fixed : state_.awake;
@@ -222,7 +210,7 @@ template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
     return refuse(Fault::out_of_range);
   }
   if (wake_for_change(command.body) == nullptr) return false;
-  if (properties_at(locations_[command.body.slot]).type == BodyType::kinematic) wake_joined(command.body.slot);
+  if (properties_at(locations_[command.body.slot]).type == BodyType::kinematic) wake_held_by(command.body.slot);
   BodyState<S>* state = &state_.awake.states[locations_[command.body.slot].index];
   state->velocity = convert<Velocity<S>>(command.linear);
   state->spin = convert<Velocity<S>>(command.angular);
@@ -269,18 +257,10 @@ template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) 
 template <class S> bool WorldEngine<S>::execute(const SetMaterial<S>& command) {
   const Location at = locate(command.body);
   if (at.set == Location::kNone) return refuse(Fault::stale_id);
-  const Material<S>& m = command.material;
-  if (!is_finite(m.friction) || !is_finite(m.restitution) || !is_finite(m.rolling_resistance) ||
-      !is_finite(m.surface_velocity)) {
-    return refuse(Fault::not_finite);
-  }
-  if (!detail::within(m.surface_velocity, Limits<S>::speed())) return refuse(Fault::out_of_range);
-  if (m.friction < S(0) || m.restitution < S(0) || m.restitution > S(1) || m.rolling_resistance < S(0)) {
-    return refuse(Fault::bad_argument);
-  }
+  if (!accept(detail::fault_of(command.material))) return false;
   wake_touching(command.body.slot);
   thaw_body(command.body.slot);
-  mutable_properties(command.body.slot).material = m;
+  mutable_properties(command.body.slot).material = command.material;
   return true;
 }
 
@@ -297,12 +277,8 @@ template <class S> bool WorldEngine<S>::execute(const SetFilter& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
-  if (!is_finite(command.gravity_scale) || !is_finite(command.linear_damping) || !is_finite(command.angular_damping)) {
-    return refuse(Fault::not_finite);
-  }
-  if (!detail::is_scale(command.gravity_scale)) return refuse(Fault::out_of_range);
-  if (command.linear_damping < S(0) || command.angular_damping < S(0) || (command.locks & ~body_flag::kAllLocks) != 0) {
-    return refuse(Fault::bad_argument);
+  if (!accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping, command.locks))) {
+    return false;
   }
   if (wake_for_change(command.body) == nullptr) return false;
   BodyProperties<S>& body = mutable_properties(command.body.slot);
@@ -326,95 +302,7 @@ template <class S> bool WorldEngine<S>::execute(const SetGravity<S>& command) {
   if (!detail::within(command.gravity, Limits<S>::speed())) return refuse(Fault::out_of_range);
   state_.settings.gravity = command.gravity;
   while (!state_.frozen.empty()) thaw(static_cast<std::uint32_t>(state_.frozen.size() - 1));
-  return true;
-}
-
-/// Everything about a joint but that its bodies live.
-template <class S> bool WorldEngine<S>::check(const JointProperties<S>& j) {
-  const S numbers[] = {j.lower,        j.upper,         j.cone,             j.motor_speed,
-                       j.motor_torque, j.spring_target, j.spring_frequency, j.spring_damping};
-  for (const S number : numbers) {
-    if (!is_finite(number)) return refuse(Fault::not_finite);
-  }
-  if (!is_finite(j.frame_a.position) || !is_finite(j.frame_b.position)) return refuse(Fault::not_finite);
-  if (!detail::within(j.frame_a.position, Limits<S>::position()) || !detail::within(j.frame_b.position, Limits<S>::position())) {
-    return refuse(Fault::out_of_range);
-  }
-  const S nyquist = S(state_.settings.hz) * S(state_.settings.substeps) * S(0.5);
-  const bool spring = (j.flags & joint_flag::kSpring) != 0;
-  if (j.type > JointType::distance || !detail::is_unit<S>(j.frame_a.orientation) || !detail::is_unit<S>(j.frame_b.orientation) ||
-      j.lower > j.upper || j.motor_torque < S(0) || (j.flags & ~0x1fu) != 0 ||
-      (spring && (!(j.spring_frequency > S(0)) || j.spring_frequency > nyquist || j.spring_damping < S(0))) ||
-      (j.type == JointType::distance && j.lower < S(0))) {
-    return refuse(Fault::bad_argument);
-  }
-  return true;
-}
-
-template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command) {
-  JointProperties<S> joint = command.joint;
-  if (!check(joint)) return {};
-  bool moves = false;
-  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
-    if (slot == kNoBody) continue;
-    if (slot >= locations_.size() || locations_[slot].set == Location::kNone) {
-      refuse(Fault::stale_id);
-      return {};
-    }
-    moves = moves || properties_at(locations_[slot]).type == BodyType::dynamic;
-  }
-  if (!moves || joint.body_a == joint.body_b) {
-    refuse(moves ? Fault::bad_argument : Fault::not_dynamic);
-    return {};
-  }
-  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
-    if (slot != kNoBody) thaw_body(slot);
-  }
-  joint.frame_a.orientation = normalise(joint.frame_a.orientation);
-  joint.frame_b.orientation = normalise(joint.frame_b.orientation);
-  const JointId id = state_.joint_slots.template take<JointId>();
-  JointState<S> state = {};
-  state.slot = id.slot;
-  insert_joint(state, joint);
-  return id;
-}
-
-template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
-  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
-  const std::uint32_t slot = command.joint.slot;
-  const JointProperties<S> gone = *properties_of(command.joint);
-  for (const std::uint32_t body : {gone.body_a, gone.body_b}) {
-    if (body != kNoBody) thaw_body(body);
-  }
-  const std::uint32_t index = joint_locations_[slot].index;
-  state_.joints.states.erase(state_.joints.states.begin() + index);
-  state_.joints.properties.erase(state_.joints.properties.begin() + index);
-  joint_locations_[slot] = Location{};
-  relabel_joints(state_.joints, Location::kAwake, index);
-  state_.joint_slots.give_back(slot);
-  return true;
-}
-
-template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
-  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
-  if (!check(command.properties)) return false;
-  const JointProperties<S> old = *properties_of(command.joint);
-  if (command.properties.type != old.type) return refuse(Fault::bad_argument);
-  for (const std::uint32_t body : {old.body_a, old.body_b}) {
-    if (body != kNoBody) thaw_body(body);
-  }
-  JointProperties<S>& joint = state_.joints.properties[joint_locations_[command.joint.slot].index];
-  const JointProperties<S>& next = command.properties;
-  joint.flags = next.flags;
-  joint.lower = next.lower;
-  joint.upper = next.upper;
-  joint.cone = next.cone;
-  joint.motor_speed = next.motor_speed;
-  joint.motor_torque = next.motor_torque;
-  joint.spring_target = next.spring_target;
-  joint.spring_frequency = next.spring_frequency;
-  joint.spring_damping = next.spring_damping;
-  joint.user_data = next.user_data;
+  for (BodyState<S>& state : state_.awake.states) state.sleep_clock = 0;
   return true;
 }
 

@@ -238,17 +238,17 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
   }
 }
 
-/// Largest normal impulse of contacts first..end-1 together [kg m/s].
+/// What contacts first..end-1 gave over the step along their normals [kg m/s].
 template <class S> S WorldEngine<S>::pressing(std::size_t first, std::size_t end) const {
   const SolverBodies<S>& bodies = solver_.bodies();
-  S total = S(0);
+  auto total = SumOf<S, Velocity<S>>{};
   for (std::size_t i = first; i < end; ++i) {
     const S mass_a = bodies.mass[geometry_[i].row_a].mass, mass_b = bodies.mass[geometry_[i].row_b].mass;
     const MassShare<S> share = mass_share(mass_a, mass_b);
-    const S reduced = mass_b > S(0) ? share.b * mass_b : mass_a;
-    total += round_to<S>(product(reduced, peak_impulses_[i]));
+    total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, step_impulses_[i]);
   }
-  return total;
+  const auto most = product(highest<S>(), Velocity<S>(1));
+  return most < total ? highest<S>() : round_to<S>(total);
 }
 
 }  // namespace isostep

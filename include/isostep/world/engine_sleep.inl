@@ -47,11 +47,10 @@ template <class S> void WorldEngine<S>::update_sleep() {
   if (!state_.settings.allow_sleep) return;
   update_sleep_clocks();
   const auto delay = static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
-  for (const BodyState<S>& state : state_.awake.states) {
-    if (state.sleep_clock >= delay) {
-      freeze_ready_islands();
-      return;
-    }
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    if (state_.awake.states[i].sleep_clock < delay || state_.awake.properties[i].type != BodyType::dynamic) continue;
+    freeze_ready_islands();
+    return;
   }
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/soft_step.inl"
-#include "isostep/geometry/limits.hpp"
 #include "isostep/scalar/environment.hpp"
+#include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
@@ -86,13 +86,35 @@ template <class S> void WorldEngine<S>::prepare_joints() {
 
 template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
   joint_constraints_.resize(state_.joints.states.size());
-  peak_impulses_.resize(state_.contacts.size());
+  step_impulses_.resize(state_.contacts.size());
   return {state_.awake.states, state_.awake.properties, accelerations_,          state_.contacts,    geometry_,
-          peak_impulses_,      joint_constraints_,      state_.settings.gravity, state_.settings.hz, state_.settings.substeps};
+          step_impulses_,      joint_constraints_,      state_.settings.gravity, state_.settings.hz, state_.settings.substeps};
 }
 
 template <class S> void WorldEngine<S>::finalise_bodies() {
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) finish_body(i);
+  if (report_.stopped > 0) discard_bad_impulses();
+}
+
+/// A body that was stopped leaves contacts and joints behind whose impulses are no numbers either.
+template <class S> void WorldEngine<S>::discard_bad_impulses() {
+  using V = Velocity<S>;
+  for (Contact<S>& contact : state_.contacts) {
+    bool finite = is_finite(contact.friction_impulse) && is_finite(contact.twist_impulse);
+    for (const V impulse : contact.normal_impulse) finite = finite && is_finite(impulse);
+    if (finite) continue;
+    for (V& impulse : contact.normal_impulse) impulse = V(0);
+    contact.friction_impulse = Vec3<V>::zero();
+    contact.twist_impulse = V(0);
+  }
+  for (JointState<S>& joint : state_.joints.states) {
+    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.motor) && is_finite(joint.spring) &&
+                        is_finite(joint.lower) && is_finite(joint.upper) && is_finite(joint.swing);
+    if (finite) continue;
+    JointState<S> fresh = {};
+    fresh.slot = joint.slot;
+    joint = fresh;
+  }
 }
 
 /// Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or stopped, and reported.
@@ -114,9 +136,11 @@ template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
   const auto bounded = [](Vec3<V> v, V limit) {
     return Vec3<V>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
   };
-  if (speed < max_abs(state.velocity) || spin < max_abs(state.spin)) {
+  const bool overspins = detail::overspins(state.spin, state.fat);
+  if (speed < max_abs(state.velocity) || spin < max_abs(state.spin) || overspins) {
     state.velocity = bounded(state.velocity, speed);
-    state.spin = bounded(state.spin, spin);
+    const S most = overspins ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low) : Limits<S>::spin();
+    state.spin = bounded(state.spin, min(spin, convert<V>(most)));
     ++report_.clamped_speed;
   }
   const S edge = Limits<S>::position();

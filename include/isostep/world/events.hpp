@@ -1,4 +1,5 @@
-// What a step tells the game: output of one step, in canonical order, never state.
+// What a step tells the game: output of one step, in canonical order, never state. What a command takes away ends without
+// an event; what it wakes is told by the next step.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,8 +14,8 @@ namespace isostep {
 /// Two bodies began to press on each other.
 template <class S> struct ContactBegin {
   BodyId a, b;
-  S impulse;             // [kg m/s] largest normal impulse of the step, of all points together
-  Vec3<Unit<S>> normal;  // [1] from a to b
+  S impulse;             // [kg m/s] that all points together gave over the step along their normals; held at the format's end
+  Vec3<Unit<S>> normal;  // [1] from a to b, of the first parts in contact
 };
 struct ContactEnd {
   BodyId a, b;

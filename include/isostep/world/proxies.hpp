@@ -18,7 +18,7 @@ template <class S> class Proxies {
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
   void update();
-  /// Forgets every slot from `count` on and keeps memory.
+  /// One past the largest slot met.
   std::size_t slots() const { return keys_.size(); }
   bool present(std::uint32_t slot) const { return slot < keys_.size() && keys_[slot].present; }
 

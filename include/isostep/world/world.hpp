@@ -165,6 +165,7 @@ template <class S> class World {
     std::unique_ptr<WorldState<S>> state_;
   };
   void save(Snapshot& to) const;
+  /// A snapshot that was moved from holds nothing, and loading it does nothing.
   void load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;

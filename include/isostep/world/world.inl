@@ -10,6 +10,7 @@
 #include "isostep/world/engine_bodies.inl"
 #include "isostep/world/engine_commands.inl"
 #include "isostep/world/engine_contacts.inl"
+#include "isostep/world/engine_joint_commands.inl"
 #include "isostep/world/engine_queries.inl"
 #include "isostep/world/engine_sleep.inl"
 #include "isostep/world/engine_state.inl"
@@ -94,14 +95,16 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
-  return apply_force(body, force, cross(point - centre(body), force));
+  if (!detail::is_place(point)) return engine_->refuse(Fault::out_of_range);
+  return apply_force(body, force, detail::saturated_cross(point - centre(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
   return detail::run(*engine_, ApplyImpulse<S>{body, impulse, angular_impulse});
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
-  return apply_impulse(body, impulse, cross(point - centre(body), impulse));
+  if (!detail::is_place(point)) return engine_->refuse(Fault::out_of_range);
+  return apply_impulse(body, impulse, detail::saturated_cross(point - centre(body), impulse));
 }
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) {
   return detail::run(*engine_, CreateJoint<S>{joint});
@@ -122,16 +125,17 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
   const FloatEnvironment environment;
   JointProperties<S> joint;
   joint.type = type;
-  const auto local = [&](BodyId body, std::uint32_t& slot) {
+  const auto local = [&](BodyId body, std::uint32_t& slot, std::uint32_t& generation) {
     if (!body) return frame;
-    slot = contains(body) ? body.slot : kNoBody - 1;  // a slot that no body has: refused as stale
+    slot = body.slot;
+    generation = body.generation;
     if (!contains(body)) return frame;
     const Pose<S> centre = engine_->centre_pose_at(body.slot);
     const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
     return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
   };
-  joint.frame_a = local(a, joint.body_a);
-  joint.frame_b = local(b, joint.body_b);
+  joint.frame_a = local(a, joint.body_a, joint.generation_a);
+  joint.frame_b = local(b, joint.body_b, joint.generation_b);
   return joint;
 }
 
@@ -246,10 +250,13 @@ template <class S> std::size_t World<S>::Snapshot::bytes() const {
   }
   return total + state_->frozen.size() * sizeof(state_->frozen[0]);
 }
-template <class S> void World<S>::save(Snapshot& to) const { *to.state_ = engine_->state_; }
+template <class S> void World<S>::save(Snapshot& to) const {
+  if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();  // moved from: as good as new
+  *to.state_ = engine_->state_;
+}
 template <class S> void World<S>::load(const Snapshot& from) {
   const FloatEnvironment environment;
-  engine_->load(*from.state_);
+  if (from.state_ != nullptr) engine_->load(*from.state_);
 }
 template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
 template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }

@@ -13,7 +13,8 @@ template <class S> Child<S> part(const Primitive<S>& primitive, D3 at) {
   return {primitive, {vec<S>(at), Quat<Unit<S>>::identity()}};
 }
 template <class S> ShapeId add_two_boxes(World<S>& w, D3 half_a, D3 at_a, D3 half_b, D3 at_b) {
-  const Child<S> parts[] = {part(primitive_of(Box<S>{vec<S>(half_a)}), at_a), part(primitive_of(Box<S>{vec<S>(half_b)}), at_b)};
+  const Child<S> parts[] = {part(primitive_of(Box<S>{vec<S>(half_a)}), at_a),
+                            part(primitive_of(Box<S>{vec<S>(half_b)}), at_b)};
   return w.add_shape(std::span<const Child<S>>(parts));
 }
 
@@ -70,7 +71,8 @@ TYPED_TEST(WorldBodies, two_boxes_in_one_shape_have_the_mass_centre_and_inertia_
   using S = TypeParam;
   World<S> w(settings<S>(0));
   // Unit cubes at x = 0 and 3: centre 3/2, I_y = 2 (1/6 + 9/4).
-  const BodyId id = w.create(moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}));
+  const BodyId id =
+      w.create(moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}));
   EXPECT_NEAR(to_double(w.mass(id)), 2, 8 * grain<S>());
   expect_near(real(w.centre(id)), {2.5, 2, 3}, 8 * grain<S>());
   expect_near(real(w.pose(id).position), {1, 2, 3}, 8 * grain<S>(3));
@@ -81,7 +83,8 @@ TYPED_TEST(WorldBodies, two_boxes_in_one_shape_have_the_mass_centre_and_inertia_
   // It turns about its centre, and its origin with it.
   expect_near(real(w.centre(id)), {2.5, 2, 3}, 64 * grain<S>(3));
   const double angle = 480 * 2 * std::atan(4 / inertia / 960);
-  expect_near(real(w.pose(id).position), {2.5 - 1.5 * std::cos(angle), 2, 3 + 1.5 * std::sin(angle)}, pick<S>(1e-4, 1e-8, 1e-2, 1e-6));
+  expect_near(real(w.pose(id).position), {2.5 - 1.5 * std::cos(angle), 2, 3 + 1.5 * std::sin(angle)},
+              pick<S>(1e-4, 1e-8, 1e-2, 1e-6));
 }
 
 TYPED_TEST(WorldBodies, a_compound_stands_while_its_centre_is_above_its_support_and_falls_when_not) {
@@ -91,7 +94,8 @@ TYPED_TEST(WorldBodies, a_compound_stands_while_its_centre_is_above_its_support_
     add_ground(w);
     w.create(still<S>(add_box(w, 0.5, 0.5, 0.5), {0, 0.5, 0}));
     // A cube of 1 m^3 and a plate of 0.1 m^3 whose centre is 1 m aside: the whole's is 1/11 m from the cube's.
-    const D3 cube = heavy_end_supported ? D3{0, 0, 0} : D3{1, 0, 0}, plate = heavy_end_supported ? D3{1, 0, 0} : D3{0, 0, 0};
+    const D3 cube = heavy_end_supported ? D3{0, 0, 0} : D3{1, 0, 0},
+             plate = heavy_end_supported ? D3{1, 0, 0} : D3{0, 0, 0};
     BodyDefinition<S> d = moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, cube, {0.5, 0.5, 0.05}, plate), {0, 1.5, 0});
     const BodyId id = w.create(d);
     EXPECT_NEAR(to_double(w.centre(id).x), heavy_end_supported ? 1.0 / 11 : 10.0 / 11, 0.001);
@@ -115,7 +119,8 @@ TYPED_TEST(WorldBodies, gravity_acts_by_its_scale) {
     run(alone, 64);
     // Velocity first: x_n = a h^2 n (n + 1) / 2, n = 256.
     expect_near(real(alone.velocity(there)), {0, -8 * scale, 0}, 256 * speed_grain<S>(8));
-    EXPECT_NEAR(to_double(alone.centre(there).y), -8 * scale * 256 * 257 / 2 / 65536, pick<S>(1e-4, 1e-12, 64 * 0x1p-16, 1e-7));
+    EXPECT_NEAR(to_double(alone.centre(there).y), -8 * scale * 256 * 257 / 2 / 65536,
+                pick<S>(1e-4, 1e-12, 64 * 0x1p-16, 1e-7));
     EXPECT_TRUE(w.set_motion(id, num<S>(scale), S(0), S(0), 0));
   }
 }
@@ -153,7 +158,8 @@ TYPED_TEST(WorldBodies, a_locked_axis_holds_bit_for_bit_in_free_flight) {
   using S = TypeParam;
   World<S> w(settings<S>());
   BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.25, 1), {1, 20, 3});
-  d.locks = body_flag::kLockX | body_flag::kLockAngularX | body_flag::kLockAngularX << 1 | body_flag::kLockAngularX << 2;
+  d.locks =
+      body_flag::kLockX | body_flag::kLockAngularX | body_flag::kLockAngularX << 1 | body_flag::kLockAngularX << 2;
   const BodyId id = w.create(d);
   ASSERT_TRUE(w.apply_impulse(id, vec<S>(5, 0, 5), vec<S>(1, 2, 3)));
   run(w, 30);
@@ -445,7 +451,8 @@ TYPED_TEST(WorldBodies, contact_events_ascend_by_bodies_and_pair_up) {
   World<S> w(settings<S>());
   add_ground(w);
   const ShapeId ball = add_ball(w, 0.5);
-  for (int i = 0; i < 30; ++i) w.create(moving<S>(ball, {0.7 * (i % 5) + 0.01 * i, 1.0 + 1.1 * (i / 5), 0.6 * (i % 3)}));
+  for (int i = 0; i < 30; ++i)
+    w.create(moving<S>(ball, {0.7 * (i % 5) + 0.01 * i, 1.0 + 1.1 * (i / 5), 0.6 * (i % 3)}));
   std::vector<std::pair<BodyId, BodyId>> touching;
   std::size_t total = 0;
   const auto slots = [](auto& e) { return std::uint64_t{e.a.slot} << 32 | e.b.slot; };
@@ -503,7 +510,8 @@ TYPED_TEST(WorldBodies, a_body_stops_at_the_edge_of_the_world_and_that_is_report
 TYPED_TEST(WorldBodies, render_poses_lie_between_the_last_two_steps) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
-  BodyDefinition<S> d = moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}, {6, 0, 0});
+  BodyDefinition<S> d =
+      moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}, {6, 0, 0});
   d.angular_velocity = vec<S>(0, 3, 0);
   const BodyId id = w.create(d);
   w.create(still<S>(add_ball(w, 1), {20, 0, 0}));

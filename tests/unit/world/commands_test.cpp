@@ -195,7 +195,8 @@ TYPED_TEST(WorldCommands, bad_definitions_are_refused) {
   this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.position.y = Limits<S>::position() + S(1); });
   this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.velocity.z = -Limits<S>::speed() - S(1); });
   this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.angular_velocity.x = Limits<S>::spin() + S(1); });
-  this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.material.surface_velocity.x = Limits<S>::speed() + S(1); });
+  this->expect_bad_definition(Fault::out_of_range,
+                              [&](auto& d) { d.material.surface_velocity.x = Limits<S>::speed() + S(1); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.orientation.w = Unit<S>(0.5); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.type = static_cast<BodyType>(3); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.locks = body_flag::kSensor; });

@@ -24,7 +24,8 @@ template <class S> class WorldQuestions : public ::testing::Test {
   template <class Visit> void visit_parts(QueryFilter filter, Visit&& visit) const {
     for (const BodyId id : world.bodies()) {
       const BodyProperties<S>& body = properties(id);
-      if ((body.filter.category & filter.mask) == 0 || (!filter.sensors && (body.flags & body_flag::kSensor) != 0)) continue;
+      if ((body.filter.category & filter.mask) == 0 || (!filter.sensors && (body.flags & body_flag::kSensor) != 0))
+        continue;
       const Transform<S> placed = Transform<S>::of(world.pose(id));
       const ShapeRecord& shape = world.state().shapes[body.shape];
       for (std::uint32_t i = 0; i < shape.child_count; ++i) {
@@ -150,7 +151,8 @@ TYPED_TEST(WorldQuestions, an_overlap_names_every_body_it_meets_once_in_order) {
     std::vector<BodyId> difference;
     const auto before = [](BodyId a, BodyId b) { return a.slot < b.slot; };
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), before));
-    std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(), std::back_inserter(difference), before);
+    std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(),
+                                  std::back_inserter(difference), before);
     EXPECT_TRUE(difference.empty()) << i;
     total += found.size();
   }
@@ -254,9 +256,8 @@ TYPED_TEST(WorldQuestions, commands_given_as_data_do_what_the_calls_do) {
   material.friction = num<S>(0.25);
   EXPECT_TRUE(both(SetMaterial<S>{a, material}, [&](auto& w) { return w.set_material(a, material); }));
   EXPECT_TRUE(both(SetFilter{a, {2, 3, 4}}, [&](auto& w) { return w.set_filter(a, {2, 3, 4}); }));
-  EXPECT_TRUE(both(SetMotion<S>{a, S(1), S(1), S(2), body_flag::kLockX}, [&](auto& w) {
-    return w.set_motion(a, S(1), S(1), S(2), body_flag::kLockX);
-  }));
+  EXPECT_TRUE(both(SetMotion<S>{a, S(1), S(1), S(2), body_flag::kLockX},
+                   [&](auto& w) { return w.set_motion(a, S(1), S(1), S(2), body_flag::kLockX); }));
   EXPECT_TRUE(both(SetUserData{a, 9}, [&](auto& w) { return w.set_user_data(a, 9); }));
   EXPECT_TRUE(both(SetGravity<S>{u}, [&](auto& w) { return w.set_gravity(u); }));
   JointProperties<S> joint = called.joint_at(JointType::ball, a, b, pose);

@@ -275,7 +275,8 @@ TYPED_TEST(WorldSleep, what_hangs_from_a_body_wakes_when_that_body_is_moved) {
       d.type = type;
       const BodyId hook = w.create(d);
       const BodyId bob = w.create(moving<S>(ball, {0, 6, 0}));
-      JointProperties<S> rope = w.joint_at(JointType::distance, hook, bob, {vec<S>(0, 10, 0), Quat<Unit<S>>::identity()});
+      JointProperties<S> rope =
+          w.joint_at(JointType::distance, hook, bob, {vec<S>(0, 10, 0), Quat<Unit<S>>::identity()});
       rope.frame_b.position = Vec3<S>::zero();
       rope.lower = rope.upper = S(4);
       ASSERT_TRUE(w.create(rope));

@@ -64,7 +64,9 @@ template <class S> BodyDefinition<S> still(ShapeId shape, D3 position = {0, 0, 0
 template <class S> ShapeId add_box(World<S>& world, double x, double y, double z) {
   return world.add_shape(Box<S>{vec<S>(x, y, z)});
 }
-template <class S> ShapeId add_ball(World<S>& world, double radius) { return world.add_shape(Sphere<S>{num<S>(radius)}); }
+template <class S> ShapeId add_ball(World<S>& world, double radius) {
+  return world.add_shape(Sphere<S>{num<S>(radius)});
+}
 
 /// All points below y = 0.
 template <class S> BodyId add_ground(World<S>& world, double friction = 0.6) {

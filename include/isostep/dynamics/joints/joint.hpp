@@ -58,6 +58,8 @@ template <class S> struct JointProperties {
   std::uint32_t flags = 0;             // joint_flag
   std::uint32_t body_a = kNoBody;      // slots
   std::uint32_t body_b = kNoBody;
+  std::uint32_t generation_a = 0;      // of the bodies' ids: checked when the joint is made
+  std::uint32_t generation_b = 0;
   std::uint64_t user_data = 0;
   Pose<S> frame_a = Pose<S>::identity();  // from the centre of mass, body axes; for the world its own frame
   Pose<S> frame_b = Pose<S>::identity();
@@ -75,6 +77,8 @@ template <class S> struct JointProperties {
     visit("flags", self.flags);
     visit("body_a", self.body_a);
     visit("body_b", self.body_b);
+    visit("generation_a", self.generation_a);
+    visit("generation_b", self.generation_b);
     visit("user_data", self.user_data);
     visit("frame_a", self.frame_a);
     visit("frame_b", self.frame_b);

@@ -214,8 +214,8 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
     if (!drive.sprung) continue;
     drive.spring = soften(angle, p.spring_damping, step.rate);
     const S most = Limits<S>::speed();
-    drive.spring_speed =
-        convert<Velocity<S>>(clamp(drive.spring.bias_rate * (drive.position - drive.target), -most, most));
+    const auto asked = product(drive.spring.bias_rate, drive.position - drive.target), bound = product(most, S(1));
+    drive.spring_speed = convert<Velocity<S>>(bound < asked ? most : asked < -bound ? -most : round_to<S>(asked));
   }
 }
 

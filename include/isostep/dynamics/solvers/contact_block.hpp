@@ -22,7 +22,7 @@ template <class S, int W> struct NormalRow {
   AngularRow<S, W> row;
   Velocity<S> separation[W];    // [m] when the step began
   Velocity<S> approach[W];      // [m/s] normal speed when the step began, for restitution
-  Velocity<S> max_impulse[W];   // [m/s] largest of the step: restitution acts only where something pushed
+  Velocity<S> total_impulse[W]; // [m/s] given over the step, but for the sub-step that runs
 };
 
 template <class S, int W> struct FrictionRow {

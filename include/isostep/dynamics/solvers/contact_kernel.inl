@@ -134,7 +134,6 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const V soft = times(mass_scale, times(L::load(n.row.effective_mass), speed)) + times(impulse_scale, old);
       const V next = max(old - soft, V::zero());
       next.store(n.row.impulse);
-      max(V::load(n.max_impulse), next).store(n.max_impulse);
       push(c.normal, n.row, share, next - old, a, b);
     }
   }
@@ -151,7 +150,11 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       if constexpr (Rolling) {
         for (const AngularRow<S, W>& row : block.rolling.rows) turn(row, V::load(row.impulse), a, b);
       }
-      for (const NormalRow<S, W>& n : c.normals) push(c.normal, n.row, share, V::load(n.row.impulse), a, b);
+      for (NormalRow<S, W>& n : c.normals) {
+        const V impulse = V::load(n.row.impulse);
+        (V::load(n.total_impulse) + impulse).store(n.total_impulse);
+        push(c.normal, n.row, share, impulse, a, b);
+      }
       scatter(run.velocity, bodies.a, bodies.write_a, a);
       scatter(run.velocity, bodies.b, bodies.write_b, b);
     }
@@ -187,12 +190,13 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const L bounce = L::load(c.restitution);
       for (NormalRow<S, W>& n : c.normals) {
         const V approach = V::load(n.approach);
-        const auto acts = less(L::zero(), bounce) & less(approach, threshold) & less(V::zero(), V::load(n.max_impulse));
-        const V speed = along(c.normal, n.row, a, b) + times(bounce, approach);
         const V old = V::load(n.row.impulse);
+        // Only where something pushed: a gap that merely closed has nothing to give back.
+        const auto pushed = less(V::zero(), V::load(n.total_impulse) + old);
+        const auto acts = less(L::zero(), bounce) & less(approach, threshold) & pushed;
+        const V speed = along(c.normal, n.row, a, b) + times(bounce, approach);
         const V next = select(acts, max(old - times(L::load(n.row.effective_mass), speed), V::zero()), old);
         next.store(n.row.impulse);
-        max(V::load(n.max_impulse), next).store(n.max_impulse);
         push(c.normal, n.row, share, next - old, a, b);
       }
       scatter(run.velocity, bodies.a, bodies.write_a, a);

@@ -106,7 +106,7 @@ void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& g, con
     normal.row.impulse[0] = contact.normal_impulse[p];
     normal.separation[0] = convert<V>(point.separation);
     normal.approach[0] = round_to<V>(dot_sum(detail::relative_velocity<S>(motion_a, point.arm_a, motion_b, point.arm_b), g.normal));
-    normal.max_impulse[0] = V(0);
+    normal.total_impulse[0] = -contact.normal_impulse[p];  // the first warm start is the last step's
     total += contact.normal_impulse[p];
   }
 
@@ -132,10 +132,10 @@ void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& g, con
     constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
     auto sum = SumOf<S, S>{};
     for (std::uint32_t p = 0; p < contact.count; ++p) {
-      const Vec3<S> out = (g.points[p].arm_b - arm_b) * kShares[contact.count - 1];
-      sum = sum + dot_sum(out, g.points[p].arm_b - arm_b);
+      const Vec3<S> half = (g.points[p].arm_b - arm_b) * S(0.5);  // so that the largest patch's square fits
+      sum = sum + dot_sum(half * kShares[contact.count - 1], half);
     }
-    radius = S(0.541) * sqrt(round_to<S>(sum));
+    radius = S(2 * 0.541) * sqrt(round_to<S>(sum));
   }
   make.angular(n * radius, n * radius, S(0), block.twist);
   block.twist.impulse[0] = contact.count > 1 ? contact.twist_impulse : V(0);
@@ -155,7 +155,8 @@ void prepare_rolling(const ContactGeometry<S>& g, const SolverBodies<S>& bodies,
     const Vec3<S> jacobian = Vec3<S>{d[0][0], d[1][0], d[2][0]} * radius;
     make.angular(jacobian, jacobian, S(0), rolling.rows[k]);
   }
-  rolling.lever[0] = radius > S(0) ? g.material.rolling_resistance / radius : S(0);
+  // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
+  rolling.lever[0] = radius > S(0) ? min(g.material.rolling_resistance / radius, S(4)) : S(0);
 }
 
 }  // namespace isostep

@@ -35,7 +35,7 @@ template <class S> struct SolverInput {
   std::span<const Acceleration<S>> accelerations;  // per body, or empty
   std::span<Contact<S>> contacts;
   std::span<const ContactGeometry<S>> geometry;
-  std::span<Velocity<S>> peak_impulses;            // [m/s] per contact: filled by store_impulses
+  std::span<Velocity<S>> step_impulses;            // [m/s] per contact, of the whole step: filled by store_impulses
   std::span<JointConstraint<S>> joints;            // prepared
   Vec3<S> gravity;                                 // [m/s^2]
   std::int32_t hz;                                 // [1/s] steps

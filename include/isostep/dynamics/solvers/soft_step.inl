@@ -281,8 +281,7 @@ template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
 }
 
 namespace detail {
-/// A solved contact's impulses out of lane `lane` of its block; answers the largest normal impulse of the step, points
-/// together.
+/// A solved contact's impulses out of lane `lane` of its block; answers what its points pushed over the step.
 template <class S>
 ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t width, std::size_t lane, Contact<S>& contact) {
   using V = Velocity<S>;
@@ -291,11 +290,11 @@ ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t wid
   using Normal = NormalRow<S, 1>;
   using Tangent = FrictionRow<S, 1>;
   constexpr std::size_t impulse = offsetof(Row, impulse);
-  V peak = V(0);
+  V total = V(0);
   for (std::uint32_t p = 0; p < contact.count; ++p) {
     const std::size_t normal = offsetof(Block, normals) + p * sizeof(Normal);
     contact.normal_impulse[p] = unpack<S, V>(block, normal + impulse, width, lane);
-    peak += unpack<S, V>(block, normal + offsetof(Normal, max_impulse), width, lane);
+    total += unpack<S, V>(block, normal + offsetof(Normal, total_impulse), width, lane) + contact.normal_impulse[p];
   }
   contact.twist_impulse = unpack<S, V>(block, offsetof(Block, twist) + impulse, width, lane);
   Vec3<V> friction = Vec3<V>::zero();
@@ -309,8 +308,8 @@ ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t wid
     friction += {part(0), part(1), part(2)};
   }
   contact.friction_impulse = friction;
-  contact.flags = V(0) < peak ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
-  return peak;
+  contact.flags = V(0) < total ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
+  return total;
 }
 }  // namespace detail
 
@@ -323,7 +322,7 @@ template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input)
     for (std::uint32_t i = 0; i < run.count; ++i) {
       const std::uint32_t index = order_[run.first + i];
       const unsigned char* block = memory_.data()->bytes + run.offset + i / width * block_bytes + rolling_bytes;
-      input.peak_impulses[index] = detail::read_impulses(block, width, i % width, input.contacts[index]);
+      input.step_impulses[index] = detail::read_impulses(block, width, i % width, input.contacts[index]);
     }
   }
   for (std::size_t i = 0; i < input.states.size(); ++i) {

@@ -23,7 +23,7 @@ template <class S> ISO_INLINE constexpr Softness<S> soften(S angle, S damping, S
   const S a1 = S(2) * damping + angle;
   const S a2 = angle * a1;
   const S a3 = S(1) / (S(1) + a2);
-  return {rate * angle / a1, a2 * a3, a3};
+  return {rate * (angle / a1), a2 * a3, a3};
 }
 
 }  // namespace isostep

@@ -160,6 +160,13 @@ template <class S> ISO_INLINE constexpr S from_double(double value) {
   }
 }
 
+/// The largest number of the format.
+template <class S> ISO_INLINE constexpr S highest() {
+  if constexpr (kIsFixed<S>) return S::highest();
+  if constexpr (std::same_as<S, float>) return 0x1.fffffep127f;
+  if constexpr (std::same_as<S, double>) return 0x1.fffffffffffffp1023;
+}
+
 /// The smallest positive step of the format: one raw unit, or the machine epsilon.
 template <class S> ISO_INLINE constexpr S resolution() {
   if constexpr (kIsFixed<S>) return S::from_raw(1);

@@ -1,0 +1,88 @@
+// WorldEngine: the commands about joints.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/world/checks.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command) {
+  JointProperties<S> joint = command.joint;
+  if (!accept(detail::fault_of(joint, state_.settings.hz * state_.settings.substeps))) return {};
+  const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
+  const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
+  bool moves = false;
+  for (int end = 0; end < 2; ++end) {
+    if (ends[end].slot == kNoBody) continue;
+    if (!state_.body_slots.holds(ends[end])) {
+      refuse(Fault::stale_id);
+      return {};
+    }
+    const BodyProperties<S>& body = properties_at(locations_[ends[end].slot]);
+    if (detail::overreaches(body.kappa, arms[end])) {
+      refuse(Fault::out_of_range);
+      return {};
+    }
+    moves = moves || body.type == BodyType::dynamic;
+  }
+  if (!moves || joint.body_a == joint.body_b) {
+    refuse(moves ? Fault::bad_argument : Fault::not_dynamic);
+    return {};
+  }
+  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
+    if (slot != kNoBody) thaw_body(slot);
+    restless(slot);
+  }
+  joint.frame_a.orientation = normalise(joint.frame_a.orientation);
+  joint.frame_b.orientation = normalise(joint.frame_b.orientation);
+  const JointId id = state_.joint_slots.template take<JointId>();
+  JointState<S> state = {};
+  state.slot = id.slot;
+  insert_joint(state, joint);
+  return id;
+}
+
+/// Thaws the joint's island and unsettles what it ties; answers where it then lies in the awake image.
+template <class S> std::uint32_t WorldEngine<S>::wake_joint(JointId joint) {
+  const Location at = joint_locations_[joint.slot];
+  if (at.is_frozen()) thaw(at.set);
+  const std::uint32_t index = joint_locations_[joint.slot].index;
+  const JointProperties<S>& properties = state_.joints.properties[index];
+  restless(properties.body_a);
+  restless(properties.body_b);
+  return index;
+}
+
+template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
+  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  const std::uint32_t slot = command.joint.slot;
+  const std::uint32_t index = wake_joint(command.joint);
+  state_.joints.states.erase(state_.joints.states.begin() + index);
+  state_.joints.properties.erase(state_.joints.properties.begin() + index);
+  joint_locations_[slot] = Location{};
+  relabel_joints(state_.joints, Location::kAwake, index);
+  state_.joint_slots.give_back(slot);
+  return true;
+}
+
+template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
+  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  const JointProperties<S>& next = command.properties;
+  if (!accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
+  if (next.type != properties_of(command.joint)->type) return refuse(Fault::bad_argument);
+  JointProperties<S>& joint = state_.joints.properties[wake_joint(command.joint)];
+  joint.flags = next.flags;
+  joint.lower = next.lower;
+  joint.upper = next.upper;
+  joint.cone = next.cone;
+  joint.motor_speed = next.motor_speed;
+  joint.motor_torque = next.motor_torque;
+  joint.spring_target = next.spring_target;
+  joint.spring_frequency = next.spring_frequency;
+  joint.spring_damping = next.spring_damping;
+  joint.user_data = next.user_data;
+  return true;
+}
+
+}  // namespace isostep
