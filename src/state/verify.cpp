@@ -11,7 +11,12 @@ std::string text_of(std::string_view what, const Error& error) {
   return std::string(what).append(error.message.view()).append(" (").append(error.place.view()).append(")");
 }
 
-std::string shown(std::string_view value) { return value.empty() ? "missing" : "\"" + std::string(value) + "\""; }
+std::string shown(std::string_view value) {
+  if (value.empty()) return "missing";
+  std::string quoted = "\"";
+  quoted += value;
+  return quoted += '"';
+}
 
 std::string hash_text(std::uint64_t hash) { return std::string(ShortText<16>().append_hex(hash).view()); }
 

@@ -18,7 +18,7 @@ int golden_frames(const std::string& scene) {
     const char* scene;
     int frames;
   };
-  constexpr Row kRows[] = {{"S1s", 240}, {"S3", 30},  {"S5", 60}, {"S8", 120}, {"S9", 100}, {"mixed", 300}};
+  constexpr Row kRows[] = {{"S1s", 240}, {"S3", 30}, {"S5", 60}, {"S8", 120}, {"S9", 100}, {"mixed", 300}};
   for (const Row& row : kRows) {
     if (scene == row.scene) return row.frames;
   }

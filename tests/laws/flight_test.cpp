@@ -35,7 +35,7 @@ TYPED_TEST(FlightLaws, a_projectile_follows_the_recurrence_of_velocity_before_po
     run(w, 8 * rate.hz);
     const double n = 8.0 * rate.hz * rate.substeps, h = 1.0 / (rate.hz * rate.substeps);
     const D3 expected = from + v * 8.0 + D3{0, -10 * h * h * n * (n + 1) / 2, 0};
-    // Fixed point: every sub-step rounds the speed and the move by half a unit of the speed's format, every step the place
+    // Fixed point: every sub-step rounds speed and move by half a unit of the speed's format, every step the place
     // by half a unit of its own, at worst always the same way.
     const double in_speed = kIsFixed<S> ? n / 2 * speed_grain<S>() + grain<S>() : pick<S>(2e-3, 1e-11, 0, 0);
     const double in_place = kIsFixed<S> ? 8 * in_speed / 2 + n / 2 * speed_grain<S>() + 4.0 * rate.hz * grain<S>()

@@ -103,7 +103,10 @@ template <class S, class Sum> S saturate_to(Sum sum, S highest) {
   return bound < sum ? highest : sum < -bound ? -highest : round_to<S>(sum);
 }
 
-template <class S> bool is_place(Vec3<S> point) { return is_finite(point) && within(point, Limits<S>::position()); }
+template <class S> Fault fault_of_place(Vec3<S> point) {
+  if (!is_finite(point)) return Fault::not_finite;
+  return within(point, Limits<S>::position()) ? Fault::none : Fault::out_of_range;
+}
 
 /// The moment of a force that a user gave, whatever its size.
 template <class S> Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {

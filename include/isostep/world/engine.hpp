@@ -84,6 +84,7 @@ template <class S> class WorldEngine {
     fault_ = fault;
     return false;
   }
+  bool accept(Fault fault) { return fault == Fault::none || refuse(fault); }
 
   WorldState<S> state_;
   Events<S> events_;
@@ -114,7 +115,6 @@ template <class S> class WorldEngine {
 
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);
-  bool accept(Fault fault);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
 
   // engine_joint_commands.inl

@@ -38,8 +38,6 @@ template <class S> Vec3<Velocity<S>> bounded_velocity(Vec3<Velocity<S>> a, Vec3<
 }
 }  // namespace detail
 
-template <class S> bool WorldEngine<S>::accept(Fault fault) { return fault == Fault::none || refuse(fault); }
-
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
   if (command.children.size() > detail::kMaxChildren) {
     refuse(Fault::bad_shape);

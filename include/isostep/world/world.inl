@@ -95,7 +95,7 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!detail::is_place(point)) return engine_->refuse(Fault::out_of_range);
+  if (!engine_->accept(detail::fault_of_place(point))) return false;
   return apply_force(body, force, detail::saturated_cross(point - centre(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
@@ -103,7 +103,7 @@ template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Ve
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!detail::is_place(point)) return engine_->refuse(Fault::out_of_range);
+  if (!engine_->accept(detail::fault_of_place(point))) return false;
   return apply_impulse(body, impulse, detail::saturated_cross(point - centre(body), impulse));
 }
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) {

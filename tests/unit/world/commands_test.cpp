@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace {
 
-/// A world in full swing: things awake, asleep, joined, pressed together and watched, so that whatever a refused command
+/// A world in full swing: things awake, asleep, joined, pressed together and watched, so that what a refused command
 /// touched would show in the hash.
 template <class S> class WorldCommands : public ::testing::Test {
  protected:
@@ -39,7 +39,8 @@ template <class S> class WorldCommands : public ::testing::Test {
     EXPECT_TRUE(world.is_awake(flier));
   }
 
-  template <class Command> void expect_refused(Fault fault, Command&& command) {
+  template <class Command> void expect_refused(Fault fault, Command&& command, int line = __builtin_LINE()) {
+    SCOPED_TRACE(line);
     const std::uint64_t before = world.hash();
     std::vector<std::uint8_t> tape;
     world.record_to(&tape);
@@ -49,7 +50,8 @@ template <class S> class WorldCommands : public ::testing::Test {
     EXPECT_EQ(world.hash(), before) << "a refused command changed something: " << fault_text(fault);
     EXPECT_TRUE(tape.empty());
   }
-  template <class Change> void expect_bad_definition(Fault fault, Change&& change) {
+  template <class Change> void expect_bad_definition(Fault fault, Change&& change, int line = __builtin_LINE()) {
+    SCOPED_TRACE(line);
     BodyDefinition<S> d = moving<S>(ball, {2, 9, 0});
     change(d);
     expect_refused(fault, [&] { return world.create(d); });

@@ -1,4 +1,4 @@
-// The portable form from hands that nobody vouches for: refused, or a world that steps; and values at the rim of a scalar.
+// The portable form from hands nobody vouches for: refused, or a world that steps; and numbers at a scalar's rim.
 // SPDX-License-Identifier: MIT
 
 #include <limits>

@@ -1,4 +1,4 @@
-// What the tests of worlds share: numbers in and out of a scalar, bodies in a line, and the poses of a world as doubles.
+// What the tests of worlds share: numbers in and out of a scalar, short definitions, tolerances by scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 

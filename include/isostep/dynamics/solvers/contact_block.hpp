@@ -45,7 +45,7 @@ template <class S, int W, int P> struct ContactBlock {
   NormalRow<S, W> normals[P];
 };
 
-/// Rolling resistance: two more angular rows about the tangents.
+/// Rolling resistance: two more angular rows about tangents of their own.
 template <class S, int W> struct RollingRows {
   AngularRow<S, W> rows[2];
   S lever[W];           // [1] resisting torque per normal impulse, over the rows' radius

@@ -17,7 +17,7 @@ template <class S>
 void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& geometry, const SolverBodies<S>& bodies,
                      ContactBlock<S, 1, kMaxContactPoints>& block);
 
-/// The rows that resist rolling, about the tangents of a prepared block.
+/// The rows that resist rolling, for a prepared block.
 template <class S>
 void prepare_rolling(const ContactGeometry<S>& geometry, const SolverBodies<S>& bodies,
                      const ContactBlock<S, 1, kMaxContactPoints>& block, RollingRows<S, 1>& rolling);

@@ -52,24 +52,27 @@ ISO_INLINE Vec3<Velocity<S>> relative_velocity(const MotionRow<Velocity<S>>& a, 
   return b.linear - a.linear + Vec3<V>{part(1, 2), part(2, 0), part(0, 1)};
 }
 
+/// A vector less its part along the normal.
+template <class V, class U> ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
+  const V along = round_to<V>(dot_sum(x, n));
+  return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)), x.z - round_to<V>(product(along, n.z))};
+}
+/// Two tangents, the first along a flat vector.
+template <class V, class U> ISO_INLINE Tangents<U> basis_along(Vec3<V> lead, Vec3<U> n) {
+  const Direction<V> t = direction_of(lead.x, lead.y, lead.z);
+  const Vec3<U> first = {t.x, t.y, t.z};
+  return {first, cross(n, first)};
+}
+
 /// The friction basis: along the friction that the contact already bears, else along the slip, so that the two rows'
 /// separate limits act as one cone; where there is neither, any.
 template <class S>
 ISO_INLINE Tangents<Unit<S>> friction_basis(Vec3<Unit<S>> n, Vec3<Velocity<S>> borne, Velocity<S> limit, Vec3<Velocity<S>> slip) {
   using V = Velocity<S>;
-  const auto flatten = [&](Vec3<V> x) {
-    const V along = round_to<V>(dot_sum(x, n));
-    return Vec3<V>{x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)),
-                   x.z - round_to<V>(product(along, n.z))};
-  };
-  Vec3<V> lead = flatten(borne);
-  if (!(V(8) * max_abs(lead) > limit)) {   // an eighth of what the cone allows: below, the direction is noise
-    lead = flatten(slip);
-    if (!(max_abs(lead) > V(0.01))) return tangents_of(n);  // [m/s] slower is rest
-  }
-  const Direction<V> t = direction_of(lead.x, lead.y, lead.z);
-  const Vec3<Unit<S>> first = {t.x, t.y, t.z};
-  return {first, cross(n, first)};
+  const Vec3<V> force = flatten(borne, n);
+  if (V(8) * max_abs(force) > limit) return basis_along(force, n);  // an eighth of the cone: below, direction is noise
+  const Vec3<V> slide = flatten(slip, n);
+  return max_abs(slide) > V(0.01) ? basis_along(slide, n) : tangents_of(n);  // [m/s] slower is rest
 }
 
 /// Mean arm of the contact's points.
@@ -150,9 +153,14 @@ void prepare_rolling(const ContactGeometry<S>& g, const SolverBodies<S>& bodies,
   const S radius_a = bodies.moves(g.row_a) ? abs(dot(g.points[0].arm_a, g.normal)) : S(0);
   const S radius_b = bodies.moves(g.row_b) ? abs(dot(g.points[0].arm_b, g.normal)) : S(0);
   const S radius = max(radius_a, radius_b);
+  // Along the rolling itself, so that the two rows' separate limits resist it as one.
+  using V = Velocity<S>;
+  const Vec3<V> spin = detail::flatten(bodies.velocity[g.row_b].angular - bodies.velocity[g.row_a].angular, g.normal);
+  const bool rolls = max_abs(spin) > V(0.01);  // [rad/s] slower is rest
+  const Tangents<Unit<S>> basis = rolls ? detail::basis_along(spin, g.normal) : tangents_of(g.normal);
+  const Vec3<Unit<S>> axes[2] = {basis.t, basis.u};
   for (int k = 0; k < 2; ++k) {
-    const auto& d = block.tangents[k].direction;
-    const Vec3<S> jacobian = Vec3<S>{d[0][0], d[1][0], d[2][0]} * radius;
+    const Vec3<S> jacobian = convert<S>(axes[k]) * radius;
     make.angular(jacobian, jacobian, S(0), rolling.rows[k]);
   }
   // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
