@@ -123,14 +123,14 @@ template <class S> void mat3_mat3_eigen(benchmark::State& state) {
   run(state, [&](std::size_t i) { return (m[i] * m[kCount - 1 - i]).eval(); });
 }
 
-#define ISO_BENCH_BOTH(operation)                     \
-  BENCHMARK_TEMPLATE(operation##_own, float);         \
-  BENCHMARK_TEMPLATE(operation##_eigen, float);       \
-  BENCHMARK_TEMPLATE(operation##_own, double);        \
-  BENCHMARK_TEMPLATE(operation##_eigen, double);      \
-  BENCHMARK_TEMPLATE(operation##_own, Q16_16);        \
-  BENCHMARK_TEMPLATE(operation##_eigen, Q16_16);      \
-  BENCHMARK_TEMPLATE(operation##_own, Q32_32);        \
+#define ISO_BENCH_BOTH(operation)                \
+  BENCHMARK_TEMPLATE(operation##_own, float);    \
+  BENCHMARK_TEMPLATE(operation##_eigen, float);  \
+  BENCHMARK_TEMPLATE(operation##_own, double);   \
+  BENCHMARK_TEMPLATE(operation##_eigen, double); \
+  BENCHMARK_TEMPLATE(operation##_own, Q16_16);   \
+  BENCHMARK_TEMPLATE(operation##_eigen, Q16_16); \
+  BENCHMARK_TEMPLATE(operation##_own, Q32_32);   \
   BENCHMARK_TEMPLATE(operation##_eigen, Q32_32)
 ISO_BENCH_BOTH(dot);
 ISO_BENCH_BOTH(cross);

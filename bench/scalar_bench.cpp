@@ -89,10 +89,10 @@ template <class S> void normalise4(benchmark::State& s) {
   });
 }
 
-#define ISO_BENCH(FUNCTION)              \
-  BENCHMARK_TEMPLATE(FUNCTION, float);   \
-  BENCHMARK_TEMPLATE(FUNCTION, double);  \
-  BENCHMARK_TEMPLATE(FUNCTION, Q16_16);  \
+#define ISO_BENCH(FUNCTION)             \
+  BENCHMARK_TEMPLATE(FUNCTION, float);  \
+  BENCHMARK_TEMPLATE(FUNCTION, double); \
+  BENCHMARK_TEMPLATE(FUNCTION, Q16_16); \
   BENCHMARK_TEMPLATE(FUNCTION, Q32_32);
 ISO_BENCH(add)
 ISO_BENCH(multiply)

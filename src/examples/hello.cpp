@@ -13,6 +13,7 @@ int main() {
   constexpr std::uint32_t kGround = 1, kCrate = 2, kAll = 3;
   const iso::Material<iso::Q32_32> wood = {.friction = 0.5, .restitution = 0.25};
 
+  // clang-format off: these lines are README's
   // README: begin
   World world({.hz = 60, .substeps = 8, .gravity = {0, -10, 0}});
   auto ground = world.add_shape(iso::Box{{50, 1, 50}});
@@ -38,6 +39,7 @@ int main() {
 
   auto hit = world.cast_ray({0, 5, 0}, {0, -10, 0}, {.mask = kCrate});
   // README: end
+  // clang-format on
 
   std::printf("%016llx %s, hardest impact %.2f kg m/s, ray hits user %llu\n", static_cast<unsigned long long>(hash),
               equal ? "equal after rollback" : "DIFFERENT after rollback", iso::to_double(hardest),

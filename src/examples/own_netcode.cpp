@@ -82,7 +82,9 @@ int main() {
       peer.advance(frame, player);
     }
   }
-  const bool equal = peers[0].game.world.hash() == straight.world.hash() && peers[1].game.world.hash() == straight.world.hash();
-  std::printf("%d and %d rollbacks, %s\n", peers[0].rollbacks, peers[1].rollbacks, equal ? "all three worlds equal" : "DIVERGED");
+  const bool equal =
+      peers[0].game.world.hash() == straight.world.hash() && peers[1].game.world.hash() == straight.world.hash();
+  std::printf("%d and %d rollbacks, %s\n", peers[0].rollbacks, peers[1].rollbacks,
+              equal ? "all three worlds equal" : "DIVERGED");
   return equal && peers[0].rollbacks > 10 && peers[1].rollbacks > 10 ? 0 : 1;
 }

@@ -5,7 +5,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)  \
+#define ISO_INSTANTIATE(S)    \
   template class AabbTree<S>; \
   template class PairSet<S>;
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)

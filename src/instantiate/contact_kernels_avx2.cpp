@@ -8,10 +8,10 @@
 namespace isostep {
 
 #if defined(__AVX2__)
-#define ISO_DEFINE_AVX2_KERNELS(S, W)                                                                   \
-  template <> const ContactKernels<S>* detail::avx2_kernels<S>() {                                      \
-    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, W, isa::Avx2>("avx2");          \
-    return &kTable;                                                                                     \
+#define ISO_DEFINE_AVX2_KERNELS(S, W)                                                          \
+  template <> const ContactKernels<S>* detail::avx2_kernels<S>() {                             \
+    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, W, isa::Avx2>("avx2"); \
+    return &kTable;                                                                            \
   }
 #else
 #define ISO_DEFINE_AVX2_KERNELS(S, W) \

@@ -9,10 +9,10 @@
 namespace isostep {
 
 #if defined(__SSE2__)
-#define ISO_DEFINE_SSE2_KERNELS(S, W)                                                                   \
-  template <> const ContactKernels<S>* detail::sse2_kernels<S>() {                                      \
-    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, W, isa::Sse2>("sse2");          \
-    return &kTable;                                                                                     \
+#define ISO_DEFINE_SSE2_KERNELS(S, W)                                                          \
+  template <> const ContactKernels<S>* detail::sse2_kernels<S>() {                             \
+    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, W, isa::Sse2>("sse2"); \
+    return &kTable;                                                                            \
   }
 #else
 #define ISO_DEFINE_SSE2_KERNELS(S, W) \

@@ -5,11 +5,11 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)                                                            \
-  template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S);        \
-  template ShapeFault validate<S>(const Primitive<S>&);                               \
-  template ShapeFault validate<S>(const Pose<S>&);                                    \
-  template ShapeFault validate<S>(std::span<const Child<S>>);                         \
+#define ISO_INSTANTIATE(S)                                                     \
+  template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S); \
+  template ShapeFault validate<S>(const Primitive<S>&);                        \
+  template ShapeFault validate<S>(const Pose<S>&);                             \
+  template ShapeFault validate<S>(std::span<const Child<S>>);                  \
   template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

@@ -4,12 +4,12 @@
 
 namespace isostep {
 
-#define ISO_FLOAT_MATH(S)                                          \
-  S sin(S x) { return detail::sin_float(x); }                      \
-  S cos(S x) { return detail::cos_float(x); }                      \
-  SinCos<S> sin_cos(S x) { return detail::sin_cos_float(x); }      \
-  S atan2(S y, S x) { return detail::atan2_float(y, x); }          \
-  S asin(S x) { return detail::asin_float(x); }                    \
+#define ISO_FLOAT_MATH(S)                                     \
+  S sin(S x) { return detail::sin_float(x); }                 \
+  S cos(S x) { return detail::cos_float(x); }                 \
+  SinCos<S> sin_cos(S x) { return detail::sin_cos_float(x); } \
+  S atan2(S y, S x) { return detail::atan2_float(y, x); }     \
+  S asin(S x) { return detail::asin_float(x); }               \
   S acos(S x) { return detail::acos_float(x); }
 ISO_FLOAT_MATH(float)
 ISO_FLOAT_MATH(double)

@@ -45,8 +45,13 @@ void DiffReport::add(const PathPart& path, LeafFormat format, std::uint64_t a, s
   const std::string text_b = value_text(format, b);
   const std::string bits_a = bits_text(format, a);
   const std::string bits_b = bits_text(format, b);
-  Difference difference{{},     std::string_view(text_a),     std::string_view(text_b), std::string_view(bits_a),
-                        std::string_view(bits_b), steps_between(format, a, b), unit_of(format)};
+  Difference difference{{},
+                        std::string_view(text_a),
+                        std::string_view(text_b),
+                        std::string_view(bits_a),
+                        std::string_view(bits_b),
+                        steps_between(format, a, b),
+                        unit_of(format)};
   append_path(path, difference.path);
   kept_.push_back(difference);
 }

@@ -114,8 +114,11 @@ Result<ReplayIdentity> identity_of(const ReplayHeader& header) {
   const struct {
     std::string_view key;
     std::string_view* to;
-  } texts[] = {{"engine", &identity.engine}, {"scalar", &identity.scalar},       {"solver", &identity.solver},
-               {"scene", &identity.scene},   {"hash", &identity.hash_algorithm}};
+  } texts[] = {{"engine", &identity.engine},
+               {"scalar", &identity.scalar},
+               {"solver", &identity.solver},
+               {"scene", &identity.scene},
+               {"hash", &identity.hash_algorithm}};
   for (const auto& text : texts) {
     const ReplayField* field = header.find(text.key);
     if (field == nullptr) return bad_field(text.key, "the field is missing");

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "isostep/core/version.hpp"
 #include "replay_check.hpp"
 #include "run_report.hpp"
 #include "scene_game.hpp"
@@ -35,7 +36,6 @@ template <class S> Recording record(const DemoScene& demo) {
   std::vector<double> ms;
   for (int i = 0; i < demo.frames; ++i) {
     stop_if_interrupted();
-    recorder.start_frame();
     scenes::before_step(game.script, game.world);
     const double before = thread_milliseconds();
     game.world.step();

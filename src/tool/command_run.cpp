@@ -85,7 +85,6 @@ template <class S> class Run {
 
   void step(int frame, bool last_second) {
     World<S>& world = game_.world;
-    if (recorder_) recorder_->start_frame();
     scenes::before_step(game_.script, world);
     const double before = thread_milliseconds();
     const StepReport report = world.step();

@@ -1,24 +1,12 @@
-// Golden files as text, and their digest.
+// Golden files as text.
 // SPDX-License-Identifier: MIT
 #include "goldens.hpp"
 
 #include <charconv>
 
-#include "isostep/state/hash.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {
-
-std::uint64_t behaviour_version() {
-  HashStream stream;
-  for (const GoldenText& golden : golden_texts()) {
-    const std::string_view name = golden.name, text = golden.text;
-    stream.update(name.data(), name.size());
-    stream.update("\n", 1);
-    stream.update(text.data(), text.size());
-  }
-  return stream.value();
-}
 
 std::optional<GoldenName> parse_golden_name(const std::string& name) {
   const std::size_t dot = name.find('.');

@@ -1,4 +1,4 @@
-// The golden hashes that this build carries, and the behaviour version that is their digest.
+// The golden hashes that this build carries.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,9 +18,6 @@ struct GoldenText {
 };
 /// Ascending by name.
 std::span<const GoldenText> golden_texts();
-
-/// XXH3-64 over names and texts: two builds with one behaviour version promise each other's results.
-std::uint64_t behaviour_version();
 
 struct GoldenName {
   std::string scene, scalar;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "files.hpp"
+#include "isostep/core/version.hpp"
 #include "scene_game.hpp"
 #include "scenes/named.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "goldens.hpp"
-#include "isostep/state/record.hpp"
+#include "isostep/world/recorder.hpp"
 #include "isostep/world/world.hpp"
 #include "scenes/build.hpp"
 #include "scenes/script.hpp"
@@ -41,54 +41,6 @@ template <class S> struct SceneGame {
 
   scenes::Script script;
   World<S> world;
-};
-
-/// Of everything in the settings that a replay's header does not name by itself.
-template <class S> std::uint64_t settings_digest(const Settings<S>& settings) {
-  std::vector<std::uint8_t> bytes;
-  Writer writer(bytes);
-  writer.write(settings.gravity);
-  writer.write(settings.allow_sleep);
-  return hash_bytes(bytes.data(), bytes.size());
-}
-
-inline const char* solver_name(SolverName solver) { return solver == SolverName::soft_step ? "soft_step" : "unknown"; }
-
-template <class S> ReplayIdentity identity_of_world(const Settings<S>& settings, std::string_view scene) {
-  ReplayIdentity identity{};
-  identity.behaviour = behaviour_version();
-  identity.scalar = ScalarTraits<S>::kName;
-  identity.scalar_id = ScalarTraits<S>::kId;
-  identity.hz = static_cast<std::uint32_t>(settings.hz);
-  identity.substeps = static_cast<std::uint32_t>(settings.substeps);
-  identity.solver = solver_name(settings.solver);
-  identity.settings_digest = settings_digest(settings);
-  identity.scene = scene;
-  return identity;
-}
-
-/// Records a world's commands: `begin`, then for every frame `start_frame`, commands, step, `end_frame`; then `finish`.
-template <class S> class WorldRecorder {
- public:
-  WorldRecorder(World<S>& world, ReplaySink sink) : world_(world), recorder_(sink) {}
-  ~WorldRecorder() { world_.record_to(nullptr); }
-  WorldRecorder(const WorldRecorder&) = delete;
-  WorldRecorder& operator=(const WorldRecorder&) = delete;
-
-  Result<void> begin(std::string_view scene) {
-    const Result<ReplayHeader> header = make_replay_header(identity_of_world(world_.settings(), scene));
-    if (!header) return header.error();
-    world_.record_to(&tape_);
-    return recorder_.begin(world_, header.value());
-  }
-  void start_frame() { tape_.clear(); }
-  Result<void> end_frame(std::uint64_t hash) { return recorder_.frame(tape_, hash); }
-  Result<void> finish() { return recorder_.finish(); }
-
- private:
-  World<S>& world_;
-  Recorder<World<S>> recorder_;
-  std::vector<std::uint8_t> tape_;
 };
 
 /// The hash after each of so many frames; throws when interrupted.

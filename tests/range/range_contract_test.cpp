@@ -75,7 +75,8 @@ TYPED_TEST(RangeContract, BodiesAtTheSpeedLimitCollide) {
   const S speed = Limits<S>::speed() * S(0.5);  // each: they close at the limit
   for (int i = 0; i < 8; ++i) {
     const S gap = S(0.5) + speed * S(2.0 / 60) * S(i) * S(0.125);
-    const BodyId left = this->add(ball, {-gap, S(1 + 2 * i), 0}, S(1)), right = this->add(ball, {gap, S(1 + 2 * i), 0}, S(3));
+    const BodyId left = this->add(ball, {-gap, S(1 + 2 * i), 0}, S(1)),
+                 right = this->add(ball, {gap, S(1 + 2 * i), 0}, S(3));
     this->world.set_velocity(left, {speed, 0, 0}, {0, 0, Limits<S>::spin()});
     this->world.set_velocity(right, {-speed, 0, 0}, {0, Limits<S>::spin(), 0});
   }

@@ -19,7 +19,9 @@ struct AnyVisitor {
 
 /// A struct that names its members in order: static void fields(visitor, self) calls visitor("name", self.member).
 template <class T>
-concept HasFields = requires(T& value) { T::fields(detail::AnyVisitor{}, value); };
+concept HasFields = requires(T& value) {
+  T::fields(detail::AnyVisitor{}, value);
+};
 
 /// A number that is stored as it is: an integer, an enumeration, or a scalar (by its bits).
 template <class T>
@@ -29,9 +31,7 @@ namespace detail {
 template <class T> constexpr std::size_t packed_size();
 struct SizeVisitor {
   std::size_t* total;
-  template <class T> constexpr void operator()(const char*, const T&) const {
-    *total += packed_size<T>();
-  }
+  template <class T> constexpr void operator()(const char*, const T&) const { *total += packed_size<T>(); }
 };
 template <class T> constexpr std::size_t packed_size() {
   if constexpr (std::is_bounded_array_v<T>) {

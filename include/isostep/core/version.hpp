@@ -1,7 +1,8 @@
-// The version of the interface, and what this library was built with; the version of the results is a digest of the
-// golden hashes and lives with them.
+// The versions of the interface and of the results, and what this library was built with.
 // SPDX-License-Identifier: MIT
 #pragma once
+
+#include <cstdint>
 
 namespace isostep {
 
@@ -9,6 +10,10 @@ inline constexpr int kVersionMajor = 0;
 inline constexpr int kVersionMinor = 1;
 inline constexpr int kVersionPatch = 0;
 inline constexpr char kVersionText[] = "0.1.0";
+
+/// The version of the results: a digest of the golden hashes in replays/goldens. Two builds of one behaviour version
+/// promise each other's frame hashes, whatever else differs.
+std::uint64_t behaviour_version();
 
 /// Of the library, not of the file that includes this header. Informative: nothing is ever refused because of them.
 const char* compiler_name();

@@ -20,24 +20,24 @@ inline constexpr BodyType kinematic = BodyType::kinematic;
 
 /// Bits of BodyProperties::flags.
 namespace body_flag {
-inline constexpr std::uint32_t kSensor = 1u << 0;         // reports overlaps, is not solved
+inline constexpr std::uint32_t kSensor = 1u << 0;  // reports overlaps, is not solved
 inline constexpr std::uint32_t kAllowSleep = 1u << 1;
-inline constexpr std::uint32_t kCollide = 1u << 2;        // has contacts at all
-inline constexpr std::uint32_t kSpins = 1u << 3;          // inertia differs between axes: the gyroscopic term matters
-inline constexpr std::uint32_t kLockX = 1u << 8;          // no motion along world x; then y, z, and turning about x, y, z
+inline constexpr std::uint32_t kCollide = 1u << 2;  // has contacts at all
+inline constexpr std::uint32_t kSpins = 1u << 3;    // inertia differs between axes: the gyroscopic term matters
+inline constexpr std::uint32_t kLockX = 1u << 8;    // no motion along world x; then y, z, and turning about x, y, z
 inline constexpr std::uint32_t kLockAngularX = 1u << 11;
 inline constexpr std::uint32_t kAllLocks = 0x3fu << 8;
 }  // namespace body_flag
 
 /// The part of a body that the step changes.
 template <class S> struct BodyState {
-  std::uint32_t slot;           // of its id
-  std::uint32_t sleep_clock;    // steps spent slower than the sleep speed
-  Vec3<S> centre;               // [m] centre of mass, world
-  Quat<Unit<S>> orientation;    // body frame to world
-  Vec3<Velocity<S>> velocity;   // [m/s] of the centre of mass
-  Vec3<Velocity<S>> spin;       // [rad/s] angular velocity, world
-  Aabb<S> fat;                  // [m] bounds plus margin: renewed when the body leaves them
+  std::uint32_t slot;          // of its id
+  std::uint32_t sleep_clock;   // steps spent slower than the sleep speed
+  Vec3<S> centre;              // [m] centre of mass, world
+  Quat<Unit<S>> orientation;   // body frame to world
+  Vec3<Velocity<S>> velocity;  // [m/s] of the centre of mass
+  Vec3<Velocity<S>> spin;      // [rad/s] angular velocity, world
+  Aabb<S> fat;                 // [m] bounds plus margin: renewed when the body leaves them
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
@@ -52,9 +52,9 @@ template <class S> struct BodyState {
 
 /// What a surface is like. Two surfaces mix: friction by the root of the product, the rest by the larger.
 template <class S> struct Material {
-  S friction = S(0.6);            // [1] Coulomb
-  S restitution = S(0);           // [1] 0..1
-  S rolling_resistance = S(0);    // [m] lever arm of the normal force that resists rolling
+  S friction = S(0.6);                            // [1] Coulomb
+  S restitution = S(0);                           // [1] 0..1
+  S rolling_resistance = S(0);                    // [m] lever arm of the normal force that resists rolling
   Vec3<S> surface_velocity = {S(0), S(0), S(0)};  // [m/s] world, a conveyor belt's
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
@@ -85,18 +85,18 @@ ISO_INLINE constexpr bool should_collide(const Filter& a, const Filter& b) {
 /// The part of a body that only commands change.
 template <class S> struct BodyProperties {
   BodyType type;
-  std::uint32_t flags;          // body_flag
-  std::uint32_t shape;          // slot of its shape
+  std::uint32_t flags;  // body_flag
+  std::uint32_t shape;  // slot of its shape
   Filter filter;
   std::uint64_t user_data;
-  S mass;                       // [kg]
-  Vec3<S> kappa;                // [1/m^2] mass times inverse inertia, principal axes: geometry alone, so never far from 1/size^2
-  Quat<Unit<S>> principal;      // principal axes to body frame
-  Vec3<S> local_centre;         // [m] centre of mass, body frame
+  S mass;         // [kg]
+  Vec3<S> kappa;  // [1/m^2] mass times inverse inertia, principal axes: geometry alone, so never far from 1/size^2
+  Quat<Unit<S>> principal;  // principal axes to body frame
+  Vec3<S> local_centre;     // [m] centre of mass, body frame
   Material<S> material;
-  S gravity_scale;              // [1]
-  S linear_damping;             // [1/s]
-  S angular_damping;            // [1/s]
+  S gravity_scale;    // [1]
+  S linear_damping;   // [1/s]
+  S angular_damping;  // [1/s]
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);

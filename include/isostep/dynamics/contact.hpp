@@ -41,12 +41,12 @@ inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse in th
 /// State: a contact that has points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).
 template <class S> struct Contact {
   ContactKey key;
-  std::uint32_t count;                     // points, 1..4
-  std::uint32_t flags;                     // contact_flag
+  std::uint32_t count;  // points, 1..4
+  std::uint32_t flags;  // contact_flag
   std::uint32_t features[kMaxContactPoints];
   Velocity<S> normal_impulse[kMaxContactPoints];  // [m/s]
-  Vec3<Velocity<S>> friction_impulse;      // [m/s] world, on b
-  Velocity<S> twist_impulse;               // [m/s] on b about the normal, times the patch radius
+  Vec3<Velocity<S>> friction_impulse;             // [m/s] world, on b
+  Velocity<S> twist_impulse;                      // [m/s] on b about the normal, times the patch radius
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("key", self.key);
@@ -62,20 +62,20 @@ static_assert(kHasNoPadding<Contact<float>> && kHasNoPadding<Contact<double>>);
 
 /// Two materials met.
 template <class S> struct MixedMaterial {
-  S friction;                 // [1]
-  S restitution;              // [1]
-  S rolling_resistance;       // [m]
-  Vec3<S> surface_velocity;   // [m/s] of b's surface against a's, world
+  S friction;                // [1]
+  S restitution;             // [1]
+  S rolling_resistance;      // [m]
+  Vec3<S> surface_velocity;  // [m/s] of b's surface against a's, world
 };
 
 /// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the
 /// contacts.
 template <class S> struct ContactGeometry {
   std::uint32_t row_a, row_b;
-  Vec3<Unit<S>> normal;       // [1] from a to b, world
+  Vec3<Unit<S>> normal;  // [1] from a to b, world
   struct Point {
-    Vec3<S> arm_a, arm_b;     // [m] from each centre of mass, world
-    S separation;             // [m] negative: overlap
+    Vec3<S> arm_a, arm_b;  // [m] from each centre of mass, world
+    S separation;          // [m] negative: overlap
   } points[kMaxContactPoints];
   MixedMaterial<S> material;
 };

@@ -6,18 +6,20 @@
 
 namespace isostep {
 
-/// Spin after a time step h of torque-free turning: one Newton step on I (w' - w) + h w' x I w' = 0 in the principal frame.
+/// Spin after a time step h of torque-free turning: one Newton step on I (w' - w) + h w' x I w' = 0 in the principal
+/// frame.
 /// Source:  Catto 2015, Numerical Methods (GDC), implicit gyroscopic torque.
 /// Symbols: inertia = principal moments over the largest of them [1]; only ratios matter, so no unit is needed.
 /// Frames:  `axes` leads from the principal frame to the world; spin is in the world [rad/s].
 template <class S>
-ISO_INLINE Vec3<Velocity<S>> turn_freely(const Mat3<Unit<S>>& axes, Vec3<S> inertia, Vec3<Velocity<S>> spin, Step<S> h) {
+ISO_INLINE Vec3<Velocity<S>> turn_freely(const Mat3<Unit<S>>& axes, Vec3<S> inertia, Vec3<Velocity<S>> spin,
+                                         Step<S> h) {
   using V = Velocity<S>;
   const auto local = [&](int i) { return round_to<V>(dot_sum(axes.column(i), spin)); };
   const Vec3<V> w = {local(0), local(1), local(2)};
   const auto times = [](auto a, V b) { return round_to<V>(product(a, b)); };
   const Vec3<V> moment = {times(inertia.x, w.x), times(inertia.y, w.y), times(inertia.z, w.z)};
-  const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};                    // [rad]
+  const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};  // [rad]
   const Vec3<V> hm = {times(h, moment.x), times(h, moment.y), times(h, moment.z)};
   const Vec3<V> f = {round_to<V>(product(hw.y, moment.z) - product(hw.z, moment.y)),
                      round_to<V>(product(hw.z, moment.x) - product(hw.x, moment.z)),

@@ -21,8 +21,8 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
 
 /// What turns an impulse into a change of velocity.
 template <class S> struct SolverMass {
-  S mass;          // [kg]; 0: immovable
-  Mat3<S> kappa;   // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
+  S mass;         // [kg]; 0: immovable
+  Mat3<S> kappa;  // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
 };
 
 /// Row 0 stands for everything that does not move; the awake bodies follow in order.

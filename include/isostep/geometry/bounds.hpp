@@ -31,8 +31,8 @@ template <class S> ISO_INLINE constexpr Aabb<S> bounds(const Primitive<S>& p, co
   const Vec3<Unit<S>>(&rows)[3] = t.rotation.rows;
   if (p.type == ShapeType::capsule) {
     const S h = p.half.y;
-    return Aabb<S>::around(t.position, {abs(rows[0].y) * h + p.radius, abs(rows[1].y) * h + p.radius,
-                                        abs(rows[2].y) * h + p.radius});
+    return Aabb<S>::around(
+        t.position, {abs(rows[0].y) * h + p.radius, abs(rows[1].y) * h + p.radius, abs(rows[2].y) * h + p.radius});
   }
   return Aabb<S>::around(t.position, {dot(abs(rows[0]), p.half) + p.radius, dot(abs(rows[1]), p.half) + p.radius,
                                       dot(abs(rows[2]), p.half) + p.radius});

@@ -180,8 +180,8 @@ ISO_INLINE Mat3<Unit<S>> tensor_of(std::span<const Child<S>> children, const Wei
   const Sum<U> zero = product(U(0), U(0));
   Sum<U> xx = zero, yy = zero, zz = zero, xy = zero, xz = zero, yz = zero;
   for (std::size_t i = 0; i < children.size(); ++i) {
-    const Mat3<U> own = rotate_diagonal(to_matrix(children[i].pose.orientation),
-                                        relative_inertia(children[i].primitive, scale));
+    const Mat3<U> own =
+        rotate_diagonal(to_matrix(children[i].pose.orientation), relative_inertia(children[i].primitive, scale));
     const Vec3<S> arm = children[i].pose.position - centre;
     const U x = divide_to<U>(arm.x, scale), y = divide_to<U>(arm.y, scale), z = divide_to<U>(arm.z, scale);
     const U w = weights[i];
@@ -250,9 +250,11 @@ template <class S> ISO_INLINE MassProperties<S> combined(std::span<const Child<S
   const Mat3<Unit<S>> tensor = tensor_of(children, weights, centre, scale);
   const Quat<Unit<S>> axes = principal_axes(tensor);
   const Mat3<Unit<S>> principal = seen_from(tensor, axes);
-  return {mass, centre,
+  return {mass,
+          centre,
           {kappa_from(principal.rows[0].x, scale), kappa_from(principal.rows[1].y, scale),
-           kappa_from(principal.rows[2].z, scale)}, axes};
+           kappa_from(principal.rows[2].z, scale)},
+          axes};
 }
 
 }  // namespace detail

@@ -27,15 +27,15 @@ template <class S> struct HalfSpace {
   Vec3<Unit<S>> normal;  // [1]
   S offset;              // [m]
 };
-Sphere(Literal) -> Sphere<Literal>;
-Box(Vec3<Literal>) -> Box<Literal>;
-Capsule(Literal, Literal) -> Capsule<Literal>;
+Sphere(Literal)->Sphere<Literal>;
+Box(Vec3<Literal>)->Box<Literal>;
+Capsule(Literal, Literal)->Capsule<Literal>;
 
 enum class ShapeType : std::uint32_t { sphere, box, capsule, half_space };
 inline constexpr int kShapeTypes = 4;
 
-/// One primitive as stored: a core box (a point for spheres, a segment along y for capsules) thickened by a radius, or a
-/// half-space. No padding: 2 x 4 bytes and eight numbers of one width.
+/// One primitive as stored: a core box (a point for spheres, a segment along y for capsules) thickened by a radius, or
+/// a half-space. No padding: 2 x 4 bytes and eight numbers of one width.
 template <class S> struct Primitive {
   ShapeType type;
   std::uint32_t reserved;  // 0

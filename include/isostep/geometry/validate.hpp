@@ -52,10 +52,10 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children);
 /// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
-#define ISO_EXTERN(S)                                                     \
-  extern template ShapeFault validate<S>(const Primitive<S>&);            \
-  extern template ShapeFault validate<S>(const Pose<S>&);                 \
-  extern template ShapeFault validate<S>(std::span<const Child<S>>);      \
+#define ISO_EXTERN(S)                                                \
+  extern template ShapeFault validate<S>(const Primitive<S>&);       \
+  extern template ShapeFault validate<S>(const Pose<S>&);            \
+  extern template ShapeFault validate<S>(std::span<const Child<S>>); \
   extern template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -10,7 +10,9 @@ template <class S> struct Aabb {
   Vec3<S> low, high;  // [m], world frame; low <= high
 
   static ISO_INLINE constexpr Aabb around(Vec3<S> centre, Vec3<S> half) { return {centre - half, centre + half}; }
-  friend ISO_INLINE constexpr bool operator==(const Aabb& a, const Aabb& b) { return a.low == b.low && a.high == b.high; }
+  friend ISO_INLINE constexpr bool operator==(const Aabb& a, const Aabb& b) {
+    return a.low == b.low && a.high == b.high;
+  }
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("low", self.low);

@@ -44,11 +44,10 @@ template <class U> ISO_INLINE Quat<U> normalise(Quat<U> q) {
 template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn) {
   const U half = U(0.5);
   const Vec3<U> d = turn * half;
-  const Quat<U> turned = {
-      q.x + round_to<U>(product(d.x, q.w) + product(d.y, q.z) - product(d.z, q.y)),
-      q.y + round_to<U>(product(d.y, q.w) - product(d.x, q.z) + product(d.z, q.x)),
-      q.z + round_to<U>(product(d.z, q.w) + product(d.x, q.y) - product(d.y, q.x)),
-      q.w - round_to<U>(product(d.x, q.x) + product(d.y, q.y) + product(d.z, q.z))};
+  const Quat<U> turned = {q.x + round_to<U>(product(d.x, q.w) + product(d.y, q.z) - product(d.z, q.y)),
+                          q.y + round_to<U>(product(d.y, q.w) - product(d.x, q.z) + product(d.z, q.x)),
+                          q.z + round_to<U>(product(d.z, q.w) + product(d.x, q.y) - product(d.y, q.x)),
+                          q.w - round_to<U>(product(d.x, q.x) + product(d.y, q.y) + product(d.z, q.z))};
   return normalise(turned);
 }
 

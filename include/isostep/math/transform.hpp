@@ -24,7 +24,7 @@ template <class S> struct Pose {
 
 /// A pose as it is used: the rotation unpacked once, applied often.
 template <class S> struct Transform {
-  Vec3<S> position;         // [m]
+  Vec3<S> position;  // [m]
   Mat3<Unit<S>> rotation;
 
   static ISO_INLINE constexpr Transform of(const Pose<S>& pose) { return {pose.position, to_matrix(pose.orientation)}; }

@@ -72,9 +72,7 @@ template <class T> ISO_INLINE constexpr bool is_finite(Vec3<T> a) {
 }
 
 /// Two unit vectors that complete the unit vector n to a right-handed basis (t, u, n).
-template <class U> struct Tangents {
-  Vec3<U> t, u;
-};
+template <class U> struct Tangents { Vec3<U> t, u; };
 
 /// Source:  Duff et al. 2017, Building an Orthonormal Basis, Revisited, JCGT 6(1), eq. 5: one division, no square root.
 /// Differs: x and z trade places, so that the seam lies at n.z = 0 rather than along a floor's normal.

@@ -59,8 +59,7 @@ template <class T> ISO_INLINE Result<void> read_part(T& part, Reader& reader) {
 
 /// Holds references: lives no longer than its parts.
 template <class World, class User>
-  requires(Rollbackable<World> || PlainState<World>) && (Rollbackable<User> || PlainState<User>)
-class Composite {
+requires(Rollbackable<World> || PlainState<World>) && (Rollbackable<User> || PlainState<User>)class Composite {
  public:
   struct Snapshot {
     typename detail::SnapshotOf<World>::Type world;

@@ -14,13 +14,12 @@ namespace isostep {
 /// load(save(x)) and any inputs give at every later frame the hash of an x that never saved. Snapshots are reused:
 /// saving into one of the same size allocates nothing.
 template <class T>
-concept Rollbackable =
-    std::default_initializable<typename T::Snapshot> &&
+concept Rollbackable = std::default_initializable<typename T::Snapshot> &&
     requires(T& mutable_state, const T& state, typename T::Snapshot& to, const typename T::Snapshot& from) {
-      state.save(to);
-      mutable_state.load(from);
-      { state.hash() } -> std::same_as<std::uint64_t>;
-    };
+  state.save(to);
+  mutable_state.load(from);
+  { state.hash() } -> std::same_as<std::uint64_t>;
+};
 
 template <class T> using Snapshot = typename T::Snapshot;
 
@@ -45,8 +44,9 @@ template <class Input> struct InputView {
 /// predicted input must give what the same input gives once it is confirmed.
 template <class T>
 concept Simulation = Rollbackable<T> && std::default_initializable<typename T::Input> &&
-                     std::equality_comparable<typename T::Input> &&
-                     requires(T& game, InputView<typename T::Input> inputs) { game.step(inputs); };
+    std::equality_comparable<typename T::Input> && requires(T& game, InputView<typename T::Input> inputs) {
+  game.step(inputs);
+};
 
 /// Can be written down and rebuilt on any machine. A refused read leaves the object as it was.
 template <class T>

@@ -87,7 +87,7 @@ class ReplayWriter {
   Phase phase_;
   Error error_;
   HashStream digest_;
-  std::uint64_t frame_count_;               // with those of the open block
+  std::uint64_t frame_count_;  // with those of the open block
   std::uint32_t block_frames_;
   std::vector<std::uint8_t> block_inputs_;  // [u32 length, bytes] per frame
   std::vector<std::uint8_t> block_hashes_;  // u64 per frame

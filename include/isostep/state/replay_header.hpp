@@ -51,10 +51,10 @@ class ReplayHeader {
 
 /// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.
 struct ReplayIdentity {
-  std::uint64_t behaviour;        // digest of the golden hashes: the version of the results
-  std::string_view scalar;        // ScalarTraits::kName
-  std::uint32_t scalar_id;        // ScalarTraits::kId
-  std::uint32_t hz;               // [1/s]
+  std::uint64_t behaviour;  // digest of the golden hashes: the version of the results
+  std::string_view scalar;  // ScalarTraits::kName
+  std::uint32_t scalar_id;  // ScalarTraits::kId
+  std::uint32_t hz;         // [1/s]
   std::uint32_t substeps;
   std::string_view solver;
   std::uint64_t settings_digest;  // hash of every other setting

@@ -19,13 +19,13 @@ struct VerifyResult {
   enum class Where : std::uint8_t { start, frame, keyframe };
 
   VerifyOutcome outcome;
-  Where where;               // diverged: at the initial state, after a frame, or a stored keyframe is not the state
-  std::uint64_t frames;      // frames whose hashes agreed; so the frame that diverged, or the first that is missing
-  std::uint64_t expected;    // diverged: the replay's hash
-  std::uint64_t actual;      // diverged: ours
-  std::size_t offset;        // truncated, corrupt: the place in the file [bytes]
-  HeaderMismatch mismatch;   // incompatible
-  Error error;               // truncated, corrupt
+  Where where;              // diverged: at the initial state, after a frame, or a stored keyframe is not the state
+  std::uint64_t frames;     // frames whose hashes agreed; so the frame that diverged, or the first that is missing
+  std::uint64_t expected;   // diverged: the replay's hash
+  std::uint64_t actual;     // diverged: ours
+  std::size_t offset;       // truncated, corrupt: the place in the file [bytes]
+  HeaderMismatch mismatch;  // incompatible
+  Error error;              // truncated, corrupt
 };
 
 /// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.
@@ -81,7 +81,7 @@ template <ReplayableSimulation Sim> ISO_INLINE VerifyResult verify_frames(const 
 /// `check(header)` returns a HeaderMismatch; with an empty key the replay is accepted. What `sim` was before does not
 /// matter. A damaged file is never stepped; a cut one is, as far as it goes, and may turn out to diverge.
 template <ReplayableSimulation Sim, class Check>
-  requires requires(Check& check, const ReplayHeader& header) { HeaderMismatch(check(header)); }
+requires requires(Check& check, const ReplayHeader& header) { HeaderMismatch(check(header)); }
 ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& check) {
   const VerifyResult file = detail::verify_file(replay);
   if (file.outcome != VerifyOutcome::verified) return file;

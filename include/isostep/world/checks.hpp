@@ -28,13 +28,16 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
 }
 
 template <class S> Fault fault_of(const Material<S>& m) {
-  if (!is_finite(m.friction) || !is_finite(m.restitution) || !is_finite(m.rolling_resistance) || !is_finite(m.surface_velocity)) {
+  if (!is_finite(m.friction) || !is_finite(m.restitution) || !is_finite(m.rolling_resistance) ||
+      !is_finite(m.surface_velocity)) {
     return Fault::not_finite;
   }
-  if (!within(m.surface_velocity, Limits<S>::speed()) || kMaxFriction<S> < m.friction || Limits<S>::extent() < m.rolling_resistance) {
+  if (!within(m.surface_velocity, Limits<S>::speed()) || kMaxFriction<S> < m.friction ||
+      Limits<S>::extent() < m.rolling_resistance) {
     return Fault::out_of_range;
   }
-  const bool good = S(0) <= m.friction && S(0) <= m.restitution && m.restitution <= S(1) && S(0) <= m.rolling_resistance;
+  const bool good =
+      S(0) <= m.friction && S(0) <= m.restitution && m.restitution <= S(1) && S(0) <= m.rolling_resistance;
   return good ? Fault::none : Fault::bad_argument;
 }
 
@@ -42,12 +45,14 @@ template <class S> Fault fault_of(const Material<S>& m) {
 template <class S> Fault fault_of_motion(S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
   if (!is_finite(gravity_scale) || !is_finite(linear_damping) || !is_finite(angular_damping)) return Fault::not_finite;
   const S speed = Limits<S>::speed();
-  if (!within(gravity_scale, speed) || S(kMaxRate) < linear_damping || S(kMaxRate) < angular_damping) return Fault::out_of_range;
+  if (!within(gravity_scale, speed) || S(kMaxRate) < linear_damping || S(kMaxRate) < angular_damping)
+    return Fault::out_of_range;
   const bool good = S(0) <= linear_damping && S(0) <= angular_damping && (locks & ~body_flag::kAllLocks) == 0;
   return good ? Fault::none : Fault::bad_argument;
 }
 
-/// Kappa of a solid no smaller than a few of the least sizes: larger is inertia out of nowhere, and its products leave S.
+/// Kappa of a solid no smaller than a few of the least sizes: larger is inertia out of nowhere, and its products leave
+/// S.
 template <class S> Fault fault_of_mass(S mass, Vec3<S> kappa) {
   if (!is_finite(mass) || !is_finite(kappa)) return Fault::not_finite;
   const S most = S(3) / (Limits<S>::minimum_size() * Limits<S>::minimum_size());
@@ -58,8 +63,8 @@ template <class S> Fault fault_of_mass(S mass, Vec3<S> kappa) {
 
 /// `substep_rate` [1/s].
 template <class S> Fault fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
-  const S numbers[] = {j.lower,        j.upper,         j.cone,             j.motor_speed,
-                       j.motor_torque, j.spring_target, j.spring_frequency, j.spring_damping};
+  const S numbers[] = {
+      j.lower, j.upper, j.cone, j.motor_speed, j.motor_torque, j.spring_target, j.spring_frequency, j.spring_damping};
   for (const S number : numbers) {
     if (!is_finite(number)) return Fault::not_finite;
   }
@@ -70,15 +75,17 @@ template <class S> Fault fault_of(const JointProperties<S>& j, std::int32_t subs
   }
   const bool distance = j.type == JointType::distance;
   const S reach = distance ? Limits<S>::position() : kMaxAngle<S>;
-  if (!within(j.lower, reach) || !within(j.upper, reach) || !within(j.cone, kMaxAngle<S>) || !within(j.spring_target, reach) ||
-      !within(j.motor_speed, Limits<S>::spin()) || kMaxDampingRatio<S> < j.spring_damping) {
+  if (!within(j.lower, reach) || !within(j.upper, reach) || !within(j.cone, kMaxAngle<S>) ||
+      !within(j.spring_target, reach) || !within(j.motor_speed, Limits<S>::spin()) ||
+      kMaxDampingRatio<S> < j.spring_damping) {
     return Fault::out_of_range;
   }
   const bool sprung = (j.flags & joint_flag::kSpring) != 0;
   const S nyquist = S(substep_rate) * S(0.5);
-  const bool good_spring = !sprung || (S(0) < j.spring_frequency && j.spring_frequency <= nyquist && S(0) <= j.spring_damping);
-  const bool good = j.type <= JointType::distance && j.lower <= j.upper && S(0) <= j.motor_torque && (j.flags & ~0x1fu) == 0 &&
-                    good_spring && (!distance || S(0) <= j.lower);
+  const bool good_spring =
+      !sprung || (S(0) < j.spring_frequency && j.spring_frequency <= nyquist && S(0) <= j.spring_damping);
+  const bool good = j.type <= JointType::distance && j.lower <= j.upper && S(0) <= j.motor_torque &&
+                    (j.flags & ~0x1fu) == 0 && good_spring && (!distance || S(0) <= j.lower);
   return good ? Fault::none : Fault::bad_argument;
 }
 
@@ -111,7 +118,8 @@ template <class S> Fault fault_of_place(Vec3<S> point) {
 /// The moment of a force that a user gave, whatever its size.
 template <class S> Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
   const auto part = [](S a, S b, S c, S d) { return saturate_to<S>(product(a, b) - product(c, d), highest<S>()); };
-  return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z), part(arm.x, force.y, arm.y, force.x)};
+  return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z),
+          part(arm.x, force.y, arm.y, force.x)};
 }
 
 }  // namespace isostep::detail

@@ -13,12 +13,12 @@
 
 namespace isostep {
 
-template <class S> struct AddShape {
-  std::vector<Child<S>> children;
-};
+template <class S> struct AddShape { std::vector<Child<S>> children; };
 struct RemoveShape {
   ShapeId shape;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("shape", self.shape); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("shape", self.shape);
+  }
 };
 template <class S> struct CreateBody {
   BodyDefinition<S> definition;
@@ -28,11 +28,15 @@ template <class S> struct CreateBody {
 };
 struct DestroyBody {
   BodyId body;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("body", self.body); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+  }
 };
 struct WakeBody {
   BodyId body;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("body", self.body); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+  }
 };
 /// Teleports; velocity stays.
 template <class S> struct SetPose {
@@ -116,15 +120,21 @@ struct SetUserData {
 };
 template <class S> struct SetGravity {
   Vec3<S> gravity;  // [m/s^2]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("gravity", self.gravity); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("gravity", self.gravity);
+  }
 };
 template <class S> struct CreateJoint {
   JointProperties<S> joint;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("joint", self.joint); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+  }
 };
 struct DestroyJoint {
   JointId joint;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) { visit("joint", self.joint); }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+  }
 };
 /// Limits, motor and spring of a joint that exists; bodies, frames and type stay.
 template <class S> struct SetJoint {

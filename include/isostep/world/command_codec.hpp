@@ -14,14 +14,20 @@ namespace isostep {
 
 namespace detail {
 template <class C, class Variant> struct IndexOf;
-template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> { static constexpr std::uint8_t kValue = 0; };
+template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> {
+  static constexpr std::uint8_t kValue = 0;
+};
 template <class C, class First, class... Rest> struct IndexOf<C, std::variant<First, Rest...>> {
   static constexpr std::uint8_t kValue = 1 + IndexOf<C, std::variant<Rest...>>::kValue;
 };
 
-template <class S> void write_fields(Writer& writer, const AddShape<S>& command) { writer.write_array(command.children); }
+template <class S> void write_fields(Writer& writer, const AddShape<S>& command) {
+  writer.write_array(command.children);
+}
 template <class S, class C> void write_fields(Writer& writer, const C& command) { writer.write(command); }
-template <class S> void read_fields(Reader& reader, AddShape<S>& command) { reader.read_array(command.children, kMaxChildren); }
+template <class S> void read_fields(Reader& reader, AddShape<S>& command) {
+  reader.read_array(command.children, kMaxChildren);
+}
 template <class S, class C> void read_fields(Reader& reader, C& command) { reader.read(command); }
 }  // namespace detail
 
@@ -40,9 +46,8 @@ template <class S> std::optional<Command<S>> read_command(Reader& reader) {
     detail::read_fields<S>(reader, alternative);
     if (reader.ok()) command = std::move(alternative);
   };
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (try_kind.template operator()<I>(), ...);
-  }(std::make_index_sequence<std::variant_size_v<Command<S>>>{});
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (try_kind.template operator()<I>(), ...); }
+  (std::make_index_sequence<std::variant_size_v<Command<S>>>{});
   if (reader.ok() && !command) reader.fail(ErrorCode::invalid, "no command has this number");
   return command;
 }

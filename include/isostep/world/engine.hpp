@@ -125,9 +125,10 @@ template <class S> class WorldEngine {
   void update_manifolds();
   void wake_touched_islands();
   bool bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const;
-  template <class Visit> ISO_INLINE void visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin, Visit&& visit) const;
-  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyProperties<S>& a, const BodyProperties<S>& b,
-                   Vec3<S> from_a_to_b);
+  template <class Visit>
+  ISO_INLINE void visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin, Visit&& visit) const;
+  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyProperties<S>& a,
+                   const BodyProperties<S>& b, Vec3<S> from_a_to_b);
   void collect_joined_pairs();
   std::uint32_t row_of(std::uint32_t slot) const;
   void update_sensors();
@@ -155,8 +156,8 @@ template <class S> class WorldEngine {
   void refresh_caches();
 
   // Caches: functions of the state.
-  std::vector<Location> locations_;         // by body slot
-  std::vector<Location> joint_locations_;   // by joint slot
+  std::vector<Location> locations_;        // by body slot
+  std::vector<Location> joint_locations_;  // by joint slot
   Proxies<S> proxies_;
 
   // One step's scratch; drawing and the next step's events read some of it.
@@ -174,8 +175,8 @@ template <class S> class WorldEngine {
   std::vector<SensorOverlap> overlap_scratch_;
   std::vector<std::uint64_t> sort_scratch_;
   std::vector<std::uint32_t> slots_;
-  std::vector<Velocity<S>> step_impulses_;   // [m/s] per contact, of the whole step
-  std::size_t woke_reported_ = 0;            // of events_.woke, told by the last step
+  std::vector<Velocity<S>> step_impulses_;  // [m/s] per contact, of the whole step
+  std::size_t woke_reported_ = 0;           // of events_.woke, told by the last step
   std::vector<BodyId> woke_scratch_;
   DisjointSets islands_;
   std::vector<std::uint32_t> island_clock_;

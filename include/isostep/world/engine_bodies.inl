@@ -80,8 +80,7 @@ template <class S> BodyProperties<S>& WorldEngine<S>::mutable_properties(std::ui
   return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.properties[at.index];
 }
 
-template <class S>
-void WorldEngine<S>::relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from) {
+template <class S> void WorldEngine<S>::relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from) {
   for (std::size_t i = from; i < set.states.size(); ++i) {
     locations_[set.states[i].slot] = {set_name, static_cast<std::uint32_t>(i)};
   }
@@ -116,8 +115,7 @@ template <class S> void WorldEngine<S>::insert_joint(const JointState<S>& state,
   relabel_joints(state_.joints, Location::kAwake, at);
 }
 
-template <class S>
-void WorldEngine<S>::renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always) {
+template <class S> void WorldEngine<S>::renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always) {
   const Transform<S> origin = Transform<S>::of(origin_pose(state, body));
   const Aabb<S> tight = bounds(children_of(body.shape), origin);
   if (always || !contains(state.fat, tight)) state.fat = grow(tight, detail::kFatMargin<S>);
@@ -135,13 +133,15 @@ template <class S> void WorldEngine<S>::forget_contacts(std::uint32_t slot) {
 
 /// What a command puts somewhere is drawn there and not on the way from where its slot was before.
 template <class S> void WorldEngine<S>::draw_from_here(const BodyState<S>& state) {
-  const std::size_t at = detail::lower_bound(start_slots_.size(), [&](std::size_t i) { return start_slots_[i] < state.slot; });
+  const std::size_t at =
+      detail::lower_bound(start_slots_.size(), [&](std::size_t i) { return start_slots_[i] < state.slot; });
   if (at < start_slots_.size() && start_slots_[at] == state.slot) start_poses_[at] = {state.centre, state.orientation};
 }
 
 /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
 template <class S> void WorldEngine<S>::restless(std::uint32_t slot) {
-  if (slot != kNoBody && locations_[slot].set == Location::kAwake) state_.awake.states[locations_[slot].index].sleep_clock = 0;
+  if (slot != kNoBody && locations_[slot].set == Location::kAwake)
+    state_.awake.states[locations_[slot].index].sleep_clock = 0;
 }
 
 /// Wakes every island and every body that a body's fat box meets: what is moved, changed or taken away may have held
@@ -165,8 +165,10 @@ template <class S> void WorldEngine<S>::wake_held_by(std::uint32_t slot) {
   for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); i-- > 0;) {
     const FrozenIsland<S>& island = *state_.frozen[i];
     bool held = false;
-    for (const JointProperties<S>& joint : island.joints.properties) held = held || joint.body_a == slot || joint.body_b == slot;
-    for (const Contact<S>& contact : island.contacts) held = held || contact.key.body_a == slot || contact.key.body_b == slot;
+    for (const JointProperties<S>& joint : island.joints.properties)
+      held = held || joint.body_a == slot || joint.body_b == slot;
+    for (const Contact<S>& contact : island.contacts)
+      held = held || contact.key.body_a == slot || contact.key.body_b == slot;
     if (held) thaw(i);
   }
 }

@@ -18,7 +18,8 @@ template <class S> S bounded_quotient(S x, S divisor, S limit) {
   return clamp(x / divisor, -limit, limit);
 }
 template <class S> Vec3<S> bounded_quotient(Vec3<S> v, S divisor, S limit) {
-  return {bounded_quotient(v.x, divisor, limit), bounded_quotient(v.y, divisor, limit), bounded_quotient(v.z, divisor, limit)};
+  return {bounded_quotient(v.x, divisor, limit), bounded_quotient(v.y, divisor, limit),
+          bounded_quotient(v.z, divisor, limit)};
 }
 template <class S> Vec3<S> bounded_product(const Mat3<S>& m, Vec3<S> v, S limit) {
   const auto row = [&](int i) { return saturate_to<S>(dot_sum(m.rows[i], v), limit); };
@@ -102,7 +103,8 @@ template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, Bod
   if (d.type != BodyType::dynamic) return true;
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
-  if (d.mass < zero || d.density < zero || d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero || shape.mass == zero) {
+  if (d.mass < zero || d.density < zero || d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero ||
+      shape.mass == zero) {
     return refuse(Fault::bad_mass);
   }
   if (!accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
@@ -177,7 +179,9 @@ template <class S> bool WorldEngine<S>::execute(const DestroyBody& command) {
   return true;
 }
 
-template <class S> bool WorldEngine<S>::execute(const WakeBody& command) { return wake_for_change(command.body) != nullptr; }
+template <class S> bool WorldEngine<S>::execute(const WakeBody& command) {
+  return wake_for_change(command.body) != nullptr;
+}
 
 template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
   const Location at = locate(command.body);
@@ -234,7 +238,8 @@ template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
   const Vec3<S> torque = detail::bounded_quotient(command.torque, body.mass, Limits<S>::mass());
   PendingForce<S>& force = state_.forces[at];
   force.linear = detail::bounded_sum(force.linear, linear, most);
-  force.angular = detail::bounded_sum(force.angular, detail::bounded_product(kappa, torque, most_turning), most_turning);
+  force.angular =
+      detail::bounded_sum(force.angular, detail::bounded_product(kappa, torque, most_turning), most_turning);
   return true;
 }
 
@@ -275,7 +280,8 @@ template <class S> bool WorldEngine<S>::execute(const SetFilter& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
-  if (!accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping, command.locks))) {
+  if (!accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping,
+                                      command.locks))) {
     return false;
   }
   if (wake_for_change(command.body) == nullptr) return false;

@@ -10,8 +10,9 @@
 namespace isostep {
 
 namespace detail {
-/// Points keep the impulse of their feature. What no feature claims is shared among the points that found none: when two
-/// boxes trade places as reference every feature changes at once, and the load they carry must not vanish with the names.
+/// Points keep the impulse of their feature. What no feature claims is shared among the points that found none: when
+/// two boxes trade places as reference every feature changes at once, and the load they carry must not vanish with the
+/// names.
 template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& contact) {
   using V = Velocity<S>;
   bool claimed[kMaxContactPoints] = {};
@@ -50,7 +51,8 @@ template <class S> void WorldEngine<S>::find_pairs() {
 /// Frames: everything relative to a's centre of mass, axes as the world's: far from the origin costs no precision.
 template <class S>
 template <class Visit>
-ISO_INLINE void WorldEngine<S>::visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin, Visit&& visit) const {
+ISO_INLINE void WorldEngine<S>::visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin,
+                                                Visit&& visit) const {
   const Location at_a = locations_[slot_a], at_b = locations_[slot_b];
   const BodyState<S>& state_a = state_at(at_a);
   const BodyState<S>& state_b = state_at(at_b);
@@ -58,7 +60,8 @@ ISO_INLINE void WorldEngine<S>::visit_manifolds(std::uint32_t slot_a, std::uint3
   const BodyProperties<S>& body_b = properties_at(at_b);
   const std::span<const Child<S>> children_a = children_of(body_a.shape), children_b = children_of(body_b.shape);
   const auto rotation = [&](Location at, const BodyState<S>& state) {
-    return at.set == Location::kAwake && at.index < rotations_.size() ? rotations_[at.index] : to_matrix(state.orientation);
+    return at.set == Location::kAwake && at.index < rotations_.size() ? rotations_[at.index]
+                                                                      : to_matrix(state.orientation);
   };
   const Mat3<Unit<S>> turn_a = rotation(at_a, state_a), turn_b = rotation(at_b, state_b);
   const Vec3<S> from_a_to_b = state_b.centre - state_a.centre;
@@ -91,7 +94,8 @@ template <class S> bool WorldEngine<S>::bodies_touch(std::uint32_t slot_a, std::
   return touch;
 }
 
-/// An island wakes when something awake that moves has a contact with it. Waking brings new pairs, so until none is left.
+/// An island wakes when something awake that moves has a contact with it. Waking brings new pairs, so until none is
+/// left.
 template <class S> void WorldEngine<S>::wake_touched_islands() {
   if (state_.frozen.empty()) return;
   rotations_.clear();
@@ -119,7 +123,8 @@ template <class S> void WorldEngine<S>::wake_touched_islands() {
 template <class S> void WorldEngine<S>::collect_joined_pairs() {
   joined_pairs_.clear();
   for (const JointProperties<S>& joint : state_.joints.properties) {
-    if ((joint.flags & joint_flag::kCollideConnected) != 0 || joint.body_a == kNoBody || joint.body_b == kNoBody) continue;
+    if ((joint.flags & joint_flag::kCollideConnected) != 0 || joint.body_a == kNoBody || joint.body_b == kNoBody)
+      continue;
     joined_pairs_.push_back(pair_key(joint.body_a, joint.body_b));
   }
   sort_scratch_.resize(joined_pairs_.size());
@@ -191,21 +196,26 @@ template <class S> void WorldEngine<S>::update_manifolds() {
 /// Overlaps of bodies that both lie still are kept: nobody looked, because nothing moved.
 template <class S> void WorldEngine<S>::update_sensors() {
   for (const SensorOverlap& old : state_.overlaps) {
-    const bool watched = locations_[old.sensor].set == Location::kAwake || locations_[old.other].set == Location::kAwake;
+    const bool watched =
+        locations_[old.sensor].set == Location::kAwake || locations_[old.other].set == Location::kAwake;
     if (!watched) new_overlaps_.push_back(old);
   }
   overlap_scratch_.resize(new_overlaps_.size());
   struct ByPair {
     ISO_INLINE std::uint64_t operator()(SensorOverlap o) const { return std::uint64_t{o.sensor} << 32 | o.other; }
   };
-  stable_sort(new_overlaps_.data(), overlap_scratch_.data(), static_cast<std::uint32_t>(new_overlaps_.size()), ByPair{});
+  stable_sort(new_overlaps_.data(), overlap_scratch_.data(), static_cast<std::uint32_t>(new_overlaps_.size()),
+              ByPair{});
   const auto event = [&](SensorOverlap o) {
-    return SensorEvent{state_.body_slots.template id_of<BodyId>(o.sensor), state_.body_slots.template id_of<BodyId>(o.other)};
+    return SensorEvent{state_.body_slots.template id_of<BodyId>(o.sensor),
+                       state_.body_slots.template id_of<BodyId>(o.other)};
   };
   std::size_t i = 0, j = 0;
   while (i < state_.overlaps.size() || j < new_overlaps_.size()) {
-    const bool old_first = j == new_overlaps_.size() || (i < state_.overlaps.size() && state_.overlaps[i] < new_overlaps_[j]);
-    const bool new_first = i == state_.overlaps.size() || (j < new_overlaps_.size() && new_overlaps_[j] < state_.overlaps[i]);
+    const bool old_first =
+        j == new_overlaps_.size() || (i < state_.overlaps.size() && state_.overlaps[i] < new_overlaps_[j]);
+    const bool new_first =
+        i == state_.overlaps.size() || (j < new_overlaps_.size() && new_overlaps_[j] < state_.overlaps[i]);
     if (old_first) events_.sensor_end.push_back(event(state_.overlaps[i++]));
     else if (new_first) events_.sensor_begin.push_back(event(new_overlaps_[j++]));
     else ++i, ++j;
@@ -221,7 +231,8 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
   const auto touched = [&](const std::vector<Contact<S>>& list, std::size_t& at) {
     const std::uint64_t pair = pair_of(list[at]);
     bool any = false;
-    for (; at < list.size() && pair_of(list[at]) == pair; ++at) any = any || (list[at].flags & contact_flag::kTouching) != 0;
+    for (; at < list.size() && pair_of(list[at]) == pair; ++at)
+      any = any || (list[at].flags & contact_flag::kTouching) != 0;
     return any;
   };
   std::size_t i = 0, j = 0;
@@ -234,7 +245,9 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
     const bool was = old_pair == pair && touched(old_contacts_, i);
     const bool is = new_pair == pair && touched(now, j);
     if (was && !is) events_.contact_end.push_back({id(pair_a(pair)), id(pair_b(pair))});
-    if (!was && is) events_.contact_begin.push_back({id(pair_a(pair)), id(pair_b(pair)), pressing(first, j), geometry_[first].normal});
+    if (!was && is)
+      events_.contact_begin.push_back(
+          {id(pair_a(pair)), id(pair_b(pair)), pressing(first, j), geometry_[first].normal});
   }
 }
 

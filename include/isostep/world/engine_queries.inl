@@ -20,7 +20,9 @@ template <class S> bool sees(const QueryFilter& filter, const BodyProperties<S>&
 template <class S>
 std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
   const S edge = Limits<S>::position();
-  if (!is_finite(origin) || !is_finite(translation) || !detail::within(origin, edge) || !detail::within(translation, edge)) return {};
+  if (!is_finite(origin) || !is_finite(translation) || !detail::within(origin, edge) ||
+      !detail::within(translation, edge))
+    return {};
   std::optional<RayCastHit<S>> best;
   const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
   proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
@@ -31,10 +33,11 @@ std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> tr
       RayHit<S> hit;
       const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
       if (!ray_cast(child.primitive, at, origin, translation, best ? best->fraction : S(1), hit)) continue;
-      const bool nearer = !best || hit.fraction < best->fraction || (hit.fraction == best->fraction && slot < best->body.slot);
+      const bool nearer =
+          !best || hit.fraction < best->fraction || (hit.fraction == best->fraction && slot < best->body.slot);
       if (!nearer) continue;
-      best = RayCastHit<S>{state_.body_slots.template id_of<BodyId>(slot), origin + translation * hit.fraction, hit.normal,
-                           hit.fraction};
+      best = RayCastHit<S>{state_.body_slots.template id_of<BodyId>(slot), origin + translation * hit.fraction,
+                           hit.normal, hit.fraction};
     }
     return best ? min(max_fraction, convert<Unit<S>>(best->fraction)) : max_fraction;
   });
@@ -52,10 +55,14 @@ std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_dista
     if (!detail::sees(filter, body)) return true;
     const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
     for (const Child<S>& child : children_of(body.shape)) {
-      const ClosestPoint<S> found = closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
+      const ClosestPoint<S> found =
+          closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
       if (max_distance < found.distance) continue;
-      const bool nearer = !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
-      if (nearer) best = ClosestBody<S>{state_.body_slots.template id_of<BodyId>(slot), found.point, found.normal, found.distance};
+      const bool nearer =
+          !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
+      if (nearer)
+        best =
+            ClosestBody<S>{state_.body_slots.template id_of<BodyId>(slot), found.point, found.normal, found.distance};
     }
     return true;
   });
@@ -63,7 +70,8 @@ std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_dista
 }
 
 template <class S>
-void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const {
+void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                                 QueryFilter filter) const {
   if (validate(shape) != ShapeFault::none || validate(pose) != ShapeFault::none) return;
   std::vector<std::uint64_t> found;
   proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
@@ -83,7 +91,8 @@ void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose,
   });
   std::vector<std::uint64_t> scratch(found.size());
   stable_sort(found.data(), scratch.data(), static_cast<std::uint32_t>(found.size()), OwnKey{});
-  for (const std::uint64_t slot : found) out.push_back(state_.body_slots.template id_of<BodyId>(static_cast<std::uint32_t>(slot)));
+  for (const std::uint64_t slot : found)
+    out.push_back(state_.body_slots.template id_of<BodyId>(static_cast<std::uint32_t>(slot)));
 }
 
 /// Positions by straight line, orientations by normalised straight line between the start and the end of the last step.
@@ -100,10 +109,17 @@ template <class S> void WorldEngine<S>::fill_render_poses(float alpha) {
     const Pose<S> then = origin_pose(then_state, body);
     const auto blend = [&](auto from, auto to) { return number(from) + alpha * (number(to) - number(from)); };
     const Quat<Unit<S>> p = then.orientation, q = now.orientation;
-    const float sign = number(p.x) * number(q.x) + number(p.y) * number(q.y) + number(p.z) * number(q.z) + number(p.w) * number(q.w) < 0 ? -1.0f : 1.0f;
-    const auto turn = [&](auto from, auto to) { return sign * number(from) + alpha * (number(to) - sign * number(from)); };
+    const float sign =
+        number(p.x) * number(q.x) + number(p.y) * number(q.y) + number(p.z) * number(q.z) + number(p.w) * number(q.w) <
+                0
+            ? -1.0f
+            : 1.0f;
+    const auto turn = [&](auto from, auto to) {
+      return sign * number(from) + alpha * (number(to) - sign * number(from));
+    };
     RenderPose pose = {state_.body_slots.template id_of<BodyId>(state.slot),
-                       {blend(then.position.x, now.position.x), blend(then.position.y, now.position.y), blend(then.position.z, now.position.z)},
+                       {blend(then.position.x, now.position.x), blend(then.position.y, now.position.y),
+                        blend(then.position.z, now.position.z)},
                        {turn(p.x, q.x), turn(p.y, q.y), turn(p.z, q.z), turn(p.w, q.w)}};
     float* o = pose.orientation;
     const float size = sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2] + o[3] * o[3]);
@@ -119,7 +135,8 @@ template <class S> void WorldEngine<S>::fill_render_poses(float alpha) {
     add(state_.awake.states[i], state_.awake.properties[i], known ? &start_poses_[start] : nullptr);
   }
   for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) {
-    for (std::size_t i = 0; i < island->bodies.states.size(); ++i) add(island->bodies.states[i], island->bodies.properties[i], nullptr);
+    for (std::size_t i = 0; i < island->bodies.states.size(); ++i)
+      add(island->bodies.states[i], island->bodies.properties[i], nullptr);
   }
 }
 

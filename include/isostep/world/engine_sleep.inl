@@ -13,12 +13,14 @@ inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over t
 
 template <class S> std::uint64_t hash_island(const FrozenIsland<S>& island) {
   HashCombiner root;
-  FrozenIsland<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, island);
+  FrozenIsland<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); },
+                            island);
   return root.value();
 }
 
 /// Merges `more` into `into`, both ascending; from the back, in place.
-template <class T, class Before> void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
+template <class T, class Before>
+void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
   std::size_t a = into.size(), b = more.size();
   into.resize(a + b);
   for (std::size_t at = a + b; b > 0; --at) {
@@ -75,7 +77,8 @@ template <class S> void WorldEngine<S>::update_sleep_clocks() {
       if (other.set != Location::kAwake) continue;
       const BodyProperties<S>& body = properties_at(at);
       const bool driven = body.type == BodyType::kinematic && state_at(at).sleep_clock == 0;
-      if (driven || !(body.material.surface_velocity == Vec3<S>::zero())) state_.awake.states[other.index].sleep_clock = 0;
+      if (driven || !(body.material.surface_velocity == Vec3<S>::zero()))
+        state_.awake.states[other.index].sleep_clock = 0;
     }
   }
 }
@@ -93,8 +96,9 @@ template <class S> void WorldEngine<S>::freeze_ready_islands() {
     if (is_dynamic(a) && is_dynamic(b)) islands_.join(locations_[a].index, locations_[b].index);
   };
   for (const Contact<S>& contact : state_.contacts) {
-    const bool sensor = ((properties_at(locations_[contact.key.body_a]).flags |
-                          properties_at(locations_[contact.key.body_b]).flags) & body_flag::kSensor) != 0;
+    const bool sensor =
+        ((properties_at(locations_[contact.key.body_a]).flags | properties_at(locations_[contact.key.body_b]).flags) &
+         body_flag::kSensor) != 0;
     if (!sensor) tie(contact.key.body_a, contact.key.body_b);
   }
   for (const JointProperties<S>& joint : state_.joints.properties) {
@@ -210,8 +214,10 @@ template <class S> void WorldEngine<S>::thaw(std::uint32_t frozen_index) {
     relabel_joints(state_.frozen[frozen_index]->joints, frozen_index, 0);
   }
   const auto before = [](const auto& a, const auto& b) { return a.slot < b.slot; };
-  detail::merge_pairs(state_.awake.states, state_.awake.properties, island->bodies.states, island->bodies.properties, before);
-  detail::merge_pairs(state_.joints.states, state_.joints.properties, island->joints.states, island->joints.properties, before);
+  detail::merge_pairs(state_.awake.states, state_.awake.properties, island->bodies.states, island->bodies.properties,
+                      before);
+  detail::merge_pairs(state_.joints.states, state_.joints.properties, island->joints.states, island->joints.properties,
+                      before);
   detail::merge_into(state_.contacts, island->contacts, [](const auto& a, const auto& b) { return a.key < b.key; });
   relabel(state_.awake, Location::kAwake, 0);
   relabel_joints(state_.joints, Location::kAwake, 0);

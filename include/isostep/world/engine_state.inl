@@ -26,7 +26,8 @@ inline void read_slots(Reader& reader, SlotMap& slots) {
   const auto first_free = reader.read<std::uint32_t>();
   std::vector<SlotEntry> entries;
   reader.read_array(entries, kMaxRecords);
-  if (reader.ok() && !slots.restore(entries, first_free)) reader.fail(ErrorCode::corrupt, "a slot table's free list is broken");
+  if (reader.ok() && !slots.restore(entries, first_free))
+    reader.fail(ErrorCode::corrupt, "a slot table's free list is broken");
 }
 }  // namespace detail
 
@@ -38,7 +39,8 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
   root.add(detail::hash_slots(state_.body_slots));
   root.add(detail::hash_slots(state_.shape_slots));
   root.add(detail::hash_slots(state_.joint_slots));
-  WorldState<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, state_);
+  WorldState<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); },
+                          state_);
   for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) root.add(island->hash);
   return root.value();
 }

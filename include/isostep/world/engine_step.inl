@@ -34,7 +34,8 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   solver_.restitute(input);
   after(Stage::restitution);
   solver_.store_impulses(input);
-  for (std::size_t i = 0; i < joint_constraints_.size(); ++i) store_joint(joint_constraints_[i], state_.joints.states[i]);
+  for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
+    store_joint(joint_constraints_[i], state_.joints.states[i]);
   after(Stage::store_impulses);
   finalise_bodies();
   after(Stage::finalise_bodies);
@@ -87,8 +88,9 @@ template <class S> void WorldEngine<S>::prepare_joints() {
 template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
   joint_constraints_.resize(state_.joints.states.size());
   step_impulses_.resize(state_.contacts.size());
-  return {state_.awake.states, state_.awake.properties, accelerations_,          state_.contacts,    geometry_,
-          step_impulses_,      joint_constraints_,      state_.settings.gravity, state_.settings.hz, state_.settings.substeps};
+  return {state_.awake.states, state_.awake.properties, accelerations_,     state_.contacts,
+          geometry_,           step_impulses_,          joint_constraints_, state_.settings.gravity,
+          state_.settings.hz,  state_.settings.substeps};
 }
 
 template <class S> void WorldEngine<S>::finalise_bodies() {
@@ -108,8 +110,9 @@ template <class S> void WorldEngine<S>::discard_bad_impulses() {
     contact.twist_impulse = V(0);
   }
   for (JointState<S>& joint : state_.joints.states) {
-    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.motor) && is_finite(joint.spring) &&
-                        is_finite(joint.lower) && is_finite(joint.upper) && is_finite(joint.swing);
+    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.motor) &&
+                        is_finite(joint.spring) && is_finite(joint.lower) && is_finite(joint.upper) &&
+                        is_finite(joint.swing);
     if (finite) continue;
     JointState<S> fresh = {};
     fresh.slot = joint.slot;

@@ -18,33 +18,33 @@
 /// One file a scalar; isostep_add_scalar in CMake writes such a file and gives it the flags that exactness needs.
 /// Contacts are solved by the kernels of one lane: wider ones need files with flags of their own. Functions of Unit<S>
 /// are in the library.
-#define ISO_INSTANTIATE_ENGINE(...)                                                                          \
-  namespace isostep {                                                                                        \
-  using OwnScalar = __VA_ARGS__;                                                                             \
-  static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");          \
-  ISO_SCALAR_MATH_OF(, OwnScalar)                                                                            \
-  template SinCos<Unit<OwnScalar>> sin_cos_to<Unit<OwnScalar>>(OwnScalar);                                   \
-  template OwnScalar atan2_to<OwnScalar>(Unit<OwnScalar>, Unit<OwnScalar>);                                  \
-  template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar); \
-  template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                      \
-  template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                           \
-  template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>);                                \
-  template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                  \
-  template void collide<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&,                 \
-                                   const Primitive<OwnScalar>&, const Transform<OwnScalar>&, OwnScalar,      \
-                                   Manifold<OwnScalar>&);                                                    \
-  template bool ray_cast<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, Vec3<OwnScalar>, \
-                                    Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                         \
-  template ClosestPoint<OwnScalar> closest_point<OwnScalar>(const Primitive<OwnScalar>&,                     \
-                                                            const Transform<OwnScalar>&, Vec3<OwnScalar>);   \
-  template class AabbTree<OwnScalar>;                                                                        \
-  template class PairSet<OwnScalar>;                                                                         \
-  template class JointTrees<OwnScalar>;                                                                      \
-  ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                     \
-  ISO_DEFINE_SCALAR_KERNELS(OwnScalar)                                                                       \
-  template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                       \
-    const bool here = simd == Simd::best || simd == Simd::scalar;                                            \
-    return here ? detail::scalar_kernels<OwnScalar>() : nullptr;                                             \
-  }                                                                                                          \
-  template class World<OwnScalar>;                                                                           \
+#define ISO_INSTANTIATE_ENGINE(...)                                                                                   \
+  namespace isostep {                                                                                                 \
+  using OwnScalar = __VA_ARGS__;                                                                                      \
+  static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");                   \
+  ISO_SCALAR_MATH_OF(, OwnScalar)                                                                                     \
+  template SinCos<Unit<OwnScalar>> sin_cos_to<Unit<OwnScalar>>(OwnScalar);                                            \
+  template OwnScalar atan2_to<OwnScalar>(Unit<OwnScalar>, Unit<OwnScalar>);                                           \
+  template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar);        \
+  template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
+  template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
+  template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>);                                         \
+  template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                           \
+  template void collide<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&,                          \
+                                   const Primitive<OwnScalar>&, const Transform<OwnScalar>&, OwnScalar,               \
+                                   Manifold<OwnScalar>&);                                                             \
+  template bool ray_cast<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, Vec3<OwnScalar>,        \
+                                    Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
+  template ClosestPoint<OwnScalar> closest_point<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, \
+                                                            Vec3<OwnScalar>);                                         \
+  template class AabbTree<OwnScalar>;                                                                                 \
+  template class PairSet<OwnScalar>;                                                                                  \
+  template class JointTrees<OwnScalar>;                                                                               \
+  ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
+  ISO_DEFINE_SCALAR_KERNELS(OwnScalar)                                                                                \
+  template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \
+    const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
+    return here ? detail::scalar_kernels<OwnScalar>() : nullptr;                                                      \
+  }                                                                                                                   \
+  template class World<OwnScalar>;                                                                                    \
   }

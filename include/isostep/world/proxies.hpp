@@ -1,4 +1,5 @@
-// Which bodies might touch: the tree of fat boxes and the pairs it yields, kept in step with the state they derive from.
+// Which bodies might touch: the tree of fat boxes and the pairs it yields, kept in step with the state they derive
+// from.
 // SPDX-License-Identifier: MIT
 #pragma once
 

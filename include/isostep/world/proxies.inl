@@ -9,8 +9,8 @@ namespace isostep {
 template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) {
   if (keys_.size() <= state.slot) keys_.resize(state.slot + 1, Key{});
   Key& key = keys_[state.slot];
-  const Key next = {state.fat, body.filter, true, awake, body.type == BodyType::dynamic,
-                    (body.flags & body_flag::kCollide) != 0};
+  const Key next = {
+      state.fat, body.filter, true, awake, body.type == BodyType::dynamic, (body.flags & body_flag::kCollide) != 0};
   if (!key.present) {
     tree_.insert(state.slot, state.fat);
   } else if (!(key.box == next.box)) {

@@ -17,8 +17,8 @@ inline constexpr std::int32_t kMaxRate = 16384;
 
 /// Rates are whole numbers, so that the time step is exact and the same everywhere.
 template <class S> struct Settings {
-  std::int32_t hz = 60;            // [1/s] steps, 10..1000
-  std::int32_t substeps = 8;       // per step, 1..64, hz * substeps <= kMaxRate
+  std::int32_t hz = 60;                    // [1/s] steps, 10..1000
+  std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
   bool allow_sleep = true;
   SolverName solver = SolverName::soft_step;

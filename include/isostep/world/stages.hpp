@@ -22,8 +22,8 @@ enum class Stage : std::uint32_t {
 };
 inline constexpr std::uint32_t kStages = 12;
 inline constexpr const char* kStageNames[kStages] = {
-    "find_pairs",   "apply_forces",   "update_manifolds", "colour_constraints", "prepare",      "solve_substeps",
-    "restitution",  "store_impulses", "finalise_bodies",  "update_sensors",     "emit_events",  "update_sleep"};
+    "find_pairs",  "apply_forces",   "update_manifolds", "colour_constraints", "prepare",     "solve_substeps",
+    "restitution", "store_impulses", "finalise_bodies",  "update_sensors",     "emit_events", "update_sleep"};
 
 /// Called after each stage of a step; sees the world, changes nothing.
 struct StageObserver {

@@ -57,7 +57,9 @@ static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<d
 struct SensorOverlap {
   std::uint32_t sensor, other;  // slots
 
-  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) { return a.sensor == b.sensor && a.other == b.other; }
+  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
+    return a.sensor == b.sensor && a.other == b.other;
+  }
   friend constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
     return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
   }
@@ -89,11 +91,11 @@ template <class S> struct WorldState {
   Settings<S> settings;
   std::uint64_t tick = 0;  // steps taken
   SlotMap body_slots, shape_slots, joint_slots;
-  std::vector<ShapeRecord> shapes;      // by slot
-  std::vector<Child<S>> children;       // the shapes' pool
+  std::vector<ShapeRecord> shapes;  // by slot
+  std::vector<Child<S>> children;   // the shapes' pool
   BodySet<S> fixed;
   BodySet<S> awake;
-  std::vector<Contact<S>> contacts;     // ascending by key
+  std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
   std::vector<PendingForce<S>> forces;
   std::vector<SensorOverlap> overlaps;

@@ -32,14 +32,16 @@ template <class S> class StateValidator {
       if (state_.frozen[i]->bodies.states.empty()) return "a frozen island is empty";
     }
     for (std::uint32_t slot = 0; slot < set_of_body_.size(); ++slot) {
-      if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != kNowhere)) return "a body's slot is taken but has no body";
+      if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != kNowhere))
+        return "a body's slot is taken but has no body";
     }
     if (const char* rule = links(state_.contacts, state_.joints, kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) {
       if (const char* rule = links(state_.frozen[i]->contacts, state_.frozen[i]->joints, i)) return rule;
     }
     for (std::uint32_t slot = 0; slot < joint_met_.size(); ++slot) {
-      if (state_.joint_slots.is_taken(slot) != (joint_met_[slot] != 0)) return "a joint's slot is taken but has no joint";
+      if (state_.joint_slots.is_taken(slot) != (joint_met_[slot] != 0))
+        return "a joint's slot is taken but has no joint";
     }
     return others();
   }
@@ -60,8 +62,8 @@ template <class S> class StateValidator {
         if (shape.first_child != 0 || shape.child_count != 0) return "a free shape has no parts";
         continue;
       }
-      if (shape.first_child > state_.children.size() || shape.child_count > state_.children.size() - shape.first_child ||
-          shape.child_count > detail::kMaxChildren) {
+      if (shape.first_child > state_.children.size() ||
+          shape.child_count > state_.children.size() - shape.first_child || shape.child_count > detail::kMaxChildren) {
         return "a shape's parts lie outside the pool";
       }
       for (std::uint32_t c = 0; c < shape.child_count; ++c) {
@@ -80,7 +82,8 @@ template <class S> class StateValidator {
     if (set.states.size() != set.properties.size()) return "as many bodies as properties";
     for (std::size_t i = 0; i < set.states.size(); ++i) {
       const BodyState<S>& b = set.states[i];
-      if (b.slot >= set_of_body_.size() || set_of_body_[b.slot] != kNowhere) return "a body's slot is unknown or twice used";
+      if (b.slot >= set_of_body_.size() || set_of_body_[b.slot] != kNowhere)
+        return "a body's slot is unknown or twice used";
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
       set_of_body_[b.slot] = name;
       type_of_body_[b.slot] = set.properties[i].type;
@@ -90,14 +93,17 @@ template <class S> class StateValidator {
     return nullptr;
   }
   const char* properties(const BodyProperties<S>& p, std::uint32_t name) const {
-    constexpr std::uint32_t kKnown = body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kAllLocks;
+    constexpr std::uint32_t kKnown =
+        body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
-    if (p.type > BodyType::dynamic || (p.type == BodyType::fixed) != (name == kFixed) || (name < kAwake && !dynamic_body)) {
+    if (p.type > BodyType::dynamic || (p.type == BodyType::fixed) != (name == kFixed) ||
+        (name < kAwake && !dynamic_body)) {
       return "a body's type does not fit its set";
     }
     if ((p.flags & ~kKnown) != 0) return "a body has an unknown flag";
     if (p.shape >= state_.shapes.size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
-    if (!detail::is_unit<S>(p.principal) || !is_finite(p.local_centre) || !detail::within(p.local_centre, Limits<S>::extent())) {
+    if (!detail::is_unit<S>(p.principal) || !is_finite(p.local_centre) ||
+        !detail::within(p.local_centre, Limits<S>::extent())) {
       return "a body's centre or axes are out of range";
     }
     const bool even = p.kappa.x == p.kappa.y && p.kappa.y == p.kappa.z;
@@ -107,24 +113,28 @@ template <class S> class StateValidator {
       return "a body's mass does not fit its type";
     }
     if (detail::fault_of(p.material) != Fault::none ||
-        detail::fault_of_motion(p.gravity_scale, p.linear_damping, p.angular_damping, p.flags & body_flag::kAllLocks) != Fault::none) {
+        detail::fault_of_motion(p.gravity_scale, p.linear_damping, p.angular_damping, p.flags & body_flag::kAllLocks) !=
+            Fault::none) {
       return "a body's material or damping is out of range";
     }
     return nullptr;
   }
   static const char* motion(const BodyState<S>& b) {
-    if (!is_finite(b.centre) || !detail::within(b.centre, Limits<S>::position()) || !detail::is_unit<S>(b.orientation)) {
+    if (!is_finite(b.centre) || !detail::within(b.centre, Limits<S>::position()) ||
+        !detail::is_unit<S>(b.orientation)) {
       return "a body's pose is out of range";
     }
     // Commands cut speeds a quarter above the limits.
     const S quarter = S(1.25);
-    if (!is_finite(b.velocity) || !is_finite(b.spin) || convert<Velocity<S>>(Limits<S>::speed() * quarter) < max_abs(b.velocity) ||
+    if (!is_finite(b.velocity) || !is_finite(b.spin) ||
+        convert<Velocity<S>>(Limits<S>::speed() * quarter) < max_abs(b.velocity) ||
         convert<Velocity<S>>(Limits<S>::spin() * quarter) < max_abs(b.spin)) {
       return "a body's speed is out of range";
     }
     const S edge = Limits<S>::position() + Limits<S>::position() + Limits<S>::position();
-    if (!is_finite(b.fat.low) || !is_finite(b.fat.high) || !detail::within(b.fat.low, edge) || !detail::within(b.fat.high, edge) ||
-        b.fat.high.x < b.fat.low.x || b.fat.high.y < b.fat.low.y || b.fat.high.z < b.fat.low.z) {
+    if (!is_finite(b.fat.low) || !is_finite(b.fat.high) || !detail::within(b.fat.low, edge) ||
+        !detail::within(b.fat.high, edge) || b.fat.high.x < b.fat.low.x || b.fat.high.y < b.fat.low.y ||
+        b.fat.high.z < b.fat.low.z) {
       return "a body's box is out of range";
     }
     return nullptr;
@@ -154,10 +164,13 @@ template <class S> class StateValidator {
   }
   const char* contact(const Contact<S>& c, std::uint32_t name) const {
     const ContactKey& key = c.key;
-    if (!is_body(key.body_a) || !is_body(key.body_b) || !(key.body_a < key.body_b)) return "a contact names no two bodies";
+    if (!is_body(key.body_a) || !is_body(key.body_b) || !(key.body_a < key.body_b))
+      return "a contact names no two bodies";
     if (!belongs(key.body_a, key.body_b, name)) return "a contact lies in another island than its bodies";
-    if (key.child_a >= parts_of_body(key.body_a) || key.child_b >= parts_of_body(key.body_b)) return "a contact names no part of a body";
-    if (c.count < 1 || c.count > kMaxContactPoints || c.flags > contact_flag::kTouching) return "a contact has 1 to 4 points";
+    if (key.child_a >= parts_of_body(key.body_a) || key.child_b >= parts_of_body(key.body_b))
+      return "a contact names no part of a body";
+    if (c.count < 1 || c.count > kMaxContactPoints || c.flags > contact_flag::kTouching)
+      return "a contact has 1 to 4 points";
     bool good = is_finite(c.friction_impulse) && is_finite(c.twist_impulse);
     for (std::uint32_t p = 0; p < kMaxContactPoints; ++p) {
       const Velocity<S> impulse = c.normal_impulse[p];
@@ -175,7 +188,8 @@ template <class S> class StateValidator {
     for (std::size_t i = 0; i < joints.states.size(); ++i) {
       const JointState<S>& state = joints.states[i];
       const JointProperties<S>& joint = joints.properties[i];
-      if (state.slot >= joint_met_.size() || joint_met_[state.slot] != 0) return "a joint's slot is unknown or twice used";
+      if (state.slot >= joint_met_.size() || joint_met_[state.slot] != 0)
+        return "a joint's slot is unknown or twice used";
       if (i > 0 && !(joints.states[i - 1].slot < state.slot)) return "joints ascend by slot";
       joint_met_[state.slot] = 1;
       if (joint.body_a == joint.body_b) return "a joint ties a body to itself";
@@ -183,7 +197,8 @@ template <class S> class StateValidator {
         if (body != kNoBody && !is_body(body)) return "a joint names no body";
       }
       if (!belongs(joint.body_a, joint.body_b, name)) return "a joint lies in another island than its bodies";
-      if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none) return "a joint is out of range";
+      if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
+        return "a joint is out of range";
       if (state.flags != 0 || !is_finite(state.point) || !is_finite(state.angular) || !is_finite(state.motor) ||
           !is_finite(state.spring) || !is_finite(state.lower) || !is_finite(state.upper) || !is_finite(state.swing)) {
         return "a joint's impulse is not one";
@@ -200,22 +215,24 @@ template <class S> class StateValidator {
       }
       const S steps = S(state_.settings.hz) * S(0.25);
       if (forces[i].reserved != 0 || !is_finite(forces[i].linear) || !is_finite(forces[i].angular) ||
-          !detail::within(forces[i].linear, steps * Limits<S>::speed()) || !detail::within(forces[i].angular, steps * Limits<S>::spin())) {
+          !detail::within(forces[i].linear, steps * Limits<S>::speed()) ||
+          !detail::within(forces[i].angular, steps * Limits<S>::spin())) {
         return "a force is out of range";
       }
       if (i > 0 && !(forces[i - 1].slot < slot)) return "forces ascend by slot";
     }
     for (std::size_t i = 0; i < state_.overlaps.size(); ++i) {
-      if (!is_body(state_.overlaps[i].sensor) || !is_body(state_.overlaps[i].other)) return "an overlap names no two bodies";
+      if (!is_body(state_.overlaps[i].sensor) || !is_body(state_.overlaps[i].other))
+        return "an overlap names no two bodies";
       if (i > 0 && !(state_.overlaps[i - 1] < state_.overlaps[i])) return "overlaps ascend";
     }
     return nullptr;
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint32_t> set_of_body_;   // by slot: kNowhere, kFixed, kAwake or a frozen island
-  std::vector<BodyType> type_of_body_;       // by slot
-  std::vector<std::uint8_t> joint_met_;      // by slot
+  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kFixed, kAwake or a frozen island
+  std::vector<BodyType> type_of_body_;      // by slot
+  std::vector<std::uint8_t> joint_met_;     // by slot
 };
 
 }  // namespace isostep

@@ -27,16 +27,16 @@ template <class S> class WorldEngine;
 /// What a ray met first.
 template <class S> struct RayCastHit {
   BodyId body;
-  Vec3<S> point;          // [m] world
-  Vec3<Unit<S>> normal;   // [1] of the surface, against the ray
-  S fraction;             // [1] of the translation
+  Vec3<S> point;         // [m] world
+  Vec3<Unit<S>> normal;  // [1] of the surface, against the ray
+  S fraction;            // [1] of the translation
 };
 /// What is nearest to a point.
 template <class S> struct ClosestBody {
   BodyId body;
-  Vec3<S> point;          // [m] on its surface
-  Vec3<Unit<S>> normal;   // [1] outward
-  S distance;             // [m] negative: inside
+  Vec3<S> point;         // [m] on its surface
+  Vec3<Unit<S>> normal;  // [1] outward
+  S distance;            // [m] negative: inside
 };
 /// A query sees bodies whose category meets the mask, sensors only when asked.
 struct QueryFilter {
@@ -59,8 +59,8 @@ struct WorldCounts {
 /// A rigid-body world over any scalar.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
-/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every tick,
-/// on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
+/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every
+/// tick, on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
 template <class S> class World {
@@ -79,7 +79,9 @@ template <class S> class World {
   const char* simd_name() const;
 
   // Shapes: shared by the bodies that name them.
-  template <class T> ISO_INLINE ShapeId add_shape(const Sphere<T>& sphere) { return add(Sphere<S>{as_s(sphere.radius)}); }
+  template <class T> ISO_INLINE ShapeId add_shape(const Sphere<T>& sphere) {
+    return add(Sphere<S>{as_s(sphere.radius)});
+  }
   template <class T> ISO_INLINE ShapeId add_shape(const Box<T>& box) {
     return add(Box<S>{{as_s(box.half_extents.x), as_s(box.half_extents.y), as_s(box.half_extents.z)}});
   }
@@ -107,7 +109,8 @@ template <class S> class World {
   bool apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point);
 
   // Joints.
-  /// A joint whose frames lie where `frame` (world) is now; a null id is the world. Add limits, motor, spring; then create.
+  /// A joint whose frames lie where `frame` (world) is now; a null id is the world. Add limits, motor, spring; then
+  /// create.
   JointProperties<S> joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const;
   JointId create(const JointProperties<S>& joint);
   bool destroy(JointId joint);
@@ -142,7 +145,8 @@ template <class S> class World {
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter = {}) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
-  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter = {}) const;
+  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                   QueryFilter filter = {}) const;
 
   // Time.
   StepReport step(const StageObserver& observer = {});

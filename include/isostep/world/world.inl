@@ -30,7 +30,8 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) : ke
     const S g = s.gravity[axis];
     s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
   }
-  if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity)) fault_ = Fault::out_of_range;
+  if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity))
+    fault_ = Fault::out_of_range;
 }
 
 template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
@@ -113,7 +114,9 @@ template <class S> bool World<S>::destroy(JointId joint) { return detail::run(*e
 template <class S> bool World<S>::set_joint(JointId joint, const JointProperties<S>& properties) {
   return detail::run(*engine_, SetJoint<S>{joint, properties});
 }
-template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const { return engine_->properties_of(joint); }
+template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const {
+  return engine_->properties_of(joint);
+}
 template <class S> S World<S>::joint_error(JointId joint) const {
   const FloatEnvironment environment;
   return engine_->joint_error(joint);
@@ -211,7 +214,8 @@ template <class S> WorldCounts World<S>::counts() const {
   }
   counts.joints += static_cast<std::uint32_t>(state.joints.states.size());
   counts.bodies = counts.fixed + counts.awake + counts.asleep;
-  for (std::uint32_t i = 0; i < state.shape_slots.entries().size(); ++i) counts.shapes += state.shape_slots.is_taken(i) ? 1u : 0u;
+  for (std::uint32_t i = 0; i < state.shape_slots.entries().size(); ++i)
+    counts.shapes += state.shape_slots.is_taken(i) ? 1u : 0u;
   return counts;
 }
 
@@ -226,7 +230,8 @@ std::optional<ClosestBody<S>> World<S>::closest(Vec3<S> point, S max_distance, Q
   return engine_->closest(point, max_distance, filter);
 }
 template <class S>
-void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const {
+void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                           QueryFilter filter) const {
   const FloatEnvironment environment;
   engine_->overlapping(shape, pose, out, filter);
 }

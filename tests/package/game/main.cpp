@@ -1,11 +1,10 @@
 // A game outside the tree: drops a stack, kicks it, records everything; prints its last hash.
 // SPDX-License-Identifier: MIT
 //
-// game REPLAY BEHAVIOUR: the behaviour version is what `isostep selfcheck` prints.
+// game REPLAY: writes the recording there.
 #include <cinttypes>
 #include <cstdio>
-#include <cstdlib>
-#include <isostep/state/record.hpp>
+#include <isostep/world/recorder.hpp>
 #include <isostep/world/world.hpp>
 #include <vector>
 
@@ -14,23 +13,6 @@ using Number = iso::Q32_32;
 using World = iso::World<Number>;
 
 namespace {
-
-iso::Result<iso::ReplayHeader> header_of(const World& world, std::uint64_t behaviour) {
-  std::vector<std::uint8_t> bytes;
-  iso::Writer writer(bytes);
-  writer.write(world.settings().gravity);
-  writer.write(world.settings().allow_sleep);
-  iso::ReplayIdentity identity{};
-  identity.behaviour = behaviour;
-  identity.scalar = iso::ScalarTraits<Number>::kName;
-  identity.scalar_id = iso::ScalarTraits<Number>::kId;
-  identity.hz = static_cast<std::uint32_t>(world.settings().hz);
-  identity.substeps = static_cast<std::uint32_t>(world.settings().substeps);
-  identity.solver = "soft_step";
-  identity.settings_digest = iso::hash_bytes(bytes.data(), bytes.size());
-  identity.scene = "a game";
-  return iso::make_replay_header(identity);
-}
 
 bool write_file(const char* path, const std::vector<std::uint8_t>& bytes) {
   std::FILE* file = std::fopen(path, "wb");
@@ -42,17 +24,14 @@ bool write_file(const char* path, const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 3) return 64;
+  if (count != 2) return 64;
   World world;
-  std::vector<std::uint8_t> tape, replay;
-  iso::Recorder<World> recorder(iso::sink_to(replay));
-  const auto header = header_of(world, std::strtoull(arguments[2], nullptr, 16));
-  if (!header || !recorder.begin(world, header.value())) return 1;
-  world.record_to(&tape);
+  std::vector<std::uint8_t> replay;
+  iso::WorldRecorder<Number> recorder(world, iso::sink_to(replay));
+  if (!recorder.begin("a game")) return 1;
 
   std::vector<iso::BodyId> crates;
   for (int frame = 0; frame < 200; ++frame) {
-    tape.clear();
     if (frame == 0) {
       const auto ground = world.add_shape(iso::HalfSpace<Number>{{0, 1, 0}, 0});
       const auto crate = world.add_shape(iso::Box{{0.5, 0.5, 0.5}});
@@ -65,7 +44,7 @@ int main(int count, char** arguments) {
     if (frame == 100) world.apply_impulse(crates.back(), {3, 0, 1});
     if (frame == 150) world.destroy(crates.front());
     world.step();
-    if (!recorder.frame(tape, world.hash())) return 1;
+    if (!recorder.end_frame()) return 1;
   }
   if (!recorder.finish() || !write_file(arguments[1], replay)) return 1;
   std::printf("%016" PRIx64 "\n", world.hash());

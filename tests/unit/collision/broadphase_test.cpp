@@ -1,10 +1,10 @@
 // AabbTree and PairSet against brute force, whatever happened before.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <set>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/collision/broadphase/tree.hpp"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/core/bitset.hpp"
 
+#include <gtest/gtest.h>
+
 #include <set>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "isostep/core/random.hpp"
 
@@ -25,8 +25,14 @@ TEST(Bitset, RandomChangesLeaveTheMembersOfASet) {
   for (int i = 0; i < 3000; ++i) {
     const std::uint32_t at = random_below(random, 500);
     switch (random_below(random, 3)) {
-      case 0: bits.set(at); expected.insert(at); break;
-      case 1: bits.reset(at); expected.erase(at); break;
+      case 0:
+        bits.set(at);
+        expected.insert(at);
+        break;
+      case 1:
+        bits.reset(at);
+        expected.erase(at);
+        break;
       default: EXPECT_EQ(bits.insert(at), expected.insert(at).second);
     }
     EXPECT_EQ(bits.test(at), expected.count(at) == 1);

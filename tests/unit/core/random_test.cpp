@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/core/random.hpp"
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "isostep/core/fields.hpp"
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/core/stable_sort.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "isostep/core/random.hpp"
 
@@ -39,8 +39,8 @@ std::vector<Record> sorted(std::vector<Record> records) {
 
 TEST(StableSort, EveryLengthAndEveryMaskOfBitsIsOrderedAndKeepsTheOrderOfEqualKeys) {
   Pcg32 random = Pcg32::seeded(1);
-  const std::uint64_t masks[] = {0,      1,          0xff,        0x7ff, 0xff00ff00ff00ff00u, 0x000003ff000003ffu,
-                                 ~0ull,  1ull << 63, 0xfffull << 52, 7,  0x8000000000000001u};
+  const std::uint64_t masks[] = {0,     1,          0xff,           0x7ff, 0xff00ff00ff00ff00u, 0x000003ff000003ffu,
+                                 ~0ull, 1ull << 63, 0xfffull << 52, 7,     0x8000000000000001u};
   for (const std::uint32_t count : {0u, 1u, 2u, 3u, 31u, 32u, 33u, 100u, 1024u, 1025u, 5000u}) {
     for (const std::uint64_t mask : masks) {
       std::vector<std::uint64_t> keys;

@@ -1,14 +1,14 @@
 // Joints against closed forms: pendulums, springs, motors, chains under heavy loads, and the laws of momentum.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
 #include <cmath>
 #include <cstdint>
 #include <random>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "isostep/dynamics/joints/joint_tree.hpp"
 

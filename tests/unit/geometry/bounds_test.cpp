@@ -16,9 +16,7 @@ using oracle::D3;
 template <class S> class BoundsTest : public testing::Test {
  protected:
   /// Three steps at the size of the coordinates used here, 32 m.
-  static double slack() {
-    return 3 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 32);
-  }
+  static double slack() { return 3 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 32); }
 };
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 TYPED_TEST_SUITE(BoundsTest, Scalars);
@@ -101,8 +99,8 @@ TYPED_TEST(BoundsTest, ATiltedHalfSpaceIsBoundedByTheWorldAlone) {
   oracle::Random random(3);
   const Primitive<S> slope = primitive_of(HalfSpace<S>{{Unit<S>(0.6), Unit<S>(0.8), Unit<S>(0)}, S(0)});
   const Aabb<S> box = bounds(slope, any_transform<S>(random));
-  EXPECT_TRUE(contains(box, Aabb<S>::around(Vec3<S>::zero(), {Limits<S>::position(), Limits<S>::position(),
-                                                              Limits<S>::position()})));
+  EXPECT_TRUE(contains(
+      box, Aabb<S>::around(Vec3<S>::zero(), {Limits<S>::position(), Limits<S>::position(), Limits<S>::position()})));
 }
 
 TYPED_TEST(BoundsTest, AListIsBoundedByItsChildrenTogether) {
@@ -115,8 +113,7 @@ TYPED_TEST(BoundsTest, AListIsBoundedByItsChildrenTogether) {
   high.pose.position = {S(3), S(4), S(0)};
   const std::vector<Child<S>> list = {low, high};
   // A quarter turn about z, exact: x to y, y to -x.
-  const Transform<S> quarter = {{S(10), S(0), S(0)},
-                                {{{U(0), U(-1), U(0)}, {U(1), U(0), U(0)}, {U(0), U(0), U(1)}}}};
+  const Transform<S> quarter = {{S(10), S(0), S(0)}, {{{U(0), U(-1), U(0)}, {U(1), U(0), U(0)}, {U(0), U(0), U(1)}}}};
   const Aabb<S> box = bounds(std::span<const Child<S>>(list), quarter);
   EXPECT_EQ(box.low, (Vec3<S>{S(4.75), S(-2.5), S(-0.5)}));
   EXPECT_EQ(box.high, (Vec3<S>{S(10.5), S(3.25), S(0.5)}));

@@ -221,8 +221,8 @@ TYPED_TEST(MassPropertiesTest, PrincipalInertiasObeyTheTriangleInequality) {
   for (int n = 0; n < 200; ++n) {
     std::vector<Child<S>> list;
     for (int i = 0; i <= n % 4; ++i) {
-      list.push_back({random.primitive<S>((n + i) % 3, 0.1, 2),
-                      {oracle::made<S>(random.point(3)), random.orientation<S>()}});
+      list.push_back(
+          {random.primitive<S>((n + i) % 3, 0.1, 2), {oracle::made<S>(random.point(3)), random.orientation<S>()}});
     }
     const MassProperties<S> got = properties_of(list, S(1));
     const D3 j = {1 / to_double(got.kappa.x), 1 / to_double(got.kappa.y), 1 / to_double(got.kappa.z)};

@@ -73,7 +73,10 @@ inline double signed_distance(const Primitive<double>& s, D3 p) {
   return inside < 0 ? inside : std::hypot(std::fmax(q.x, 0), std::fmax(q.y, 0), std::fmax(q.z, 0));
 }
 
-struct PointMass { D3 at; double volume; };
+struct PointMass {
+  D3 at;
+  double volume;
+};
 
 /// Two-point Gauss rule on [low, high]: exact for cubics.
 inline void gauss(double low, double high, double (&x)[2]) {

@@ -90,7 +90,9 @@ TYPED_TEST(EigenOver, ConstantsInSourceAreNotCutToIntegers) {
 
 /// Eigen's own question whether m * x may be formed for an x of type T.
 template <class S, class T>
-concept EigenTakes = requires { typename Eigen::internal::promote_scalar_arg<S, T, false>::type; };
+concept EigenTakes = requires {
+  typename Eigen::internal::promote_scalar_arg<S, T, false>::type;
+};
 TEST(EigenOverFixed, TakesNoDoubleKnownAtRunTimeOnly) {
   EXPECT_FALSE((EigenTakes<Q16_16, double>)) << "what is left is a Literal, which only the compiler can make";
   EXPECT_FALSE((EigenTakes<Q32_32, float>));

@@ -28,8 +28,16 @@ __attribute__((noinline)) std::uint64_t sums() {
 /// The states a caller may have: the control bits of one kind each, and all together.
 std::vector<std::uint64_t> hostile_states(std::uint64_t sound) {
 #if defined(__SSE2__)
-  return {sound | 0x8000, sound | 0x0040, sound | 0x8040, sound | 0x2000, sound | 0x4000, sound | 0x6000,
-          sound | 0xe040, sound | 0x3f,   sound & ~std::uint64_t{0x3f}, (sound & ~std::uint64_t{0x3f}) | 0xe040 | 0x1};
+  return {sound | 0x8000,
+          sound | 0x0040,
+          sound | 0x8040,
+          sound | 0x2000,
+          sound | 0x4000,
+          sound | 0x6000,
+          sound | 0xe040,
+          sound | 0x3f,
+          sound & ~std::uint64_t{0x3f},
+          (sound & ~std::uint64_t{0x3f}) | 0xe040 | 0x1};
 #elif defined(__aarch64__) || (defined(__arm__) && defined(__ARM_FP))
   return {sound | 1u << 24, sound | 1u << 22, sound | 2u << 22, sound | 3u << 22, sound | 7u << 22};
 #elif defined(__riscv_flen)

@@ -8,8 +8,12 @@ namespace isostep::test {
 float bare_float(float a, float b, float c);
 double bare_double(double a, double b, double c);
 /// The same over Exact<T>, in every shape a compiler fuses: a b + c, a b - c, c - a b, and through variables.
-struct FloatSums { float plus, minus, from, twice; };
-struct DoubleSums { double plus, minus, from, twice; };
+struct FloatSums {
+  float plus, minus, from, twice;
+};
+struct DoubleSums {
+  double plus, minus, from, twice;
+};
 FloatSums exact_float(float a, float b, float c);
 DoubleSums exact_double(double a, double b, double c);
 /// The rotation (x c - y s, x s + y c) of n points, a loop that gcc's vectoriser fuses in spite of -ffp-contract=off.

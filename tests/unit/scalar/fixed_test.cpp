@@ -49,8 +49,16 @@ std::uint64_t random_word() {  // splitmix64
 /// Raw values of every size; ends, small numbers and multiples of powers of two, where ties are, more often.
 template <class S> S sample() {
   using Rep = typename S::Raw;
-  const Rep ends[] = {0, 1, -1, 2, -2, std::numeric_limits<Rep>::max(), std::numeric_limits<Rep>::min(),
-                      std::numeric_limits<Rep>::min() + 1, Rep{1} << (S::kFracBits - 1), Rep{3} << (S::kFracBits - 1)};
+  const Rep ends[] = {0,
+                      1,
+                      -1,
+                      2,
+                      -2,
+                      std::numeric_limits<Rep>::max(),
+                      std::numeric_limits<Rep>::min(),
+                      std::numeric_limits<Rep>::min() + 1,
+                      Rep{1} << (S::kFracBits - 1),
+                      Rep{3} << (S::kFracBits - 1)};
   const std::uint64_t word = random_word();
   const int shift = static_cast<int>(random_word() % S::kBits);
   switch (random_word() % 4) {
@@ -165,9 +173,7 @@ TYPED_TEST(FixedTest, SumsOfProductsRoundOnce) {
       return sizeof(typename S::Raw) == 4 ? static_cast<Wide>(static_cast<std::int64_t>(x)) : static_cast<Wide>(x);
     };
     const UnsignedWide half = UnsignedWide(1) << (U::kFracBits - 1);
-    const auto rounded = [&](UnsignedWide x) {
-      return static_cast<typename S::Raw>(fold(x + half) >> U::kFracBits);
-    };
+    const auto rounded = [&](UnsignedWide x) { return static_cast<typename S::Raw>(fold(x + half) >> U::kFracBits); };
     ASSERT_EQ(isostep::round_to<S>(product(a, u) + product(b, v)).raw(), rounded(first + second));
     ASSERT_EQ(isostep::round_to<S>(product(a, u) - product(b, v)).raw(), rounded(first - second));
     ASSERT_EQ(isostep::round_to<S>(-product(a, u)).raw(), rounded(0 - first));
@@ -294,7 +300,7 @@ TEST(FixedConversion, CoarserFormatsRoundToNearest) {
 }
 
 TEST(FixedConversion, QuotientsOfTwoFormatsTakeTheFormatAskedFor) {
-  EXPECT_EQ(isostep::divide_to<Unit<Q16_16>>(Q16_16(1), Q16_16(3)).raw(), 357913941);  // 2^30 / 3
+  EXPECT_EQ(isostep::divide_to<Unit<Q16_16>>(Q16_16(1), Q16_16(3)).raw(), 357913941);            // 2^30 / 3
   EXPECT_EQ(isostep::divide_to<Unit<Q32_32>>(Q32_32(2), Q32_32(3)).raw(), 3074457345618258603);  // 2^63 / 3
   EXPECT_EQ(isostep::divide_to<Q16_16>(Q16_16(1), Unit<Q16_16>(0.5)), Q16_16(2));
   EXPECT_EQ(isostep::divide_to<Unit<Q32_32>>(Q32_32(5), Q32_32(2)), Unit<Q32_32>::highest());

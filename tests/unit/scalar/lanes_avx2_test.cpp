@@ -13,11 +13,10 @@ using isostep::isa::Avx2;
 
 bool cpu_can_run() { return __builtin_cpu_supports("avx2") != 0; }
 
-using Avx2Lanes =
-    testing::Types<Lanes<float, 8, Avx2>, Lanes<double, 4, Avx2>, Lanes<Q16_16, 8, Avx2>,
-                   Lanes<Fixed<std::int32_t, 30>, 8, Avx2>, Lanes<Q32_32, 4, Avx2>,
-                   Lanes<Fixed<std::int64_t, 40>, 4, Avx2>, Lanes<Fixed<std::int64_t, 62>, 4, Avx2>,
-                   Lanes<float, 4, Avx2>, Lanes<Q32_32, 1, Avx2>>;
+using Avx2Lanes = testing::Types<Lanes<float, 8, Avx2>, Lanes<double, 4, Avx2>, Lanes<Q16_16, 8, Avx2>,
+                                 Lanes<Fixed<std::int32_t, 30>, 8, Avx2>, Lanes<Q32_32, 4, Avx2>,
+                                 Lanes<Fixed<std::int64_t, 40>, 4, Avx2>, Lanes<Fixed<std::int64_t, 62>, 4, Avx2>,
+                                 Lanes<float, 4, Avx2>, Lanes<Q32_32, 1, Avx2>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Avx2, LanesTest, Avx2Lanes);
 
 class Avx2Test : public testing::Test {

@@ -38,9 +38,16 @@ template <class S> S sample(Random& random) {
   const int kind = random.below(4);
   if constexpr (isostep::kIsFixed<S>) {
     const Raw sign_bit = Raw{1} << (kBits - 1);
-    const Raw ends[] = {0, 1, static_cast<Raw>(-1), sign_bit, sign_bit + 1, sign_bit - 1,
-                        static_cast<Raw>(sign_bit / 2), Raw{1} << (S::kFracBits - 1),
-                        static_cast<Raw>(Raw{3} << (S::kFracBits - 1)), static_cast<Raw>(0xffffffffu),
+    const Raw ends[] = {0,
+                        1,
+                        static_cast<Raw>(-1),
+                        sign_bit,
+                        sign_bit + 1,
+                        sign_bit - 1,
+                        static_cast<Raw>(sign_bit / 2),
+                        Raw{1} << (S::kFracBits - 1),
+                        static_cast<Raw>(Raw{3} << (S::kFracBits - 1)),
+                        static_cast<Raw>(0xffffffffu),
                         static_cast<Raw>(std::uint64_t{1} << 32)};
     if (kind == 0) return isostep::from_bits<S>(ends[random.below(11)]);
     if (kind == 1) return isostep::from_bits<S>(static_cast<Raw>(bits));
@@ -48,8 +55,16 @@ template <class S> S sample(Random& random) {
     return isostep::from_bits<S>(static_cast<Raw>(static_cast<Raw>(bits) << random.below(kBits)));
   } else {
     using Limits = std::numeric_limits<S>;
-    const S ends[] = {S(0), S(1), S(0.5), Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity(),
-                      Limits::quiet_NaN(), Limits::epsilon(), S(3)};
+    const S ends[] = {S(0),
+                      S(1),
+                      S(0.5),
+                      Limits::denorm_min(),
+                      Limits::min(),
+                      Limits::max(),
+                      Limits::infinity(),
+                      Limits::quiet_NaN(),
+                      Limits::epsilon(),
+                      S(3)};
     const S sign = (bits >> 63) != 0 ? S(-1) : S(1);
     if (kind == 0) return sign * ends[random.below(10)];
     if (kind == 1) return isostep::from_bits<S>(static_cast<Raw>(bits));
@@ -82,12 +97,12 @@ template <class L> struct Block {
   L load() const { return L::load(lane); }
 };
 
-#define EXPECT_LANES(same, lanes, scalar)                                                              \
-  do {                                                                                                 \
-    const auto block = Block<std::remove_cvref_t<decltype(lanes)>>::of(lanes);                         \
-    for (int i = 0; i < decltype(block)::kWidth; ++i) {                                                \
-      ASSERT_TRUE(same(block.lane[i], (scalar))) << #lanes << ", lane " << i << ", round " << round;   \
-    }                                                                                                  \
+#define EXPECT_LANES(same, lanes, scalar)                                                            \
+  do {                                                                                               \
+    const auto block = Block<std::remove_cvref_t<decltype(lanes)>>::of(lanes);                       \
+    for (int i = 0; i < decltype(block)::kWidth; ++i) {                                              \
+      ASSERT_TRUE(same(block.lane[i], (scalar))) << #lanes << ", lane " << i << ", round " << round; \
+    }                                                                                                \
   } while (false)
 
 constexpr int kRounds = 4000;

@@ -16,12 +16,11 @@ using Q23_40 = Fixed<std::int64_t, 40>;
 
 bool cpu_can_run() { return true; }  // what the compiler may use everywhere is there
 
-using PortableLanes =
-    testing::Types<Lanes<float, 1, Portable>, Lanes<double, 1, Portable>, Lanes<Q16_16, 1, Portable>,
-                   Lanes<Q32_32, 1, Portable>, Lanes<float, 2, Portable>, Lanes<Q16_16, 2, Portable>,
-                   Lanes<Q32_32, 2, Portable>, Lanes<double, 3, Portable>, Lanes<Q23_40, 3, Portable>,
-                   Lanes<float, 4, Portable>, Lanes<double, 4, Portable>, Lanes<Q32_32, 4, Portable>,
-                   Lanes<float, 8, Portable>, Lanes<Q16_16, 8, Portable>>;
+using PortableLanes = testing::Types<Lanes<float, 1, Portable>, Lanes<double, 1, Portable>, Lanes<Q16_16, 1, Portable>,
+                                     Lanes<Q32_32, 1, Portable>, Lanes<float, 2, Portable>, Lanes<Q16_16, 2, Portable>,
+                                     Lanes<Q32_32, 2, Portable>, Lanes<double, 3, Portable>, Lanes<Q23_40, 3, Portable>,
+                                     Lanes<float, 4, Portable>, Lanes<double, 4, Portable>, Lanes<Q32_32, 4, Portable>,
+                                     Lanes<float, 8, Portable>, Lanes<Q16_16, 8, Portable>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Portable, LanesTest, PortableLanes);
 
 TEST(PortableLanes, RoundEveryShiftOfEveryFormat) {

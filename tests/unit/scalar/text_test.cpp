@@ -139,10 +139,10 @@ TYPED_TEST(Text, NoShorterDecimalReadsBack) {
 
 TYPED_TEST(Text, RefusesWhatIsNotOneJsonNumber) {
   using S = TypeParam;
-  for (const char* text :
-       {"", " ", "-", "+1", "01", "-01", "00", ".5", "1.", "1.e1", "1e", "1e+", "1e-", "e1", " 1", "1 ", "1x", "0x10",
-        "--1", "1-", "1..0", "1.0.0", "1,0", "1e1.0", "1e5e5", "nan", "NaN", "inf", "-inf", "Infinity", "true", "\"1\"",
-        "1_000", "1'0", "\xef\xbc\x91", "-.5", "1e 5"}) {
+  for (const char* text : {"",     " ",     "-",     "+1",    "01",           "-01", "00",  ".5",   "1.",   "1.e1",
+                           "1e",   "1e+",   "1e-",   "e1",    " 1",           "1 ",  "1x",  "0x10", "--1",  "1-",
+                           "1..0", "1.0.0", "1,0",   "1e1.0", "1e5e5",        "nan", "NaN", "inf",  "-inf", "Infinity",
+                           "true", "\"1\"", "1_000", "1'0",   "\xef\xbc\x91", "-.5", "1e 5"}) {
     EXPECT_EQ(error_of<S>(text), TextError::not_a_number) << text;
   }
   EXPECT_EQ(error_of<S>(std::string_view("1\0", 2)), TextError::not_a_number);
@@ -151,11 +151,11 @@ TYPED_TEST(Text, RefusesWhatIsNotOneJsonNumber) {
 TYPED_TEST(Text, AcceptsEveryFormOfTheGrammar) {
   using S = TypeParam;
   const RawBits<S> half = to_bits(S(0.5));
-  for (const char* text : {"0.5", "5e-1", "5E-1", "0.5e0", "0.5e+0", "0.5e-0", "0.05e1", "500e-3", "0.500000",
-                           "50.0E-2",
-                           "0.0000000000000000000000000000000000000000000000000000000000000000000000000000005e78",
-                           "5000000000000000000000000000000000000000000000000000000000000000000000000000000e-79",
-                           "0.5e-00000000000000000000000000000000000"}) {
+  for (const char* text :
+       {"0.5", "5e-1", "5E-1", "0.5e0", "0.5e+0", "0.5e-0", "0.05e1", "500e-3", "0.500000", "50.0E-2",
+        "0.0000000000000000000000000000000000000000000000000000000000000000000000000000005e78",
+        "5000000000000000000000000000000000000000000000000000000000000000000000000000000e-79",
+        "0.5e-00000000000000000000000000000000000"}) {
     EXPECT_EQ(to_bits(read<S>(text)), half) << text;
   }
   for (const char* text : {"0", "0.0", "0e0", "0e99999999999999999999", "0.000e-99999999999999999999", "1e-99999999999",
@@ -255,23 +255,55 @@ TYPED_TEST(FixedText, WritesTheNearestOfTheShortest) {
 }
 
 TEST(FixedText, LiteralsAndTextAgree) {
-#define CHECK_LITERAL(S, number)                          \
+#define CHECK_LITERAL(S, number)                            \
   EXPECT_EQ(read<S>(#number), S(number)) << #S " " #number; \
   EXPECT_EQ(read<S>("-" #number), S(-number)) << #S " -" #number
-#define CHECK_ALL(number)         \
-  CHECK_LITERAL(Q16_16, number);  \
-  CHECK_LITERAL(Q32_32, number);  \
+#define CHECK_ALL(number)        \
+  CHECK_LITERAL(Q16_16, number); \
+  CHECK_LITERAL(Q32_32, number); \
   CHECK_LITERAL(Unit<Q16_16>, number)
-  CHECK_ALL(0.1); CHECK_ALL(0.2); CHECK_ALL(0.3); CHECK_ALL(0.7); CHECK_ALL(0.9); CHECK_ALL(0.01); CHECK_ALL(0.02);
-  CHECK_ALL(0.005); CHECK_ALL(0.001); CHECK_ALL(0.0001); CHECK_ALL(0.00001); CHECK_ALL(0.05); CHECK_ALL(0.25);
-  CHECK_ALL(0.5); CHECK_ALL(0.75); CHECK_ALL(0.125); CHECK_ALL(0.33333333); CHECK_ALL(0.66666667); CHECK_ALL(1.1);
-  CHECK_ALL(1.5); CHECK_ALL(1.9); CHECK_ALL(1.41421356); CHECK_ALL(1.0); CHECK_ALL(0.70710678); CHECK_ALL(0.57735027);
-  CHECK_ALL(1.61803398); CHECK_ALL(0.000030517578125); CHECK_ALL(0.0000152587890625); CHECK_ALL(1e-3);
+  CHECK_ALL(0.1);
+  CHECK_ALL(0.2);
+  CHECK_ALL(0.3);
+  CHECK_ALL(0.7);
+  CHECK_ALL(0.9);
+  CHECK_ALL(0.01);
+  CHECK_ALL(0.02);
+  CHECK_ALL(0.005);
+  CHECK_ALL(0.001);
+  CHECK_ALL(0.0001);
+  CHECK_ALL(0.00001);
+  CHECK_ALL(0.05);
+  CHECK_ALL(0.25);
+  CHECK_ALL(0.5);
+  CHECK_ALL(0.75);
+  CHECK_ALL(0.125);
+  CHECK_ALL(0.33333333);
+  CHECK_ALL(0.66666667);
+  CHECK_ALL(1.1);
+  CHECK_ALL(1.5);
+  CHECK_ALL(1.9);
+  CHECK_ALL(1.41421356);
+  CHECK_ALL(1.0);
+  CHECK_ALL(0.70710678);
+  CHECK_ALL(0.57735027);
+  CHECK_ALL(1.61803398);
+  CHECK_ALL(0.000030517578125);
+  CHECK_ALL(0.0000152587890625);
+  CHECK_ALL(1e-3);
   CHECK_ALL(0.00000762939453125);  // half a raw unit of Q16.16: a tie
-  CHECK_LITERAL(Q16_16, 9.81); CHECK_LITERAL(Q32_32, 9.81); CHECK_LITERAL(Q16_16, 3.14159265);
-  CHECK_LITERAL(Q32_32, 3.14159265); CHECK_LITERAL(Q16_16, 1000.3); CHECK_LITERAL(Q32_32, 1000.3);
-  CHECK_LITERAL(Q16_16, 32767.9); CHECK_LITERAL(Q32_32, 32767.9); CHECK_LITERAL(Q32_32, 1e6);
-  CHECK_LITERAL(Q32_32, 123456.789); CHECK_LITERAL(Q16_16, 6.67e-5); CHECK_LITERAL(Q32_32, 6.67e-5);
+  CHECK_LITERAL(Q16_16, 9.81);
+  CHECK_LITERAL(Q32_32, 9.81);
+  CHECK_LITERAL(Q16_16, 3.14159265);
+  CHECK_LITERAL(Q32_32, 3.14159265);
+  CHECK_LITERAL(Q16_16, 1000.3);
+  CHECK_LITERAL(Q32_32, 1000.3);
+  CHECK_LITERAL(Q16_16, 32767.9);
+  CHECK_LITERAL(Q32_32, 32767.9);
+  CHECK_LITERAL(Q32_32, 1e6);
+  CHECK_LITERAL(Q32_32, 123456.789);
+  CHECK_LITERAL(Q16_16, 6.67e-5);
+  CHECK_LITERAL(Q32_32, 6.67e-5);
 #undef CHECK_ALL
 #undef CHECK_LITERAL
 }

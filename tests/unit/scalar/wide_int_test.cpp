@@ -9,9 +9,9 @@
 
 namespace {
 
-using isostep::Division;
 using isostep::divide;
 using isostep::divide_portable;
+using isostep::Division;
 using isostep::multiply;
 using isostep::multiply_portable;
 using isostep::PortableInt128;
@@ -125,8 +125,8 @@ TEST(WideInt, PortableArithmeticWrapsLikeTheCompilers) {
     ASSERT_TRUE(native(PortableInt128(static_cast<std::int64_t>(a.low()))) ==
                 static_cast<UnsignedNative>(static_cast<Native>(static_cast<std::int64_t>(a.low()))));
     ASSERT_TRUE(native(isostep::parts(isostep::int128_from({a.high(), a.low()}))) == x);
-    const auto sum = isostep::wrapping_add(isostep::int128_from({a.high(), a.low()}),
-                                           isostep::int128_from({b.high(), b.low()}));
+    const auto sum =
+        isostep::wrapping_add(isostep::int128_from({a.high(), a.low()}), isostep::int128_from({b.high(), b.low()}));
     ASSERT_TRUE(native(isostep::parts(sum)) == x + y);
   }
 }

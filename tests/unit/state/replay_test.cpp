@@ -188,8 +188,7 @@ TEST(Replay, OutcomesAreDescribedInOneLine) {
   ReplayHeader here = toy::header();
   ASSERT_TRUE(here.set("hz", "120", true));
   toy::Game game;
-  EXPECT_EQ(describe(verify(replay, game, SameHeader{here})),
-            "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
+  EXPECT_EQ(describe(verify(replay, game, SameHeader{here})), "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
 }
 
 TEST(ReplayWriter, WritesTheSameBytesWhateverTheSinkIs) {

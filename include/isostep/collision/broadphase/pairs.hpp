@@ -44,16 +44,14 @@ template <class S> class PairSet {
   void merge_found();
 
   std::vector<std::uint64_t> keys_;
-  std::vector<std::uint64_t> found_;    // of this update, not yet in order
+  std::vector<std::uint64_t> found_;  // of this update, not yet in order
   std::vector<std::uint64_t> scratch_;
   std::vector<std::uint32_t> marked_;
   Bitset is_marked_;
   typename AabbTree<S>::Matches matches_;
 };
 
-template <class S>
-template <class Predicate>
-struct PairSet<S>::Take {
+template <class S> template <class Predicate> struct PairSet<S>::Take {
   PairSet* pairs;
   const Predicate* may_collide;
   bool of_marked;  // pairs (marked, other): two marked slots meet twice, and each meets itself

@@ -180,9 +180,7 @@ template <class S> class AabbTree {
   std::vector<std::uint32_t> order_;
 };
 
-template <class S>
-template <class Visit>
-ISO_INLINE void AabbTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
+template <class S> template <class Visit> ISO_INLINE void AabbTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
   if (size_ == 0 || !overlap(nodes_[kRoot].box, box)) return;
   std::uint32_t stack[kMaxHeight + 1u];
   std::uint32_t waiting = 0;
@@ -276,8 +274,8 @@ ISO_INLINE void AabbTree<S>::sweep(const Sweep<S>& sweep, Visit&& visit) const {
     }
     const Aabb<S>& left = nodes_[node.child].box;
     const Aabb<S>& right = nodes_[node.child + 1u].box;
-    const std::uint32_t right_first = dot_sum(test.displacement, right.low + right.high) <
-                                      dot_sum(test.displacement, left.low + left.high);
+    const std::uint32_t right_first =
+        dot_sum(test.displacement, right.low + right.high) < dot_sum(test.displacement, left.low + left.high);
     stack[waiting++] = node.child + 1u - right_first;
     stack[waiting++] = node.child + right_first;
   }

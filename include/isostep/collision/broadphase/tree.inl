@@ -259,7 +259,7 @@ template <class S> std::uint32_t AabbTree<S>::partition(std::uint32_t begin, std
   }
   const Vec3<S> side = high - low;
   const int axis = side.x < side.y ? (side.y < side.z ? 2 : 1) : (side.x < side.z ? 2 : 0);
-  S Vec3<S>::* const component = axis == 0 ? &Vec3<S>::x : axis == 1 ? &Vec3<S>::y : &Vec3<S>::z;
+  S Vec3<S>::*const component = axis == 0 ? &Vec3<S>::x : axis == 1 ? &Vec3<S>::y : &Vec3<S>::z;
   const S middle = low.*component + side.*component * S(0.5);
   std::uint32_t split = begin;
   for (std::uint32_t i = begin; i < end; ++i) {  // swaps always, so that no branch depends on the data

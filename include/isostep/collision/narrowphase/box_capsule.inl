@@ -15,9 +15,9 @@ template <class S> ISO_INLINE Vec3<S> excess(Vec3<S> half, Vec3<S> p) { return p
 /// The search for the s at which the squared distance to the box, convex in s, has the slope zero: 2 excess . d.
 template <class S> struct SlopeSearch {
   const Segment<S>& core;
-  Vec3<S> half;            // [m] of the box
-  S low, high;             // [m] where it falls, where it rises
-  S flat_low, flat_high;   // [m] where it is level: empty while flat_high < flat_low
+  Vec3<S> half;           // [m] of the box
+  S low, high;            // [m] where it falls, where it rises
+  S flat_low, flat_high;  // [m] where it is level: empty while flat_high < flat_low
 
   /// The slope's sign at s, from an exact sum.
   ISO_INLINE int sign_at(S s) const {

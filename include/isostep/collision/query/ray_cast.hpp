@@ -16,7 +16,8 @@ template <class S> struct RayHit {
 /// inside or on the surface reports fraction 0 and the normal opposite to the ray (zero for a ray of no length).
 /// `hit` is written only when the answer is true. Surfaces are hit from outside alone.
 /// Units:  origin and translation [m], world frame.
-/// Error:  of the point hit, along the ray: fixed 4 raw units, float and double 4 ulp of the largest coordinate, over the
+/// Error:  of the point hit, along the ray: fixed 4 raw units, float and double 4 ulp of the largest coordinate, over
+/// the
 ///         cosine of incidence; and half a step of the fraction times the ray's length (0.8 mm for 100 m in Q16.16).
 ///         Rays that pass an edge closer than that may go either way.
 /// Limits: origin within Limits<S>::position(), translation within twice that.
@@ -24,7 +25,7 @@ template <class S>
 bool ray_cast(const Primitive<S>& primitive, const Transform<S>& transform, Vec3<S> origin, Vec3<S> translation,
               S max_fraction, RayHit<S>& hit);
 
-#define ISO_EXTERN(S)                                                                                        \
+#define ISO_EXTERN(S) \
   extern template bool ray_cast<S>(const Primitive<S>&, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -130,8 +130,8 @@ bool ray_cast(const Primitive<S>& primitive, const Transform<S>& transform, Vec3
   const detail::LocalHit<S> found = detail::cast(primitive, transform, origin, translation);
   if (found.kind == detail::LocalHit<S>::missed || found.fraction > max_fraction) return false;
   hit.fraction = found.fraction;
-  hit.normal = found.kind == detail::LocalHit<S>::inside ? -detail::unit_of(translation)
-                                                         : transform.rotation * found.local;
+  hit.normal =
+      found.kind == detail::LocalHit<S>::inside ? -detail::unit_of(translation) : transform.rotation * found.local;
   return true;
 }
 

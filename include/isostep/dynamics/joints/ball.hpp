@@ -7,8 +7,9 @@
 namespace isostep::detail {
 
 /// Twist about the mean of the two z axes. Its true rate is larger by 1 / cos(swing / 2): a limit brakes a little late.
-template <class S> ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
-                                                   JointConstraint<S>& joint) {
+template <class S>
+ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
+                                JointConstraint<S>& joint) {
   using U = Unit<S>;
   const U half = U(0.5);
   const Vec3<U> sum = za * half + zb * half;

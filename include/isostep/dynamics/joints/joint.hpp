@@ -13,10 +13,10 @@ namespace isostep {
 
 /// Every kind holds two frames together; z is the frame's axis.
 enum class JointType : std::uint32_t {
-  ball,      // origins coincide; optional cone (angle between the z axes) and twist limit (about them)
-  hinge,     // origins and z axes coincide; optional limit, motor and spring of the angle about z
-  fixed,     // frames coincide
-  distance   // origins lower..upper apart (lower = upper: rod, lower = 0: rope), or a spring, or both with kLimit
+  ball,     // origins coincide; optional cone (angle between the z axes) and twist limit (about them)
+  hinge,    // origins and z axes coincide; optional limit, motor and spring of the angle about z
+  fixed,    // frames coincide
+  distance  // origins lower..upper apart (lower = upper: rod, lower = 0: rope), or a spring, or both with kLimit
 };
 
 /// Bits of JointProperties::flags.
@@ -55,22 +55,22 @@ template <class S> struct JointState {
 /// The part of a joint that only commands change. Angles: [rad] of frame b against frame a about z, in (-pi, pi].
 template <class S> struct JointProperties {
   JointType type = JointType::ball;
-  std::uint32_t flags = 0;             // joint_flag
-  std::uint32_t body_a = kNoBody;      // slots
+  std::uint32_t flags = 0;         // joint_flag
+  std::uint32_t body_a = kNoBody;  // slots
   std::uint32_t body_b = kNoBody;
-  std::uint32_t generation_a = 0;      // of the bodies' ids: checked when the joint is made
+  std::uint32_t generation_a = 0;  // of the bodies' ids: checked when the joint is made
   std::uint32_t generation_b = 0;
   std::uint64_t user_data = 0;
   Pose<S> frame_a = Pose<S>::identity();  // from the centre of mass, body axes; for the world its own frame
   Pose<S> frame_b = Pose<S>::identity();
-  S lower = S(0);                      // [rad] or, distance, [m]
+  S lower = S(0);  // [rad] or, distance, [m]
   S upper = S(0);
-  S cone = S(0);                       // [rad] largest angle between the z axes
-  S motor_speed = S(0);                // [rad/s] of b against a
-  S motor_torque = S(0);               // [N m] most that the motor gives
-  S spring_target = S(0);              // [rad] or, distance, [m] rest length
-  S spring_frequency = S(0);           // [Hz] below half the sub-step rate
-  S spring_damping = S(0);             // [1] ratio, 1 = critical
+  S cone = S(0);              // [rad] largest angle between the z axes
+  S motor_speed = S(0);       // [rad/s] of b against a
+  S motor_torque = S(0);      // [N m] most that the motor gives
+  S spring_target = S(0);     // [rad] or, distance, [m] rest length
+  S spring_frequency = S(0);  // [Hz] below half the sub-step rate
+  S spring_damping = S(0);    // [1] ratio, 1 = critical
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);
@@ -109,22 +109,22 @@ template <class S> struct JointConstraint {
   JointProperties<S> properties;
   std::uint32_t row_a, row_b;
   MassShare<S> share;
-  Pose<S> pose_a, pose_b;              // when the step began: what stands for row 0 throughout
-  Vec3<S> arm_a, arm_b;                // [m] from each centre to the joint, world, now
-  S radius;                            // [m] lever of purely angular rows, so that their coefficients are near one
-  S motor_force;                       // [m/s^2] most impulse a second
+  Pose<S> pose_a, pose_b;  // when the step began: what stands for row 0 throughout
+  Vec3<S> arm_a, arm_b;    // [m] from each centre to the joint, world, now
+  S radius;                // [m] lever of purely angular rows, so that their coefficients are near one
+  S motor_force;           // [m/s^2] most impulse a second
   std::uint32_t block_count, drive_count;
-  bool holds;                          // something moves at all
-  JointBlock<S> blocks[2];             // equalities: point or rod, angular
-  JointDrive<S> drives[2];             // angle, twist or length; swing
+  bool holds;               // something moves at all
+  JointBlock<S> blocks[2];  // equalities: point or rod, angular
+  JointDrive<S> drives[2];  // angle, twist or length; swing
 };
 
 /// What the calls of one sub-step know. Row r > 0 of the bodies is states[r - 1].
 template <class S> struct JointStep {
   const BodyState<S>* states;
   SolverBodies<S>* bodies;
-  S rate;               // [1/s] sub-steps a second
-  Step<S> h;            // [s]
+  S rate;     // [1/s] sub-steps a second
+  Step<S> h;  // [s]
   Softness<S> softness;
 };
 

@@ -29,8 +29,9 @@ ISO_INLINE S turning_about(Vec3<S> axis, const SolverMass<S>& a, const SolverMas
 template <class S> ISO_INLINE S radius_of(S turning) { return turning > S(0) ? S(1) / sqrt(turning) : S(0); }
 
 /// Lever of an angle about the joint's z axis, and of one across it: thin bodies turn far more easily about one.
-template <class S> ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
-                                             JointConstraint<S>& joint) {
+template <class S>
+ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
+                          JointConstraint<S>& joint) {
   joint.radius = radius_of(trace_bound(a, b, joint.share));
   joint.drives[0].radius = joint.drives[1].radius = joint.radius;
   if (joint.drive_count == 0 || joint.properties.type == JointType::distance) return;
@@ -103,10 +104,10 @@ template <class S> ISO_INLINE S self_coupling(const JointRow<S>& i, const JointR
 template <class S> ISO_INLINE void weigh_block(JointBlock<S>& block, MassShare<S> share) {
   if (block.point) {
     const auto& r = block.rows;
-    const Mat3<S> a = point_coupling<S>({r[0].angular_a, r[1].angular_a, r[2].angular_a},
-                                        {r[0].turn_a, r[1].turn_a, r[2].turn_a});
-    const Mat3<S> b = point_coupling<S>({r[0].angular_b, r[1].angular_b, r[2].angular_b},
-                                        {r[0].turn_b, r[1].turn_b, r[2].turn_b});
+    const Mat3<S> a =
+        point_coupling<S>({r[0].angular_a, r[1].angular_a, r[2].angular_a}, {r[0].turn_a, r[1].turn_a, r[2].turn_a});
+    const Mat3<S> b =
+        point_coupling<S>({r[0].angular_b, r[1].angular_b, r[2].angular_b}, {r[0].turn_b, r[1].turn_b, r[2].turn_b});
     const S one = share.a + share.b;
     const auto mix = [&](S of_a, S of_b) { return round_to<S>(product(share.a, of_a) + product(share.b, of_b)); };
     const S xy = mix(a.rows[0].y, b.rows[0].y), xz = mix(a.rows[0].z, b.rows[0].z), yz = mix(a.rows[1].z, b.rows[1].z);

@@ -7,9 +7,9 @@
 namespace isostep::detail {
 
 template <class S> struct JointFrames {
-  Vec3<S> arm_a, arm_b;            // [m] from each centre to the frame's origin, world
-  Vec3<S> between;                 // [m] from a's origin to b's, world
-  Quat<Unit<S>> a, b;              // frames to world
+  Vec3<S> arm_a, arm_b;  // [m] from each centre to the frame's origin, world
+  Vec3<S> between;       // [m] from a's origin to b's, world
+  Quat<Unit<S>> a, b;    // frames to world
 };
 
 /// Orientations only where a kind needs them.
@@ -44,8 +44,7 @@ template <class S> ISO_INLINE JointRow<S> angular_row(Vec3<Unit<S>> axis, S radi
 }
 
 /// Origins coincide.
-template <class S>
-ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> h, JointBlock<S>& block) {
+template <class S> ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> h, JointBlock<S>& block) {
   const Vec3<S> ra = f.arm_a, rb = f.arm_b, zero = Vec3<S>::zero();
   const S o = S(0), one = S(1);
   block.point = true;
@@ -62,9 +61,7 @@ template <class S> ISO_INLINE Quat<Unit<S>> relative_rotation(const JointFrames<
   return q;
 }
 /// [rad] angle about z of a rotation with w >= 0, whatever its swing.
-template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) {
-  return S(2) * atan2_to<S>(q.z, q.w);
-}
+template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) { return S(2) * atan2_to<S>(q.z, q.w); }
 
 /// What the properties ask of an angle in (-pi, pi].
 template <class S> ISO_INLINE void set_angle(JointDrive<S>& drive, const JointProperties<S>& p, S angle) {

@@ -10,9 +10,9 @@ namespace isostep {
 
 /// One row: its speed is linear . (v_b - v_a) + angular_b . w_b - angular_a . w_a  [m/s].
 template <class S> struct JointRow {
-  Vec3<S> linear;                  // [1]
-  Vec3<S> angular_a, angular_b;    // [m]
-  Vec3<S> turn_a, turn_b;          // [1/m] kappa angular: spin per impulse, before the mass share
+  Vec3<S> linear;                // [1]
+  Vec3<S> angular_a, angular_b;  // [m]
+  Vec3<S> turn_a, turn_b;        // [1/m] kappa angular: spin per impulse, before the mass share
 
   static ISO_INLINE constexpr JointRow zero() {
     constexpr Vec3<S> kZero = Vec3<S>::zero();
@@ -22,32 +22,30 @@ template <class S> struct JointRow {
 
 /// Three equalities solved at once; fewer leave rows of zeros.
 template <class S> struct JointBlock {
-  bool point;                      // rows are the world axes through a point: linear parts are the identity
+  bool point;  // rows are the world axes through a point: linear parts are the identity
   JointRow<S> rows[3];
-  Mat3<S> coupling;                // [1] K = J M^-1 J^T per reduced mass
-  Mat3<S> inverse;                 // [1] of K, and of its Schur complement inside a tree
-  Vec3<Velocity<S>> error;         // [m]
-  Vec3<Velocity<S>> impulse;       // [m/s] accumulated
+  Mat3<S> coupling;           // [1] K = J M^-1 J^T per reduced mass
+  Mat3<S> inverse;            // [1] of K, and of its Schur complement inside a tree
+  Vec3<Velocity<S>> error;    // [m]
+  Vec3<Velocity<S>> impulse;  // [m/s] accumulated
 };
 
 /// One coordinate of a joint that may be driven and bounded.
 template <class S> struct JointDrive {
   JointRow<S> row;
-  S radius;                        // [m] of an angle
-  S effective_mass;                // [1]
-  S position;                      // [m] an angle times the radius, or a length
-  S lower, upper, target;          // [m]
+  S radius;                // [m] of an angle
+  S effective_mass;        // [1]
+  S position;              // [m] an angle times the radius, or a length
+  S lower, upper, target;  // [m]
   bool bounded_below, bounded_above, sprung, driven;
-  Velocity<S> speed;               // [m/s] of the motor
+  Velocity<S> speed;  // [m/s] of the motor
   Softness<S> spring;
-  Velocity<S> spring_speed;        // [m/s] that the spring asks for where it is
+  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it is
   Velocity<S> motor_impulse, spring_impulse, lower_impulse, upper_impulse;  // [m/s]
 };
 
 /// Velocities of the two bodies, worked on together; written back only where mass is.
-template <class S> struct JointMotion {
-  MotionRow<Velocity<S>> a, b;
-};
+template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
   return round_to<Velocity<S>>(dot_sum(row.linear, m.b.linear - m.a.linear) + dot_sum(row.angular_b, m.b.angular) -
@@ -171,8 +169,7 @@ template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3]
 }
 
 /// linear . linear + angular . kappa angular of one body's halves of two rows.
-template <class S>
-ISO_INLINE S coupling(Vec3<S> linear_i, Vec3<S> angular_i, Vec3<S> linear_j, Vec3<S> turn_j) {
+template <class S> ISO_INLINE S coupling(Vec3<S> linear_i, Vec3<S> angular_i, Vec3<S> linear_j, Vec3<S> turn_j) {
   return round_to<S>(dot_sum(linear_i, linear_j) + dot_sum(angular_i, turn_j));
 }
 

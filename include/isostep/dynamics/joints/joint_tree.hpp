@@ -43,12 +43,12 @@ template <class S> class JointTrees {
   struct Node {
     std::uint32_t joint, block;
     std::uint32_t first_link, link_count;
-    bool closes_loop;           // through the world
+    bool closes_loop;  // through the world
   };
   struct Link {
-    std::uint32_t to;           // node
-    Mat3<S> down;               // K_ji, i = this node, j = to
-    Mat3<S> up;                 // K_ij, then D_i^-1 K_ij
+    std::uint32_t to;  // node
+    Mat3<S> down;      // K_ji, i = this node, j = to
+    Mat3<S> up;        // K_ij, then D_i^-1 K_ij
   };
 
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
@@ -66,24 +66,24 @@ template <class S> class JointTrees {
   Link& link_between(std::uint32_t i, std::uint32_t j);
 
   DisjointSets sets_;
-  std::vector<std::uint32_t> loose_;        // joints solved on their own
-  std::vector<std::uint8_t> role_;          // of each joint
-  std::vector<std::uint8_t> closing_;       // of each joint: closes a loop through the world
-  std::vector<std::uint8_t> anchored_;      // of each set of bodies: hangs on the world already
-  std::vector<S> set_mass_;                 // [kg] of each set of bodies, up to the limit
-  std::vector<S> set_lightest_;             // [kg] least reduced mass of its joints
-  std::vector<std::uint32_t> degree_;       // of each row: tree joints not yet eliminated
-  std::vector<std::uint32_t> blocks_;       // of each row
-  std::vector<std::uint32_t> first_;        // of each row, in at_body_
-  std::vector<std::uint32_t> at_body_;      // tree joints of each row
+  std::vector<std::uint32_t> loose_;    // joints solved on their own
+  std::vector<std::uint8_t> role_;      // of each joint
+  std::vector<std::uint8_t> closing_;   // of each joint: closes a loop through the world
+  std::vector<std::uint8_t> anchored_;  // of each set of bodies: hangs on the world already
+  std::vector<S> set_mass_;             // [kg] of each set of bodies, up to the limit
+  std::vector<S> set_lightest_;         // [kg] least reduced mass of its joints
+  std::vector<std::uint32_t> degree_;   // of each row: tree joints not yet eliminated
+  std::vector<std::uint32_t> blocks_;   // of each row
+  std::vector<std::uint32_t> first_;    // of each row, in at_body_
+  std::vector<std::uint32_t> at_body_;  // tree joints of each row
   std::vector<std::uint32_t> queue_;
-  std::vector<std::uint32_t> node_of_;      // of joint * 2 + block
-  std::vector<Mat3<S>> kappa_;              // [1/m^2] of each row, as the joints see it
-  std::vector<Mat3<S>> tension_;            // [m^2] of each row: geometric stiffness h^2 / mass
-  std::vector<std::uint32_t> taut_;         // rows whose tension is worth a look
+  std::vector<std::uint32_t> node_of_;  // of joint * 2 + block
+  std::vector<Mat3<S>> kappa_;          // [1/m^2] of each row, as the joints see it
+  std::vector<Mat3<S>> tension_;        // [m^2] of each row: geometric stiffness h^2 / mass
+  std::vector<std::uint32_t> taut_;     // rows whose tension is worth a look
   std::vector<Node> nodes_;
   std::vector<Link> links_;
-  std::vector<Vec3<Velocity<S>>> right_;    // right-hand sides, then answers
+  std::vector<Vec3<Velocity<S>>> right_;  // right-hand sides, then answers
 };
 
 }  // namespace isostep

@@ -44,9 +44,8 @@ template <class S> struct Pull {
 template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, bool on_a, Step<S> h) {
   const JointBlock<S>& block = joint.blocks[0];
   const Vec3<S> arm = on_a ? joint.arm_a : joint.arm_b;
-  const Vec3<Velocity<S>> f = joint.properties.type == JointType::distance
-                                  ? scaled(block.rows[0].linear, block.impulse.x)
-                                  : block.impulse;
+  const Vec3<Velocity<S>> f =
+      joint.properties.type == JointType::distance ? scaled(block.rows[0].linear, block.impulse.x) : block.impulse;
   const S share = on_a ? -joint.share.a : joint.share.b;
   const S along = share * round_to<S>(dot_sum(arm, f));  // [m^2/s]
   if (!(along > S(0))) return {Vec3<Unit<S>>::zero(), S(0)};
@@ -114,8 +113,7 @@ template <class S> void JointTrees<S>::factor(std::span<JointConstraint<S>> join
 }
 
 /// A pulled arm turns back like a pendulum, of stiffness f.r about the axes across it.
-template <class S>
-void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
+template <class S> void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
   taut_.clear();
   for (const JointConstraint<S>& joint : joints) {
@@ -152,8 +150,7 @@ template <class S> void JointTrees<S>::stiffen(const SolverBodies<S>& bodies) {
   }
 }
 
-template <class S>
-void JointTrees<S>::warm_start(std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
+template <class S> void JointTrees<S>::warm_start(std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
   for (JointConstraint<S>& joint : joints) {
     if (!joint.holds) continue;
     linearise_joint(joint, step);

@@ -20,26 +20,26 @@ template <class S, int W> struct AngularRow {
 
 template <class S, int W> struct NormalRow {
   AngularRow<S, W> row;
-  Velocity<S> separation[W];    // [m] when the step began
-  Velocity<S> approach[W];      // [m/s] normal speed when the step began, for restitution
-  Velocity<S> total_impulse[W]; // [m/s] given over the step, but for the sub-step that runs
+  Velocity<S> separation[W];     // [m] when the step began
+  Velocity<S> approach[W];       // [m/s] normal speed when the step began, for restitution
+  Velocity<S> total_impulse[W];  // [m/s] given over the step, but for the sub-step that runs
 };
 
 template <class S, int W> struct FrictionRow {
   AngularRow<S, W> row;
-  S direction[3][W];            // [1] tangent
-  Velocity<S> surface[W];       // [m/s] speed of b's surface against a's along the tangent
+  S direction[3][W];       // [1] tangent
+  Velocity<S> surface[W];  // [m/s] speed of b's surface against a's along the tangent
 };
 
 /// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. W numbers of one
-/// width a field and nothing between, so that a block of one contact packs into a lane of a wide block word by word; the
-/// normal rows come last, so that fewer points are a shorter block.
+/// width a field and nothing between, so that a block of one contact packs into a lane of a wide block word by word;
+/// the normal rows come last, so that fewer points are a shorter block.
 template <class S, int W, int P> struct ContactBlock {
-  S normal[3][W];       // [1] from a to b
-  S share_a[W];         // [1] MassShare
+  S normal[3][W];  // [1] from a to b
+  S share_a[W];    // [1] MassShare
   S share_b[W];
-  S friction[W];        // [1]
-  S restitution[W];     // [1]
+  S friction[W];     // [1]
+  S restitution[W];  // [1]
   FrictionRow<S, W> tangents[2];
   AngularRow<S, W> twist;  // its radius is inside the Jacobian
   NormalRow<S, W> normals[P];
@@ -48,7 +48,7 @@ template <class S, int W, int P> struct ContactBlock {
 /// Rolling resistance: two more angular rows about tangents of their own.
 template <class S, int W> struct RollingRows {
   AngularRow<S, W> rows[2];
-  S lever[W];           // [1] resisting torque per normal impulse, over the rows' radius
+  S lever[W];  // [1] resisting torque per normal impulse, over the rows' radius
 };
 template <class S, int W, int P> struct RollingBlock {
   RollingRows<S, W> rolling;

@@ -33,7 +33,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     load_transposed<8>(pointers, all);
     return {{all[0], all[1], all[2]}, {all[4], all[5], all[6]}};
   }
-  static ISO_INLINE void scatter(MotionRow<Velocity<S>>* rows, const std::uint32_t* index, std::uint32_t mask, const Motion& m) {
+  static ISO_INLINE void scatter(MotionRow<Velocity<S>>* rows, const std::uint32_t* index, std::uint32_t mask,
+                                 const Motion& m) {
     Velocity<S>* pointers[W];
     for (int i = 0; i < W; ++i) pointers[i] = &rows[index[i]].linear.x;
     const V zero = V::zero();
@@ -161,9 +162,12 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   }
 
   static void solve(const BlockRun<S>& run, const ContactPass<S>& pass) {
-    const PassLanes lanes = {L::broadcast(pass.softness.bias_rate),     L::broadcast(pass.softness.mass_scale),
-                             L::broadcast(pass.softness.impulse_scale), L::broadcast(pass.rate),
-                             L::broadcast(S(1)),                        V::broadcast(pass.push_speed),
+    const PassLanes lanes = {L::broadcast(pass.softness.bias_rate),
+                             L::broadcast(pass.softness.mass_scale),
+                             L::broadcast(pass.softness.impulse_scale),
+                             L::broadcast(pass.rate),
+                             L::broadcast(S(1)),
+                             V::broadcast(pass.push_speed),
                              V::broadcast(pass.max_separation)};
     for (std::int32_t i = 0; i < run.count; ++i) {
       Block& block = static_cast<Block*>(run.blocks)[i];
@@ -228,10 +232,10 @@ template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_ke
 }  // namespace
 
 /// The kernels of one lane of a scalar: any machine.
-#define ISO_DEFINE_SCALAR_KERNELS(S)                                                                       \
-  template <> const ContactKernels<S>* detail::scalar_kernels<S>() {                                       \
-    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, 1, isa::Portable>("scalar");       \
-    return &kTable;                                                                                        \
+#define ISO_DEFINE_SCALAR_KERNELS(S)                                                                 \
+  template <> const ContactKernels<S>* detail::scalar_kernels<S>() {                                 \
+    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, 1, isa::Portable>("scalar"); \
+    return &kTable;                                                                                  \
   }
 
 }  // namespace isostep

@@ -16,15 +16,15 @@ namespace isostep {
 /// What one pass over the contacts needs to know.
 template <class S> struct ContactPass {
   Softness<S> softness;
-  S rate;                        // [1/s] sub-steps a second
-  Velocity<S> push_speed;        // [m/s] overlap is pushed apart no faster than this
-  Velocity<S> max_separation;    // [m] beyond this a gap counts as this, so that rate times gap fits
-  Velocity<S> restitution_speed; // [m/s] slower approaches do not bounce
+  S rate;                         // [1/s] sub-steps a second
+  Velocity<S> push_speed;         // [m/s] overlap is pushed apart no faster than this
+  Velocity<S> max_separation;     // [m] beyond this a gap counts as this, so that rate times gap fits
+  Velocity<S> restitution_speed;  // [m/s] slower approaches do not bounce
 };
 
 /// A run of blocks of one shape: W contacts of one point count each, no two of which write the same body.
 template <class S> struct BlockRun {
-  void* blocks;                            // ContactBlock or RollingBlock<S, W, P>
+  void* blocks;  // ContactBlock or RollingBlock<S, W, P>
   const BlockBodies* bodies;
   std::int32_t count;
   MotionRow<Velocity<S>>* velocity;
@@ -42,8 +42,8 @@ template <class S> struct ContactKernels {
   void (*restitute[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 
-/// The kernels for `simd`; `best` is the widest this processor runs. Null when the processor or build lacks it. Every scalar
-/// has its own full specialisation, a strong symbol: see ISO_DEFINE_CONTACT_KERNELS.
+/// The kernels for `simd`; `best` is the widest this processor runs. Null when the processor or build lacks it. Every
+/// scalar has its own full specialisation, a strong symbol: see ISO_DEFINE_CONTACT_KERNELS.
 template <class S> const ContactKernels<S>* contact_kernels(Simd simd);
 
 namespace detail {
@@ -53,12 +53,12 @@ template <class S> const ContactKernels<S>* sse2_kernels();
 template <class S> const ContactKernels<S>* avx2_kernels();
 }  // namespace detail
 
-#define ISO_DECLARE_CONTACT_KERNELS(S)                                    \
-  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd);     \
-  namespace detail {                                                      \
-  template <> const ContactKernels<S>* scalar_kernels<S>();               \
-  template <> const ContactKernels<S>* sse2_kernels<S>();                 \
-  template <> const ContactKernels<S>* avx2_kernels<S>();                 \
+#define ISO_DECLARE_CONTACT_KERNELS(S)                                \
+  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd); \
+  namespace detail {                                                  \
+  template <> const ContactKernels<S>* scalar_kernels<S>();           \
+  template <> const ContactKernels<S>* sse2_kernels<S>();             \
+  template <> const ContactKernels<S>* avx2_kernels<S>();             \
   }
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_CONTACT_KERNELS)
 

@@ -46,8 +46,8 @@ ISO_INLINE Vec3<Velocity<S>> relative_velocity(const MotionRow<Velocity<S>>& a, 
                                                const MotionRow<Velocity<S>>& b, Vec3<S> arm_b) {
   using V = Velocity<S>;
   const auto part = [&](int i, int j) {
-    return round_to<V>(product(b.angular[i], arm_b[j]) - product(b.angular[j], arm_b[i]) - product(a.angular[i], arm_a[j]) +
-                       product(a.angular[j], arm_a[i]));
+    return round_to<V>(product(b.angular[i], arm_b[j]) - product(b.angular[j], arm_b[i]) -
+                       product(a.angular[i], arm_a[j]) + product(a.angular[j], arm_a[i]));
   };
   return b.linear - a.linear + Vec3<V>{part(1, 2), part(2, 0), part(0, 1)};
 }
@@ -55,7 +55,8 @@ ISO_INLINE Vec3<Velocity<S>> relative_velocity(const MotionRow<Velocity<S>>& a, 
 /// A vector less its part along the normal.
 template <class V, class U> ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
   const V along = round_to<V>(dot_sum(x, n));
-  return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)), x.z - round_to<V>(product(along, n.z))};
+  return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)),
+          x.z - round_to<V>(product(along, n.z))};
 }
 /// Two tangents, the first along a flat vector.
 template <class V, class U> ISO_INLINE Tangents<U> basis_along(Vec3<V> lead, Vec3<U> n) {
@@ -67,7 +68,8 @@ template <class V, class U> ISO_INLINE Tangents<U> basis_along(Vec3<V> lead, Vec
 /// The friction basis: along the friction that the contact already bears, else along the slip, so that the two rows'
 /// separate limits act as one cone; where there is neither, any.
 template <class S>
-ISO_INLINE Tangents<Unit<S>> friction_basis(Vec3<Unit<S>> n, Vec3<Velocity<S>> borne, Velocity<S> limit, Vec3<Velocity<S>> slip) {
+ISO_INLINE Tangents<Unit<S>> friction_basis(Vec3<Unit<S>> n, Vec3<Velocity<S>> borne, Velocity<S> limit,
+                                            Vec3<Velocity<S>> slip) {
   using V = Velocity<S>;
   const Vec3<V> force = flatten(borne, n);
   if (V(8) * max_abs(force) > limit) return basis_along(force, n);  // an eighth of the cone: below, direction is noise
@@ -108,15 +110,16 @@ void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& g, con
     make.pushing(n, point.arm_a, point.arm_b, normal.row);
     normal.row.impulse[0] = contact.normal_impulse[p];
     normal.separation[0] = convert<V>(point.separation);
-    normal.approach[0] = round_to<V>(dot_sum(detail::relative_velocity<S>(motion_a, point.arm_a, motion_b, point.arm_b), g.normal));
+    normal.approach[0] =
+        round_to<V>(dot_sum(detail::relative_velocity<S>(motion_a, point.arm_a, motion_b, point.arm_b), g.normal));
     normal.total_impulse[0] = -contact.normal_impulse[p];  // the first warm start is the last step's
     total += contact.normal_impulse[p];
   }
 
   const Vec3<S> arm_a = detail::mean_arm(g, contact.count, false);
   const Vec3<S> arm_b = detail::mean_arm(g, contact.count, true);
-  const Vec3<V> slip = detail::relative_velocity<S>(motion_a, arm_a, motion_b, arm_b) +
-                       convert<V>(g.material.surface_velocity);
+  const Vec3<V> slip =
+      detail::relative_velocity<S>(motion_a, arm_a, motion_b, arm_b) + convert<V>(g.material.surface_velocity);
   const V limit = round_to<V>(product(g.material.friction, total));
   const Tangents<Unit<S>> basis = detail::friction_basis<S>(g.normal, contact.friction_impulse, limit, slip);
   const Vec3<Unit<S>> directions[2] = {basis.t, basis.u};
@@ -147,8 +150,7 @@ void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& g, con
 template <class S>
 void prepare_rolling(const ContactGeometry<S>& g, const SolverBodies<S>& bodies,
                      const ContactBlock<S, 1, kMaxContactPoints>& block, RollingRows<S, 1>& rolling) {
-  const detail::RowMaker<S> make = {bodies.mass[g.row_a], bodies.mass[g.row_b],
-                                    {block.share_a[0], block.share_b[0]}};
+  const detail::RowMaker<S> make = {bodies.mass[g.row_a], bodies.mass[g.row_b], {block.share_a[0], block.share_b[0]}};
   // The rows' radius is the distance from the contact to the centre that rolls: it keeps the coefficients near one.
   const S radius_a = bodies.moves(g.row_a) ? abs(dot(g.points[0].arm_a, g.normal)) : S(0);
   const S radius_b = bodies.moves(g.row_b) ? abs(dot(g.points[0].arm_b, g.normal)) : S(0);

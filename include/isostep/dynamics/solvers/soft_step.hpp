@@ -35,10 +35,10 @@ template <class S> struct SolverInput {
   std::span<const Acceleration<S>> accelerations;  // per body, or empty
   std::span<Contact<S>> contacts;
   std::span<const ContactGeometry<S>> geometry;
-  std::span<Velocity<S>> step_impulses;            // [m/s] per contact, of the whole step: filled by store_impulses
-  std::span<JointConstraint<S>> joints;            // prepared
-  Vec3<S> gravity;                                 // [m/s^2]
-  std::int32_t hz;                                 // [1/s] steps
+  std::span<Velocity<S>> step_impulses;  // [m/s] per contact, of the whole step: filled by store_impulses
+  std::span<JointConstraint<S>> joints;  // prepared
+  Vec3<S> gravity;                       // [m/s^2]
+  std::int32_t hz;                       // [1/s] steps
   std::int32_t substeps;
 };
 
@@ -61,9 +61,9 @@ template <class S> class SoftStep {
   struct Run {
     const ContactKernels<S>* kernels;
     std::uint32_t variant;
-    std::uint32_t first, count;        // in order_
+    std::uint32_t first, count;  // in order_
     std::uint32_t first_block, blocks;
-    std::size_t offset;                // [bytes] in memory_
+    std::size_t offset;  // [bytes] in memory_
   };
   struct alignas(64) Chunk {
     unsigned char bytes[64];
@@ -77,11 +77,11 @@ template <class S> class SoftStep {
 
   SolverBodies<S> bodies_;
   JointTrees<S> joint_trees_;
-  std::vector<Vec3<S>> inertia_;           // [1] principal moments over the largest, where the gyroscopic term acts
+  std::vector<Vec3<S>> inertia_;  // [1] principal moments over the largest, where the gyroscopic term acts
   Colouring colouring_;
-  std::vector<std::uint32_t> bucket_;      // of each contact: colour * variants + variant
+  std::vector<std::uint32_t> bucket_;  // of each contact: colour * variants + variant
   std::vector<std::uint32_t> bucket_ends_;
-  std::vector<std::uint32_t> order_;       // contacts, grouped
+  std::vector<std::uint32_t> order_;  // contacts, grouped
   std::vector<Run> runs_;
   std::vector<Chunk> memory_;
   std::vector<BlockBodies> block_bodies_;

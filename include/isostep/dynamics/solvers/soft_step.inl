@@ -14,11 +14,11 @@ namespace detail {
 
 // Contacts are springs of an eighth of the sub-step rate. A quarter, all that one spring alone allows, leaves a wall of
 // 210 boxes trembling at 1e-3 J/kg, an eighth at 1e-9: springs that share a body stiffen one another and one pass over
-// them does not converge. Softer ones sag: a stack of n boxes sags 3.5 n^2 / substeps^2 mm and buckles once that nears 50.
-// The angle a sub-step is pi / 4 whatever the rate, and so the coefficients are constants.
-template <class S> inline constexpr S kContactAngle = S(0.785398163397448309616);  // [rad]
-template <class S> inline constexpr S kContactDamping = S(5);                     // [1] of critical
-template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);      // [m/s]
+// them does not converge. Softer ones sag: a stack of n boxes sags 3.5 n^2 / substeps^2 mm and buckles once that nears
+// 50. The angle a sub-step is pi / 4 whatever the rate, and so the coefficients are constants.
+template <class S> inline constexpr S kContactAngle = S(0.785398163397448309616);    // [rad]
+template <class S> inline constexpr S kContactDamping = S(5);                        // [1] of critical
+template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);         // [m/s]
 template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(1);  // [m/s]
 
 /// Words of a contact's block at W = 1.
@@ -31,19 +31,23 @@ template <class S> constexpr std::size_t rolling_words() { return sizeof(Rolling
 template <class S> struct Variant {
   std::uint32_t points;
   bool rolling;
-  static constexpr Variant of(std::uint32_t index) { return {index % kMaxContactPoints + 1, index >= kMaxContactPoints}; }
+  static constexpr Variant of(std::uint32_t index) {
+    return {index % kMaxContactPoints + 1, index >= kMaxContactPoints};
+  }
   constexpr std::size_t words() const { return contact_words<S>(points) + (rolling ? rolling_words<S>() : 0); }
 };
 
 /// `count` words at `from` into lane `lane` of a block W wide whose fields start at `to`.
-template <class S> ISO_INLINE void pack(const void* from, std::size_t count, unsigned char* to, std::size_t width, std::size_t lane) {
+template <class S>
+ISO_INLINE void pack(const void* from, std::size_t count, unsigned char* to, std::size_t width, std::size_t lane) {
   const auto* source = static_cast<const unsigned char*>(from);
   for (std::size_t i = 0; i < count; ++i) {
     std::memcpy(to + (i * width + lane) * sizeof(S), source + i * sizeof(S), sizeof(S));
   }
 }
 /// The way back, for one field: `byte` is its place in a block of one contact.
-template <class S, class T> ISO_INLINE T unpack(const unsigned char* from, std::size_t byte, std::size_t width, std::size_t lane) {
+template <class S, class T>
+ISO_INLINE T unpack(const unsigned char* from, std::size_t byte, std::size_t width, std::size_t lane) {
   static_assert(sizeof(T) == sizeof(S));
   T value;
   std::memcpy(&value, from + byte * width + lane * sizeof(S), sizeof(T));
@@ -100,7 +104,8 @@ template <class S> void SoftStep<S>::gather_bodies(const SolverInput<S>& input) 
 }
 
 template <class S>
-void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t first, std::uint32_t count) {
+void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t first,
+                          std::uint32_t count) {
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const std::uint32_t blocks = (count + width - 1) / width;
   runs_.push_back({&kernels, variant, first, count, block_count_, blocks, memory_bytes_});
@@ -109,8 +114,7 @@ void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t varian
   memory_bytes_ = (memory_bytes_ + 63) / 64 * 64;
 }
 
-template <class S>
-void SoftStep<S>::colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide) {
+template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide) {
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
   const std::size_t count = input.contacts.size();
   colouring_.begin(bodies_.mass.size());
@@ -213,7 +217,8 @@ template <class S> void SoftStep<S>::integrate_velocities(const SolverInput<S>& 
       row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
     }
     if ((body.flags & body_flag::kSpins) != 0) {
-      row.angular = turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
+      row.angular =
+          turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
     }
     detail::hold_locks(body.flags, row);
   }
@@ -237,7 +242,8 @@ template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& i
     d.linear += move;
     d.angular += {times(v.angular.x, h), times(v.angular.y, h), times(v.angular.z, h)};
     state.centre += convert<S>(d.linear) - before;
-    state.orientation = integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
+    state.orientation =
+        integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
   }
 }
 
@@ -258,7 +264,8 @@ template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input)
   const ContactPass<S> biased = detail::contact_pass(input, false);
   const ContactPass<S> relaxed = detail::contact_pass(input, true);
   const S rate = S(input.hz * input.substeps);
-  const JointStep<S> joint_step = {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate)};
+  const JointStep<S> joint_step = {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate),
+                                   joint_softness(rate)};
   joint_trees_.plan(input.joints, bodies_);
   for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
     integrate_velocities(input);
@@ -283,7 +290,8 @@ template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
 namespace detail {
 /// A solved contact's impulses out of lane `lane` of its block; answers what its points pushed over the step.
 template <class S>
-ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t width, std::size_t lane, Contact<S>& contact) {
+ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t width, std::size_t lane,
+                                     Contact<S>& contact) {
   using V = Velocity<S>;
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
   using Row = AngularRow<S, 1>;

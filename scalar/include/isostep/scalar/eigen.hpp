@@ -29,20 +29,21 @@ template <class T> inline constexpr bool kIsExactType = false;
 template <class T> inline constexpr bool kIsExactType<Exact<T>> = true;
 }  // namespace detail
 
-template <class D> concept FixedExpression = detail::kIsFixedType<typename D::Scalar>;
+template <class D>
+concept FixedExpression = detail::kIsFixedType<typename D::Scalar>;
 
 // m * 0.5 in source code: the constant is rounded to the scalar, as a literal is. A double known only at run time
 // does not compile, see promote_scalar_arg below.
-template <class D> requires FixedExpression<D>
-ISO_INLINE auto operator*(const Eigen::DenseBase<D>& m, Literal constant) {
+template <class D>
+requires FixedExpression<D> ISO_INLINE auto operator*(const Eigen::DenseBase<D>& m, Literal constant) {
   return m.derived() * from_literal<typename D::Scalar>(constant);
 }
-template <class D> requires FixedExpression<D>
-ISO_INLINE auto operator*(Literal constant, const Eigen::DenseBase<D>& m) {
+template <class D>
+requires FixedExpression<D> ISO_INLINE auto operator*(Literal constant, const Eigen::DenseBase<D>& m) {
   return from_literal<typename D::Scalar>(constant) * m.derived();
 }
-template <class D> requires FixedExpression<D>
-ISO_INLINE auto operator/(const Eigen::DenseBase<D>& m, Literal constant) {
+template <class D>
+requires FixedExpression<D> ISO_INLINE auto operator/(const Eigen::DenseBase<D>& m, Literal constant) {
   return m.derived() / from_literal<typename D::Scalar>(constant);
 }
 
@@ -53,14 +54,20 @@ ISO_INLINE constexpr Fixed<Rep, F, P> operator*(I n, Fixed<Rep, F, P> a) {
   return S::from_raw(S::narrow(Wide<Rep>(a.raw()) * Wide<Rep>(static_cast<std::int64_t>(n))));
 }
 template <std::integral I, class Rep, int F, Overflow P>
-ISO_INLINE constexpr Fixed<Rep, F, P> operator*(Fixed<Rep, F, P> a, I n) { return n * a; }
+ISO_INLINE constexpr Fixed<Rep, F, P> operator*(Fixed<Rep, F, P> a, I n) {
+  return n * a;
+}
 
 // What Eigen finds by argument-dependent lookup beside the functions of scalar.hpp, math.hpp and exact.hpp. It looks
 // for min and max in std too, where they are as good a match as those of scalar.hpp; these are better ones.
 template <class Rep, int F, Overflow P>
-ISO_INLINE constexpr Fixed<Rep, F, P> min(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) { return b < a ? b : a; }
+ISO_INLINE constexpr Fixed<Rep, F, P> min(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) {
+  return b < a ? b : a;
+}
 template <class Rep, int F, Overflow P>
-ISO_INLINE constexpr Fixed<Rep, F, P> max(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) { return a < b ? b : a; }
+ISO_INLINE constexpr Fixed<Rep, F, P> max(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) {
+  return a < b ? b : a;
+}
 template <class Rep, int F, Overflow P> ISO_INLINE constexpr Fixed<Rep, F, P> abs2(Fixed<Rep, F, P> a) { return a * a; }
 template <class T> ISO_INLINE constexpr Exact<T> abs2(Exact<T> a) { return a * a; }
 template <class Rep, int F, Overflow P> ISO_INLINE constexpr bool isfinite(Fixed<Rep, F, P>) { return true; }
@@ -143,8 +150,7 @@ template <class Rep, int F, isostep::Overflow P> struct promote_scalar_arg<isost
 
 /// m.cast<double>() and m.cast<Exact<double>>(): for people and tests, as to_double.
 template <class Rep, int F, isostep::Overflow P, class To>
-  requires(std::floating_point<To> || isostep::detail::kIsExactType<To>)
-struct cast_impl<isostep::Fixed<Rep, F, P>, To> {
+requires(std::floating_point<To> || isostep::detail::kIsExactType<To>) struct cast_impl<isostep::Fixed<Rep, F, P>, To> {
   static ISO_INLINE To run(isostep::Fixed<Rep, F, P> x) { return static_cast<To>(isostep::to_double(x)); }
 };
 /// Another format of the same width, rounded to nearest.

@@ -119,26 +119,26 @@ class FloatEnvironment {
 /// What the probe finds; bit n of its answer is the n-th of these. One cause may set several: rounding upwards looks
 /// like contraction too.
 enum class Deviation : std::uint8_t {
-  flush_float,        // a denormal result became zero
+  flush_float,  // a denormal result became zero
   flush_double,
-  zero_float,         // a denormal operand counted as zero
+  zero_float,  // a denormal operand counted as zero
   zero_double,
-  rounding,           // not to nearest
-  contract_float,     // a * b + c was fused
+  rounding,        // not to nearest
+  contract_float,  // a * b + c was fused
   contract_double,
-  contract_pair,      // a vectoriser fused the rows of a rotation, which it does in spite of -ffp-contract=off
-  excess_float,       // a sum kept more bits than its type, or was reassociated
+  contract_pair,  // a vectoriser fused the rows of a rotation, which it does in spite of -ffp-contract=off
+  excess_float,   // a sum kept more bits than its type, or was reassociated
   excess_double,
-  double_rounding,    // rounded to 64 bits first and to 53 after
-  reciprocal,         // a quotient is not to nearest: multiplied by an estimate
-  nan_equal,          // NaN == NaN
-  zero_sign,          // -0 + 0 is -0
+  double_rounding,  // rounded to 64 bits first and to 53 after
+  reciprocal,       // a quotient is not to nearest: multiplied by an estimate
+  nan_equal,        // NaN == NaN
+  zero_sign,        // -0 + 0 is -0
 };
 inline constexpr int kDeviationCount = 14;
 inline constexpr const char* kDeviationNames[kDeviationCount] = {
-    "flush-float",     "flush-double",  "zero-float",   "zero-double",   "rounding",
+    "flush-float",     "flush-double",    "zero-float",    "zero-double",  "rounding",
     "contract-float",  "contract-double", "contract-pair", "excess-float", "excess-double",
-    "double-rounding", "reciprocal",    "nan-equal",    "zero-sign"};
+    "double-rounding", "reciprocal",      "nan-equal",     "zero-sign"};
 ISO_INLINE constexpr std::uint32_t bit_of(Deviation deviation) { return 1u << static_cast<unsigned>(deviation); }
 
 namespace detail {
@@ -160,9 +160,8 @@ ISO_INLINE bool pair_is_fused() {
 /// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's.
 ISO_INLINE std::uint32_t probe_environment_here() {
   std::uint32_t found = 0;
-  const auto check = [&](bool deviates, Deviation deviation) ISO_INLINE_LAMBDA {
-    found |= deviates ? bit_of(deviation) : 0u;
-  };
+  const auto check = [&](bool deviates, Deviation deviation)
+                         ISO_INLINE_LAMBDA { found |= deviates ? bit_of(deviation) : 0u; };
   // By bits: a comparison takes denormals for zero as well.
   const auto is_zero = [](auto x) ISO_INLINE_LAMBDA {
     if constexpr (sizeof(x) == 4) return (std::bit_cast<std::uint32_t>(x) << 1) == 0;

@@ -44,12 +44,15 @@ template <std::floating_point T> class ISO_MAY_ALIAS Exact {
   Exact() = default;
   /// Whole numbers and T implicitly, so that 2 * x and x * 0.5f are what they look like; for Exact<float> a double
   /// is rounded once, as `float y = 0.1;` would.
-  template <class N> requires(std::integral<N> || std::floating_point<N>)
-  ISO_INLINE constexpr Exact(N value) : value_(static_cast<T>(value)) {}
+  template <class N>
+  requires(std::integral<N> || std::floating_point<N>) ISO_INLINE constexpr Exact(N value)
+      : value_(static_cast<T>(value)) {}
 
   ISO_INLINE constexpr T value() const { return value_; }
-  template <class N> requires(std::integral<N> || std::floating_point<N>)
-  ISO_INLINE constexpr explicit operator N() const { return static_cast<N>(value_); }
+  template <class N>
+  requires(std::integral<N> || std::floating_point<N>) ISO_INLINE constexpr explicit operator N() const {
+    return static_cast<N>(value_);
+  }
 
   friend ISO_INLINE constexpr Exact operator+(Exact a, Exact b) { return Exact(a.value_ + b.value_); }
   friend ISO_INLINE constexpr Exact operator-(Exact a, Exact b) { return Exact(a.value_ - b.value_); }

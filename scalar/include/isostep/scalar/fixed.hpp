@@ -77,7 +77,8 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
 
   Fixed() = default;
   /// Whole numbers, exact while they fit. Implicit, so that {0, 2, 0} is a vector of any scalar.
-  template <std::integral I> ISO_INLINE constexpr Fixed(I whole)
+  template <std::integral I>
+  ISO_INLINE constexpr Fixed(I whole)
       : raw_(narrow(detail::shift_left_wide<Policy>(Wide<Rep>(static_cast<std::int64_t>(whole)), FracBits))) {}
   /// A literal, rounded to nearest, ties away from zero. Only the compiler may call this: no run-time floating point
   /// enters the simulation. From a run-time double use `from_double`.

@@ -103,9 +103,7 @@ template <class S, int W, class Isa> struct Lanes {
     ISO_UNROLL for (int i = 0; i < W; ++i) r.v[i] = p[i];
     return r;
   }
-  ISO_INLINE void store(S* p) const {
-    ISO_UNROLL for (int i = 0; i < W; ++i) p[i] = v[i];
-  }
+  ISO_INLINE void store(S* p) const { ISO_UNROLL for (int i = 0; i < W; ++i) p[i] = v[i]; }
   static ISO_INLINE Lanes broadcast(S a) {
     Lanes r;
     ISO_UNROLL for (int i = 0; i < W; ++i) r.v[i] = a;
@@ -172,9 +170,7 @@ template <class S, int W, class Isa> struct Lanes {
   }
 
   template <int N> static ISO_INLINE void load_rows(const S* const* rows, Lanes* out) {
-    ISO_UNROLL for (int n = 0; n < N; ++n) {
-      ISO_UNROLL for (int i = 0; i < W; ++i) out[n].v[i] = rows[i][n];
-    }
+    ISO_UNROLL for (int n = 0; n < N; ++n) { ISO_UNROLL for (int i = 0; i < W; ++i) out[n].v[i] = rows[i][n]; }
   }
   template <int N> static ISO_INLINE void store_rows(S* const* rows, const Lanes* in, std::uint32_t lane_mask) {
     ISO_UNROLL for (int i = 0; i < W; ++i) {
@@ -242,8 +238,7 @@ template <class Out, class S, int W, class Isa> ISO_INLINE Out round_to(Lanes<S,
 
 /// a b in the coarser of the two formats.
 template <class A, class B, int W, class Isa>
-  requires(kIsFixed<A> && kIsFixed<B>)
-ISO_INLINE auto operator*(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+requires(kIsFixed<A>&& kIsFixed<B>) ISO_INLINE auto operator*(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
   return round_to<Lanes<decltype(A{} * B{}), W, Isa>>(product(a, b));
 }
 /// a / b as lanes of Out. Fixed point divides lane by lane: no instruction set here has an integer division.
@@ -275,12 +270,10 @@ template <class Out, class S, int W, class Isa> ISO_INLINE Out convert(Lanes<S, 
   }
 }
 
-template <class S, int W, class Isa>
-ISO_INLINE Lanes<S, W, Isa>& operator+=(Lanes<S, W, Isa>& a, Lanes<S, W, Isa> b) {
+template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa>& operator+=(Lanes<S, W, Isa>& a, Lanes<S, W, Isa> b) {
   return a = a + b;
 }
-template <class S, int W, class Isa>
-ISO_INLINE Lanes<S, W, Isa>& operator-=(Lanes<S, W, Isa>& a, Lanes<S, W, Isa> b) {
+template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa>& operator-=(Lanes<S, W, Isa>& a, Lanes<S, W, Isa> b) {
   return a = a - b;
 }
 template <class A, class B, int W, class Isa>

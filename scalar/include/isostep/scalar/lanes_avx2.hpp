@@ -80,8 +80,7 @@ template <int N> ISO_INLINE void store_rows_64(double* const* rows, const __m256
 
 /// All ones or all zeros in each lane of 32 or 64 bits.
 template <class Key, int W>
-  requires(sizeof(Key) * W == 32)
-struct LaneMask<Key, W, isa::Avx2> {
+requires(sizeof(Key) * W == 32) struct LaneMask<Key, W, isa::Avx2> {
   __m256i v;
 
   static ISO_INLINE LaneMask from_bits(std::uint32_t bits) {
@@ -126,15 +125,11 @@ template <> struct Lanes<float, 8, isa::Avx2> {
   }
   friend ISO_INLINE Lanes sqrt(Lanes a) { return {_mm256_sqrt_ps(a.v)}; }
 
-  friend ISO_INLINE Mask less(Lanes a, Lanes b) {
-    return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ))};
-  }
+  friend ISO_INLINE Mask less(Lanes a, Lanes b) { return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ))}; }
   friend ISO_INLINE Mask less_equal(Lanes a, Lanes b) {
     return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))};
   }
-  friend ISO_INLINE Mask equal(Lanes a, Lanes b) {
-    return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ))};
-  }
+  friend ISO_INLINE Mask equal(Lanes a, Lanes b) { return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ))}; }
   friend ISO_INLINE Lanes select(Mask mask, Lanes a, Lanes b) {
     return {_mm256_blendv_ps(b.v, a.v, _mm256_castsi256_ps(mask.v))};
   }
@@ -175,15 +170,11 @@ template <> struct Lanes<double, 4, isa::Avx2> {
   }
   friend ISO_INLINE Lanes sqrt(Lanes a) { return {_mm256_sqrt_pd(a.v)}; }
 
-  friend ISO_INLINE Mask less(Lanes a, Lanes b) {
-    return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ))};
-  }
+  friend ISO_INLINE Mask less(Lanes a, Lanes b) { return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ))}; }
   friend ISO_INLINE Mask less_equal(Lanes a, Lanes b) {
     return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ))};
   }
-  friend ISO_INLINE Mask equal(Lanes a, Lanes b) {
-    return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ))};
-  }
+  friend ISO_INLINE Mask equal(Lanes a, Lanes b) { return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ))}; }
   friend ISO_INLINE Lanes select(Mask mask, Lanes a, Lanes b) {
     return {_mm256_blendv_pd(b.v, a.v, _mm256_castsi256_pd(mask.v))};
   }

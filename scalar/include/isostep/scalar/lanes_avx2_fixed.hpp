@@ -202,8 +202,8 @@ template <int F> struct LaneSum<FixedSum<std::int64_t, F>, 4, isa::Avx2> {
       } else {
         const __m256i carried = _mm256_add_epi64(c1, detail::shift_right_64<32>(c0, 0));
         if constexpr (shift <= 64) {
-          return {_mm256_add_epi64(_mm256_slli_epi64(c2, 64 - shift),
-                                   detail::shift_right_64<shift - 32>(carried, half))};
+          return {
+              _mm256_add_epi64(_mm256_slli_epi64(c2, 64 - shift), detail::shift_right_64<shift - 32>(carried, half))};
         } else {
           const __m256i top = _mm256_add_epi64(c2, detail::shift_right_64<32>(carried, 0));
           return {detail::shift_right_64<shift - 64>(top, std::uint64_t{1} << (shift - 65))};

@@ -29,9 +29,7 @@ template <> struct LaneMask<float, 4, isa::Sse2> {
   friend ISO_INLINE bool all(LaneMask a) { return to_bits(a) == 0xfu; }
   friend ISO_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {_mm_and_ps(a.v, b.v)}; }
   friend ISO_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {_mm_or_ps(a.v, b.v)}; }
-  friend ISO_INLINE LaneMask operator~(LaneMask a) {
-    return {_mm_xor_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(-1)))};
-  }
+  friend ISO_INLINE LaneMask operator~(LaneMask a) { return {_mm_xor_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(-1)))}; }
 };
 
 template <> struct Lanes<float, 4, isa::Sse2> {
@@ -107,9 +105,7 @@ template <> struct LaneMask<double, 2, isa::Sse2> {
   friend ISO_INLINE bool all(LaneMask a) { return to_bits(a) == 0x3u; }
   friend ISO_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {_mm_and_pd(a.v, b.v)}; }
   friend ISO_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {_mm_or_pd(a.v, b.v)}; }
-  friend ISO_INLINE LaneMask operator~(LaneMask a) {
-    return {_mm_xor_pd(a.v, _mm_castsi128_pd(_mm_set1_epi32(-1)))};
-  }
+  friend ISO_INLINE LaneMask operator~(LaneMask a) { return {_mm_xor_pd(a.v, _mm_castsi128_pd(_mm_set1_epi32(-1)))}; }
 };
 
 template <> struct Lanes<double, 2, isa::Sse2> {

@@ -135,8 +135,8 @@ template <class S> ISO_INLINE Rescale<S> rescale(S n2) {
 
 /// Direction and length of (x, y, z), whatever its magnitude: down to one raw unit, up to the format's ends.
 /// Error:  fixed: components < 2 ulp of Unit<S>, length to nearest, highest() when it does not fit;
-///         float, double: components < 2.5 ulp, length < 1.5 ulp. Measured in tests/unit/scalar/math_test.cpp. A fixed-point
-///         vector along an axis gives exactly that axis.
+///         float, double: components < 2.5 ulp, length < 1.5 ulp. Measured in tests/unit/scalar/math_test.cpp. A
+///         fixed-point vector along an axis gives exactly that axis.
 /// Limits: float, double: a length above the largest number is infinite, its direction still right. Where squares would
 ///         leave the range, components below 2^-40 of the length may lose digits.
 template <class Rep, int F, Overflow P>
@@ -242,8 +242,7 @@ float atan2(float y, float x);
 double atan2(double y, double x);
 template <class Out, class Rep, int F, Overflow P> Out atan2_to(Fixed<Rep, F, P> y, Fixed<Rep, F, P> x);
 template <class Out, std::floating_point S> ISO_INLINE Out atan2_to(S y, S x) { return atan2(y, x); }
-template <class Rep, int F, Overflow P>
-ISO_INLINE Fixed<Rep, F, P> atan2(Fixed<Rep, F, P> y, Fixed<Rep, F, P> x) {
+template <class Rep, int F, Overflow P> ISO_INLINE Fixed<Rep, F, P> atan2(Fixed<Rep, F, P> y, Fixed<Rep, F, P> x) {
   return atan2_to<Fixed<Rep, F, P>>(y, x);
 }
 
@@ -256,16 +255,16 @@ double acos(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> acos(Fixed<Rep, F, P> x);
 
 /// The formats that the library holds; for a format of your own include math.inl as well.
-#define ISO_SCALAR_MATH_OF(KEYWORD, S)                    \
-  KEYWORD template S sin(S);                              \
-  KEYWORD template S cos(S);                              \
-  KEYWORD template SinCos<S> sin_cos_to<S>(S);            \
-  KEYWORD template S atan2_to<S>(S, S);                   \
-  KEYWORD template S asin(S);                             \
+#define ISO_SCALAR_MATH_OF(KEYWORD, S)         \
+  KEYWORD template S sin(S);                   \
+  KEYWORD template S cos(S);                   \
+  KEYWORD template SinCos<S> sin_cos_to<S>(S); \
+  KEYWORD template S atan2_to<S>(S, S);        \
+  KEYWORD template S asin(S);                  \
   KEYWORD template S acos(S);
-#define ISO_SCALAR_MATH(KEYWORD, S)                       \
-  ISO_SCALAR_MATH_OF(KEYWORD, S)                          \
-  ISO_SCALAR_MATH_OF(KEYWORD, Unit<S>)                    \
+#define ISO_SCALAR_MATH(KEYWORD, S)                        \
+  ISO_SCALAR_MATH_OF(KEYWORD, S)                           \
+  ISO_SCALAR_MATH_OF(KEYWORD, Unit<S>)                     \
   KEYWORD template SinCos<Unit<S>> sin_cos_to<Unit<S>>(S); \
   KEYWORD template S atan2_to<S>(Unit<S>, Unit<S>);
 ISO_SCALAR_MATH(extern, Q16_16)

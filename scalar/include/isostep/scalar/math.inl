@@ -132,7 +132,7 @@ ISO_INLINE constexpr Soft atan_of_ratio(std::uint64_t a, std::uint64_t b, int ga
     const std::uint64_t r = down < 64 ? q >> down : 0;
     return {multiply_high(q, atan_series(multiply_high(r, r))), -63 - down, false};
   }
-  const std::uint64_t a64 = gap <= 6 ? a << (6 - gap) : a >> 1;                // modulo 2^64; here gap <= 7
+  const std::uint64_t a64 = gap <= 6 ? a << (6 - gap) : a >> 1;   // modulo 2^64; here gap <= 7
   const auto numerator = static_cast<std::int64_t>(a64 - i * b);  // within 0.51 b
   const std::uint64_t denominator = b + (multiply_high(aligned, std::uint64_t{i} << 57) << 1);
   const std::uint64_t q = divide({magnitude(numerator), 0}, denominator).quotient;  // 64 |r| in Q0.64

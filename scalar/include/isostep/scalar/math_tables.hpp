@@ -11,12 +11,27 @@ inline constexpr std::uint64_t kHalfPiQ62 = 0x6487ed5110b4611au;  // round(2^61 
 
 /// The binary digits of 2/pi after the point, 64 a word, rounded down; two zero words stand before them so that a
 /// window may begin up to 128 digits early. The last digit that a double's largest exponent asks for is number 1161.
-inline constexpr std::uint64_t kTwoOverPi[21] = {
-    0, 0, 0xa2f9836e4e441529u, 0xfc2757d1f534ddc0u, 0xdb6295993c439041u,
-    0xfe5163abdebbc561u, 0xb7246e3a424dd2e0u, 0x06492eea09d1921cu, 0xfe1deb1cb129a73eu, 0xe88235f52ebb4484u,
-    0xe99c7026b45f7e41u, 0x3991d639835339f4u, 0x9c845f8bbdf9283bu, 0x1ff897ffde05980fu, 0xef2f118b5a0a6d1fu,
-    0x6d367ecf27cb09b7u, 0x4f463f669e5fea2du, 0x7527bac7ebe5f17bu, 0x3d0739f78a5292eau, 0x6bfb5fb11f8d5d08u,
-    0x56033046fc7b6babu};
+inline constexpr std::uint64_t kTwoOverPi[21] = {0,
+                                                 0,
+                                                 0xa2f9836e4e441529u,
+                                                 0xfc2757d1f534ddc0u,
+                                                 0xdb6295993c439041u,
+                                                 0xfe5163abdebbc561u,
+                                                 0xb7246e3a424dd2e0u,
+                                                 0x06492eea09d1921cu,
+                                                 0xfe1deb1cb129a73eu,
+                                                 0xe88235f52ebb4484u,
+                                                 0xe99c7026b45f7e41u,
+                                                 0x3991d639835339f4u,
+                                                 0x9c845f8bbdf9283bu,
+                                                 0x1ff897ffde05980fu,
+                                                 0xef2f118b5a0a6d1fu,
+                                                 0x6d367ecf27cb09b7u,
+                                                 0x4f463f669e5fea2du,
+                                                 0x7527bac7ebe5f17bu,
+                                                 0x3d0739f78a5292eau,
+                                                 0x6bfb5fb11f8d5d08u,
+                                                 0x56033046fc7b6babu};
 
 /// Row 0: sin(pi/2 sqrt(t)) / sqrt(t), row 1: cos(pi/2 sqrt(t)), for 0 <= t <= 1/4, as c0 - c1 t + c2 t^2 ... - c7 t^7.
 /// Minimax of degree 7 by the exchange algorithm with 260 bits, then 2^63 c rounded; error 2^-68.2 and 2^-64.8.

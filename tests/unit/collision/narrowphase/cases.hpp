@@ -28,10 +28,8 @@ template <class T> Vec3<T> vec_of(Point p) {
 
 /// Rounding of a length near `size` [m], some tens of operations deep.
 template <class S> double rounding(double size) {
-  if constexpr (!kIsFixed<S>)
-    return 32 * static_cast<double>(resolution<S>()) * size;
-  else
-    return 8 * to_double(resolution<S>()) + 32 * to_double(resolution<Unit<S>>()) * size;
+  if constexpr (!kIsFixed<S>) return 32 * static_cast<double>(resolution<S>()) * size;
+  else return 8 * to_double(resolution<S>()) + 32 * to_double(resolution<Unit<S>>()) * size;
 }
 
 template <class S> Primitive<S> sphere_of(double radius) { return primitive_of(Sphere<S>{from_double<S>(radius)}); }

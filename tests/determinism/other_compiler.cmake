@@ -1,0 +1,22 @@
+# cmake -DSOURCE= -DWORK= -DCOMPILER= -DREPLAYS= -P other_compiler.cmake: the tool, built by another compiler at another
+# level of optimisation, verifies every golden list.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ends with ${result}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=RelWithDebInfo
+  -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF)
+run(${CMAKE_COMMAND} --build ${WORK} --target isostep_tool --parallel 2)
+run(${WORK}/src/tool/isostep verify --jobs 2 ${REPLAYS})
+string(REGEX MATCHALL "VERIFIED" verified "${output}")
+list(LENGTH verified count)
+file(GLOB goldens ${REPLAYS}/goldens/*.txt)
+list(LENGTH goldens expected)
+if(count LESS expected OR expected EQUAL 0)
+  message(FATAL_ERROR "${count} verified of ${expected} golden lists\n${output}")
+endif()
+message("${count} golden lists verified by ${COMPILER}")
