@@ -13,7 +13,8 @@ namespace {
 /// Source:  Catto 2024, Solver2D: Soft Step. Impulses are velocity changes of the reduced mass, so that every
 ///          coefficient is near one whatever the masses.
 /// Symbols: n = normal from a to b, v, w = velocity and spin, d = displacement since the step began, lambda = impulse.
-/// Order:   tangents, then normals: what may not overlap has the last word. Lanes never meet.
+/// Order:   biased, tangents then normals: what may not overlap has the last word. Relaxed, normals then tangents: a
+///          step's friction is bounded by the normal impulse that is left when the push is gone. Lanes never meet.
 template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
@@ -90,18 +91,39 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     return total;
   }
 
-  static ISO_INLINE void solve_tangents(ContactBlock<S, W, P>& c, const Shares& share, Motion& a, Motion& b) {
-    const V limit = times(L::load(c.friction), total_normal_impulse(c));
+  struct PassLanes {
+    L bias_rate, mass_scale, impulse_scale, rate, one;
+    V push_speed, max_separation, max_load;
+  };
+  static ISO_INLINE PassLanes lanes_of(const ContactPass<S>& pass) {
+    return {L::broadcast(pass.softness.bias_rate),
+            L::broadcast(pass.softness.mass_scale),
+            L::broadcast(pass.softness.impulse_scale),
+            L::broadcast(pass.rate),
+            L::broadcast(S(1)),
+            V::broadcast(pass.push_speed),
+            V::broadcast(pass.max_separation),
+            V::broadcast(pass.max_load)};
+  }
+
+  static ISO_INLINE void solve_tangents(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass, Motion& a,
+                                        Motion& b) {
+    const V limit = times(L::load(c.friction), min(total_normal_impulse(c), pass.max_load));
     {
       AngularRow<S, W>& row = c.twist;
       const V speed = round_to<V>(angular_sum(row, a, b));
       const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
       turn(row, accumulate(row, wanted, limit), a, b);
     }
+    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either axis,
+    // and the basis lies along the friction; two limits of their own would let it grow by up to a half between the axes.
+    const L slope = L::broadcast(S(2.41421356237309504880));  // sqrt 2 + 1
+    V left = limit;
     for (FrictionRow<S, W>& tangent : c.tangents) {
       const V speed = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
       const V wanted = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
-      push(tangent.direction, tangent.row, share, accumulate(tangent.row, wanted, limit), a, b);
+      push(tangent.direction, tangent.row, share, accumulate(tangent.row, wanted, left), a, b);
+      left = min(limit, times(slope, limit - abs(V::load(tangent.row.impulse))));
     }
   }
   static ISO_INLINE void solve_rolling(Block& block, Motion& a, Motion& b) {
@@ -115,25 +137,28 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
   }
 
-  struct PassLanes {
-    L bias_rate, mass_scale, impulse_scale, rate, one;
-    V push_speed, max_separation;
-  };
+  /// Biased: overlap is pushed apart softly, at a bounded speed. Relaxed: no push, so that none of it stays as speed.
+  /// A gap may close in either, no more.
+  template <bool Relax>
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {
     for (NormalRow<S, W>& n : c.normals) {
       const V separation = V::load(n.separation) + along(c.normal, n.row, da, db);
-      const auto apart = less(V::zero(), separation);
-      // Apart: the gap may close, no more. Overlapping: pushed apart softly, at a bounded speed.
       const V gap = times(pass.rate, min(separation, pass.max_separation));
-      const V overlap = max(times(pass.bias_rate, separation), V::zero() - pass.push_speed);
-      const V bias = select(apart, gap, overlap);
-      const L mass_scale = select(apart, pass.one, pass.mass_scale);
-      const L impulse_scale = select(apart, L::zero(), pass.impulse_scale);
-      const V speed = along(c.normal, n.row, a, b) + bias;
       const V old = V::load(n.row.impulse);
-      const V soft = times(mass_scale, times(L::load(n.row.effective_mass), speed)) + times(impulse_scale, old);
-      const V next = max(old - soft, V::zero());
+      V change;
+      if constexpr (Relax) {
+        const V speed = along(c.normal, n.row, a, b) + max(gap, V::zero());
+        change = times(L::load(n.row.effective_mass), speed);
+      } else {
+        const auto apart = less(V::zero(), separation);
+        const V overlap = max(times(pass.bias_rate, separation), V::zero() - pass.push_speed);
+        const V speed = along(c.normal, n.row, a, b) + select(apart, gap, overlap);
+        const L mass_scale = select(apart, pass.one, pass.mass_scale);
+        const L impulse_scale = select(apart, L::zero(), pass.impulse_scale);
+        change = times(mass_scale, times(L::load(n.row.effective_mass), speed)) + times(impulse_scale, old);
+      }
+      const V next = max(old - change, V::zero());
       next.store(n.row.impulse);
       push(c.normal, n.row, share, next - old, a, b);
     }
@@ -161,14 +186,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
   }
 
-  static void solve(const BlockRun<S>& run, const ContactPass<S>& pass) {
-    const PassLanes lanes = {L::broadcast(pass.softness.bias_rate),
-                             L::broadcast(pass.softness.mass_scale),
-                             L::broadcast(pass.softness.impulse_scale),
-                             L::broadcast(pass.rate),
-                             L::broadcast(S(1)),
-                             V::broadcast(pass.push_speed),
-                             V::broadcast(pass.max_separation)};
+  template <bool Relax> static void solve(const BlockRun<S>& run, const ContactPass<S>& pass) {
+    const PassLanes lanes = lanes_of(pass);
     for (std::int32_t i = 0; i < run.count; ++i) {
       Block& block = static_cast<Block*>(run.blocks)[i];
       ContactBlock<S, W, P>& c = contact_of(block);
@@ -176,9 +195,10 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
       const Motion da = gather(run.displacement, bodies.a), db = gather(run.displacement, bodies.b);
       const Shares share = {L::load(c.share_a), L::load(c.share_b)};
+      if constexpr (Relax) solve_normals<true>(c, share, lanes, da, db, a, b);
       solve_rolling(block, a, b);
-      solve_tangents(c, share, a, b);
-      solve_normals(c, share, lanes, da, db, a, b);
+      solve_tangents(c, share, lanes, a, b);
+      if constexpr (!Relax) solve_normals<false>(c, share, lanes, da, db, a, b);
       scatter(run.velocity, bodies.a, bodies.write_a, a);
       scatter(run.velocity, bodies.b, bodies.write_b, b);
     }
@@ -210,12 +230,13 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
 };
 
 template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_kernels(const char* name) {
-  ContactKernels<S> table = {name, W, {}, {}, {}};
+  ContactKernels<S> table = {name, W, {}, {}, {}, {}};
   const auto fill = [&]<int P, bool Rolling>() {
     using Kernel = ContactKernel<S, W, Isa, P, Rolling>;
     const int variant = (Rolling ? kMaxContactPoints : 0) + P - 1;
     table.warm_start[variant] = &Kernel::warm_start;
-    table.solve[variant] = &Kernel::solve;
+    table.solve[variant] = &Kernel::template solve<false>;
+    table.relax[variant] = &Kernel::template solve<true>;
     table.restitute[variant] = &Kernel::restitute;
   };
   fill.template operator()<1, false>();

@@ -19,6 +19,7 @@ template <class S> struct ContactPass {
   S rate;                         // [1/s] sub-steps a second
   Velocity<S> push_speed;         // [m/s] overlap is pushed apart no faster than this
   Velocity<S> max_separation;     // [m] beyond this a gap counts as this, so that rate times gap fits
+  Velocity<S> max_load;           // [m/s] a heavier load counts as this for friction, so that its cone fits the format
   Velocity<S> restitution_speed;  // [m/s] slower approaches do not bounce
 };
 
@@ -39,6 +40,7 @@ template <class S> struct ContactKernels {
   std::int32_t width;
   void (*warm_start[kContactVariants])(const BlockRun<S>&);
   void (*solve[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
+  void (*relax[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
   void (*restitute[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 

@@ -65,16 +65,16 @@ template <class V, class U> ISO_INLINE Tangents<U> basis_along(Vec3<V> lead, Vec
   return {first, cross(n, first)};
 }
 
-/// The friction basis: along the friction that the contact already bears, else along the slip, so that the two rows'
-/// separate limits act as one cone; where there is neither, any.
+/// The friction basis. Sliding: along the slip, for that is what friction opposes. Else along the friction that the
+/// contact bears already; where there is neither, any. The kernel's cone is exact along the basis.
 template <class S>
 ISO_INLINE Tangents<Unit<S>> friction_basis(Vec3<Unit<S>> n, Vec3<Velocity<S>> borne, Velocity<S> limit,
                                             Vec3<Velocity<S>> slip) {
   using V = Velocity<S>;
-  const Vec3<V> force = flatten(borne, n);
-  if (V(8) * max_abs(force) > limit) return basis_along(force, n);  // an eighth of the cone: below, direction is noise
   const Vec3<V> slide = flatten(slip, n);
-  return max_abs(slide) > V(0.01) ? basis_along(slide, n) : tangents_of(n);  // [m/s] slower is rest
+  if (max_abs(slide) > V(0.05)) return basis_along(slide, n);  // [m/s] slower is the trembling of what sticks
+  const Vec3<V> force = flatten(borne, n);
+  return V(8) * max_abs(force) > limit ? basis_along(force, n) : tangents_of(n);  // below an eighth: noise
 }
 
 /// Mean arm of the contact's points.

@@ -73,7 +73,6 @@ template <class S> class SoftStep {
   void add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t first, std::uint32_t count);
   void integrate_velocities(const SolverInput<S>& input);
   void integrate_positions(const SolverInput<S>& input);
-  void solve_contacts(const ContactPass<S>& pass);
 
   SolverBodies<S> bodies_;
   JointTrees<S> joint_trees_;

@@ -247,22 +247,22 @@ template <class S> void SoftStep<S>::integrate_positions(const SolverInput<S>& i
   }
 }
 
-template <class S> void SoftStep<S>::solve_contacts(const ContactPass<S>& pass) {
-  for (const Run& run : runs_) run.kernels->solve[run.variant](blocks_of(run), pass);
-}
-
 namespace detail {
-template <class S> ContactPass<S> contact_pass(const SolverInput<S>& input, bool relax) {
+template <class S> ContactPass<S> contact_pass(const SolverInput<S>& input) {
   const S rate = S(input.hz * input.substeps);
-  const Softness<S> softness = relax ? Softness<S>::rigid() : soften(kContactAngle<S>, kContactDamping<S>, rate);
-  // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step.
-  return {softness, rate, kPushSpeed<S>, divide_to<Velocity<S>>(S(64), rate), kRestitutionSpeed<S>};
+  // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step. Loads
+  // beyond a 64th of the format (32 m/s for Q16.16) count as that: times friction and the cone's slope they still fit.
+  return {soften(kContactAngle<S>, kContactDamping<S>, rate),
+          rate,
+          kPushSpeed<S>,
+          divide_to<Velocity<S>>(S(64), rate),
+          highest<Velocity<S>>() * Velocity<S>(1.0 / 64),
+          kRestitutionSpeed<S>};
 }
 }  // namespace detail
 
 template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input) {
-  const ContactPass<S> biased = detail::contact_pass(input, false);
-  const ContactPass<S> relaxed = detail::contact_pass(input, true);
+  const ContactPass<S> pass = detail::contact_pass(input);
   const S rate = S(input.hz * input.substeps);
   const JointStep<S> joint_step = {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate),
                                    joint_softness(rate)};
@@ -272,10 +272,10 @@ template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input)
     joint_trees_.warm_start(input.joints, joint_step);
     for (const Run& run : runs_) run.kernels->warm_start[run.variant](blocks_of(run));
     joint_trees_.solve(input.joints, joint_step, false);
-    solve_contacts(biased);
+    for (const Run& run : runs_) run.kernels->solve[run.variant](blocks_of(run), pass);
     integrate_positions(input);
     joint_trees_.solve(input.joints, joint_step, true);
-    solve_contacts(relaxed);
+    for (const Run& run : runs_) run.kernels->relax[run.variant](blocks_of(run), pass);
   }
 }
 
@@ -283,7 +283,7 @@ template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
   bool bounces = false;
   for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
   if (!bounces) return;
-  const ContactPass<S> pass = detail::contact_pass(input, true);
+  const ContactPass<S> pass = detail::contact_pass(input);
   for (const Run& run : runs_) run.kernels->restitute[run.variant](blocks_of(run), pass);
 }
 
