@@ -3,7 +3,7 @@
 # Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Private: a user's own
 # code is compiled as the user likes, and nothing of ours is inlined into it but integer code and exact leaves.
 set(isostep_exact_flags
-  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math;-ffp-contract=off>
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:MSVC>:/fp:precise>)
 set(isostep_warnings

@@ -147,6 +147,9 @@ template <class S> Settings<S> settings_of(const Scene& scene, int hz, int subst
   settings.substeps = substeps;
   settings.gravity = read<S>(scene.gravity, "/gravity");
   settings.allow_sleep = scene.allow_sleep;
+  if (static_cast<long long>(hz) * substeps > kMaxRate) {
+    throw SceneError("hz and substeps", "more than " + std::to_string(kMaxRate) + " sub-steps a second");
+  }
   if (const World<S> probe(settings); probe.fault() != Fault::none) {
     throw SceneError("/gravity", std::string("beyond the greatest speed of ") + ScalarTraits<S>::kName);
   }

@@ -40,7 +40,9 @@ template <class S> ISO_INLINE ReplayIdentity identity_of_world(const Settings<S>
 }
 
 /// `begin`; then for every frame any commands, one step, and `end_frame`; then `finish`. The world must outlive it and
-/// records to nothing else meanwhile. Without `finish` the file is truncated, its whole blocks still play.
+/// records to nothing else meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there: a game
+/// that rolls back records its confirmed frames in a world of their own. Without `finish` the file is truncated, its
+/// whole blocks still play.
 template <class S> class WorldRecorder {
  public:
   ISO_INLINE WorldRecorder(World<S>& world, ReplaySink sink) : world_(world), recorder_(sink) {}
@@ -58,6 +60,9 @@ template <class S> class WorldRecorder {
   }
   /// `hash` is the world's now: callers that have it need not compute it twice.
   ISO_INLINE Result<void> end_frame(std::uint64_t hash) {
+    if (!world_.records_to(&tape_)) {
+      return Error{ErrorCode::invalid, "the world was loaded or replaced while it was recorded", "recorder"};
+    }
     const Result<void> result = recorder_.frame(tape_, hash);
     tape_.clear();
     return result;

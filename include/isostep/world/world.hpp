@@ -79,16 +79,14 @@ template <class S> class World {
   const char* simd_name() const;
 
   // Shapes: shared by the bodies that name them.
-  template <class T> ISO_INLINE ShapeId add_shape(const Sphere<T>& sphere) {
-    return add(Sphere<S>{as_s(sphere.radius)});
-  }
-  template <class T> ISO_INLINE ShapeId add_shape(const Box<T>& box) {
-    return add(Box<S>{{as_s(box.half_extents.x), as_s(box.half_extents.y), as_s(box.half_extents.z)}});
-  }
-  template <class T> ISO_INLINE ShapeId add_shape(const Capsule<T>& capsule) {
-    return add(Capsule<S>{as_s(capsule.radius), as_s(capsule.half_height)});
-  }
-  ISO_INLINE ShapeId add_shape(const HalfSpace<S>& half_space) { return add(half_space); }
+  ShapeId add_shape(const Sphere<S>& sphere);
+  ShapeId add_shape(const Box<S>& box);
+  ShapeId add_shape(const Capsule<S>& capsule);
+  ShapeId add_shape(const HalfSpace<S>& half_space);
+  // The same, written without a scalar: Box{{0.5, 0.5, 0.5}}.
+  ShapeId add_shape(const Sphere<Literal>& sphere);
+  ShapeId add_shape(const Box<Literal>& box);
+  ShapeId add_shape(const Capsule<Literal>& capsule);
   ShapeId add_shape(std::span<const Child<S>> children);
   bool remove_shape(ShapeId shape);
 
@@ -124,6 +122,8 @@ template <class S> class World {
   Fault fault() const;
   /// From now on every accepted command is appended to `tape` (null: to nothing). The caller clears it every frame.
   void record_to(std::vector<std::uint8_t>* tape);
+  /// False again once the world was loaded, read or assigned: commands alone do not lead to what it is then.
+  bool records_to(const std::vector<std::uint8_t>* tape) const;
 
   // What bodies are like. A stale id gives the zero of the answer's type.
   bool contains(BodyId body) const;
@@ -181,13 +181,6 @@ template <class S> class World {
   const WorldState<S>& state() const;
 
  private:
-  template <class Shape> ISO_INLINE ShapeId add(const Shape& shape) {
-    const Child<S> child = {primitive_of(shape), Pose<S>::identity()};
-    return add_shape(std::span<const Child<S>>(&child, 1));
-  }
-  static ISO_INLINE S as_s(Literal value) { return from_literal<S>(value); }
-  static ISO_INLINE S as_s(S value) { return value; }
-
   std::unique_ptr<WorldEngine<S>> engine_;
 };
 

@@ -60,8 +60,30 @@ template <class S, class C> auto run(WorldEngine<S>& engine, const C& command) {
   }
   return result;
 }
+template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& shape) {
+  const Child<S> child = {primitive_of(shape), Pose<S>::identity()};
+  return world.add_shape(std::span<const Child<S>>(&child, 1));
+}
 }  // namespace detail
 
+template <class S> ShapeId World<S>::add_shape(const Sphere<S>& sphere) { return detail::add_one(*this, sphere); }
+template <class S> ShapeId World<S>::add_shape(const Box<S>& box) { return detail::add_one(*this, box); }
+template <class S> ShapeId World<S>::add_shape(const Capsule<S>& capsule) { return detail::add_one(*this, capsule); }
+template <class S> ShapeId World<S>::add_shape(const HalfSpace<S>& space) { return detail::add_one(*this, space); }
+// Literals become numbers here and not in the caller's code, which may round as it likes.
+template <class S> ShapeId World<S>::add_shape(const Sphere<Literal>& sphere) {
+  const FloatEnvironment environment;
+  return add_shape(Sphere<S>{from_literal<S>(sphere.radius)});
+}
+template <class S> ShapeId World<S>::add_shape(const Box<Literal>& box) {
+  const FloatEnvironment environment;
+  const Vec3<Literal>& h = box.half_extents;
+  return add_shape(Box<S>{{from_literal<S>(h.x), from_literal<S>(h.y), from_literal<S>(h.z)}});
+}
+template <class S> ShapeId World<S>::add_shape(const Capsule<Literal>& capsule) {
+  const FloatEnvironment environment;
+  return add_shape(Capsule<S>{from_literal<S>(capsule.radius), from_literal<S>(capsule.half_height)});
+}
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children) {
   return detail::run(*engine_, AddShape<S>{{children.begin(), children.end()}});
 }
@@ -147,6 +169,9 @@ template <class S> bool World<S>::apply(const Command<S>& command) {
 }
 template <class S> Fault World<S>::fault() const { return engine_->fault_; }
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
+template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* tape) const {
+  return engine_->tape_ == tape;
+}
 
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
 template <class S> bool World<S>::contains(ShapeId shape) const { return engine_->state_.shape_slots.holds(shape); }

@@ -76,10 +76,9 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
   static constexpr Overflow kPolicy = Policy;
 
   Fixed() = default;
-  /// Whole numbers, exact while they fit. Implicit, so that {0, 2, 0} is a vector of any scalar.
-  template <std::integral I>
-  ISO_INLINE constexpr Fixed(I whole)
-      : raw_(narrow(detail::shift_left_wide<Policy>(Wide<Rep>(static_cast<std::int64_t>(whole)), FracBits))) {}
+  /// Whole numbers, exact while they fit and the nearest end of the format beyond. Implicit, so that {0, 2, 0} is a
+  /// vector of any scalar.
+  template <std::integral I> ISO_INLINE constexpr Fixed(I whole) : raw_(from_whole(whole)) {}
   /// A literal, rounded to nearest, ties away from zero. Only the compiler may call this: no run-time floating point
   /// enters the simulation. From a run-time double use `from_double`.
   consteval Fixed(double literal) : raw_(0) {
@@ -137,6 +136,18 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
   }
 
  private:
+  template <std::integral I> static ISO_INLINE constexpr Rep from_whole(I whole) {
+    constexpr std::int64_t most = (std::int64_t{1} << (kBits - 1 - FracBits)) - 1;
+    const bool above = whole > 0 && static_cast<std::uint64_t>(whole) > static_cast<std::uint64_t>(most);
+    const bool below = whole < 0 && static_cast<std::int64_t>(whole) < -most - 1;
+    if constexpr (Policy == Overflow::trap) {
+      if (above || below) __builtin_trap();
+    }
+    if (above) return kHighestRaw;
+    if (below) return kLowestRaw;
+    return static_cast<Rep>(static_cast<Unsigned>(static_cast<std::int64_t>(whole)) << FracBits);
+  }
+
   // Constants, for a call of numeric_limits is a weak symbol at -O0.
   static constexpr Rep kHighestRaw = std::numeric_limits<Rep>::max();
   static constexpr Rep kLowestRaw = std::numeric_limits<Rep>::min();
