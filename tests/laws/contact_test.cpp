@@ -94,6 +94,33 @@ TYPED_TEST(ContactLaws, a_sliding_block_stops_after_its_square_of_speed_over_twi
   }
 }
 
+// O17 again, where it is hardest: a cube tips its load onto its leading edge, and few sub-steps let that tremble.
+TYPED_TEST(ContactLaws, friction_slows_slabs_and_cubes_alike_at_any_number_of_sub_steps) {
+  using S = TypeParam;
+  for (const int substeps : {2, 4, 8, 16}) {
+    for (const double half_height : {0.25, 0.5}) {
+      for (const double speed : {3.0, 10.0}) {
+        Settings<S> settings;
+        settings.substeps = substeps;
+        settings.allow_sleep = false;
+        World<S> w(settings);
+        add_ground(w, 0.5);
+        const D3 heading = {std::cos(0.4), 0, std::sin(0.4)};
+        BodyDefinition<S> d = moving<S>(add_box(w, 0.5, half_height, 0.5), {0, half_height, 0}, heading * speed);
+        d.material.friction = num<S>(0.5);
+        const BodyId id = w.create(d);
+        const int frames = static_cast<int>(0.6 * speed / 5 * 60);
+        run(w, frames);
+        const D3 v = real(w.velocity(id));
+        const double slowing = (speed - length({v.x, 0, v.z})) / (frames / 60.0);
+        EXPECT_NEAR(slowing, 5, 0.05) << substeps << " sub-steps, half height " << half_height << ", " << speed
+                                      << " m/s";
+        EXPECT_NEAR(v.x * heading.z - v.z * heading.x, 0, 0.03) << substeps << " sub-steps";
+      }
+    }
+  }
+}
+
 // O18.
 TYPED_TEST(ContactLaws, a_sliding_ball_ends_up_rolling_at_five_sevenths_of_its_speed) {
   using S = TypeParam;

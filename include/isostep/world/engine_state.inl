@@ -47,7 +47,7 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
 
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   state_ = from;
-  tape_ = nullptr;  // what was recorded does not lead here
+  ++loads_;
   events_.clear();
   report_ = {};
   fault_ = Fault::none;

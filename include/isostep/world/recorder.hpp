@@ -55,12 +55,13 @@ template <class S> class WorldRecorder {
     const Result<ReplayHeader> header = make_replay_header(identity_of_world(world_.settings(), scene));
     if (!header) return header.error();
     tape_.clear();
+    loads_ = world_.loads();
     world_.record_to(&tape_);
     return recorder_.begin(world_, header.value());
   }
   /// `hash` is the world's now: callers that have it need not compute it twice.
   ISO_INLINE Result<void> end_frame(std::uint64_t hash) {
-    if (!world_.records_to(&tape_)) {
+    if (!world_.records_to(&tape_) || world_.loads() != loads_) {
       return Error{ErrorCode::invalid, "the world was loaded or replaced while it was recorded", "recorder"};
     }
     const Result<void> result = recorder_.frame(tape_, hash);
@@ -74,6 +75,7 @@ template <class S> class WorldRecorder {
   World<S>& world_;
   Recorder<World<S>> recorder_;
   std::vector<std::uint8_t> tape_;
+  std::uint64_t loads_ = 0;
 };
 
 }  // namespace isostep

@@ -122,8 +122,9 @@ template <class S> class World {
   Fault fault() const;
   /// From now on every accepted command is appended to `tape` (null: to nothing). The caller clears it every frame.
   void record_to(std::vector<std::uint8_t>* tape);
-  /// False again once the world was loaded, read or assigned: commands alone do not lead to what it is then.
   bool records_to(const std::vector<std::uint8_t>* tape) const;
+  /// How often the world was loaded or read: a recording of commands alone does not survive it.
+  std::uint64_t loads() const;
 
   // What bodies are like. A stale id gives the zero of the answer's type.
   bool contains(BodyId body) const;

@@ -169,6 +169,7 @@ template <class S> bool World<S>::apply(const Command<S>& command) {
 }
 template <class S> Fault World<S>::fault() const { return engine_->fault_; }
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
+template <class S> std::uint64_t World<S>::loads() const { return engine_->loads_; }
 template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* tape) const {
   return engine_->tape_ == tape;
 }

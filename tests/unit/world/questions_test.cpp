@@ -8,6 +8,7 @@
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/query/closest_point.hpp"
 #include "isostep/collision/query/ray_cast.hpp"
+#include "isostep/world/recorder.hpp"
 
 namespace isostep::test {
 namespace {
@@ -270,6 +271,22 @@ TYPED_TEST(WorldQuestions, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_TRUE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
   EXPECT_FALSE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
   static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
+}
+
+TYPED_TEST(WorldQuestions, a_recording_ends_where_the_world_is_loaded) {
+  using S = TypeParam;
+  World<S> w;
+  add_ground(w);
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  typename World<S>::Snapshot snapshot;
+  w.save(snapshot);
+  w.step();
+  EXPECT_TRUE(recorder.end_frame().ok());
+  w.load(snapshot);
+  w.step();
+  EXPECT_FALSE(recorder.end_frame().ok());
 }
 
 TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
