@@ -90,12 +90,16 @@ template <class S> Fault fault_of(const JointProperties<S>& j, std::int32_t subs
 }
 
 /// Whether a joint's arm is too long for its body: kappa arm^2 is how much faster the joint's end answers than the body
-/// as a whole, and rows multiply by it.
-template <class S> bool overreaches(Vec3<S> kappa, Vec3<S> arm) {
+/// as a whole, and rows multiply by it. About each principal axis only the arm's part across it counts, so that a long
+/// rod may hang by its end.
+template <class S> bool overreaches(Vec3<S> kappa, const Quat<Unit<S>>& principal, Vec3<S> arm) {
   const S most = Limits<S>::leverage();
-  const S length = direction_of(arm.x, arm.y, arm.z).length;
-  const S k = max_abs(kappa);
-  return length <= S(1) ? most < (k * length) * length : (most / length) / length < k;
+  const Vec3<S> p = transposed_times(to_matrix(principal), arm);
+  const auto too_long = [most](S k, S u, S v) {
+    const S length = direction_of(S(0), u, v).length;
+    return length <= S(1) ? most < (k * length) * length : (most / length) / length < k;
+  };
+  return too_long(kappa.x, p.y, p.z) || too_long(kappa.y, p.z, p.x) || too_long(kappa.z, p.x, p.y);
 }
 
 /// Spin so fast that points of the body leave the range of velocities. `box` is the body's.

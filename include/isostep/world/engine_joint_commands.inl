@@ -20,7 +20,7 @@ template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command
       return {};
     }
     const BodyProperties<S>& body = properties_at(locations_[ends[end].slot]);
-    if (detail::overreaches(body.kappa, arms[end])) {
+    if (detail::overreaches(body.kappa, body.principal, arms[end])) {
       refuse(Fault::out_of_range);
       return {};
     }

@@ -115,8 +115,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
       turn(row, accumulate(row, wanted, limit), a, b);
     }
-    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either axis,
-    // and the basis lies along the friction; two limits of their own would let it grow by up to a half between the axes.
+    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either
+    // axis, and the basis lies along the friction; limits of their own would let it grow by up to a half between.
     const L slope = L::broadcast(S(2.41421356237309504880));  // sqrt 2 + 1
     V left = limit;
     for (FrictionRow<S, W>& tangent : c.tangents) {
