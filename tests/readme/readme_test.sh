@@ -5,6 +5,7 @@ set -u
 repository=$1
 tool=$2
 readme=$repository/README.md
+cd "$repository" || exit 1  # README's paths are the repository's
 failures=0
 fail() {
   echo "README: $1" >&2
