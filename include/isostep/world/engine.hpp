@@ -178,7 +178,6 @@ template <class S> class WorldEngine {
   std::vector<std::uint32_t> slots_;
   std::vector<Velocity<S>> step_impulses_;  // [m/s] per contact, of the whole step
   std::size_t woke_reported_ = 0;           // of events_.woke, told by the last step
-  std::vector<BodyId> woke_scratch_;
   DisjointSets islands_;
   std::vector<std::uint32_t> island_clock_;
 };

@@ -18,30 +18,34 @@ template <class S> std::uint64_t hash_island(const FrozenIsland<S>& island) {
   return root.value();
 }
 
-/// Merges `more` into `into`, both ascending; from the back, in place.
-template <class T, class Before>
-void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
-  std::size_t a = into.size(), b = more.size();
-  into.resize(a + b);
-  for (std::size_t at = a + b; b > 0; --at) {
-    const bool take_old = a > 0 && before(more[b - 1], into[a - 1]);
-    into[at - 1] = take_old ? into[--a] : more[--b];
+/// Merges two ascending runs from the back, in place: put(to, from_old, index) moves one record of either.
+template <class OldIsLater, class Put>
+void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is_later, const Put& put) {
+  for (std::size_t to = old + more; more > 0; --to) {
+    const bool from_old = old > 0 && old_is_later(old - 1, more - 1);
+    put(to - 1, from_old, from_old ? --old : --more);
   }
 }
-/// The same for two parallel arrays, ordered by the first.
-template <class T, class U, class Before>
-void merge_pairs(std::vector<T>& into, std::vector<U>& into2, const std::vector<T>& more, const std::vector<U>& more2,
-                 const Before& before) {
-  std::size_t a = into.size(), b = more.size();
-  into.resize(a + b);
-  into2.resize(a + b);
-  for (std::size_t at = a + b; b > 0; --at) {
-    const bool take_old = a > 0 && before(more[b - 1], into[a - 1]);
-    if (take_old) --a;
-    else --b;
-    into[at - 1] = take_old ? into[a] : more[b];
-    into2[at - 1] = take_old ? into2[a] : more2[b];
-  }
+/// Merges `more` into `into`, both ascending.
+template <class T, class Before>
+void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
+  const std::size_t old = into.size();
+  into.resize(old + more.size());
+  merge_from_back(
+      old, more.size(), [&](std::size_t i, std::size_t j) { return before(more[j], into[i]); },
+      [&](std::size_t to, bool from_old, std::size_t i) { into[to] = from_old ? into[i] : more[i]; });
+}
+/// The same for states and properties side by side, ascending by slot.
+template <class Set> void merge_sets(Set& into, const Set& more) {
+  const std::size_t old = into.states.size();
+  into.states.resize(old + more.states.size());
+  into.properties.resize(into.states.size());
+  merge_from_back(
+      old, more.states.size(), [&](std::size_t i, std::size_t j) { return more.states[j].slot < into.states[i].slot; },
+      [&](std::size_t to, bool from_old, std::size_t i) {
+        into.states[to] = from_old ? into.states[i] : more.states[i];
+        into.properties[to] = from_old ? into.properties[i] : more.properties[i];
+      });
 }
 }  // namespace detail
 
@@ -213,11 +217,8 @@ template <class S> void WorldEngine<S>::thaw(std::uint32_t frozen_index) {
     relabel(state_.frozen[frozen_index]->bodies, frozen_index, 0);
     relabel_joints(state_.frozen[frozen_index]->joints, frozen_index, 0);
   }
-  const auto before = [](const auto& a, const auto& b) { return a.slot < b.slot; };
-  detail::merge_pairs(state_.awake.states, state_.awake.properties, island->bodies.states, island->bodies.properties,
-                      before);
-  detail::merge_pairs(state_.joints.states, state_.joints.properties, island->joints.states, island->joints.properties,
-                      before);
+  detail::merge_sets(state_.awake, island->bodies);
+  detail::merge_sets(state_.joints, island->joints);
   detail::merge_into(state_.contacts, island->contacts, [](const auto& a, const auto& b) { return a.key < b.key; });
   relabel(state_.awake, Location::kAwake, 0);
   relabel_joints(state_.joints, Location::kAwake, 0);

@@ -53,10 +53,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
 /// What commands woke since the last step belongs to this one.
 template <class S> void WorldEngine<S>::begin_events() {
   events_.woke.erase(events_.woke.begin(), events_.woke.begin() + static_cast<std::ptrdiff_t>(woke_reported_));
-  std::swap(events_.woke, woke_scratch_);
-  events_.clear();
-  std::swap(events_.woke, woke_scratch_);
-  woke_scratch_.clear();
+  events_.clear_step();
 }
 
 template <class S> void WorldEngine<S>::apply_forces() {
@@ -76,7 +73,6 @@ template <class S> void WorldEngine<S>::apply_forces() {
 }
 
 template <class S> void WorldEngine<S>::prepare_joints() {
-  joint_constraints_.resize(state_.joints.states.size());
   for (std::size_t i = 0; i < joint_constraints_.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
     const JointEnd<S> a = {row_of(joint.body_a), centre_pose_at(joint.body_a)};

@@ -30,12 +30,16 @@ template <class S> struct Events {
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<BodyId> fell_asleep, woke;
 
-  ISO_INLINE void clear() {
+  /// All but what woke: commands wake too, before the step that tells.
+  ISO_INLINE void clear_step() {
     contact_begin.clear();
     contact_end.clear();
     sensor_begin.clear();
     sensor_end.clear();
     fell_asleep.clear();
+  }
+  ISO_INLINE void clear() {
+    clear_step();
     woke.clear();
   }
 };
