@@ -1,0 +1,72 @@
+// ClientCore: a player or spectator of a host's match, from the first word to late joins and returns.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/peer_core.hpp"
+
+namespace isostep {
+
+/// Our own inputs are final when the host says it has them; the others' when they arrive. Cut off, the client keeps its
+/// history, and greets again from its newest final state: if the host still has the inputs since, no snapshot travels.
+class ClientCore : public PeerCore {
+ public:
+  ClientCore(const SessionConfig& config, const InputRules& rules);
+
+  void connected(PeerId host, Time now) override;
+  void disconnected(PeerId host, Time now) override;
+  void receive(PeerId host, Channel channel, Bytes bytes, Time now) override;
+  std::optional<Outgoing> poll_send(Time now) override;
+  void restored(bool ok) override;
+  int local_player() const override { return player_; }
+
+ protected:
+  bool is_local(int player) const override { return is_open_ && player == player_; }
+  bool sends(int player, const Link&) const override { return is_local(player); }
+  bool running() const override { return runs_; }
+  Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
+  Frame final_limit() const override;
+  int steps_allowed(Time now) const override;
+  void before_steps(Time now) override;
+  void observe_delay() override;
+  void root_known(Frame state, std::uint64_t root) override;
+
+ private:
+  void lose(Time now);
+  void take_message(MessageKind kind, Bytes bytes, Time now);
+  void take_welcome(const Welcome& welcome, Time now);
+  void take_piece(const Piece& piece);
+  void take_packet(const Packet& packet, Time now);
+  void take_inputs(const InputSlice& slice, Time now);
+  /// The host went on without us from this frame.
+  void cut_out(Frame frame);
+  void begin_at(const RootReport& start);
+  void open(Frame first);
+  void lean(Time now);
+  /// Do the host's machine and enough others have the states that we have?
+  bool is_vouched_for() const;
+  void fail(SessionEvent::Kind kind, SessionPhase phase);
+  /// [1/256 frame] the host's next frame, as we estimate it.
+  std::int64_t host_position(Time now) const;
+  Frame frames_behind(Time now) const;
+
+  Link host_;
+  bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false, must_close_ = false;
+  bool asked_ready_ = false;
+  int player_ = -1;
+  bool is_open_ = false;
+  Frame opens_ = kNoFrame;
+  Frame accepted_ = 0;  // first frame of ours that the host lacks
+  std::uint64_t token_ = 0;
+
+  Welcome welcome_;
+  bool is_restoring_ = false;
+  bool must_begin_ = false;  // from welcome_.start, in the next plan
+  std::uint32_t told_ = 0;   // [bytes] of the snapshot that the host knows to have arrived
+  bool is_spoiled_ = false;  // a snapshot was bad: the game may be in no state of this match
+  Frame base_ = 0;           // the state with which our part of the match began
+
+  std::int64_t host_frame_ = 0;  // [1/256 frame] when host_frame_at_
+  Time host_frame_at_ = 0;
+};
+
+}  // namespace isostep

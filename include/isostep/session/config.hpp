@@ -1,0 +1,49 @@
+// SessionConfig: which session, with whom, and how patient; by this alone a team switches between them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/session/frame.hpp"
+#include "isostep/state/replay_header.hpp"
+
+namespace isostep {
+
+enum class SessionMode : std::uint8_t {
+  lockstep,   // a frame is stepped when all its inputs are known
+  rollback,   // a frame is stepped when it is due; wrong guesses are stepped again
+  spectator,  // no player; steps what is known, and catches up when behind
+  sync_test,  // one machine: every frame is rolled back, stepped again and compared
+  replay      // plays a recorded match
+};
+
+struct SessionConfig {
+  SessionMode mode = SessionMode::rollback;
+  bool host = false;  // others connect to us; the host fixes what was played
+  int players = 2;
+  int local_players = 1;  // host: how many of the first play here (0: a dedicated host); sync test: all of them do
+  int hz = 60;            // [1/s]
+
+  Frame window = 8;       // rollback: frames stepped on guesses; sync test: frames rolled back
+  Frame delay = 2;        // [frames] an input waits at first
+  Frame least_delay = 0;  // it adapts between these; equal: it does not
+  Frame most_delay = 20;
+
+  Time silence = 5 * kSecond;   // [us] without a word from a peer until it counts as lost
+  Time patience = 5 * kSecond;  // [us] that the host waits for one player's inputs before it goes on without them
+  Frame kept = 64;              // states kept to find the cause of a divergence in, more than window, delay and latency
+  Frame history = 1200;         // frames of inputs kept: how long a snapshot may take to reach a late joiner
+  int max_peers = 16;           // connections that the host serves: players and spectators
+  std::uint32_t snapshot_cap = 64u << 20;  // [bytes] of a portable snapshot that a client accepts
+  std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread
+
+  std::uint64_t seed = 1;  // host: of match number and tokens; different for every match
+  /// What must be equal on all peers, by name: make_replay_header(identity_of_world(...)) and what the game adds. The
+  /// layout of the input is added by the session.
+  ReplayHeader identity;
+};
+
+/// The first rule that a configuration breaks, as the name of the field and what it may be; or null.
+const char* problem_of(const SessionConfig& config);
+
+}  // namespace isostep

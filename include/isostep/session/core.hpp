@@ -1,0 +1,160 @@
+// SessionCore: what every session offers, in bytes; Session<Game> puts the game's types around it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "isostep/session/bounded_queue.hpp"
+#include "isostep/session/config.hpp"
+#include "isostep/session/message.hpp"
+#include "isostep/session/timeline.hpp"
+
+namespace isostep {
+
+/// What the game is to do next, in order.
+enum class RequestKind : std::uint8_t {
+  save,     // keep the state `frame`, which is the present one, and report its hash
+  load,     // go back to the state `frame`
+  step,     // step frame `frame`: state frame becomes state frame + 1
+  capture,  // write the portable form of the kept state `frame`, for a late joiner; then be in the present one again
+  restore   // become the portable state that arrived
+};
+struct SessionAction {
+  RequestKind kind;
+  Frame frame;
+};
+
+enum class SessionPhase : std::uint8_t {
+  waiting,   // for the others, or for the host
+  joining,   // a snapshot arrives, or the frames since
+  playing,   // a player of ours is in the match; replay, sync test: running
+  watching,  // as a spectator, or cut out of the match and on the way back
+  lost,      // the host is gone: connect again
+  refused,   // the host will not have us: the event says why
+  over       // a replay has ended
+};
+
+struct SessionEvent {
+  enum class Kind : std::uint8_t {
+    started,       // frame: the first
+    joined,        // player plays from frame on: told when that is final, alike on all peers
+    left,          // player is gone from frame on: as well
+    waiting_for,   // players (a bit each) whose inputs are missing hold the match up
+    resumed,       // it goes on
+    refused,       // field, theirs, ours: which field differs; the host tells it too
+    lost_host,     //
+    desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
+    bad_snapshot,  // the state that arrived is not what the host's root says, or was refused: error
+    misuse         // requests of the last advance were not carried out
+  };
+  Kind kind;
+  std::uint8_t player = 0xff;  // 0xff: none, or the host's machine
+  Frame frame = kNoFrame;
+  Frame agreed = kNoFrame;
+  std::uint32_t players = 0;
+  std::uint64_t ours = 0, theirs = 0;  // desync: chains
+  Refusal field{};
+};
+
+struct Outgoing {
+  PeerId peer;
+  Channel channel;
+  Bytes bytes;         // until the next call
+  bool close = false;  // nothing more to say: end the connection
+};
+
+struct SessionStats {
+  std::uint64_t steps = 0;           // carried out, again or for the first time
+  std::uint64_t rollbacks[65] = {};  // by depth [frames]
+  std::uint64_t waits = 0;           // times that a due frame had to wait
+  std::uint64_t datagrams_out = 0, datagrams_in = 0;
+  std::uint64_t bytes_out = 0, bytes_in = 0;  // datagrams' and messages' own, without UDP/IP
+  std::uint64_t refused = 0;                  // datagrams and messages that were malformed or not for us
+  std::uint64_t flooded = 0;                  // dropped unread
+  std::uint64_t events_lost = 0;              // the caller did not ask for them in time
+  Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
+  Frame delay = 0;                            // [frames] an input waits now
+};
+
+class SessionCore {
+ public:
+  SessionCore(const SessionConfig& config, const InputRules& rules);
+  virtual ~SessionCore();
+  SessionCore(const SessionCore&) = delete;
+  SessionCore& operator=(const SessionCore&) = delete;
+
+  virtual void connected(PeerId, Time) {}
+  virtual void disconnected(PeerId, Time) {}
+  virtual void receive(PeerId, Channel, Bytes, Time) {}
+  virtual std::optional<Outgoing> poll_send(Time) { return std::nullopt; }
+  /// For the next frame that is stepped. False: not a player of ours, not valid, or not playing now.
+  virtual bool add_local_input(int player, Bytes input) = 0;
+  /// What to do now; all of it, in order, before the next call. Valid until then.
+  std::span<const SessionAction> advance(Time now);
+  /// The hash of a state that was to be saved.
+  void saved(Frame state, std::uint64_t root);
+  /// [us] until `advance` has something to do, as far as is known now.
+  virtual Time wait(Time now) const = 0;
+
+  Timeline::Used input(Frame frame, int player) const { return timeline_.used(frame, player); }
+  /// `capture` writes here, `restore` reads here.
+  std::vector<std::uint8_t>& portable() { return portable_; }
+  /// The outcome of `restore`.
+  virtual void restored(bool) {}
+  /// Host: begins although seats are empty; their players are absent until somebody joins.
+  virtual void start(Time) {}
+  /// The next frame takes the input that is added now: a game of orders keeps them until then.
+  virtual bool wants_input(int player) const = 0;
+
+  struct Confirmed {
+    Frame frame;
+    std::uint64_t root;  // of the state after it
+  };
+  /// Frames whose inputs are final and that were stepped with them: each once, ascending.
+  std::optional<Confirmed> poll_confirmed();
+  std::optional<SessionEvent> poll_event();
+
+  SessionPhase phase() const { return phase_; }
+  /// The first player of this machine; -1: none, or none yet.
+  virtual int local_player() const { return -1; }
+  const SessionConfig& config() const { return config_; }
+  const SessionStats& stats() const { return stats_; }
+  /// The next frame to be stepped.
+  Frame current() const { return timeline_.current(); }
+  /// States up to this one are final.
+  Frame confirmed() const { return confirmed_state_; }
+
+ protected:
+  virtual void plan(Time now) = 0;
+  /// A state's root is known.
+  virtual void root_known(Frame state, std::uint64_t root) = 0;
+
+  void act(RequestKind kind, Frame frame) {
+    actions_.push_back({kind, frame});
+    if (kind == RequestKind::save) ++unsaved_;
+    if (kind == RequestKind::step) ++stats_.steps;
+  }
+  void tell(const SessionEvent& event);
+  /// Frame `state - 1` is final, and `state` has this root.
+  void confirm(Frame state, std::uint64_t root);
+  int players() const { return config_.players; }
+
+  SessionConfig config_;
+  InputRules rules_;
+  Timeline timeline_;
+  SessionStats stats_;
+  SessionPhase phase_ = SessionPhase::waiting;
+  Frame confirmed_state_ = kNoFrame;
+  std::vector<std::uint8_t> portable_;
+
+ private:
+  std::vector<SessionAction> actions_;
+  int unsaved_ = 0;  // saves asked for and not reported
+  BoundedQueue<SessionEvent> events_;
+  BoundedQueue<Confirmed> confirmed_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,32 @@
+// What a session counts in: frames, microseconds, players, peers and the two channels a transport must offer.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace isostep {
+
+/// State f is what `step` of frame f starts from; state 0 is the start of the match.
+using Frame = std::int32_t;
+inline constexpr Frame kNoFrame = -1;
+/// Larger ones are refused wherever they come from: 200 days at 60 Hz, and sums of a few frames cannot overflow.
+inline constexpr Frame kLastFrame = 1 << 30;
+
+/// Since any moment of the caller's choice [us]; never runs backwards. Sessions have no clock of their own.
+using Time = std::uint64_t;
+inline constexpr Time kSecond = 1000000;  // [us]
+
+inline constexpr std::size_t kMaxPlayers = 8;
+
+/// The transport's number of a connection: below SessionConfig::max_peers, free to be used again once it is closed.
+using PeerId = std::uint16_t;
+
+enum class Channel : std::uint8_t {
+  datagram,  // may be lost, doubled, late or out of order; at most kDatagramCap bytes
+  reliable   // arrives whole and in order, or the connection ends; at most kReliableCap bytes
+};
+inline constexpr std::size_t kDatagramCap = 1200;      // [bytes] below every path's MTU
+inline constexpr std::size_t kReliableCap = 16 << 10;  // [bytes] of one message; snapshots are sent in pieces
+
+}  // namespace isostep

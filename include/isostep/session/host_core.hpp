@@ -1,0 +1,98 @@
+// HostCore: the peer that fixes what was played: it seats players, passes inputs on, and serves late joiners.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/random.hpp"
+#include "isostep/session/peer_core.hpp"
+
+namespace isostep {
+
+/// Every input becomes final here: when it arrives, or when the host goes on without its player. Because all inputs
+/// pass through one machine, nobody can tell two peers two things, and who is in the match is never in dispute.
+class HostCore : public PeerCore {
+ public:
+  HostCore(const SessionConfig& config, const InputRules& rules);
+
+  void connected(PeerId peer, Time now) override;
+  void disconnected(PeerId peer, Time now) override;
+  void receive(PeerId peer, Channel channel, Bytes bytes, Time now) override;
+  std::optional<Outgoing> poll_send(Time now) override;
+  void start(Time now) override;
+  int local_player() const override { return config_.local_players > 0 ? 0 : -1; }
+
+ protected:
+  bool is_local(int player) const override { return player < config_.local_players; }
+  bool sends(int player, const Link& link) const override;
+  bool running() const override { return started_; }
+  void before_steps(Time now) override;
+  void before_frame(Time now) override;
+  void after_steps() override { serve_snapshots(); }
+  void observe_delay() override;
+  void blocked(Time now) override;
+  void unblocked(Time now) override;
+
+ private:
+  struct Seat {
+    bool is_taken = false;
+    int link = -1;  // -1: its player is away
+    std::uint64_t token = 0;
+    bool is_open = false;  // inputs are awaited
+    Time owed = 0;         // [us] see charge()
+  };
+  /// A client, on its way in.
+  struct Guest : Link {
+    enum class Stage : std::uint8_t { connected, needs_snapshot, receives_snapshot, live, refused };
+    Stage stage = Stage::connected;
+    int player = -1;  // -1: a spectator
+    bool must_welcome = false, must_open = false, must_close = false;
+    Frame opens = kNoFrame;
+    Frame start = 0;                                // the state from which it goes on
+    std::uint32_t sent = 0, arrived = 0, size = 0;  // [bytes] of the snapshot
+    Refusal refusal{};
+    RootReport root;
+    std::size_t next_reporter = 0;  // whose root it hears of next
+  };
+
+  void greet(Guest& guest, Bytes message, Time now);
+  bool is_refused(Guest& guest, const Hello& hello);
+  int find_seat(const Hello& hello) const;
+  void go_live(Guest& guest, Frame start);
+  void take_packet(Guest& guest, const Packet& packet, Time now);
+  void take_inputs(Guest& guest, const InputSlice& slice, Time now);
+  void open_seat(Guest& guest, Time now);
+  void close_seat(int player);
+  /// Its player's seat is free for who comes next.
+  void unseat(Guest& guest);
+  void drop(Guest& guest);
+  /// Who holds the match up pays with patience, and earns it back while the match goes on: so inputs that come just in
+  /// time, again and again, do not hold it up for ever.
+  void charge(Time now);
+  /// Nobody plays on seats that are not open, up to the horizon.
+  void fill_absent();
+  void serve_snapshots();
+  /// Inputs of absent players are final up to here.
+  Frame horizon() const;
+  /// What lies ahead of us takes the place of what others may still lack: of a short log little.
+  Frame bounded(Frame ahead) const { return ahead < config_.history / 4 ? ahead : config_.history / 4; }
+  std::optional<Outgoing> next_message(Guest& guest);
+  std::optional<Outgoing> next_datagram(Guest& guest, Time now);
+  void refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
+
+  bool started_ = false;
+  Seat seats_[kMaxPlayers];
+  std::vector<Guest> guests_;
+  Pcg32 random_;
+  std::uint16_t match_;
+  Time blocked_since_ = 0;
+  Time charged_at_ = 0;  // [us]
+  Frame charged_frame_ = 0;
+  bool told_blocked_ = false;
+
+  // The one snapshot that is being sent; whoever needs another waits until nobody needs this one.
+  bool capturing_ = false;
+  RootReport snapshot_;
+  std::uint64_t snapshot_root_ = 0;
+  std::size_t next_guest_ = 0;
+};
+
+}  // namespace isostep

@@ -1,0 +1,183 @@
+// InputCodec: how a game's input travels: a struct with `fields`, a bounded list of commands, or the game's own form.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/session/frame.hpp"
+#include "isostep/state/archive.hpp"
+#include "isostep/state/hash.hpp"
+
+namespace isostep {
+
+/// Of one player's input for one frame [bytes]: some frames of it must fit a datagram.
+inline constexpr std::size_t kInputCap = 512;
+
+/// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.
+template <class Command, std::size_t N> struct CommandList {
+  static_assert(N <= 255, "the count is one byte");
+  std::uint8_t count = 0;
+  Command items[N] = {};
+
+  /// False when the list is full.
+  ISO_INLINE bool add(const Command& command) {
+    if (count >= N) return false;
+    items[count++] = command;
+    return true;
+  }
+  ISO_INLINE const Command* begin() const { return items; }
+  ISO_INLINE const Command* end() const { return items + count; }
+  friend ISO_INLINE bool operator==(const CommandList& a, const CommandList& b) {
+    if (a.count != b.count) return false;
+    for (std::size_t i = 0; i < a.count; ++i) {
+      if (!(a.items[i] == b.items[i])) return false;
+    }
+    return true;
+  }
+};
+
+namespace detail {
+/// Of names and widths in order: two builds whose inputs are laid out otherwise do not meet.
+struct SchemaVisitor {
+  HashStream* stream;
+  template <class T> void operator()(const char* name, const T& value) const {
+    stream->update(name, std::string_view(name).size() + 1);
+    add(value);
+  }
+  template <class T> void add(const T& value) const {
+    if constexpr (std::is_bounded_array_v<T>) {
+      const std::uint32_t extent = std::extent_v<T>;
+      stream->update(&extent, 1);
+      add(value[0]);
+    } else if constexpr (HasFields<T>) {
+      T::fields(*this, value);
+    } else {
+      const std::uint8_t width = sizeof(T);
+      stream->update(&width, 1);
+    }
+  }
+};
+struct FiniteVisitor {
+  bool* finite;
+  template <class T> void operator()(const char*, const T& value) const {
+    if constexpr (std::is_bounded_array_v<T>) {
+      for (const auto& element : value) (*this)("", element);
+    } else if constexpr (HasFields<T>) {
+      T::fields(*this, value);
+    } else if constexpr (!std::is_integral_v<T> && !std::is_enum_v<T>) {
+      *finite = *finite && is_finite(value);
+    }
+  }
+};
+/// From bytes nobody vouches for: whole, finite, and what the game itself calls valid.
+template <class T> bool read_input(Reader& reader, T& value) {
+  if (!reader.read(value)) return false;
+  bool finite = true;
+  FiniteVisitor{&finite}("", value);
+  if constexpr (requires {
+                  { value.valid() } -> std::convertible_to<bool>;
+                })
+    finite = finite && value.valid();
+  return finite;
+}
+}  // namespace detail
+
+/// What a codec must offer. `encode` is canonical: equal inputs give equal bytes, at most kCap of them. `decode`
+/// refuses by false, and never gives a value that other bytes would give as well. A game specialises it for inputs that
+/// fit neither form below.
+template <class Input> struct InputCodec {
+  static_assert(HasFields<Input>, "an input has `fields`, is a CommandList, or brings an InputCodec of its own");
+  static constexpr std::size_t kCap = kPackedSize<Input>;
+
+  static std::size_t encode(const Input& input, std::uint8_t* to) {
+    return static_cast<std::size_t>(pack(to, input) - to);
+  }
+  static bool decode(Bytes bytes, Input& input) {
+    Reader reader(bytes);
+    return detail::read_input(reader, input) && reader.remaining() == 0;
+  }
+  static std::uint64_t schema() {
+    HashStream stream;
+    detail::SchemaVisitor{&stream}("input", Input{});
+    return stream.value();
+  }
+};
+
+template <class Command, std::size_t N> struct InputCodec<CommandList<Command, N>> {
+  using List = CommandList<Command, N>;
+  static constexpr std::size_t kCap = 1 + N * kPackedSize<Command>;
+
+  static std::size_t encode(const List& list, std::uint8_t* to) {
+    std::uint8_t* at = to;
+    *at++ = list.count;
+    for (const Command& command : list) at = pack(at, command);
+    return static_cast<std::size_t>(at - to);
+  }
+  static bool decode(Bytes bytes, List& list) {
+    Reader reader(bytes);
+    List read;
+    if (!reader.read(read.count) || read.count > N) return false;
+    for (std::size_t i = 0; i < read.count; ++i) {
+      if (!detail::read_input(reader, read.items[i])) return false;
+    }
+    if (reader.remaining() != 0) return false;
+    list = read;
+    return true;
+  }
+  static std::uint64_t schema() {
+    HashStream stream;
+    detail::SchemaVisitor{&stream}("commands", Command{});
+    const std::uint8_t cap = N;
+    stream.update(&cap, 1);
+    return stream.value();
+  }
+};
+
+/// A held stick stays held: the guess for games whose input is a state.
+struct RepeatLast {
+  template <class Input> static Input predict(const Input& last, Frame) { return last; }
+};
+/// Nobody gives the same order twice: the guess for command lists.
+struct PredictNeutral {
+  template <class Input> static Input predict(const Input&, Frame) { return Input{}; }
+};
+template <class Input> struct DefaultPredictor { using Type = RepeatLast; };
+template <class Command, std::size_t N> struct DefaultPredictor<CommandList<Command, N>> {
+  using Type = PredictNeutral;
+};
+
+/// A codec and a predictor as the session's core, which knows no types, calls them.
+struct InputRules {
+  std::size_t cap;       // [bytes]
+  std::uint64_t schema;  // digest of the layout
+  bool (*valid)(Bytes input);
+  /// The guess for the frame `ahead` frames after `last`; writes at most `cap` bytes and returns how many.
+  std::size_t (*predict)(Bytes last, Frame ahead, std::uint8_t* to);
+  std::size_t neutral_size;
+  std::uint8_t neutral[kInputCap];  // Input{}
+};
+
+template <class Input, class Predictor = typename DefaultPredictor<Input>::Type> InputRules input_rules() {
+  using Codec = InputCodec<Input>;
+  static_assert(Codec::kCap <= kInputCap, "an input is at most kInputCap bytes");
+  InputRules rules{};
+  rules.cap = Codec::kCap;
+  rules.schema = Codec::schema();
+  rules.valid = [](Bytes bytes) {
+    Input input{};
+    return Codec::decode(bytes, input);
+  };
+  rules.predict = [](Bytes last, Frame ahead, std::uint8_t* to) {
+    Input input{};
+    Codec::decode(last, input);
+    return Codec::encode(Predictor::predict(input, ahead), to);
+  };
+  rules.neutral_size = Codec::encode(Input{}, rules.neutral);
+  return rules;
+}
+
+}  // namespace isostep

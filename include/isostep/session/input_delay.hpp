@@ -1,0 +1,71 @@
+// InputDelay: for how many frames an input waits before it is played, so that it reaches the others in time.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/frame.hpp"
+
+namespace isostep {
+
+/// What the others say about how early our inputs come decides: late ones raise the delay at once, early ones lower it
+/// slowly. A longer delay is felt by one player; a late input costs everybody a rollback or a wait.
+class InputDelay {
+ public:
+  struct Settings {
+    Frame start = 2, least = 0, most = 12;  // [frames]; least == most: fixed
+    Frame wanted_slack = 0;                 // [frames] negative: a rollback of so many is welcome
+  };
+  explicit InputDelay(const Settings& settings) : settings_(settings), delay_(settings.start) {}
+
+  Frame frames() const { return delay_; }
+  /// By how much the latest of our inputs within a second came early, over all peers; once a frame.
+  void observe(Frame slack) {
+    if (++observed_ <= 0) return;
+    if (slack < worst_) worst_ = slack;
+    if (observed_ < kPeriod) return;
+    const Frame spare = worst_ - settings_.wanted_slack;
+    calm_ = spare < kSpare ? 0 : calm_ + 1;
+    Frame wanted = delay_;
+    if (spare < 0) wanted -= spare;
+    if (calm_ >= kCalm) --wanted;
+    wanted = wanted < settings_.least ? settings_.least : wanted > settings_.most ? settings_.most : wanted;
+    observed_ = wanted == delay_ ? 0 : -kSettling;
+    if (wanted != delay_) calm_ = 0;
+    delay_ = wanted;
+    worst_ = kNothing;
+  }
+
+ private:
+  static constexpr Frame kPeriod = 30;    // [frames] of reports for one decision
+  static constexpr Frame kSettling = 90;  // [frames] until reports speak of the new delay: two buckets and a round trip
+  static constexpr Frame kSpare = 2;      // [frames] of spare that are left alone
+  static constexpr Frame kCalm = 4;       // periods in a row with spare before the delay shrinks
+  static constexpr Frame kNothing = 1 << 20;
+
+  Settings settings_;
+  Frame delay_;
+  Frame worst_ = kNothing;
+  Frame observed_ = -kSettling, calm_ = 0;  // at first, clocks still find each other
+};
+
+/// The least of a quantity over the last one or two buckets of time.
+class RecentLeast {
+ public:
+  void add(Frame value) {
+    if (value < current_) current_ = value;
+  }
+  /// Once a frame.
+  void tick(Frame bucket_frames) {
+    if (++age_ < bucket_frames) return;
+    age_ = 0;
+    previous_ = current_;
+    current_ = kNothing;
+  }
+  /// kNothing when nothing was added.
+  Frame value() const { return current_ < previous_ ? current_ : previous_; }
+  static constexpr Frame kNothing = 127;
+
+ private:
+  Frame current_ = kNothing, previous_ = kNothing, age_ = 0;
+};
+
+}  // namespace isostep

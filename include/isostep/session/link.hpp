@@ -1,0 +1,68 @@
+// Link: what is known of one peer across the network: when it was heard, what it has, how far away it is.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/packet.hpp"
+
+namespace isostep {
+
+/// So many in a second, in bursts of at most a quarter of that.
+struct Allowance {
+  std::int64_t credit = 0;  // [1/kSecond]
+  Time since = 0;           // [us] when it was last added to
+
+  void start(Time now) { *this = {kFirst, now}; }
+  /// One more?
+  bool spend(std::uint32_t most, Time now) {
+    constexpr auto kOne = static_cast<std::int64_t>(kSecond);
+    const std::int64_t quarter = std::int64_t{most} * kOne / 4;
+    const std::int64_t burst = quarter > kOne ? quarter : kOne;
+    const Time passed = now - since < kSecond ? now - since : kSecond;
+    credit += static_cast<std::int64_t>(passed) * most;
+    since = now;
+    if (credit > burst) credit = burst;
+    if (credit < kOne) return false;
+    credit -= kOne;
+    return true;
+  }
+
+ private:
+  static constexpr std::int64_t kFirst = 16 * static_cast<std::int64_t>(kSecond);
+};
+
+struct Link {
+  PeerId peer = 0;
+  bool is_connected = false;
+  Time heard = 0;      // [us] when a valid word came last
+  Time next_send = 0;  // [us]
+  Frame sent_frame = kNoFrame;
+  Frame frame = 0;  // the peer's next to step, as it last said
+
+  bool has_clock = false;
+  std::uint16_t clock = 0;  // [ms] the peer's, mod 2^16
+  Time clock_at = 0;        // [us] when it was that
+  Time round_trip = 0;      // [us] smoothed; 0: unknown
+
+  Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
+  std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
+  std::uint8_t reported_mask = 0;       // players of whom it did
+
+  Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
+
+  /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
+  bool may_send(Frame current, Time period, Time now) const {
+    return now >= next_send || (sent_frame != current && now + period / 2 >= next_send);
+  }
+  void set_clock(const PacketHeader& header, Time now) {
+    has_clock = true;
+    clock = header.time;
+    clock_at = now;
+    if (!header.has_echo) return;
+    const std::uint16_t ms = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - header.echo);
+    if (ms > 32767) return;  // ahead of our own clock: nonsense
+    const Time sample = Time{ms} * 1000;
+    round_trip = round_trip == 0 ? sample : (round_trip * 7 + sample) / 8;
+  }
+};
+
+}  // namespace isostep

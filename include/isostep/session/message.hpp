@@ -1,0 +1,66 @@
+// What travels on the reliable channel: who may take part, the state a late joiner starts from, and when it may play.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/session/packet.hpp"
+#include "isostep/state/replay_header.hpp"
+
+namespace isostep {
+
+enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progress, ready, open };
+
+/// A client's first word. `have` is a state that it holds with its history: frame 0, or where it was cut off.
+struct Hello {
+  bool spectator = false;
+  std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
+  RootReport have;
+  ReplayHeader identity;
+};
+
+/// The host's answer. With a snapshot, pieces of it follow; without, the client goes on from `start`, which it has.
+struct Welcome {
+  std::uint16_t match = 0;
+  std::uint8_t players = 0;       // of the match
+  std::uint8_t host_players = 0;  // the first of them play on the host
+  std::uint8_t player = 0xff;     // 0xff: a spectator
+  std::uint64_t token = 0;
+  RootReport start;
+  std::uint64_t root = 0;           // of the state `start.frame`
+  std::uint32_t snapshot_size = 0;  // [bytes]
+  Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
+};
+
+/// Why not: the first field that differs, or a key alone ("full", "protocol").
+using Refusal = HeaderMismatch;
+
+inline constexpr std::uint32_t kSnapshotFlight = 256 << 10;  // [bytes]
+
+struct Piece {
+  std::uint32_t offset;  // [bytes] into the snapshot
+  Bytes bytes;
+};
+
+/// Each replaces what `out` held.
+void write_hello(const Hello& hello, std::vector<std::uint8_t>& out);
+void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out);
+void write_refusal(const Refusal& refusal, std::vector<std::uint8_t>& out);
+void write_piece(const Piece& piece, std::vector<std::uint8_t>& out);
+/// So many bytes of the snapshot have arrived: the host keeps only kSnapshotFlight under way.
+void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out);
+/// The client has caught up, and at least two peers agree with its states: it may play.
+void write_ready(std::vector<std::uint8_t>& out);
+/// The client's player plays from this frame on.
+void write_open(Frame first, std::vector<std::uint8_t>& out);
+
+Result<MessageKind> message_kind(Bytes message);
+Result<Hello> read_hello(Bytes message);
+Result<Welcome> read_welcome(Bytes message);
+Result<Refusal> read_refusal(Bytes message);
+Result<Piece> read_piece(Bytes message);
+Result<std::uint32_t> read_progress(Bytes message);
+Result<Frame> read_open(Bytes message);
+
+}  // namespace isostep

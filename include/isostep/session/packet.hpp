@@ -1,0 +1,88 @@
+// The datagram of a session: acknowledgements, the newest root, and every input that the other side may lack.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/result.hpp"
+#include "isostep/session/input_stream.hpp"
+
+namespace isostep {
+
+/// Of the wire format of datagrams and messages; a peer of another is refused by name.
+inline constexpr std::uint16_t kSessionProtocol = 1;
+/// Of one player in one datagram.
+inline constexpr Frame kSliceFrames = 128;
+
+/// A state's place in a player's history: `chain` combines the roots of all states up to `frame`, so a divergence that
+/// heals is still seen.
+struct RootReport {
+  Frame frame = kNoFrame;
+  std::uint64_t chain = 0;
+};
+
+struct PacketHeader {
+  std::uint16_t match = 0;  // who is meant: drops what an older match left in the network
+  std::uint16_t time = 0;   // [ms] sender's clock mod 2^16
+  std::uint16_t echo = 0;   // [ms] receiver's clock as the sender last heard it, plus what it waited since
+  bool has_echo = false;
+  bool started = false;          // the match runs
+  Frame frame = 0;               // the sender's next to step
+  RootReport root;               // the sender's newest confirmed
+  std::uint8_t reporter = 0xff;  // the player whose root is passed on; 0xff: none
+  RootReport passed_on;
+  std::uint8_t ack_mask = 0;            // players of whom the sender says what it has
+  Frame ack[kMaxPlayers] = {};          // first missing
+  std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed
+};
+
+/// A run of one player's inputs: first .. first + count - 1.
+struct InputSlice {
+  std::uint8_t player;
+  Frame first, count;
+  Bytes tokens;
+};
+
+struct Packet {
+  PacketHeader header;
+  std::uint8_t slice_count = 0;
+  InputSlice slices[kMaxPlayers];
+};
+
+/// Writes into `buffer`, kDatagramCap bytes.
+class PacketWriter {
+ public:
+  PacketWriter(const PacketHeader& header, std::uint8_t* buffer);
+  /// As many frames from `first` on as the stream has and the datagram takes; how many that was.
+  Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first);
+  Bytes bytes() const { return {buffer_, size_}; }
+
+ private:
+  std::uint8_t* buffer_;
+  std::size_t size_;
+};
+
+/// Views into `bytes`. Every number is checked; the tokens of the slices are read by SliceReader.
+Result<Packet> read_packet(Bytes bytes);
+
+/// The entries of a slice, in order.
+class SliceReader {
+ public:
+  explicit SliceReader(const InputSlice& slice);
+  /// False at the end, or where the tokens are damaged. The entry's bytes hold until the next call.
+  bool next(InputEntry& entry);
+  bool failed() const { return failed_; }
+
+ private:
+  bool read_token();
+
+  Bytes tokens_;
+  Frame left_;
+  Frame run_ = 0;
+  bool run_absent_ = false;
+  bool failed_ = false;
+  std::size_t previous_size_ = 0;
+  std::uint8_t previous_[512];  // kInputCap
+};
+
+}  // namespace isostep

@@ -1,0 +1,99 @@
+// PeerCore: what host and client share: prediction and rollback, local inputs, datagrams, and comparing roots.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/core.hpp"
+#include "isostep/session/frame_clock.hpp"
+#include "isostep/session/input_delay.hpp"
+#include "isostep/session/link.hpp"
+#include "isostep/session/root_log.hpp"
+
+namespace isostep {
+
+class PeerCore : public SessionCore {
+ public:
+  PeerCore(const SessionConfig& config, const InputRules& rules);
+
+  bool add_local_input(int player, Bytes input) override;
+  bool wants_input(int player) const override;
+  Time wait(Time now) const override;
+
+ protected:
+  /// Is it a player of ours, in the match?
+  virtual bool is_local(int player) const = 0;
+  /// Inputs of this player travel to that peer.
+  virtual bool sends(int player, const Link& link) const = 0;
+  virtual bool running() const = 0;
+  /// How many frames may be stepped on guesses.
+  virtual Frame window() const { return config_.mode == SessionMode::rollback ? config_.window : 0; }
+  /// States up to this one cannot change any more.
+  virtual Frame final_limit() const;
+  /// How many frames one call of advance may step.
+  virtual int steps_allowed(Time) const { return 2; }
+  virtual void before_steps(Time) {}
+  virtual void before_frame(Time) {}
+  virtual void after_steps() {}
+  /// Once a frame: tells delay_ how early our inputs reach the others.
+  virtual void observe_delay() = 0;
+  virtual void blocked(Time) {}
+  virtual void unblocked(Time) {}
+
+  void plan(Time now) override;
+  void root_known(Frame state, std::uint64_t root) override;
+
+  /// First frame of which some input is missing.
+  Frame known_end() const;
+  /// Everything up to here; goes on from there with the same state.
+  void go_back(Frame state);
+
+  /// The datagram for this peer, in buffer_.
+  Bytes compose(Link& link, PacketHeader header, Time now);
+  /// Counts, guards against floods, reads; false: to be ignored.
+  bool accept_datagram(Link& link, Bytes bytes, Time now, Packet& packet);
+  bool accept_message(Link& link, Bytes bytes, Time now);
+  void take_acks(Link& link, const PacketHeader& header);
+  /// How early `player`'s next input came.
+  void note_arrival(int player, Time now);
+
+  /// What one machine says of its states.
+  struct View {
+    RootReport pending;
+    Frame agreed = kNoFrame;
+    bool differs = false;
+  };
+  void hear_root(std::size_t reporter, const RootReport& report);
+  static constexpr std::size_t kHostMachine = kMaxPlayers;  // reporter, beside the players
+
+  std::vector<InputStream> streams_;
+  RootLog roots_;
+  FrameClock clock_;
+  InputDelay delay_;
+  RecentLeast slack_[kMaxPlayers];
+  View views_[kMaxPlayers + 1];
+  std::vector<std::uint8_t> message_;
+  bool is_present_[kMaxPlayers] = {};  // in the newest final frame
+  bool has_start_ = false;             // the first state's root is known
+  bool is_blocked_ = false;
+
+ private:
+  void roll_back(Frame to);
+  void sample_local_inputs();
+  bool may_step() const;
+  void settle();
+  /// Players who come and go do so in a frame, the same one on all peers.
+  void tell_who_plays(Frame frame);
+  void compare(std::size_t reporter);
+
+  struct Pending {
+    bool is_set = false;
+    std::uint16_t size = 0;
+    std::uint8_t bytes[kInputCap];
+  };
+  Pending pending_[kMaxPlayers];
+  Frame limit_ = 0;            // of what may be settled, as of the last plan
+  Frame observed_ = kNoFrame;  // for which observe_delay was asked
+  bool asked_start_ = false;
+  std::uint8_t buffer_[kDatagramCap];
+};
+
+}  // namespace isostep

@@ -1,0 +1,41 @@
+// ReplayCore: plays the inputs of a recorded match, and holds every root against the recorded one.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/core.hpp"
+#include "isostep/session/frame_clock.hpp"
+#include "isostep/state/replay_format.hpp"
+
+namespace isostep {
+
+/// One frame's inputs of all players, as a match recording holds them: a mask of who was absent, then for everybody
+/// else the size and the bytes.
+void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint8_t>& out);
+/// Exactly `inputs.size()` players; false when the bytes are not such a frame.
+bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs);
+
+class ReplayCore : public SessionCore {
+ public:
+  /// `file` must outlive the session. What is wrong with it is told as an event; then the session is over.
+  ReplayCore(const SessionConfig& config, const InputRules& rules, Bytes file);
+
+  bool add_local_input(int, Bytes) override { return false; }
+  bool wants_input(int) const override { return false; }
+  Time wait(Time now) const override { return clock_.until_due(now); }
+  void restored(bool ok) override;
+
+ protected:
+  void plan(Time now) override;
+  void root_known(Frame state, std::uint64_t root) override;
+
+ private:
+  bool read_frame(Frame frame);
+  void refuse(std::string_view key, std::string_view in_file, std::string_view here);
+
+  FrameClock clock_;
+  ReplayReader file_;
+  std::vector<InputStream> streams_;
+  bool asked_start_ = false;
+};
+
+}  // namespace isostep

@@ -1,0 +1,212 @@
+// Session<Game>: lockstep, rollback, spectating, sync tests and replays behind one interface; and drive(), which plays.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "isostep/session/core.hpp"
+#include "isostep/session/input_codec.hpp"
+#include "isostep/state/concepts.hpp"
+
+namespace isostep {
+
+/// One thing to do, in order: see RequestKind. `inputs` belong to `step` and hold until the next advance().
+template <class Input> struct Request {
+  RequestKind kind;
+  Frame frame;
+  InputView<Input> inputs;
+};
+
+/// What `config` asks for; `recording` is the match of a SessionMode::replay and must outlive the session. The
+/// configuration with a problem gives a session that is refused, by the event that names the field.
+std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, const InputRules& rules, Bytes recording);
+
+/// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads, and allocates nothing once
+/// its states have been saved the first time (a late join apart). A turn of the game's loop:
+///
+///     transport's events  -> connected, disconnected, receive
+///     session.add_local_input(player, input);
+///     drive(session, game, now);                    // or advance() and the requests by hand
+///     while (auto out = session.poll_send(now)) ... -> transport
+///     while (auto event = session.poll_event()) ...
+///
+/// Faults of the network, of peers and of the caller are events and counts, never undefined.
+template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class Session {
+ public:
+  using Input = typename Game::Input;
+
+  explicit Session(const SessionConfig& config, Bytes recording = {})
+      : core_(make_session_core(config, input_rules<Input, Predictor>(), recording)),
+        states_(static_cast<std::size_t>(core_->config().kept)) {
+    const std::size_t steps = states_.size() * 2 + 8;
+    requests_.reserve(steps * 2 + 8);
+    values_.reserve(steps * kMaxPlayers);
+    statuses_.reserve(steps * kMaxPlayers);
+  }
+
+  // From the transport.
+  void connected(PeerId peer, Time now) { core_->connected(peer, now); }
+  void disconnected(PeerId peer, Time now) { core_->disconnected(peer, now); }
+  void receive(PeerId peer, Channel channel, Bytes bytes, Time now) { core_->receive(peer, channel, bytes, now); }
+  /// To the transport, until there is nothing more; the bytes hold until the next call.
+  std::optional<Outgoing> poll_send(Time now) { return core_->poll_send(now); }
+
+  /// For the next frame; until that is stepped a later input replaces an earlier one. False when the player is not ours
+  /// or not in the match now, or the input is none.
+  bool add_local_input(int player, const Input& input) {
+    std::uint8_t bytes[kInputCap];
+    const std::size_t size = InputCodec<Input>::encode(input, bytes);
+    return core_->add_local_input(player, {bytes, size});
+  }
+  /// Has the last one been taken? A game of orders hands over the next only then.
+  bool wants_input(int player) const { return core_->wants_input(player); }
+  /// Host: begins although seats are empty.
+  void start(Time now) { core_->start(now); }
+
+  /// What to do now, in order and all of it: the low level under drive().
+  std::span<const Request<Input>> advance(Time now) {
+    requests_.clear();
+    values_.clear();
+    statuses_.clear();
+    const auto players = static_cast<std::size_t>(config().players);
+    for (const SessionAction& action : core_->advance(now)) {
+      InputView<Input> inputs{};
+      if (action.kind == RequestKind::step) {
+        const std::size_t first = values_.size();
+        for (std::size_t p = 0; p < players; ++p) {
+          const Timeline::Used used = core_->input(action.frame, static_cast<int>(p));
+          Input value{};
+          InputCodec<Input>::decode(used.bytes, value);
+          values_.push_back(value);
+          statuses_.push_back(used.status);
+        }
+        inputs = {std::span<const Input>(values_).subspan(first),
+                  std::span<const InputStatus>(statuses_).subspan(first)};
+      }
+      requests_.push_back({action.kind, action.frame, inputs});
+    }
+    return requests_;
+  }
+  /// After a `save`: the hash of that state.
+  void saved(Frame state, std::uint64_t root) { core_->saved(state, root); }
+  /// After a `restore`.
+  void restored(bool ok) { core_->restored(ok); }
+  std::vector<std::uint8_t>& portable() { return core_->portable(); }
+  /// Where `save` puts and `load` finds state `frame`.
+  typename Game::Snapshot& state(Frame frame) { return states_[static_cast<std::size_t>(frame) % states_.size()]; }
+
+  std::optional<SessionCore::Confirmed> poll_confirmed() { return core_->poll_confirmed(); }
+  std::optional<SessionEvent> poll_event() { return core_->poll_event(); }
+  /// [us] until the next frame is due: how long a loop may sleep when the network is silent.
+  Time wait(Time now) const { return core_->wait(now); }
+
+  SessionPhase phase() const { return core_->phase(); }
+  /// The first player of this machine; -1: none, or none yet.
+  int local_player() const { return core_->local_player(); }
+  const SessionConfig& config() const { return core_->config(); }
+  const SessionStats& stats() const { return core_->stats(); }
+  /// The next frame to be stepped; the game is in the state of that number.
+  Frame current() const { return core_->current(); }
+  /// States up to this one are final.
+  Frame confirmed() const { return core_->confirmed(); }
+  /// What a player did in a frame that is at most `kept` frames old; Input{} for who was absent.
+  Input input(Frame frame, int player) const {
+    Input value{};
+    InputCodec<Input>::decode(core_->input(frame, player).bytes, value);
+    return value;
+  }
+  InputStatus status(Frame frame, int player) const { return core_->input(frame, player).status; }
+
+ private:
+  std::unique_ptr<SessionCore> core_;
+  std::vector<typename Game::Snapshot> states_;
+  std::vector<Request<Input>> requests_;
+  std::vector<Input> values_;
+  std::vector<InputStatus> statuses_;
+};
+
+/// Sees nothing. An observer has any of these members, each called as its name says; see Observers for several.
+struct NoObserver {};
+
+/// Several observers in one, told in their order.
+template <class... Each> struct Observers {
+  std::tuple<Each&...> each;
+  explicit Observers(Each&... observers) : each(observers...) {}
+};
+
+namespace detail {
+#define ISO_TELL(NAME)                                                                                             \
+  template <class Observer, class... Arguments> void NAME(Observer& observer, const Arguments&... arguments) {     \
+    if constexpr (requires { observer.NAME(arguments...); }) observer.NAME(arguments...);                          \
+  }                                                                                                                \
+  template <class... Each, class... Arguments> void NAME(Observers<Each...>& all, const Arguments&... arguments) { \
+    std::apply([&](auto&... one) { (NAME(one, arguments...), ...); }, all.each);                                   \
+  }
+ISO_TELL(before_step)
+ISO_TELL(after_step)
+ISO_TELL(rolled_back)
+ISO_TELL(restarted)
+ISO_TELL(confirmed)
+#undef ISO_TELL
+}  // namespace detail
+
+/// Plays what is due: carries out the session's requests with the game, and tells `observer`:
+///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
+///   rolled_back(f)                  the state is again that before frame f
+///   restarted(f)                    the state is one that arrived from elsewhere, before frame f
+///   confirmed(f, root)              frame f is final: once each, ascending; root is that of the state after it
+/// Returns how many frames were stepped, those again included.
+template <class Game, class Predictor, class Observer = NoObserver>
+int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& observer = Observer{}) {
+  int steps = 0;
+  for (const Request<typename Game::Input>& request : session.advance(now)) {
+    const Frame frame = request.frame;
+    switch (request.kind) {
+      case RequestKind::save:
+        game.save(session.state(frame));
+        session.saved(frame, game.hash());
+        break;
+      case RequestKind::load:
+        game.load(session.state(frame));
+        detail::rolled_back(observer, frame);
+        break;
+      case RequestKind::step:
+        detail::before_step(observer, frame);
+        game.step(request.inputs);
+        detail::after_step(observer, frame);
+        ++steps;
+        break;
+      case RequestKind::capture:
+        if constexpr (PortableState<Game>) {
+          const bool is_present = frame == session.current();
+          if (!is_present) game.load(session.state(frame));
+          session.portable().clear();
+          Writer writer(session.portable());
+          game.write_portable(writer);
+          if (!is_present) game.load(session.state(session.current()));
+        }
+        break;
+      case RequestKind::restore:
+        if constexpr (PortableState<Game>) {
+          Reader reader(session.portable());
+          const bool ok = game.read_portable(reader).ok() && reader.remaining() == 0;
+          session.restored(ok);
+          if (ok) detail::restarted(observer, frame);
+        } else {
+          session.restored(false);
+        }
+        break;
+    }
+  }
+  while (const std::optional<SessionCore::Confirmed> confirmed = session.poll_confirmed()) {
+    detail::confirmed(observer, confirmed->frame, confirmed->root);
+  }
+  return steps;
+}
+
+}  // namespace isostep

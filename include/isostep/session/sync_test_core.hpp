@@ -1,0 +1,42 @@
+// SyncTestCore: one machine plays all players; every frame is guessed wrong, rolled back, stepped again and compared.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/core.hpp"
+#include "isostep/session/frame_clock.hpp"
+
+namespace isostep {
+
+/// Every input is known to the session `window` frames late, so the frames in between are first stepped on guesses, as
+/// in a match; then the newest `window` frames are stepped once more with the same inputs, and must give the same
+/// roots. A difference means that something shapes the future and is not saved, or is no function of state and inputs.
+class SyncTestCore : public SessionCore {
+ public:
+  SyncTestCore(const SessionConfig& config, const InputRules& rules);
+
+  bool add_local_input(int player, Bytes input) override;
+  bool wants_input(int player) const override;
+  Time wait(Time now) const override { return clock_.until_due(now); }
+
+ protected:
+  void plan(Time now) override;
+  void root_known(Frame state, std::uint64_t root) override;
+
+ private:
+  void step_from(Frame frame, Frame end);
+
+  struct Root {
+    Frame state = kNoFrame;
+    std::uint64_t root = 0;
+  };
+  Root& root_of(Frame state) { return roots_[static_cast<std::size_t>(state) % roots_.size()]; }
+
+  FrameClock clock_;
+  std::vector<InputStream> said_;   // what the players did
+  std::vector<InputStream> known_;  // what the session has been told, late
+  std::vector<Root> roots_;
+  Frame settled_ = 0, limit_ = 0;
+  bool asked_start_ = false;
+};
+
+}  // namespace isostep

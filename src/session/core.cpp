@@ -1,0 +1,79 @@
+// What all sessions share: the list of requests, and the queues to the caller.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/core.hpp"
+
+namespace isostep {
+namespace {
+constexpr std::size_t kEvents = 64;  // between two polls
+}
+
+SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
+    : config_(config),
+      rules_(rules),
+      timeline_(config.players, config.kept, rules),
+      events_(kEvents),
+      confirmed_(static_cast<std::size_t>(config.kept)) {
+  actions_.reserve(static_cast<std::size_t>(config.kept) * 4 + 16);
+}
+SessionCore::~SessionCore() = default;
+
+std::span<const SessionAction> SessionCore::advance(Time now) {
+  if (unsaved_ != 0) {
+    unsaved_ = 0;
+    SessionEvent event{.kind = SessionEvent::Kind::misuse};
+    tell(event);
+  }
+  actions_.clear();
+  plan(now);
+  return actions_;
+}
+
+void SessionCore::saved(Frame state, std::uint64_t root) {
+  if (unsaved_ > 0) --unsaved_;
+  root_known(state, root);
+}
+
+void SessionCore::tell(const SessionEvent& event) {
+  events_.push(event);
+  stats_.events_lost = events_.lost();
+}
+
+std::optional<SessionEvent> SessionCore::poll_event() {
+  if (events_.empty()) return std::nullopt;
+  return events_.pop();
+}
+
+void SessionCore::confirm(Frame state, std::uint64_t root) {
+  confirmed_state_ = state;
+  confirmed_.push({state - 1, root});
+}
+
+std::optional<SessionCore::Confirmed> SessionCore::poll_confirmed() {
+  if (confirmed_.empty()) return std::nullopt;
+  return confirmed_.pop();
+}
+
+const char* problem_of(const SessionConfig& config) {
+  if (config.players < 1 || config.players > static_cast<int>(kMaxPlayers)) return "players: 1 to 8";
+  if (config.local_players < 0 || config.local_players > config.players) return "local_players: 0 to players";
+  if (config.hz < 1 || config.hz > 1000) return "hz: 1 to 1000";
+  if (config.window < 0 || config.window > 60) return "window: 0 to 60 frames";
+  if (config.least_delay < 0 || config.most_delay < config.least_delay || config.most_delay > 60) {
+    return "least_delay, most_delay: 0 to 60 frames, in order";
+  }
+  if (config.delay < config.least_delay || config.delay > config.most_delay) {
+    return "delay: from least_delay to most_delay";
+  }
+  // A player who is cut off has stepped at most two windows and the host's delay beyond its last accepted input.
+  if (config.kept < 2 * config.window + config.most_delay + 4 || config.kept > 4096) {
+    return "kept: 2 * window + most_delay + 4 states or more, up to 4096";
+  }
+  if (config.history < 2 * config.kept || config.history > 1 << 20) return "history: 2 * kept frames or more";
+  if (config.max_peers < 1 || config.max_peers > 256) return "max_peers: 1 to 256";
+  if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
+  if (config.mode == SessionMode::sync_test && config.window < 1)
+    return "window: a sync test rolls back 1 or more frames";
+  return nullptr;
+}
+
+}  // namespace isostep

@@ -1,0 +1,46 @@
+// InputStream's ring.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/input_stream.hpp"
+
+#include <cstring>
+
+namespace isostep {
+namespace {
+constexpr std::uint16_t kAbsent = 0xffff;
+}
+
+InputStream::InputStream(Frame capacity, std::size_t input_cap)
+    : capacity_(capacity),
+      input_cap_(input_cap),
+      sizes_(static_cast<std::size_t>(capacity), kAbsent),
+      bytes_(static_cast<std::size_t>(capacity) * input_cap) {}
+
+void InputStream::reset(Frame first) { begin_ = end_ = first; }
+
+bool InputStream::append(const InputEntry& entry) {
+  if (entry.bytes.size() > input_cap_) return false;
+  const std::size_t place = slot(end_);
+  sizes_[place] = entry.absent ? kAbsent : static_cast<std::uint16_t>(entry.bytes.size());
+  if (!entry.bytes.empty()) std::memcpy(&bytes_[place * input_cap_], entry.bytes.data(), entry.bytes.size());
+  ++end_;
+  if (end_ - begin_ > capacity_) begin_ = end_ - capacity_;
+  return true;
+}
+
+void InputStream::append_absent_until(Frame end) {
+  while (end_ < end) append({true, {}});
+}
+
+void InputStream::truncate(Frame end) {
+  if (end < end_) end_ = end < begin_ ? begin_ : end;
+}
+
+InputEntry InputStream::at(Frame frame) const {
+  const std::size_t place = slot(frame);
+  if (sizes_[place] == kAbsent) return {true, {}};
+  return {false, Bytes(bytes_).subspan(place * input_cap_, sizes_[place])};
+}
+
+InputEntry InputStream::last() const { return end_ > begin_ ? at(end_ - 1) : InputEntry{true, {}}; }
+
+}  // namespace isostep

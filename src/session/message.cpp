@@ -1,0 +1,173 @@
+// Messages of the reliable channel, written and read with the archive.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/message.hpp"
+
+#include "isostep/state/archive.hpp"
+#include "isostep/state/replay_format.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x504f5349;  // "ISOP"
+
+Writer begin(std::vector<std::uint8_t>& out, MessageKind kind) {
+  out.clear();
+  Writer writer(out);
+  writer.write(static_cast<std::uint8_t>(kind));
+  return writer;
+}
+Reader after_kind(Bytes message) { return Reader(message.subspan(message.empty() ? 0 : 1)); }
+
+void write_root(Writer& writer, const RootReport& root) {
+  writer.write(root.frame);
+  writer.write(root.chain);
+}
+RootReport read_root(Reader& reader) {
+  RootReport root;
+  reader.read(root.frame);
+  reader.read(root.chain);
+  if (root.frame < 0 || root.frame > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
+  return root;
+}
+template <class T> Result<T> finish(Reader& reader, const char* what, const T& value) {
+  reader.expect_end();
+  const Result<void> result = reader.result(what);
+  if (!result) return result.error();
+  return value;
+}
+
+}  // namespace
+
+void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
+  std::vector<std::uint8_t> identity;
+  write_replay_header(hello.identity, identity);
+  Writer writer = begin(out, MessageKind::hello);
+  writer.write(kMagic);
+  writer.write(kSessionProtocol);
+  writer.write(hello.spectator);
+  writer.write(hello.token);
+  write_root(writer, hello.have);
+  writer.write_bytes(identity);
+}
+
+Result<Hello> read_hello(Bytes message) {
+  Reader reader = after_kind(message);
+  Hello hello;
+  const std::uint32_t magic = reader.read<std::uint32_t>();
+  const std::uint16_t protocol = reader.read<std::uint16_t>();
+  if (!reader.ok() || magic != kMagic) return Error{ErrorCode::corrupt, "no greeting of a session", "hello"};
+  if (protocol != kSessionProtocol) return Error{ErrorCode::incompatible, "another session protocol", "protocol"};
+  reader.read(hello.spectator);
+  reader.read(hello.token);
+  hello.have = read_root(reader);
+  const Bytes identity = reader.read_bytes(kReplayHeadCap);
+  const Result<Hello> whole = finish(reader, "hello", hello);
+  if (!whole) return whole;
+  const Result<ReplayHeader> header = read_replay_header(identity);
+  if (!header) return header.error();
+  hello.identity = header.value();
+  return hello;
+}
+
+void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
+  Writer writer = begin(out, MessageKind::welcome);
+  writer.write(welcome.match);
+  writer.write(welcome.players);
+  writer.write(welcome.host_players);
+  writer.write(welcome.player);
+  writer.write(welcome.token);
+  write_root(writer, welcome.start);
+  writer.write(welcome.root);
+  writer.write(welcome.snapshot_size);
+  writer.write(welcome.opens);
+}
+
+Result<Welcome> read_welcome(Bytes message) {
+  Reader reader = after_kind(message);
+  Welcome welcome;
+  reader.read(welcome.match);
+  reader.read(welcome.players);
+  reader.read(welcome.host_players);
+  reader.read(welcome.player);
+  reader.read(welcome.token);
+  welcome.start = read_root(reader);
+  reader.read(welcome.root);
+  reader.read(welcome.snapshot_size);
+  reader.read(welcome.opens);
+  if (welcome.players < 1 || welcome.players > kMaxPlayers || welcome.host_players > welcome.players ||
+      (welcome.player >= welcome.players && welcome.player != 0xff)) {
+    reader.fail(ErrorCode::invalid, "players out of range");
+  }
+  const bool plays = welcome.player != 0xff;
+  if (welcome.opens < kNoFrame || welcome.opens > kLastFrame || (welcome.opens != kNoFrame && !plays)) {
+    reader.fail(ErrorCode::invalid, "opens out of range");
+  }
+  return finish(reader, "welcome", welcome);
+}
+
+void write_refusal(const Refusal& refusal, std::vector<std::uint8_t>& out) {
+  Writer writer = begin(out, MessageKind::refuse);
+  writer.write_text(refusal.key.view());
+  writer.write_text(refusal.in_file.view());
+  writer.write_text(refusal.here.view());
+}
+
+Result<Refusal> read_refusal(Bytes message) {
+  Reader reader = after_kind(message);
+  Refusal refusal;
+  const std::string_view key = reader.read_text(kReplayKeyCap);
+  const std::string_view in_file = reader.read_text(kReplayValueCap);
+  const std::string_view here = reader.read_text(kReplayValueCap);
+  // It will be shown to people: no control sequences of a terminal.
+  for (const std::string_view text : {key, in_file, here}) {
+    for (const char c : text) {
+      if (c < ' ' || c > '~') reader.fail(ErrorCode::invalid, "a text that is not printable ASCII");
+    }
+  }
+  refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(in_file), ShortText<kReplayValueCap>(here)};
+  return finish(reader, "refusal", refusal);
+}
+
+void write_piece(const Piece& piece, std::vector<std::uint8_t>& out) {
+  Writer writer = begin(out, MessageKind::piece);
+  writer.write(piece.offset);
+  writer.write_bytes(piece.bytes);
+}
+
+Result<Piece> read_piece(Bytes message) {
+  Reader reader = after_kind(message);
+  Piece piece{};
+  reader.read(piece.offset);
+  piece.bytes = reader.read_bytes(kReliableCap);
+  return finish(reader, "piece", piece);
+}
+
+void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out) {
+  begin(out, MessageKind::progress).write(arrived);
+}
+
+Result<std::uint32_t> read_progress(Bytes message) {
+  Reader reader = after_kind(message);
+  const std::uint32_t arrived = reader.read<std::uint32_t>();
+  return finish(reader, "progress", arrived);
+}
+
+void write_ready(std::vector<std::uint8_t>& out) { begin(out, MessageKind::ready); }
+
+void write_open(Frame first, std::vector<std::uint8_t>& out) { begin(out, MessageKind::open).write(first); }
+
+Result<Frame> read_open(Bytes message) {
+  Reader reader = after_kind(message);
+  const Frame first = reader.read<Frame>();
+  if (first < 0 || first > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
+  return finish(reader, "open", first);
+}
+
+Result<MessageKind> message_kind(Bytes message) {
+  if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > 7) {
+    return Error{ErrorCode::corrupt, "no message of a session", "message"};
+  }
+  return static_cast<MessageKind>(message[0]);
+}
+
+}  // namespace isostep

@@ -1,0 +1,228 @@
+// Datagrams: how they are laid out, and everything that is checked before one is believed.
+// SPDX-License-Identifier: MIT
+//
+// Layout: kind u8 | match u16 | time u16 | flags u8 | [echo u16] | frame varint | [root: frame difference, chain u64]
+//         | [passed on: player u8, frame difference, chain u64] | ack mask u8 | {difference to frame, slack i8}...
+//         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
+// Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
+//         10000000  size varint, the input              10000001  as long as the previous: masks of 8, changed bytes
+#include "isostep/session/packet.hpp"
+
+#include "isostep/session/input_codec.hpp"
+#include "isostep/session/wire.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr std::uint8_t kKind = 0xd1;
+constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasRoot = 4, kPassesOn = 8, kKnownFlags = 15;
+constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81;
+constexpr Frame kRun = 64;
+
+bool is_frame(Frame frame) { return frame >= 0 && frame <= kLastFrame; }
+
+void write_root(WireWriter& writer, Frame base, const RootReport& root) {
+  writer.difference(root.frame - base);
+  writer.fixed(root.chain);
+}
+RootReport read_root(WireReader& reader, Frame base) {
+  RootReport root;
+  const std::int32_t difference = reader.difference();
+  const std::int64_t frame = std::int64_t{base} + difference;
+  root.chain = reader.fixed<std::uint64_t>();
+  if (frame < 0 || frame > kLastFrame) reader.fail();
+  root.frame = reader.failed() ? kNoFrame : static_cast<Frame>(frame);
+  return root;
+}
+Frame read_frame_near(WireReader& reader, Frame base) {
+  const std::int64_t frame = std::int64_t{base} + reader.difference();
+  if (frame < 0 || frame > kLastFrame) reader.fail();
+  return reader.failed() ? 0 : static_cast<Frame>(frame);
+}
+
+void write_input(WireWriter& writer, Bytes previous, Bytes input) {
+  if (previous.size() != input.size() || input.empty()) {
+    writer.byte(kLiteral);
+    writer.number(static_cast<std::uint32_t>(input.size()));
+    writer.raw(input);
+    return;
+  }
+  writer.byte(kDelta);
+  for (std::size_t i = 0; i < input.size(); i += 8) {
+    const std::size_t end = i + 8 < input.size() ? i + 8 : input.size();
+    unsigned mask = 0;
+    for (std::size_t k = i; k < end; ++k) mask |= (previous[k] != input[k] ? 1u : 0u) << (k - i);
+    writer.byte(static_cast<std::uint8_t>(mask));
+    for (std::size_t k = i; k < end; ++k) {
+      if (previous[k] != input[k]) writer.byte(input[k]);
+    }
+  }
+}
+
+}  // namespace
+
+PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer) : buffer_(buffer), size_(0) {
+  WireWriter writer(buffer, kDatagramCap);
+  const bool has_root = header.root.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
+  writer.byte(kKind);
+  writer.fixed(header.match);
+  writer.fixed(header.time);
+  writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
+                                        (has_root ? kHasRoot : 0) | (passes_on ? kPassesOn : 0)));
+  if (header.has_echo) writer.fixed(header.echo);
+  writer.number(static_cast<std::uint32_t>(header.frame));
+  if (has_root) write_root(writer, header.frame, header.root);
+  if (passes_on) {
+    writer.byte(header.reporter);
+    write_root(writer, header.frame, header.passed_on);
+  }
+  writer.byte(header.ack_mask);
+  for (std::size_t p = 0; p < kMaxPlayers; ++p) {
+    if ((header.ack_mask >> p & 1) == 0) continue;
+    writer.difference(header.ack[p] - header.frame);
+    writer.byte(static_cast<std::uint8_t>(header.slack[p]));
+  }
+  size_ = writer.size();
+}
+
+Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Frame first) {
+  if (!stream.contains(first)) return 0;
+  // The slice's own header is written last, for it holds the tokens' size: 12 bytes are its most.
+  constexpr std::size_t kSliceHeader = 12;
+  if (size_ + kSliceHeader >= kDatagramCap) return 0;
+  std::uint8_t tokens[kDatagramCap];
+  WireWriter writer(tokens, kDatagramCap - size_ - kSliceHeader);
+  std::size_t whole = 0;
+  Frame count = 0;
+  Bytes previous;
+  for (Frame frame = first; frame < stream.end() && count < kSliceFrames;) {
+    const InputEntry entry = stream.at(frame);
+    const bool repeats = !entry.absent && frame > first && same_input(entry, {false, previous});
+    Frame run = 1;
+    while (run < kRun && count + run < kSliceFrames && frame + run < stream.end() &&
+           same_input(stream.at(frame + run), entry)) {
+      ++run;
+    }
+    if (entry.absent) {
+      writer.byte(static_cast<std::uint8_t>(kAbsentRun | (run - 1)));
+    } else if (repeats) {
+      writer.byte(static_cast<std::uint8_t>(kRepeat | (run - 1)));
+    } else {
+      run = 1;
+      write_input(writer, previous, entry.bytes);
+      previous = entry.bytes;
+    }
+    if (writer.full()) break;
+    whole = writer.size();
+    count += run;
+    frame += run;
+  }
+  if (count == 0) return 0;
+  WireWriter head(buffer_ + size_, kDatagramCap - size_);
+  head.byte(player);
+  head.number(static_cast<std::uint32_t>(first));
+  head.number(static_cast<std::uint32_t>(count));
+  head.number(static_cast<std::uint32_t>(whole));
+  head.raw({tokens, whole});
+  size_ += head.size();
+  return count;
+}
+
+Result<Packet> read_packet(Bytes bytes) {
+  const auto refuse = [](const char* message) { return Error{ErrorCode::corrupt, message, "datagram"}; };
+  if (bytes.size() > kDatagramCap) return refuse("longer than a datagram may be");
+  WireReader reader(bytes);
+  Packet packet;
+  PacketHeader& header = packet.header;
+  if (reader.byte() != kKind) return refuse("no datagram of a session");
+  header.match = reader.fixed<std::uint16_t>();
+  header.time = reader.fixed<std::uint16_t>();
+  const std::uint8_t flags = reader.byte();
+  if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");
+  header.has_echo = (flags & kHasEcho) != 0;
+  header.started = (flags & kStarted) != 0;
+  if (header.has_echo) header.echo = reader.fixed<std::uint16_t>();
+  const std::uint32_t frame = reader.number();
+  if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");
+  header.frame = static_cast<Frame>(frame);
+  if ((flags & kHasRoot) != 0) header.root = read_root(reader, header.frame);
+  if ((flags & kPassesOn) != 0) {
+    header.reporter = reader.byte();
+    header.passed_on = read_root(reader, header.frame);
+    if (header.reporter >= kMaxPlayers) return refuse("passes on the root of no player");
+  }
+  header.ack_mask = reader.byte();
+  for (std::size_t p = 0; p < kMaxPlayers; ++p) {
+    if ((header.ack_mask >> p & 1) == 0) continue;
+    header.ack[p] = read_frame_near(reader, header.frame);
+    header.slack[p] = static_cast<std::int8_t>(reader.byte());
+  }
+  unsigned seen = 0;
+  while (reader.remaining() > 0) {
+    InputSlice slice{};
+    slice.player = reader.byte();
+    slice.first = static_cast<Frame>(reader.number());
+    slice.count = static_cast<Frame>(reader.number());
+    slice.tokens = reader.raw(reader.number());
+    if (reader.failed()) break;
+    if (slice.player >= kMaxPlayers || (seen >> slice.player & 1) != 0) return refuse("inputs of no player, or twice");
+    if (!is_frame(slice.first) || slice.count < 1 || slice.count > kSliceFrames) return refuse("frames out of range");
+    seen |= 1u << slice.player;
+    packet.slices[packet.slice_count++] = slice;
+  }
+  if (reader.failed()) return refuse("ends early, or a number is written in no known way");
+  return packet;
+}
+
+SliceReader::SliceReader(const InputSlice& slice) : tokens_(slice.tokens), left_(slice.count) {}
+
+bool SliceReader::next(InputEntry& entry) {
+  if (left_ == 0) {
+    failed_ = failed_ || !tokens_.empty();
+    return false;
+  }
+  if (run_ == 0 && !read_token()) {
+    failed_ = true;
+    return false;
+  }
+  --run_;
+  --left_;
+  entry = run_absent_ ? InputEntry{true, {}} : InputEntry{false, {previous_, previous_size_}};
+  return true;
+}
+
+bool SliceReader::read_token() {
+  static_assert(sizeof previous_ == kInputCap);
+  WireReader reader(tokens_);
+  const std::uint8_t token = reader.byte();
+  if (reader.failed()) return false;
+  run_ = 1;
+  run_absent_ = (token & 0xc0) == kAbsentRun;
+  if (token < kLiteral) {
+    run_ = (token & 63) + 1;
+    if (run_ > left_) return false;
+  } else if (token == kLiteral) {
+    const std::uint32_t size = reader.number();
+    if (size > kInputCap) return false;
+    const Bytes input = reader.raw(size);
+    if (reader.failed()) return false;
+    previous_size_ = size;
+    if (size > 0) std::memcpy(previous_, input.data(), size);
+  } else if (token == kDelta && previous_size_ > 0) {
+    for (std::size_t i = 0; i < previous_size_; i += 8) {
+      const std::uint8_t mask = reader.byte();
+      for (std::size_t k = i; k < i + 8 && mask >> (k - i) != 0; ++k) {
+        if ((mask >> (k - i) & 1) == 0) continue;
+        if (k >= previous_size_) return false;
+        previous_[k] = reader.byte();
+      }
+    }
+  } else {
+    return false;
+  }
+  if (reader.failed()) return false;
+  tokens_ = tokens_.subspan(tokens_.size() - reader.remaining());
+  return true;
+}
+
+}  // namespace isostep

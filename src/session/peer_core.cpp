@@ -1,0 +1,266 @@
+// Prediction and rollback, local inputs, datagrams: what host and client do alike.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/peer_core.hpp"
+
+#include <cstring>
+
+namespace isostep {
+namespace {
+
+constexpr Frame kSlackBucket = 30;  // [frames]
+constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
+
+InputDelay::Settings delay_settings(const SessionConfig& config) {
+  InputDelay::Settings settings{config.delay, config.least_delay, config.most_delay, 0};
+  // Half the window is a rollback that every frame affords; the other half is for what the network does at its worst.
+  if (config.mode == SessionMode::rollback) settings.wanted_slack = -(config.window / 2);
+  return settings;
+}
+
+}  // namespace
+
+PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
+    : SessionCore(config, rules),
+      streams_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
+      roots_(config.history),
+      clock_(config.hz),
+      delay_(delay_settings(config)) {
+  message_.reserve(kReliableCap);
+}
+
+bool PeerCore::add_local_input(int player, Bytes input) {
+  if (player < 0 || player >= players() || !is_local(player)) return false;
+  if (input.size() > rules_.cap || !rules_.valid(input)) return false;
+  Pending& pending = pending_[player];
+  pending.is_set = true;
+  pending.size = static_cast<std::uint16_t>(input.size());
+  if (!input.empty()) std::memcpy(pending.bytes, input.data(), input.size());
+  return true;
+}
+
+bool PeerCore::wants_input(int player) const {
+  return player >= 0 && player < players() && is_local(player) && !pending_[player].is_set;
+}
+
+Time PeerCore::wait(Time now) const {
+  if (!running()) return 10 * kAsk;
+  const Time until = clock_.until_due(now);
+  return until > 0 ? until : is_blocked_ ? kAsk : 0;
+}
+
+Frame PeerCore::known_end() const {
+  Frame end = streams_[0].end();
+  for (const InputStream& stream : streams_) {
+    if (stream.end() < end) end = stream.end();
+  }
+  return end;
+}
+
+Frame PeerCore::final_limit() const {
+  const Frame known = known_end();
+  return known < current() ? known : current();
+}
+
+bool PeerCore::may_step() const {
+  if (current() >= kLastFrame || current() - roots_.settled().frame >= config_.kept - 2) return false;
+  return current() < known_end() + window();
+}
+
+void PeerCore::plan(Time now) {
+  if (!asked_start_) {
+    asked_start_ = true;
+    act(RequestKind::save, 0);
+    return;
+  }
+  if (!has_start_) return;
+  before_steps(now);
+  if (!running()) return;
+  const Frame wrong = timeline_.first_wrong(streams_);
+  if (wrong < current()) roll_back(wrong);
+  for (int i = steps_allowed(now); i > 0 && clock_.is_due(now); --i) {
+    if (observed_ != current()) observe_delay();
+    observed_ = current();
+    sample_local_inputs();
+    before_frame(now);
+    if (!may_step()) {
+      if (!is_blocked_) ++stats_.waits;
+      is_blocked_ = true;
+      blocked(now);
+      break;
+    }
+    if (is_blocked_) unblocked(now);
+    is_blocked_ = false;
+    const Frame frame = current();
+    timeline_.step(streams_);
+    act(RequestKind::step, frame);
+    act(RequestKind::save, frame + 1);
+    clock_.stepped(now);
+    for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
+  }
+  after_steps();
+  limit_ = final_limit();
+  settle();
+  for (std::size_t reporter = 0; reporter <= kMaxPlayers; ++reporter) compare(reporter);
+  stats_.delay = delay_.frames();
+}
+
+void PeerCore::roll_back(Frame to) {
+  const Frame end = current();
+  const auto depth = static_cast<std::size_t>(end - to);
+  ++stats_.rollbacks[depth < 64 ? depth : 64];
+  timeline_.step_again(to, streams_);
+  roots_.forget_from(to + 1);
+  act(RequestKind::load, to);
+  for (Frame frame = to; frame < end; ++frame) {
+    act(RequestKind::step, frame);
+    act(RequestKind::save, frame + 1);
+  }
+}
+
+void PeerCore::go_back(Frame state) {
+  if (current() != state) act(RequestKind::load, state);
+  timeline_.restart(state);
+  roots_.forget_from(state + 1);
+}
+
+void PeerCore::sample_local_inputs() {
+  for (int p = 0; p < players(); ++p) {
+    InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    const Frame wanted = current() + delay_.frames() + 1;
+    if (!is_local(p) || stream.end() >= wanted) continue;
+    Pending& pending = pending_[p];
+    while (stream.end() < wanted) {
+      std::uint8_t guess[kInputCap];
+      const InputEntry last = stream.last();
+      const Bytes before = last.absent ? Bytes(rules_.neutral, rules_.neutral_size) : last.bytes;
+      const std::size_t size = rules_.predict(before, 1, guess);
+      const bool is_newest = stream.end() == wanted - 1;
+      stream.append({false, is_newest && pending.is_set ? Bytes(pending.bytes, pending.size) : Bytes(guess, size)});
+    }
+    pending.is_set = false;
+  }
+}
+
+void PeerCore::root_known(Frame state, std::uint64_t root) {
+  if (!has_start_) {
+    has_start_ = true;
+    roots_.restart({state, root}, root);
+    confirmed_state_ = state;
+    return;
+  }
+  roots_.report(state, root);
+  settle();
+}
+
+void PeerCore::settle() {
+  while (roots_.settle_next(limit_)) {
+    const Frame state = roots_.settled().frame;
+    confirm(state, roots_.root(state));
+    tell_who_plays(state - 1);
+  }
+}
+
+void PeerCore::tell_who_plays(Frame frame) {
+  for (int p = 0; p < players(); ++p) {
+    const InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    const bool is_present = stream.contains(frame) && !stream.at(frame).absent;
+    if (is_present == is_present_[p]) continue;
+    is_present_[p] = is_present;
+    SessionEvent event{.kind = is_present ? SessionEvent::Kind::joined : SessionEvent::Kind::left};
+    event.player = static_cast<std::uint8_t>(p);
+    event.frame = frame;
+    tell(event);
+  }
+}
+
+void PeerCore::hear_root(std::size_t reporter, const RootReport& report) {
+  View& view = views_[reporter];
+  if (view.pending.frame == kNoFrame && report.frame > view.agreed) view.pending = report;
+}
+
+void PeerCore::compare(std::size_t reporter) {
+  View& view = views_[reporter];
+  const RootReport report = view.pending;
+  if (report.frame == kNoFrame || report.frame > roots_.settled().frame) return;
+  view.pending.frame = kNoFrame;
+  if (!roots_.has_chain(report.frame) || view.differs) return;
+  if (roots_.chain(report.frame) == report.chain) {
+    view.agreed = report.frame;
+    return;
+  }
+  view.differs = true;
+  SessionEvent event{.kind = SessionEvent::Kind::desync};
+  event.player = reporter < kMaxPlayers ? static_cast<std::uint8_t>(reporter) : 0xff;
+  event.frame = report.frame;
+  event.agreed = view.agreed;
+  event.ours = roots_.chain(report.frame);
+  event.theirs = report.chain;
+  tell(event);
+}
+
+void PeerCore::note_arrival(int player, Time now) {
+  const Frame slack = streams_[static_cast<std::size_t>(player)].end() - current() - clock_.overdue(now);
+  slack_[player].add(slack < -127 ? -127 : slack);
+}
+
+bool PeerCore::accept_datagram(Link& link, Bytes bytes, Time now, Packet& packet) {
+  ++stats_.datagrams_in;
+  stats_.bytes_in += bytes.size();
+  if (!link.datagrams.spend(config_.most_packets, now)) {
+    ++stats_.flooded;
+    return false;
+  }
+  const Result<Packet> read = read_packet(bytes);
+  if (!read) {
+    ++stats_.refused;
+    return false;
+  }
+  packet = read.value();
+  return true;
+}
+
+bool PeerCore::accept_message(Link& link, Bytes bytes, Time now) {
+  stats_.bytes_in += bytes.size();
+  if (!link.messages.spend(config_.most_packets, now)) {
+    ++stats_.flooded;
+    return false;
+  }
+  if (!message_kind(bytes)) {
+    ++stats_.refused;
+    return false;
+  }
+  return true;
+}
+
+void PeerCore::take_acks(Link& link, const PacketHeader& header) {
+  for (int p = 0; p < players(); ++p) {
+    if ((header.ack_mask >> p & 1) == 0) continue;
+    // Nobody has what was never sent; and what was had once stays had.
+    const Frame ack = header.ack[p];
+    if (ack > link.acked[p] && ack <= streams_[static_cast<std::size_t>(p)].end()) link.acked[p] = ack;
+    link.slack[p] = header.slack[p];
+    link.reported_mask = static_cast<std::uint8_t>(link.reported_mask | 1u << p);
+  }
+}
+
+Bytes PeerCore::compose(Link& link, PacketHeader header, Time now) {
+  header.time = static_cast<std::uint16_t>(now / 1000);
+  header.has_echo = link.has_clock;
+  header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);
+  header.frame = current();
+  header.root = roots_.settled();
+  PacketWriter writer(header, buffer_);
+  // In turns, so that one player's long inputs cannot keep another's out for ever.
+  for (int i = 0; i < players(); ++i) {
+    const int p = (i + current()) % players();
+    if (sends(p, link))
+      writer.add_slice(static_cast<std::uint8_t>(p), streams_[static_cast<std::size_t>(p)], link.acked[p]);
+  }
+  link.next_send = now + clock_.period();
+  link.sent_frame = current();
+  ++stats_.datagrams_out;
+  stats_.bytes_out += writer.bytes().size();
+  return writer.bytes();
+}
+
+}  // namespace isostep

@@ -1,0 +1,119 @@
+// The replay of a match.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/replay_core.hpp"
+
+#include "isostep/session/wire.hpp"
+
+namespace isostep {
+
+void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint8_t>& out) {
+  std::uint8_t mask = 0;
+  for (std::size_t p = 0; p < inputs.size(); ++p)
+    mask = static_cast<std::uint8_t>(mask | (inputs[p].absent ? 1u : 0u) << p);
+  std::uint8_t bytes[1 + kMaxPlayers * (kInputCap + 2)];
+  WireWriter writer(bytes, sizeof bytes);
+  writer.byte(mask);
+  for (const InputEntry& input : inputs) {
+    if (input.absent) continue;
+    writer.number(static_cast<std::uint32_t>(input.bytes.size()));
+    writer.raw(input.bytes);
+  }
+  out.assign(bytes, bytes + writer.size());
+}
+
+bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs) {
+  WireReader reader(bytes);
+  const std::uint8_t mask = reader.byte();
+  if (mask >> inputs.size() != 0) return false;
+  for (std::size_t p = 0; p < inputs.size(); ++p) {
+    inputs[p] = {(mask >> p & 1) != 0, {}};
+    if (!inputs[p].absent) inputs[p].bytes = reader.raw(reader.number());
+  }
+  return !reader.failed() && reader.remaining() == 0;
+}
+
+ReplayCore::ReplayCore(const SessionConfig& config, const InputRules& rules, Bytes file)
+    : SessionCore(config, rules),
+      clock_(config.hz),
+      file_(file),
+      streams_(static_cast<std::size_t>(config.players), InputStream(config.kept, rules.cap)) {}
+
+void ReplayCore::refuse(std::string_view key, std::string_view in_file, std::string_view here) {
+  phase_ = SessionPhase::over;
+  SessionEvent event{.kind = SessionEvent::Kind::refused};
+  event.frame = current();
+  event.field = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(in_file), ShortText<kReplayValueCap>(here)};
+  tell(event);
+}
+
+void ReplayCore::plan(Time now) {
+  if (phase_ == SessionPhase::over) return;
+  if (!asked_start_) {
+    asked_start_ = true;
+    if (!file_.has_header() || !file_.has_state()) {
+      refuse("file", file_.error().message.view(), "a match recording");
+      return;
+    }
+    const HeaderMismatch mismatch = compare_headers(file_.header(), config_.identity);
+    if (!mismatch.key.empty()) {
+      refuse(mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
+      return;
+    }
+    portable_.assign(file_.state().begin(), file_.state().end());
+    clock_.start(now);
+    phase_ = SessionPhase::playing;
+    act(RequestKind::restore, 0);
+    act(RequestKind::save, 0);
+    return;
+  }
+  if (!clock_.is_due(now)) return;
+  if (static_cast<std::uint64_t>(current()) >= file_.frame_count()) {
+    if (file_.status() == ReplayStatus::complete) {
+      phase_ = SessionPhase::over;
+    } else {
+      refuse("file", file_.error().message.view(), "a whole recording");
+    }
+    return;
+  }
+  if (!read_frame(current())) {
+    refuse("file", "a frame that is none of this match", "inputs of every player");
+    return;
+  }
+  timeline_.step(streams_);
+  act(RequestKind::step, current() - 1);
+  act(RequestKind::save, current());
+  clock_.stepped(now);
+}
+
+bool ReplayCore::read_frame(Frame frame) {
+  InputEntry inputs[kMaxPlayers];
+  const std::span<InputEntry> all(inputs, streams_.size());
+  if (!read_match_frame(file_.frame(static_cast<std::uint64_t>(frame)).input, all)) return false;
+  for (std::size_t p = 0; p < streams_.size(); ++p) {
+    if (!inputs[p].absent && !rules_.valid(inputs[p].bytes)) return false;
+    if (!streams_[p].append(inputs[p])) return false;
+  }
+  return true;
+}
+
+void ReplayCore::restored(bool ok) {
+  if (!ok) refuse("file", "a first state that is none of this game", "its portable form");
+}
+
+void ReplayCore::root_known(Frame state, std::uint64_t root) {
+  const std::uint64_t recorded =
+      state == 0 ? file_.state_hash() : file_.frame(static_cast<std::uint64_t>(state - 1)).hash;
+  if (root != recorded) {
+    SessionEvent event{.kind = SessionEvent::Kind::desync};
+    event.frame = state;
+    event.agreed = confirmed_state_;
+    event.ours = root;
+    event.theirs = recorded;
+    tell(event);
+    phase_ = SessionPhase::over;
+  }
+  if (state > 0) confirm(state, root);
+  confirmed_state_ = state;
+}
+
+}  // namespace isostep

@@ -1,0 +1,79 @@
+// The sync test: late inputs, and every frame twice.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/sync_test_core.hpp"
+
+namespace isostep {
+
+SyncTestCore::SyncTestCore(const SessionConfig& config, const InputRules& rules)
+    : SessionCore(config, rules),
+      clock_(config.hz),
+      said_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
+      known_(said_),
+      roots_(static_cast<std::size_t>(config.kept)) {}
+
+bool SyncTestCore::add_local_input(int player, Bytes input) {
+  if (!wants_input(player) || !rules_.valid(input)) return false;
+  return said_[static_cast<std::size_t>(player)].append({false, input});
+}
+
+bool SyncTestCore::wants_input(int player) const {
+  return player >= 0 && player < players() && said_[static_cast<std::size_t>(player)].end() <= current();
+}
+
+void SyncTestCore::step_from(Frame frame, Frame end) {
+  if (frame < end) act(RequestKind::load, frame);
+  for (; frame < end; ++frame) {
+    act(RequestKind::step, frame);
+    act(RequestKind::save, frame + 1);
+  }
+}
+
+void SyncTestCore::plan(Time now) {
+  if (!asked_start_) {
+    asked_start_ = true;
+    clock_.start(now);
+    phase_ = SessionPhase::playing;
+    act(RequestKind::save, 0);
+    return;
+  }
+  if (!clock_.is_due(now)) return;
+  const Frame frame = current();
+  for (InputStream& said : said_) {
+    if (said.end() <= frame) said.append({false, Bytes(rules_.neutral, rules_.neutral_size)});
+  }
+  const Frame told = frame - config_.window;
+  for (int p = 0; p < players() && told >= 0; ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    known_[i].append(said_[i].at(told));
+  }
+  const Frame wrong = timeline_.first_wrong(known_);
+  if (wrong < frame) {
+    ++stats_.rollbacks[frame - wrong < 64 ? frame - wrong : 64];
+    timeline_.step_again(wrong, known_);
+    for (Frame state = wrong + 1; state <= frame; ++state) root_of(state).state = kNoFrame;
+    step_from(wrong, frame);
+  }
+  timeline_.step(known_);
+  act(RequestKind::step, frame);
+  act(RequestKind::save, frame + 1);
+  step_from(frame + 1 > config_.window ? frame + 1 - config_.window : 0, frame + 1);
+  clock_.stepped(now);
+  limit_ = known_[0].end();
+}
+
+void SyncTestCore::root_known(Frame state, std::uint64_t root) {
+  Root& known = root_of(state);
+  if (known.state == state && known.root != root) {
+    SessionEvent event{.kind = SessionEvent::Kind::desync};
+    event.frame = state;
+    event.agreed = state - 1;
+    event.ours = root;
+    event.theirs = known.root;
+    tell(event);
+  }
+  known = {state, root};
+  if (state != current()) return;  // the last of this call's roots
+  for (; settled_ < limit_; ++settled_) confirm(settled_ + 1, root_of(settled_ + 1).root);
+}
+
+}  // namespace isostep
