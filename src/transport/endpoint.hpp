@@ -1,0 +1,39 @@
+// What every way from session to session offers its user: send, receive, end a connection.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/result.hpp"
+#include "isostep/session/frame.hpp"
+
+namespace isostep::transport {
+
+/// After `connected` come messages, after `disconnected` nothing more until the id is connected again. An attempt to
+/// connect that fails is a `disconnected` without a `connected`.
+enum class ArrivalKind : std::uint8_t { connected, disconnected, message };
+
+struct Arrival {
+  ArrivalKind kind;
+  PeerId peer;      // on a client always 0: the host
+  Channel channel;  // of a message
+  Bytes bytes;      // of a message; until the next call of the endpoint
+};
+
+/// `send` refuses what is larger than the channel's cap and peers that are not connected. `disconnect` is for this side
+/// at once: the peer still gets what was sent reliably before, then its `disconnected`; here nothing more arrives.
+template <class E>
+concept Endpoint = requires(E& endpoint, PeerId peer, Channel channel, Bytes bytes) {
+  { endpoint.send(peer, channel, bytes) } -> std::same_as<Result<void>>;
+  { endpoint.receive() } -> std::same_as<std::optional<Arrival>>;
+  { endpoint.disconnect(peer) } -> std::same_as<void>;
+};
+
+inline constexpr std::size_t cap_of(Channel channel) {
+  return channel == Channel::datagram ? kDatagramCap : kReliableCap;
+}
+
+}  // namespace isostep::transport

@@ -1,0 +1,23 @@
+// What peers of ours put on the wire, so that ENet never sees the rest and strangers cannot fill its memory.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "isostep/core/bytes.hpp"
+
+namespace isostep::transport {
+
+/// [bytes] of UDP payload: the largest that every IPv6 path carries whole (1280 - 40 - 8). Holds a datagram of ours
+/// with ENet's 12 bytes around it; a larger one would silently become reliable.
+inline constexpr std::uint32_t kEnetMtu = 1232;
+inline constexpr std::size_t kEnetChannels = 2;
+
+/// False for what ENet 1.3.17 would accept and no peer of ours sends: packets above the MTU or of more commands than
+/// ENet writes, compressed ones, unreliable sequenced messages (those that are skipped stay counted as waiting until
+/// the peer is stuck), messages above their channel's cap, fragments that announce more pieces than there can be (a bit
+/// each, 128 KiB a command), connections with another MTU or number of channels; and for what is not whole.
+bool is_plausible_enet_packet(Bytes packet);
+
+}  // namespace isostep::transport

@@ -1,0 +1,331 @@
+// The ENet host behind an endpoint, and what must be set on it before games can use it.
+// SPDX-License-Identifier: MIT
+#include "transport/enet_transport.hpp"
+
+#include <enet/enet.h>
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "transport/enet_guard.hpp"
+
+namespace isostep::transport {
+namespace {
+
+static_assert(ENET_VERSION >= ENET_VERSION_CREATE(1, 3, 17), "earlier ones crash on some unsequenced packets");
+
+constexpr enet_uint8 kDatagrams = 0, kReliables = 1;  // ENet's channels
+
+/// [bytes] of messages of one peer that ENet holds for us: reliable ones out of order, and what poll() leaves behind.
+constexpr std::size_t kWaitingCap = 512 << 10;
+
+/// ENet drops unreliable messages on purpose when round trips grow. Recovering all at once and never giving way means
+/// that it does not. Both sides set it: each setting is also sent, and becomes the other's.
+constexpr enet_uint32 kThrottleInterval = 5000;  // [ms]
+constexpr enet_uint32 kRecoverAtOnce = ENET_PEER_PACKET_THROTTLE_SCALE;
+constexpr enet_uint32 kNeverGiveWay = 0;
+
+enum class Link : std::uint8_t { none, attempting, open, closing };
+
+struct Peer {
+  Link link = Link::none;
+  std::uint32_t datagrams = 0;     // taken from it in this poll
+  std::size_t unacknowledged = 0;  // [bytes] given to ENet reliably, not yet let go
+};
+
+/// ENet lets a reliable packet go when it is acknowledged or its peer is reset.
+void ENET_CALLBACK let_go(ENetPacket* packet) {
+  static_cast<Peer*>(packet->userData)->unacknowledged -= packet->dataLength;
+}
+
+Error failure(const char* what, const char* place) { return {ErrorCode::invalid, what, place}; }
+
+}  // namespace
+
+struct EnetTransport::State {
+  struct Waiting {
+    ArrivalKind kind;
+    PeerId peer;
+    Channel channel;
+    ENetPacket* packet;  // of a message
+  };
+
+  EnetSettings settings;
+  EnetStatistics statistics;
+  bool is_client = false;
+  bool more = false;  // the last poll left something behind
+  ENetHost* host = nullptr;
+  ENetAddress target = {};
+  std::vector<Peer> peers;
+  std::deque<Waiting> inbox;
+  ENetPacket* handed_out = nullptr;  // what the last receive() shows
+
+  ~State();
+  Result<void> open(const ENetAddress* address);
+  Result<void> attempt();
+  ENetPeer* enet_peer(PeerId peer) { return &host->peers[peer]; }
+  void leave(PeerId peer);
+  void purge(PeerId peer);
+  void poll();
+  void handle(const ENetEvent& event);
+  void handle_connect(PeerId peer);
+  void handle_disconnect(PeerId peer);
+  void handle_message(PeerId peer, enet_uint8 enet_channel, ENetPacket* packet);
+  void count();
+};
+
+namespace {
+
+/// ENet's hook for every packet; 1 means that it is dealt with.
+int ENET_CALLBACK throw_away_implausible(ENetHost* host, ENetEvent*) {
+  if (is_plausible_enet_packet({host->receivedData, host->receivedDataLength})) return 0;
+  ++static_cast<EnetStatistics*>(host->peers[0].data)->implausible;
+  return 1;
+}
+
+}  // namespace
+
+// ---- opening and ending
+
+EnetTransport::State::~State() {
+  if (host == nullptr) return;
+  for (PeerId peer = 0; peer < peers.size(); ++peer) leave(peer);
+  if (handed_out != nullptr) enet_packet_destroy(handed_out);
+  enet_host_destroy(host);
+  enet_deinitialize();
+}
+
+Result<void> EnetTransport::State::open(const ENetAddress* address) {
+  if (enet_initialize() != 0) return failure("ENet could not start", "enet_initialize");
+  peers.resize(is_client ? 1 : settings.max_peers);
+  host = enet_host_create(address, peers.size(), kEnetChannels, 0, 0);
+  if (host == nullptr) {
+    enet_deinitialize();
+    return failure("no socket: the port is taken, or the address is not of this machine", "enet_host_create");
+  }
+  host->mtu = kEnetMtu;
+  host->maximumPacketSize = kReliableCap;
+  host->maximumWaitingData = kWaitingCap;
+  host->duplicatePeers = settings.max_peers_an_address;
+  host->intercept = throw_away_implausible;
+  for (PeerId peer = 0; peer < peers.size(); ++peer) {
+    enet_peer_reset(enet_peer(peer));  // takes the host's MTU over: until 1.3.18 nothing else does
+    enet_peer(peer)->data = &statistics;
+  }
+  return {};
+}
+
+Result<void> EnetTransport::State::attempt() {
+  ENetPeer* peer = enet_host_connect(host, &target, kEnetChannels, 0);
+  if (peer == nullptr) return failure("ENet has no memory for a connection", "enet_host_connect");
+  const enet_uint32 milliseconds = static_cast<enet_uint32>(settings.timeout / 1000);
+  enet_peer_timeout(peer, ENET_PEER_TIMEOUT_LIMIT, milliseconds, milliseconds);
+  peers[0].link = Link::attempting;
+  enet_host_flush(host);
+  return {};
+}
+
+void EnetTransport::State::purge(PeerId peer) {
+  std::erase_if(inbox, [&](const Waiting& waiting) {
+    if (waiting.peer != peer) return false;
+    if (waiting.packet != nullptr) enet_packet_destroy(waiting.packet);
+    return true;
+  });
+}
+
+/// At once and without an event here; the peer is told, once.
+void EnetTransport::State::leave(PeerId peer) {
+  purge(peer);
+  peers[peer].link = Link::none;
+  enet_peer_disconnect_now(enet_peer(peer), 0);
+}
+
+// ---- events
+
+void EnetTransport::State::poll() {
+  constexpr int kMostErrors = 64;  // each is of one packet: a peer out of reach, or a stranger's above ENet's buffer
+  int errors = 0;
+  more = false;
+  for (Peer& peer : peers) peer.datagrams = 0;
+  for (std::uint32_t events = 0; events < settings.events_per_poll && inbox.size() < settings.events_per_poll;) {
+    ENetEvent event;
+    const int found = enet_host_service(host, &event, 0);
+    if (found == 0) return count();
+    if (found > 0) {
+      handle(event);
+      ++events;
+    } else {
+      ++statistics.socket_errors;
+      if (++errors == kMostErrors) break;
+    }
+  }
+  more = true;
+  count();
+}
+
+void EnetTransport::State::handle(const ENetEvent& event) {
+  const PeerId peer = event.peer->incomingPeerID;
+  if (event.type == ENET_EVENT_TYPE_CONNECT) handle_connect(peer);
+  if (event.type == ENET_EVENT_TYPE_DISCONNECT) handle_disconnect(peer);
+  if (event.type == ENET_EVENT_TYPE_RECEIVE) handle_message(peer, event.channelID, event.packet);
+}
+
+void EnetTransport::State::handle_connect(PeerId peer) {
+  ENetPeer* remote = enet_peer(peer);
+  const bool wanted = !is_client || peers[peer].link == Link::attempting;
+  if (!wanted || remote->mtu != kEnetMtu || remote->channelCount != kEnetChannels) {
+    const bool failed = is_client && wanted;
+    leave(peer);
+    if (failed) inbox.push_back({ArrivalKind::disconnected, peer, Channel::reliable, nullptr});
+    return;
+  }
+  const enet_uint32 milliseconds = static_cast<enet_uint32>(settings.timeout / 1000);
+  enet_peer_timeout(remote, ENET_PEER_TIMEOUT_LIMIT, milliseconds, milliseconds);
+  enet_peer_throttle_configure(remote, kThrottleInterval, kRecoverAtOnce, kNeverGiveWay);
+  peers[peer].link = Link::open;
+  inbox.push_back({ArrivalKind::connected, peer, Channel::reliable, nullptr});
+}
+
+void EnetTransport::State::handle_disconnect(PeerId peer) {
+  const Link link = std::exchange(peers[peer].link, Link::none);
+  if (link != Link::open && link != Link::attempting) return;
+  inbox.push_back({ArrivalKind::disconnected, peer, Channel::reliable, nullptr});
+}
+
+void EnetTransport::State::handle_message(PeerId peer, enet_uint8 enet_channel, ENetPacket* packet) {
+  const bool datagram = enet_channel == kDatagrams;
+  const Channel channel = datagram ? Channel::datagram : Channel::reliable;
+  const enet_uint32 flag = datagram ? ENET_PACKET_FLAG_UNSEQUENCED : ENET_PACKET_FLAG_RELIABLE;
+  bool keep = peers[peer].link == Link::open;
+  if (keep && (packet->dataLength > cap_of(channel) || (packet->flags & flag) == 0)) {
+    ++statistics.refused;
+    keep = false;
+  }
+  if (keep && datagram && ++peers[peer].datagrams > settings.datagrams_per_peer) {
+    ++statistics.flooded;
+    keep = false;
+  }
+  if (!keep) return enet_packet_destroy(packet);
+  inbox.push_back({ArrivalKind::message, peer, channel, packet});
+}
+
+/// ENet's own counters are 32 bits wide.
+void EnetTransport::State::count() {
+  statistics.packets_sent += std::exchange(host->totalSentPackets, 0u);
+  statistics.bytes_sent += std::exchange(host->totalSentData, 0u);
+  statistics.packets_received += std::exchange(host->totalReceivedPackets, 0u);
+  statistics.bytes_received += std::exchange(host->totalReceivedData, 0u);
+}
+
+// ---- the endpoint
+
+EnetTransport::EnetTransport(std::unique_ptr<State> state) : state_(std::move(state)) {}
+EnetTransport::EnetTransport(EnetTransport&&) noexcept = default;
+EnetTransport& EnetTransport::operator=(EnetTransport&&) noexcept = default;
+EnetTransport::~EnetTransport() = default;
+
+Result<EnetTransport> EnetTransport::listen(std::uint16_t port, const EnetSettings& settings) {
+  if (settings.max_peers == 0 || settings.max_peers > ENET_PROTOCOL_MAXIMUM_PEER_ID) {
+    return Error{ErrorCode::limit, "a host has 1 to 4095 peers", "max_peers"};
+  }
+  ENetAddress address = {ENET_HOST_ANY, port};
+  if (!settings.bind_address.empty() && enet_address_set_host(&address, settings.bind_address.c_str()) != 0) {
+    return failure("no address has this name", "bind_address");
+  }
+  auto state = std::make_unique<State>();
+  state->settings = settings;
+  if (const Result<void> opened = state->open(&address); !opened) return opened.error();
+  return EnetTransport(std::move(state));
+}
+
+Result<EnetTransport> EnetTransport::connect(const std::string& address, std::uint16_t port,
+                                             const EnetSettings& settings) {
+  auto state = std::make_unique<State>();
+  state->settings = settings;
+  state->is_client = true;
+  state->target.port = port;
+  if (port == 0 || enet_address_set_host(&state->target, address.c_str()) != 0) {
+    return failure("no address has this name, or its port is 0", "connect");
+  }
+  if (const Result<void> opened = state->open(nullptr); !opened) return opened.error();
+  if (const Result<void> attempted = state->attempt(); !attempted) return attempted.error();
+  return EnetTransport(std::move(state));
+}
+
+Result<void> EnetTransport::connect_again() {
+  if (!state_->is_client) return failure("only a client connects", "connect_again");
+  state_->leave(0);
+  return state_->attempt();
+}
+
+std::uint16_t EnetTransport::port() const { return state_->host->address.port; }
+const EnetStatistics& EnetTransport::statistics() const { return state_->statistics; }
+
+void EnetTransport::poll() { state_->poll(); }
+
+void EnetTransport::flush() {
+  enet_host_flush(state_->host);
+  state_->count();
+}
+
+void EnetTransport::wait(Time longest) {
+  if (state_->more || !state_->inbox.empty()) return;
+  enet_uint32 condition = ENET_SOCKET_WAIT_RECEIVE | ENET_SOCKET_WAIT_INTERRUPT;
+  const Time milliseconds = std::min(longest, kSecond) / 1000;
+  if (enet_socket_wait(state_->host->socket, &condition, static_cast<enet_uint32>(milliseconds)) != 0) {
+    ++state_->statistics.socket_errors;
+  }
+}
+
+Result<void> EnetTransport::send(PeerId id, Channel channel, Bytes bytes) {
+  if (bytes.size() > cap_of(channel)) {
+    return Error{ErrorCode::limit, "the message is larger than its channel's cap", "send"};
+  }
+  if (id >= state_->peers.size() || state_->peers[id].link != Link::open) {
+    return failure("the peer is not connected", "send");
+  }
+  Peer& peer = state_->peers[id];
+  const bool reliable = channel == Channel::reliable;
+  if (reliable && peer.unacknowledged + bytes.size() > state_->settings.unacknowledged_cap) {
+    // Whole and in order, or the connection ends: a message left out would be neither.
+    state_->leave(id);
+    state_->inbox.push_back({ArrivalKind::disconnected, id, Channel::reliable, nullptr});
+    return Error{ErrorCode::limit, "the peer acknowledges too slowly: its connection ends", "unacknowledged_cap"};
+  }
+  const enet_uint32 flags = reliable ? ENET_PACKET_FLAG_RELIABLE : ENET_PACKET_FLAG_UNSEQUENCED;
+  ENetPacket* packet = enet_packet_create(bytes.data(), bytes.size(), flags);
+  if (packet == nullptr) return Error{ErrorCode::limit, "no memory for a packet", "send"};
+  if (reliable) {
+    packet->userData = &peer;
+    packet->freeCallback = let_go;
+    peer.unacknowledged += bytes.size();
+  }
+  if (enet_peer_send(state_->enet_peer(id), reliable ? kReliables : kDatagrams, packet) == 0) return {};
+  if (packet->referenceCount == 0) enet_packet_destroy(packet);
+  return failure("the peer is not connected", "enet_peer_send");
+}
+
+std::optional<Arrival> EnetTransport::receive() {
+  if (state_->handed_out != nullptr) enet_packet_destroy(std::exchange(state_->handed_out, nullptr));
+  if (state_->inbox.empty()) return std::nullopt;
+  const State::Waiting next = state_->inbox.front();
+  state_->inbox.pop_front();
+  state_->handed_out = next.packet;
+  const Bytes bytes = next.packet != nullptr ? Bytes(next.packet->data, next.packet->dataLength) : Bytes{};
+  return Arrival{next.kind, next.peer, next.channel, bytes};
+}
+
+void EnetTransport::disconnect(PeerId id) {
+  if (id >= state_->peers.size()) return;
+  Peer& peer = state_->peers[id];
+  if (peer.link == Link::attempting) state_->leave(id);
+  if (peer.link != Link::open) return;
+  state_->purge(id);
+  peer.link = Link::closing;
+  enet_peer_disconnect_later(state_->enet_peer(id), 0);
+  flush();
+}
+
+}  // namespace isostep::transport

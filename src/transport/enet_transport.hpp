@@ -1,0 +1,79 @@
+// Endpoints over ENet 1.3.17, the reference for sessions across UDP: no exceptions, no printing, no threads.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "transport/endpoint.hpp"
+
+namespace isostep::transport {
+
+struct EnetSettings {
+  PeerId max_peers = 16;             // of a host, those connecting included
+  PeerId max_peers_an_address = 16;  // of a host: players behind one router share its address
+  std::string bind_address = {};     // of a host; empty: every interface
+  /// [us] A peer that acknowledges nothing is given up after this, at the next repetition due: at the latest after
+  /// twice as long.
+  Time timeout = 10 * kSecond;
+  std::uint32_t events_per_poll = 1024;       // the rest waits for the next poll
+  std::uint32_t datagrams_per_peer = 256;     // in one poll; more are dropped, so that a flood costs only the flooder
+  std::size_t unacknowledged_cap = 4u << 20;  // [bytes] sent reliably to one peer; above that its connection ends
+};
+
+/// Bytes and packets are those of UDP's payload.
+struct EnetStatistics {
+  std::uint64_t packets_sent = 0, bytes_sent = 0, packets_received = 0, bytes_received = 0;
+  std::uint64_t implausible = 0;    // packets thrown away before ENet saw them
+  std::uint64_t refused = 0;        // messages on the wrong channel or above its cap
+  std::uint64_t flooded = 0;        // datagrams above datagrams_per_peer
+  std::uint64_t socket_errors = 0;  // a network that is down comes back, or the timeout ends its connections
+};
+
+/// Models Endpoint. PeerId is ENet's index of the peer: a host's lowest free one, on a client 0.
+/// A frame: poll(), receive() until it has nothing, the session, send(), flush(); then wait() instead of sleeping.
+/// Not secret and not authenticated: whoever sees the packets can forge them, and requests from forged addresses hold a
+/// host's places for ENet's 5 to 30 s each. IPv4 only. Time is ENet's: the system's
+/// clock, whose jumps count as silence.
+class EnetTransport {
+ public:
+  /// Port 0 lets the system choose one.
+  static Result<EnetTransport> listen(std::uint16_t port, const EnetSettings& settings = {});
+  /// A name is looked up at once, which may block. `connected` or `disconnected` follows.
+  static Result<EnetTransport> connect(const std::string& address, std::uint16_t port,
+                                       const EnetSettings& settings = {});
+  EnetTransport(EnetTransport&&) noexcept;
+  EnetTransport& operator=(EnetTransport&&) noexcept;
+  /// Tells connected peers so, without waiting for what is unacknowledged.
+  ~EnetTransport();
+
+  /// Of a client: leaves the host it has, without another event of it, and tries the same address again.
+  Result<void> connect_again();
+
+  /// The port of a host.
+  std::uint16_t port() const;
+
+  /// Takes what has arrived from the socket, and sends what is due.
+  void poll();
+  /// Blocks until a packet arrives or this time is over, rounded down to whole milliseconds; not while something is
+  /// already there for receive() or poll().
+  void wait(Time longest);
+
+  /// In a message's own packet or with others of the same flush.
+  Result<void> send(PeerId peer, Channel channel, Bytes bytes);
+  void flush();
+  std::optional<Arrival> receive();
+  void disconnect(PeerId peer);
+
+  const EnetStatistics& statistics() const;
+
+ private:
+  struct State;
+  explicit EnetTransport(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace isostep::transport

@@ -1,0 +1,168 @@
+// A network in virtual time: one host, its clients, two channels between them, and a seed for all that goes wrong.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "transport/endpoint.hpp"
+#include "transport/impaired_direction.hpp"
+#include "transport/network_profile.hpp"
+
+namespace isostep::transport {
+
+/// 0 is the host, clients follow in the order in which they were added. Not a PeerId: that is one connection's.
+using EndpointId = std::uint32_t;
+
+struct SimulationSettings {
+  std::uint64_t seed = 1;
+  PeerId max_peers = 64;        // of the host; who comes later is disconnected
+  Time timeout = 10 * kSecond;  // a connection ends when one direction lost all that it was given for this long
+};
+
+/// Of one client's direction, over all its connections. Bytes are those of messages, without any header.
+struct DirectionStatistics {
+  std::uint64_t datagrams = 0, datagram_bytes = 0;  // given to send
+  std::uint64_t reliable = 0, reliable_bytes = 0;   // given to send
+  std::uint64_t packets = 0, packet_bytes = 0;      // on the line: datagrams, pieces of reliable messages
+  std::uint64_t repeated = 0;                       // of those, pieces sent again
+  std::uint64_t lost = 0, doubled = 0;              // of those
+  std::uint64_t delivered = 0;                      // messages of both channels
+  std::uint64_t unexpected = 0;                     // datagrams that met a side which is not connected (yet)
+};
+
+class SimulatedNetwork {
+ public:
+  explicit SimulatedNetwork(const SimulationSettings& settings = {});
+  SimulatedNetwork(const SimulatedNetwork&) = delete;
+  SimulatedNetwork& operator=(const SimulatedNetwork&) = delete;
+
+  /// Models Endpoint. Valid as long as the network.
+  class Port {
+   public:
+    Result<void> send(PeerId peer, Channel channel, Bytes bytes) { return network_->send(id_, peer, channel, bytes); }
+    std::optional<Arrival> receive() { return network_->receive(id_); }
+    void disconnect(PeerId peer) { network_->disconnect(id_, peer); }
+
+   private:
+    friend class SimulatedNetwork;
+    Port(SimulatedNetwork* network, EndpointId id) : network_(network), id_(id) {}
+    SimulatedNetwork* network_;
+    EndpointId id_;
+  };
+
+  static constexpr EndpointId kHost = 0;
+  /// A process that comes back with a new connection while the host still waits for the old one is a new client.
+  EndpointId add_client(const NetworkProfile& profile);
+  Port port(EndpointId endpoint) { return Port(this, endpoint); }
+
+  /// The host hears `connected` one way later, the client after a round trip. False while the client's last connection
+  /// is not over.
+  bool connect(EndpointId client);
+  /// Both sides hear `disconnected` now; what was under way is gone.
+  void cut(EndpointId client);
+  /// As if the cable were pulled, or the process had died: every packet from now on is lost until it is put back.
+  void set_silent(EndpointId client, bool silent);
+  void set_profile(EndpointId client, const NetworkProfile& profile);
+  /// For hostile tests: arrives at once, whatever the connection's state and the channel's cap.
+  void inject(EndpointId to, PeerId from, Channel channel, Bytes bytes);
+
+  Time now() const { return now_; }
+  /// When something will happen on its own; nothing when the network is idle.
+  std::optional<Time> next_event_time() const;
+  /// Lets everything due until then happen, in order of time and then of sending. Not before now(). What is due at
+  /// once, as all of `loopback` is, happens without it.
+  void advance_to(Time time);
+
+  const DirectionStatistics& statistics(EndpointId client, Direction direction) const;
+  /// Sends over their channel's cap: a bug of the sender.
+  std::uint64_t oversized() const { return oversized_; }
+  /// Sends to a peer that is not connected: the sender may not have read its `disconnected` yet.
+  std::uint64_t unaddressed() const { return unaddressed_; }
+
+ private:
+  using Payload = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+  enum class Content : std::uint8_t { message, hello, welcome, goodbye };
+  /// On the reliable channel, from its sending to its delivery.
+  struct Message {
+    Content content;
+    std::uint32_t pieces_left;
+    Payload payload;
+  };
+  struct Line {
+    ImpairedDirection direction;
+    DirectionStatistics statistics;
+    std::map<std::uint64_t, Message> messages;  // by number: sent, not delivered
+    std::uint64_t next_number = 0;
+    std::optional<Time> losing_since;  // [us] first of the losses since something came through
+  };
+  /// What the receiver of a direction knows: the client of its attempt, either side that it is connected.
+  enum class Ear : std::uint8_t { closed, waiting, open };
+  struct Client {
+    EndpointId id;
+    Line lines[2];  // by Direction
+    Ear ears[2] = {Ear::closed, Ear::closed};
+    std::uint64_t connection = 0;  // counts them: what is under way of an older one is nobody's
+    bool active = false;           // from connect() until neither side has to hear anything more
+    bool silent = false;
+    bool hosted = false;  // holds a peer number of the host
+    PeerId peer = 0;      // that number
+  };
+
+  enum class What : std::uint8_t { datagram_arrives, try_piece, piece_arrives };
+  struct Event {
+    What what;
+    Direction direction;
+    EndpointId client;
+    std::uint64_t connection;
+    Payload payload;           // of a datagram
+    std::uint64_t number = 0;  // of a reliable message
+    std::uint32_t bytes = 0;   // of its piece
+    std::uint32_t attempt = 0;
+  };
+  struct Waiting {
+    ArrivalKind kind;
+    PeerId peer;
+    Channel channel;
+    Payload payload;
+  };
+
+  Result<void> send(EndpointId from, PeerId peer, Channel channel, Bytes bytes);
+  std::optional<Arrival> receive(EndpointId endpoint);
+  void disconnect(EndpointId from, PeerId peer);
+
+  Client& client_of(EndpointId client) { return *clients_[client - 1]; }
+  Client* other_end(EndpointId from, PeerId peer);
+  void send_datagram(Client& client, Direction direction, Payload payload);
+  void send_reliable(Client& client, Direction direction, Content content, Payload payload);
+  Fate put_on_line(Client& client, Direction direction, std::size_t bytes);
+  void try_piece(Client& client, Event event);
+  void schedule(Time time, Event event);
+  void run(const Event& event);
+  void piece_arrived(Client& client, const Event& event);
+  void deliver(Client& client, Direction direction, const Message& message);
+  void answer(Client& client);
+  void close(Client& client);
+  void finish(Client& client);
+  void hang_up(Client& client, Direction direction);
+  void arrive(Client& client, Direction direction, ArrivalKind kind, Channel channel, Payload payload);
+
+  SimulationSettings settings_;
+  Time now_ = 0;
+  std::uint64_t scheduled_ = 0;  // orders what is due at one time
+  std::uint64_t oversized_ = 0, unaddressed_ = 0;
+  std::map<std::pair<Time, std::uint64_t>, Event> events_;
+  std::vector<std::unique_ptr<Client>> clients_;  // of endpoint i + 1
+  std::vector<Client*> peers_;                    // the host's, by PeerId; null: free
+  std::vector<std::deque<Waiting>> inboxes_;      // by endpoint
+  std::vector<Payload> handed_out_;               // by endpoint: what its last receive() shows
+};
+
+}  // namespace isostep::transport

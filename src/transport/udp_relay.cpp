@@ -1,0 +1,296 @@
+// The relay's sockets, its clients and the packets under way.
+// SPDX-License-Identifier: MIT
+#include "transport/udp_relay.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "transport/impaired_direction.hpp"
+
+namespace isostep::transport {
+namespace {
+
+constexpr int kPacketsATurn = 256;      // of one socket, so that a flood through one leaves the others their turn
+constexpr int kSocketBuffer = 1 << 20;  // [bytes] a burst of all clients between two turns
+
+Time clock_now() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<Time>(std::chrono::duration_cast<std::chrono::microseconds>(since).count());
+}
+
+Error failure(const char* what, std::string_view place) { return {ErrorCode::invalid, what, place}; }
+
+/// A file descriptor that closes itself.
+class Socket {
+ public:
+  Socket() = default;
+  explicit Socket(int descriptor) : descriptor_(descriptor) {}
+  Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  Socket& operator=(Socket&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~Socket() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+Socket open_socket() {
+  Socket opened(::socket(AF_INET, SOCK_DGRAM, 0));
+  if (opened.descriptor() < 0) return opened;
+  const int flags = ::fcntl(opened.descriptor(), F_GETFL, 0);
+  if (flags < 0 || ::fcntl(opened.descriptor(), F_SETFL, flags | O_NONBLOCK) < 0) return Socket();
+  // As large as the system allows; a smaller one only loses more.
+  ::setsockopt(opened.descriptor(), SOL_SOCKET, SO_RCVBUF, &kSocketBuffer, sizeof kSocketBuffer);
+  return opened;
+}
+
+std::optional<sockaddr_in> look_up(const std::string& name, std::uint16_t port) {
+  addrinfo hints = {};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(name.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return std::nullopt;
+  sockaddr_in address = *reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+  ::freeaddrinfo(found);
+  address.sin_port = htons(port);
+  return address;
+}
+
+const sockaddr* generic(const sockaddr_in& address) { return reinterpret_cast<const sockaddr*>(&address); }
+sockaddr* generic(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
+
+/// Of a client: its address and port in one number.
+std::uint64_t key_of(const sockaddr_in& address) {
+  return std::uint64_t{address.sin_addr.s_addr} << 16 | address.sin_port;
+}
+
+struct Client {
+  sockaddr_in address;
+  Socket upstream;
+  ImpairedDirection up, down;
+  Time last_heard;  // [us] by clock_now(), from the client
+
+  ImpairedDirection& direction(Direction which) { return which == Direction::up ? up : down; }
+};
+
+struct Packet {
+  std::uint64_t client;  // key
+  Direction direction;
+  std::vector<std::uint8_t> bytes;
+};
+
+}  // namespace
+
+struct UdpRelay::State {
+  RelaySettings settings;
+  RelayStatistics statistics;
+  Socket listener;
+  std::uint16_t port = 0;
+  sockaddr_in target = {};
+  Time started = clock_now();
+  std::map<std::uint64_t, Client> clients;  // by key
+  std::map<std::pair<Time, std::uint64_t>, Packet> queue;
+  std::uint64_t queued = 0;  // orders what is due at one time
+  std::vector<pollfd> polled;
+  std::vector<std::uint64_t> polled_clients;  // of polled[i + 1]
+  std::uint8_t buffer[kLargestPacket + 1];
+
+  RelayTraffic& traffic(Direction direction) { return direction == Direction::up ? statistics.up : statistics.down; }
+  Result<void> bind();
+  Client* client_at(const sockaddr_in& address, Time now);
+  bool make_room(Time now);
+  void take_from_clients();
+  void take_from_target(std::uint64_t key);
+  void accept(std::uint64_t key, Client& client, Direction direction, std::size_t bytes, Time now);
+  void send_due(Time now);
+  void send(const Packet& packet);
+};
+
+Result<void> UdpRelay::State::bind() {
+  const std::optional<sockaddr_in> to = look_up(settings.target_address, settings.target_port);
+  if (!to || settings.target_port == 0) return failure("no such target", settings.target_address);
+  target = *to;
+  std::optional<sockaddr_in> at = look_up(settings.listen_address, settings.listen_port);
+  if (!at) return failure("no such address to listen at", settings.listen_address);
+  listener = open_socket();
+  socklen_t size = sizeof *at;
+  const int descriptor = listener.descriptor();
+  if (descriptor < 0 || ::bind(descriptor, generic(*at), size) != 0 ||
+      ::getsockname(descriptor, generic(*at), &size) != 0) {
+    return failure("the port is taken, or the address is not of this machine", settings.listen_address);
+  }
+  port = ntohs(at->sin_port);
+  return {};
+}
+
+/// Among those idle for kIdle the longest.
+bool UdpRelay::State::make_room(Time now) {
+  if (clients.size() < settings.max_clients) return true;
+  const auto oldest = std::min_element(clients.begin(), clients.end(), [](const auto& a, const auto& b) {
+    return a.second.last_heard < b.second.last_heard;
+  });
+  if (oldest == clients.end() || now - oldest->second.last_heard < kIdle) return false;
+  clients.erase(oldest);
+  return true;
+}
+
+Client* UdpRelay::State::client_at(const sockaddr_in& address, Time now) {
+  const std::uint64_t key = key_of(address);
+  const auto found = clients.find(key);
+  if (found != clients.end()) return &found->second;
+  if (!make_room(now)) return nullptr;
+  Socket upstream = open_socket();
+  // Connected, so that only the target can answer.
+  if (upstream.descriptor() < 0 || ::connect(upstream.descriptor(), generic(target), sizeof target) != 0) {
+    return nullptr;
+  }
+  const std::uint64_t stream = 2 * statistics.clients++;
+  Client client{address,
+                std::move(upstream),
+                {settings.profile.up, settings.seed, stream},
+                {settings.profile.down, settings.seed, stream + 1},
+                now};
+  return &clients.emplace(key, std::move(client)).first->second;
+}
+
+void UdpRelay::State::take_from_clients() {
+  for (int i = 0; i < kPacketsATurn; ++i) {
+    sockaddr_in from = {};
+    socklen_t size = sizeof from;
+    const ssize_t got = ::recvfrom(listener.descriptor(), buffer, sizeof buffer, 0, generic(from), &size);
+    if (got < 0) return;
+    const Time now = clock_now();
+    Client* client = client_at(from, now);
+    if (client == nullptr) {
+      ++statistics.turned_away;
+      continue;
+    }
+    client->last_heard = now;
+    accept(key_of(from), *client, Direction::up, static_cast<std::size_t>(got), now);
+  }
+}
+
+void UdpRelay::State::take_from_target(std::uint64_t key) {
+  const auto client = clients.find(key);
+  if (client == clients.end()) return;
+  for (int i = 0; i < kPacketsATurn; ++i) {
+    const ssize_t got = ::recv(client->second.upstream.descriptor(), buffer, sizeof buffer, 0);
+    if (got < 0) return;  // also what the target's machine says when nobody listens there
+    accept(key, client->second, Direction::down, static_cast<std::size_t>(got), clock_now());
+  }
+}
+
+/// The packet in the buffer.
+void UdpRelay::State::accept(std::uint64_t key, Client& client, Direction direction, std::size_t bytes, Time now) {
+  RelayTraffic& counts = traffic(direction);
+  ++counts.received;
+  counts.received_bytes += bytes;
+  const Fate fate = client.direction(direction).decide(now - started, bytes);
+  if (fate.copies == 0) ++counts.lost;
+  if (fate.copies == 2) ++counts.doubled;
+  for (std::uint32_t copy = 0; copy < fate.copies; ++copy) {
+    if (bytes > kLargestPacket || queue.size() >= settings.max_queued) {
+      ++counts.overflowed;
+      continue;
+    }
+    queue.emplace(std::pair(started + fate.arrives[copy], queued++),
+                  Packet{key, direction, std::vector<std::uint8_t>(buffer, buffer + bytes)});
+  }
+}
+
+void UdpRelay::State::send_due(Time now) {
+  while (!queue.empty() && queue.begin()->first.first <= now) {
+    send(queue.begin()->second);
+    queue.erase(queue.begin());
+  }
+}
+
+void UdpRelay::State::send(const Packet& packet) {
+  RelayTraffic& counts = traffic(packet.direction);
+  const auto client = clients.find(packet.client);
+  ssize_t sent = -1;
+  if (client != clients.end() && packet.direction == Direction::up) {
+    sent = ::send(client->second.upstream.descriptor(), packet.bytes.data(), packet.bytes.size(), 0);
+  } else if (client != clients.end()) {
+    const sockaddr_in& to = client->second.address;
+    sent = ::sendto(listener.descriptor(), packet.bytes.data(), packet.bytes.size(), 0, generic(to), sizeof to);
+  }
+  if (sent < 0) {
+    ++counts.unsent;
+    return;
+  }
+  ++counts.forwarded;
+  counts.forwarded_bytes += packet.bytes.size();
+}
+
+// ---- the relay
+
+UdpRelay::UdpRelay(std::unique_ptr<State> state) : state_(std::move(state)) {}
+UdpRelay::UdpRelay(UdpRelay&&) noexcept = default;
+UdpRelay& UdpRelay::operator=(UdpRelay&&) noexcept = default;
+UdpRelay::~UdpRelay() = default;
+
+Result<UdpRelay> UdpRelay::open(const RelaySettings& settings) {
+  auto state = std::make_unique<State>();
+  state->settings = settings;
+  if (const Result<void> bound = state->bind(); !bound) return bound.error();
+  return UdpRelay(std::move(state));
+}
+
+std::uint16_t UdpRelay::port() const { return state_->port; }
+const RelayStatistics& UdpRelay::statistics() const { return state_->statistics; }
+
+Result<void> UdpRelay::turn(Time longest) {
+  State& state = *state_;
+  Time wait = longest;
+  if (!state.queue.empty()) {
+    const Time due = state.queue.begin()->first.first, now = clock_now();
+    wait = std::min(wait, due > now ? due - now : 0);
+  }
+  state.polled.assign(1, {state.listener.descriptor(), POLLIN, 0});
+  state.polled_clients.clear();
+  for (const auto& [key, client] : state.clients) {
+    state.polled.push_back({client.upstream.descriptor(), POLLIN, 0});
+    state.polled_clients.push_back(key);
+  }
+  const int milliseconds = static_cast<int>((std::min(wait, kSecond) + 999) / 1000);
+  const int ready = ::poll(state.polled.data(), static_cast<nfds_t>(state.polled.size()), milliseconds);
+  if (ready < 0 && errno != EINTR) return failure("poll failed", "relay");
+  if (ready > 0) {
+    for (std::size_t i = 1; i < state.polled.size(); ++i) {
+      if (state.polled[i].revents != 0) state.take_from_target(state.polled_clients[i - 1]);
+    }
+    if (state.polled[0].revents != 0) state.take_from_clients();
+  }
+  state.send_due(clock_now());
+  return {};
+}
+
+Result<void> UdpRelay::run(const std::atomic<bool>& stop) {
+  constexpr Time kLook = 50000;  // [us]
+  while (!stop.load(std::memory_order_relaxed)) {
+    if (const Result<void> turned = turn(kLook); !turned) return turned;
+  }
+  return {};
+}
+
+}  // namespace isostep::transport
