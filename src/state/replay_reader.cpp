@@ -111,7 +111,10 @@ bool ReplayReader::accept(const Chunk& chunk) {
     case replay_chunk::kDone: return accept_done(chunk);
     default: break;
   }
-  if ((chunk.type & replay_chunk::kAncillaryBit) != 0) return true;
+  if ((chunk.type & replay_chunk::kAncillaryBit) != 0) {
+    ancillaries_.push_back({chunk.type, chunk.payload});
+    return true;
+  }
   return stop(ReplayStatus::incompatible, chunk.offset, "format chunk type that this reader must know and does not");
 }
 
@@ -209,6 +212,7 @@ std::size_t ReplayReader::state_offset() const { return has_state_ ? offset_of(s
 std::uint64_t ReplayReader::state_hash() const { return state_hash_; }
 std::uint64_t ReplayReader::frame_count() const { return frame_count_; }
 const std::vector<ReplayKeyframe>& ReplayReader::keyframes() const { return keyframes_; }
+const std::vector<ReplayAncillary>& ReplayReader::ancillaries() const { return ancillaries_; }
 
 std::size_t ReplayReader::offset_of(Bytes view) const { return static_cast<std::size_t>(view.data() - file_.data()); }
 

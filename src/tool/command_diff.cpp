@@ -1,43 +1,14 @@
 // isostep diff: the first frame, stage, record and field at which two replays part, or in which two snapshots differ.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
-#include <cstring>
 
 #include "commands.hpp"
-#include "files.hpp"
-#include "isostep/state/verify.hpp"
+#include "diff_bundles.hpp"
 #include "scene_game.hpp"
 #include "stage_trace.hpp"
 
 namespace isostep::tool {
 namespace {
-
-constexpr std::size_t kShown = 8;  // differences printed
-
-template <class S> void print(const DiffReport& report, const WorldState<S>& a) {
-  for (const Difference& difference : report.kept()) {
-    const std::string owner = owner_of(a, difference.path.view());
-    std::printf("  %s%s\n", describe(difference).c_str(), owner.empty() ? "" : (" [" + owner + "]").c_str());
-  }
-  if (report.count() > report.kept().size()) {
-    std::printf("  and %llu more\n", static_cast<unsigned long long>(report.count() - report.kept().size()));
-  }
-}
-
-struct Input {
-  std::string path;
-  std::vector<std::uint8_t> bytes;
-
-  explicit Input(const std::string& p) : path(p), bytes(read_file(p)) {}
-  bool is_replay() const {
-    return bytes.size() >= sizeof kReplayMagic && std::memcmp(bytes.data(), kReplayMagic, sizeof kReplayMagic) == 0;
-  }
-};
-/// With the exit status of `verify` for such a file.
-[[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error) {
-  throw ToolError(exit_code(outcome),
-                  path + ": " + std::string(error.message.view()) + " (" + std::string(error.place.view()) + ")");
-}
 
 /// One of the two replays, played here.
 template <class S> class Player {
@@ -134,8 +105,11 @@ int diff_replays(const Input& a, const Input& b) {
     return exit_status::kDifferent;
   }
   int status = exit_code(VerifyOutcome::incompatible);
-  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar),
-                                    [&](auto tag) { status = diff_as<typename decltype(tag)::Type>(a, b); });
+  const bool bundles = is_bundle(a) || is_bundle(b);
+  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar), [&](auto tag) {
+    using S = typename decltype(tag)::Type;
+    status = bundles ? diff_bundles<S>(a, b) : diff_as<S>(a, b);
+  });
   if (!found) throw ToolError(status, a.path + ": of a scalar that this build lacks");
   return status;
 }

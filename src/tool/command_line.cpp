@@ -30,6 +30,8 @@ class CommandLine {
     add_diff();
     add_selftest();
     add_rebake();
+    add_peer();
+    add_relay();
     add_demo();
     add("selfcheck", "is this build and machine sound", [] { return tool::command_selfcheck(); });
   }
@@ -113,9 +115,59 @@ class CommandLine {
         add("rebake", "rewrite the golden hashes, on purpose", [this] { return tool::command_rebake(rebake_); });
     command->add_option("--dir", rebake_.directory, "where to");
   }
-  void add_demo() {
+  void add_peer() {
     CLI::App* command =
-        add("demo", "record and replay a few scenes in every scalar", [this] { return tool::command_demo(demo_); });
+        add("peer", "one machine of a match over UDP, played by a bot", [this] { return tool::command_peer(peer_); });
+    command->add_option("--listen", peer_.listen, "host on this UDP port (0: any)")->check(CLI::Range(0, 65535));
+    command->add_option("--connect", peer_.connect, "HOST:PORT of the host");
+    command->add_option("--port-file", peer_.port_file, "write the host's port here");
+    command->add_option("--players", peer_.players, "of the match")->check(CLI::Range(1, 8))->capture_default_str();
+    command->add_flag("--spectate", peer_.spectate, "watch; a host that watches is a dedicated one");
+    command->add_flag("--lockstep", peer_.lockstep, "wait for inputs instead of guessing them");
+    add_scalar(command, peer_.scalar);
+    command->add_option("--frames", peer_.frames, "leave when so many are final")
+        ->check(CLI::Range(1, 1 << 24))
+        ->capture_default_str();
+    command->add_option("--window", peer_.window, "frames that may be guessed")
+        ->check(CLI::Range(0, 30))
+        ->capture_default_str();
+    command->add_option("--delay", peer_.delay, "frames that an input waits, at first")
+        ->check(CLI::Range(0, 20))
+        ->capture_default_str();
+    command->add_option("--pile", peer_.pile, "bodies in the arena")->check(CLI::Range(0, 4000))->capture_default_str();
+    command->add_option("--match-seed", peer_.match_seed, "of the arena")->capture_default_str();
+    command->add_option("--bot", peer_.bot, "seed of this peer's player")->capture_default_str();
+    command->add_option("--inputs", peer_.inputs,
+                        "inputs instead of the bot's: push_x push_z buttons aim, a line a frame");
+    command->add_option(
+        "--profile", peer_.profile,
+        "what this peer's line does: a name (lan wifi mobile severe ...) or latency=100,jitter=30,loss=5");
+    command->add_option("--hashes", peer_.hashes, "write the hash after each frame");
+    command->add_option("--record", peer_.record, "write a replay");
+    command->add_option("--bundle", peer_.bundle, "on a desync, write what `isostep diff` needs");
+    command->add_flag("--trace", peer_.trace, "hash every stage, so that a bundle can name it");
+    command->add_option("--fault", peer_.fault, "a drill: before this frame one bit of one body flips on this peer");
+    command->add_option("--patience", peer_.patience, "seconds without a host before the peer gives up")
+        ->check(CLI::Range(1, 3600))
+        ->capture_default_str();
+    command->add_flag("--json", peer_.json, "one JSON object");
+    command->footer("Exits with 0, or 1 after a desync, or 66 when there is no host.");
+  }
+  void add_relay() {
+    CLI::App* command =
+        add("relay", "a bad network between real processes", [this] { return tool::command_relay(relay_); });
+    command->add_option("--listen", relay_.listen, "UDP port (0: any)")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    command->add_option("--target", relay_.target, "HOST:PORT to which packets go on")->required();
+    command->add_option("--profile", relay_.profile, "a name, or items like latency=100,jitter=30,loss=5")
+        ->capture_default_str();
+    command->add_option("--seed", relay_.seed, "of everything that goes wrong")->capture_default_str();
+    command->add_option("--port-file", relay_.port_file, "write the port here");
+  }
+  void add_demo() {
+    CLI::App* command = add("demo", "a match over a bad line and a few scenes, in every scalar",
+                            [this] { return tool::command_demo(demo_); });
     command->add_option("--out", demo_.out, "keep the recordings in this directory");
   }
 
@@ -127,6 +179,8 @@ class CommandLine {
   tool::DiffOptions diff_;
   tool::SelftestOptions selftest_;
   tool::RebakeOptions rebake_;
+  tool::PeerOptions peer_;
+  tool::RelayOptions relay_;
   tool::DemoOptions demo_;
 };
 

@@ -11,28 +11,30 @@
 
 namespace isostep::tool {
 
-template <class S> void apply_commands(World<S>& world, Bytes input) {
-  Reader reader(input);
-  while (reader.remaining() > 0) {
-    const std::optional<Command<S>> command = read_command<S>(reader);
-    if (!command || !world.apply(*command)) return;
-  }
-}
-
-/// The state after the commands, then after each stage.
-template <class S> std::vector<WorldState<S>> trace_frame(World<S>& world, Bytes input) {
+/// The state after the commands before the step, then after each stage, then after the commands that follow it.
+template <class S> std::vector<WorldState<S>> trace_frame(World<S>& world, Bytes tape) {
   struct Trace {
     const World<S>* world;
     std::vector<WorldState<S>> states;
   } trace{&world, {}};
-  apply_commands(world, input);
-  trace.states.push_back(world.state());
   const auto keep = [](void* user, Stage) {
     Trace& t = *static_cast<Trace*>(user);
     t.states.push_back(t.world->state());
   };
-  world.step({keep, &trace});
+  const auto step = [&] {
+    keep(&trace, {});
+    world.step({keep, &trace});
+  };
+  (void)play_tape<S>(
+      tape, [&](const Command<S>& command) { return world.apply(command); }, step);
+  keep(&trace, {});
   return std::move(trace.states);
+}
+
+/// Of such a list of states or of their hashes.
+inline const char* stage_name(std::size_t index) {
+  if (index == 0) return "commands";
+  return index <= kStages ? kStageNames[index - 1] : "commands after the step";
 }
 
 struct StageDifference {
@@ -45,7 +47,7 @@ StageDifference first_different_stage(const std::vector<WorldState<S>>& a, const
                                       DiffReport& report) {
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
     diff_states(a[i], b[i], report);
-    if (report.any()) return {i == 0 ? "commands" : kStageNames[i - 1], i};
+    if (report.any()) return {stage_name(i), i};
   }
   return {"end of the step", 0};
 }

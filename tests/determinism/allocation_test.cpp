@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "isostep/world/world.hpp"
+#include "isostep/world/session_recorder.hpp"
 
 namespace {
 bool counting = false;
@@ -117,6 +117,34 @@ TYPED_TEST(Allocation, CommandsThatChangeNoCountNeedNone) {
   this->world_.set_user_data(body, 9);
   this->world_.step();
   EXPECT_EQ(count.so_far(), 0u);
+}
+
+TYPED_TEST(Allocation, AWarmSessionIsKeptAndRecordedWithoutAny) {
+  FrameHistory<TypeParam> history(this->world_, {.frames = 8, .states = true, .stages = true});
+  std::size_t written = 0;
+  const auto count_bytes = [](void* context, const std::uint8_t*, std::size_t size) {
+    *static_cast<std::size_t*>(context) += size;
+    return true;
+  };
+  SessionRecorder<TypeParam> recorder(history, {count_bytes, &written}, "pile");
+  const auto play = [&](Frame first, Frame end) {
+    for (Frame frame = first; frame < end; ++frame) {
+      history.before_step(frame);
+      recorder.before_step(frame);
+      this->world_.set_user_data(this->bodies_[3], static_cast<std::uint64_t>(frame));
+      this->world_.step();
+      history.after_step(frame);
+      history.confirmed(frame, 0);
+      recorder.confirmed(frame, 0);
+    }
+  };
+  play(0, 70);
+  const std::size_t before = written;
+  const Count count;
+  play(70, 190);
+  EXPECT_EQ(count.so_far(), 0u);
+  EXPECT_GT(written, before);
+  EXPECT_EQ(recorder.frames(), 190);
 }
 
 }  // namespace

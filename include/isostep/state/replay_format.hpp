@@ -112,8 +112,14 @@ struct ReplayKeyframe {
   std::size_t offset;  // of its chunk
 };
 
+/// A chunk that a reader may skip; what it means, whoever knows its type says.
+struct ReplayAncillary {
+  std::uint32_t type;
+  Bytes payload;
+};
+
 /// Checks a whole file once, then gives views into it. Copies nothing of the file; its own memory is a few words a
-/// block.
+/// block, keyframe and ancillary chunk.
 /// Says nothing about whether the hashes are true: that takes a simulation (verify.hpp).
 class ReplayReader {
  public:
@@ -141,6 +147,8 @@ class ReplayReader {
   /// i < frame_count().
   ReplayFrame frame(std::uint64_t i) const;
   const std::vector<ReplayKeyframe>& keyframes() const;
+  /// In the order of the file.
+  const std::vector<ReplayAncillary>& ancillaries() const;
   /// Of a view that this reader gave out.
   std::size_t offset_of(Bytes view) const;
 
@@ -183,6 +191,7 @@ class ReplayReader {
   Block open_block_;  // its inputs are read, its hashes are not
   std::vector<Block> blocks_;
   std::vector<ReplayKeyframe> keyframes_;
+  std::vector<ReplayAncillary> ancillaries_;
 };
 
 }  // namespace isostep

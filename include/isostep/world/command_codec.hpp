@@ -1,4 +1,4 @@
-// Commands as bytes: a command's number in the list, then its fields.
+// A frame as bytes: commands, each its number in the list and its fields, and where among them the world stepped.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,6 +11,10 @@
 #include "isostep/world/command.hpp"
 
 namespace isostep {
+
+/// Stands in a tape where the world stepped; no command will have this number.
+inline constexpr std::uint8_t kStepMarker = 0xff;
+static_assert(std::variant_size_v<Command<float>> < kStepMarker);
 
 namespace detail {
 template <class C, class Variant> struct IndexOf;
@@ -50,6 +54,27 @@ template <class S> std::optional<Command<S>> read_command(Reader& reader) {
   (std::make_index_sequence<std::variant_size_v<Command<S>>>{});
   if (reader.ok() && !command) reader.fail(ErrorCode::invalid, "no command has this number");
   return command;
+}
+
+/// A frame's tape from front to back: `apply(command)` says whether it was accepted, `step()` happens exactly once.
+/// What comes before an error was done.
+template <class S, class Apply, class Step> Result<void> play_tape(Bytes tape, Apply&& apply, Step&& step) {
+  Reader reader(tape);
+  bool stepped = false;
+  while (reader.remaining() > 0) {
+    if (tape[reader.offset()] != kStepMarker) {
+      const std::optional<Command<S>> command = read_command<S>(reader);
+      if (command && !apply(*command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
+    } else if (stepped) {
+      reader.fail(ErrorCode::corrupt, "a frame with two steps");
+    } else {
+      reader.read<std::uint8_t>();
+      stepped = true;
+      step();
+    }
+  }
+  if (!stepped) reader.fail(ErrorCode::corrupt, "a frame without a step");  // a failure before this one stays
+  return reader.result("commands");
 }
 
 }  // namespace isostep

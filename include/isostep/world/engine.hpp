@@ -92,6 +92,7 @@ template <class S> class WorldEngine {
   Fault fault_ = Fault::none;
   const ContactKernels<S>* kernels_;
   std::vector<std::uint8_t>* tape_ = nullptr;
+  std::vector<std::uint64_t>* trace_ = nullptr;
   std::uint64_t loads_ = 0;
   std::vector<RenderPose> render_poses_;
 

@@ -13,7 +13,9 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   const FloatEnvironment environment;
   const auto after = [&](Stage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage);
+    if (trace_ != nullptr) trace_->push_back(hash());
   };
+  if (trace_ != nullptr) trace_->push_back(hash());
   begin_events();
   report_ = {};
   find_pairs();

@@ -40,9 +40,10 @@ template <class S> ISO_INLINE ReplayIdentity identity_of_world(const Settings<S>
 }
 
 /// `begin`; then for every frame any commands, one step, and `end_frame`; then `finish`. The world must outlive it and
-/// records to nothing else meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there: a game
-/// that rolls back records its confirmed frames in a world of their own. Without `finish` the file is truncated, its
-/// whole blocks still play.
+/// records to nothing else meanwhile. Commands may come before and after the step of their frame. Loading a snapshot
+/// ends a recording, for commands alone do not lead there: a game that rolls back is recorded by SessionRecorder
+/// (session_recorder.hpp), which waits until frames are confirmed. Without `finish` the file is truncated, its whole
+/// blocks still play.
 template <class S> class WorldRecorder {
  public:
   ISO_INLINE WorldRecorder(World<S>& world, ReplaySink sink) : world_(world), recorder_(sink) {}
@@ -56,6 +57,7 @@ template <class S> class WorldRecorder {
     if (!header) return header.error();
     tape_.clear();
     loads_ = world_.loads();
+    tick_ = world_.tick();
     world_.record_to(&tape_);
     return recorder_.begin(world_, header.value());
   }
@@ -64,6 +66,7 @@ template <class S> class WorldRecorder {
     if (!world_.records_to(&tape_) || world_.loads() != loads_) {
       return Error{ErrorCode::invalid, "the world was loaded or replaced while it was recorded", "recorder"};
     }
+    if (world_.tick() != ++tick_) return Error{ErrorCode::invalid, "a frame is exactly one step", "recorder"};
     const Result<void> result = recorder_.frame(tape_, hash);
     tape_.clear();
     return result;
@@ -76,6 +79,7 @@ template <class S> class WorldRecorder {
   Recorder<World<S>> recorder_;
   std::vector<std::uint8_t> tape_;
   std::uint64_t loads_ = 0;
+  std::uint64_t tick_ = 0;  // of the last whole frame
 };
 
 }  // namespace isostep

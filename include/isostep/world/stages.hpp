@@ -25,6 +25,9 @@ inline constexpr const char* kStageNames[kStages] = {
     "find_pairs",  "apply_forces",   "update_manifolds", "colour_constraints", "prepare",     "solve_substeps",
     "restitution", "store_impulses", "finalise_bodies",  "update_sensors",     "emit_events", "update_sleep"};
 
+/// Of one step: before its first stage, then after each.
+inline constexpr std::uint32_t kTraceHashes = kStages + 1;
+
 /// Called after each stage of a step; sees the world, changes nothing.
 struct StageObserver {
   void (*after)(void* user, Stage stage) = nullptr;

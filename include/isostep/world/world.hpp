@@ -120,9 +120,13 @@ template <class S> class World {
   /// Any command, as recorded ones are.
   bool apply(const Command<S>& command);
   Fault fault() const;
-  /// From now on every accepted command is appended to `tape` (null: to nothing). The caller clears it every frame.
+  /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
+  /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);
   bool records_to(const std::vector<std::uint8_t>* tape) const;
+  /// From now on every step appends the state's hash as it begins and after each stage, kTraceHashes in all (null: to
+  /// nothing). What desyncs are narrowed down with; costs a hash a stage.
+  void trace_to(std::vector<std::uint64_t>* hashes);
   /// How often the world was loaded or read: a recording of commands alone does not survive it.
   std::uint64_t loads() const;
 
@@ -175,7 +179,7 @@ template <class S> class World {
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
-  /// Commands as `record_to` wrote them, then a step.
+  /// Commands and the one step among them, as `record_to` wrote them.
   Result<void> step_recorded(Bytes input);
 
   /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.

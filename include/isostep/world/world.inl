@@ -169,6 +169,7 @@ template <class S> bool World<S>::apply(const Command<S>& command) {
 }
 template <class S> Fault World<S>::fault() const { return engine_->fault_; }
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
+template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->trace_ = hashes; }
 template <class S> std::uint64_t World<S>::loads() const { return engine_->loads_; }
 template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* tape) const {
   return engine_->tape_ == tape;
@@ -262,7 +263,10 @@ void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::
   engine_->overlapping(shape, pose, out, filter);
 }
 
-template <class S> StepReport World<S>::step(const StageObserver& observer) { return engine_->step(observer); }
+template <class S> StepReport World<S>::step(const StageObserver& observer) {
+  if (engine_->tape_ != nullptr) engine_->tape_->push_back(kStepMarker);
+  return engine_->step(observer);
+}
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
 template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {
   engine_->fill_render_poses(alpha);
@@ -297,15 +301,8 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
 }
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
-  Reader reader(input);
-  while (reader.remaining() > 0) {
-    const std::optional<Command<S>> command = read_command<S>(reader);
-    if (!command) break;
-    if (!apply(*command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
-  }
-  const Result<void> result = reader.result("commands");
-  if (result.ok()) step();
-  return result;
+  return play_tape<S>(
+      input, [&](const Command<S>& command) { return apply(command); }, [&] { step(); });
 }
 
 template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }

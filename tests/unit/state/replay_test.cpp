@@ -279,7 +279,7 @@ TEST(ReplayWriter, LargeInputsEndABlockEarlyAndTooLargeOnesAreRefused) {
   EXPECT_EQ(result.error().code, ErrorCode::limit);
 }
 
-TEST(ReplayWriter, AChunkOfTheCallersOwnIsSkippedByReaders) {
+TEST(ReplayWriter, AChunkOfTheCallersOwnChangesNoOutcomeAndIsThereToBeRead) {
   Buffer file;
   toy::Game game;
   Recorder<toy::Game> recorder(sink_to(file));
@@ -294,6 +294,10 @@ TEST(ReplayWriter, AChunkOfTheCallersOwnIsSkippedByReaders) {
   }
   ASSERT_TRUE(recorder.finish());
   EXPECT_EQ(toy::verify_toy(file).outcome, VerifyOutcome::verified);
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.ancillaries().size(), 10u);
+  EXPECT_EQ(replay.ancillaries()[9].type, replay_chunk_type('c', 'H', 'A', 'T'));
+  EXPECT_EQ(replay.ancillaries()[9].payload[1], 'i');
   for (const std::uint32_t type : {replay_chunk_type('C', 'H', 'A', 'T'), replay_chunk_type('c', 'H', 'A', '1'), 0u}) {
     Buffer other;
     ReplayWriter writer(sink_to(other));

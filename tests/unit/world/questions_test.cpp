@@ -297,6 +297,7 @@ TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
   const ShapeId ball = add_ball(w, 0.5);
   const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
   w.destroy(id);
+  w.step();
   for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 1}) {
     World<S> other(settings<S>());
     EXPECT_FALSE(other.step_recorded({tape.data(), cut}).ok()) << cut;
@@ -306,7 +307,73 @@ TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
   const std::uint8_t unknown[] = {200};
   EXPECT_FALSE(other.step_recorded(unknown).ok());
   EXPECT_TRUE(other.step_recorded(tape).ok());
-  EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 9, 9}).ok()) << "the body is gone: a refused command";
+  EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 10, 10}).ok()) << "the body is gone: a refused command";
+}
+
+TYPED_TEST(WorldQuestions, a_tape_keeps_the_place_of_the_step_among_the_commands) {
+  using S = TypeParam;
+  World<S> w(settings<S>()), other(settings<S>());
+  std::vector<std::uint8_t> tape;
+  w.record_to(&tape);
+  const ShapeId ball = add_ball(w, 0.5);
+  const BodyId a = w.create(moving<S>(ball, {0, 5, 0}));
+  w.step();
+  w.set_velocity(a, vec<S>(0, 3, 0), vec<S>(0, 0, 0));
+  w.create(moving<S>(ball, {4, 5, 0}));
+  ASSERT_TRUE(other.step_recorded(tape).ok());
+  EXPECT_EQ(other.hash(), w.hash());
+  EXPECT_EQ(to_double(other.velocity(a).y), 3);
+  EXPECT_EQ(other.tick(), 1u);
+}
+
+TYPED_TEST(WorldQuestions, a_frame_with_no_step_or_two_is_refused_by_name) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> tape;
+  w.record_to(&tape);
+  add_ball(w, 0.5);
+  EXPECT_EQ(World<S>(settings<S>()).step_recorded(tape).error().message.view(), "a frame without a step");
+  EXPECT_EQ(World<S>(settings<S>()).step_recorded({}).error().message.view(), "a frame without a step");
+  w.step();
+  w.step();
+  EXPECT_EQ(World<S>(settings<S>()).step_recorded(tape).error().message.view(), "a frame with two steps");
+}
+
+TYPED_TEST(WorldQuestions, a_recording_refuses_frames_of_no_step_or_two) {
+  using S = TypeParam;
+  World<S> w;
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  w.step();
+  ASSERT_TRUE(recorder.end_frame().ok());
+  EXPECT_FALSE(recorder.end_frame().ok());
+  World<S> twice;
+  WorldRecorder<S> other(twice, sink_to(file));
+  ASSERT_TRUE(other.begin("a test").ok());
+  twice.step();
+  twice.step();
+  EXPECT_FALSE(other.end_frame().ok());
+}
+
+TYPED_TEST(WorldQuestions, a_trace_is_the_hash_before_a_step_and_after_each_stage) {
+  std::vector<std::uint64_t> trace;
+  this->world.trace_to(&trace);
+  struct Seen {
+    const World<TypeParam>* world;
+    std::vector<std::uint64_t> hashes;
+  } seen{&this->world, {this->world.hash()}};
+  this->world.step({[](void* user, Stage) {
+                      Seen& s = *static_cast<Seen*>(user);
+                      s.hashes.push_back(s.world->hash());
+                    },
+                    &seen});
+  EXPECT_EQ(trace.size(), kTraceHashes);
+  EXPECT_EQ(trace, seen.hashes);
+  EXPECT_NE(trace.front(), trace.back());
+  this->world.trace_to(nullptr);
+  this->world.step();
+  EXPECT_EQ(trace.size(), kTraceHashes);
 }
 
 TYPED_TEST(WorldQuestions, the_stages_of_a_step_are_reported_once_each_in_order) {

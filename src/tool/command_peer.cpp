@@ -1,0 +1,361 @@
+// isostep peer: one machine of a match over UDP, played by a bot; and isostep relay, a bad network between machines.
+// SPDX-License-Identifier: MIT
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "isostep/world/state.hpp"
+#include "match_peer.hpp"
+#include "transport/udp_relay.hpp"
+
+namespace isostep::tool {
+namespace {
+
+constexpr Time kTryAgain = kSecond / 2;  // [us] between attempts to reach a host
+constexpr Time kLinger = 20 * kSecond;   // [us] that a host which is done stays for the others
+constexpr Time kGoodbye = kSecond;       // [us] in which a leaving client's last word may be repeated
+constexpr Time kLongestSleep = 10000;    // [us]
+
+Time steady_now() {
+  return static_cast<Time>(
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now().time_since_epoch())
+          .count());
+}
+
+struct Address {
+  std::string host;
+  std::uint16_t port;
+};
+Address parse_address(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const bool digits = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
+  const int number = digits ? std::stoi(port) : 0;
+  if (colon == 0 || number < 1 || number > 65535) {
+    throw ToolError(exit_status::kUsage, "\"" + text + "\" is no HOST:PORT");
+  }
+  return {text.substr(0, colon), static_cast<std::uint16_t>(number)};
+}
+
+transport::NetworkProfile profile_of(const std::string& text) {
+  const Result<transport::NetworkProfile> profile = transport::parse_profile(text);
+  if (!profile) throw ToolError(exit_status::kUsage, "--profile: " + std::string(profile.error().message.view()));
+  return profile.value();
+}
+
+template <class T> T expect(Result<T> result, const std::string& what) {
+  if (!result) throw ToolError(exit_status::kNoInput, what + ": " + std::string(result.error().message.view()));
+  return std::move(result.value());
+}
+
+const char* name_of(SessionEvent::Kind kind) {
+  switch (kind) {
+    case SessionEvent::Kind::started: return "started";
+    case SessionEvent::Kind::joined: return "joined";
+    case SessionEvent::Kind::left: return "left";
+    case SessionEvent::Kind::waiting_for: return "waiting";
+    case SessionEvent::Kind::resumed: return "resumed";
+    case SessionEvent::Kind::refused: return "refused";
+    case SessionEvent::Kind::lost_host: return "lost the host";
+    case SessionEvent::Kind::desync: return "DESYNC";
+    case SessionEvent::Kind::bad_snapshot: return "bad snapshot";
+    case SessionEvent::Kind::misuse: return "misuse";
+  }
+  return "?";
+}
+
+/// One line a frame: push_x push_z buttons aim. After the last line nothing is pressed.
+std::vector<scenes::MatchInput> read_inputs(const std::string& path) {
+  const std::vector<std::uint8_t> bytes = read_file(path);
+  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+  std::vector<scenes::MatchInput> inputs;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int x = 0, z = 0, buttons = 0, aim = 0;
+    const bool whole = static_cast<bool>(words >> x >> z >> buttons >> aim) && (words >> std::ws).eof();
+    scenes::MatchInput input;
+    input.push_x = static_cast<std::int8_t>(x);
+    input.push_z = static_cast<std::int8_t>(z);
+    input.buttons = static_cast<std::uint8_t>(buttons);
+    input.aim = static_cast<std::uint8_t>(aim);
+    const bool in_range = x >= -128 && x < 128 && z >= -128 && z < 128 && buttons >= 0 && buttons < 256 && aim >= 0 &&
+                          aim < 256 && input.valid();
+    if (!whole || !in_range) {
+      throw ToolError(exit_status::kUsage, path + ":" + std::to_string(inputs.size() + 1) +
+                                               ": expected push_x push_z (-128..127) buttons (0..127) aim (0..255)");
+    }
+    inputs.push_back(input);
+  }
+  return inputs;
+}
+
+/// The profile of one peer's own line, between it and the address it believes to speak to.
+class OwnRelay {
+ public:
+  OwnRelay(const Address& target, const std::string& profile, std::uint64_t seed)
+      : relay_(expect(transport::UdpRelay::open({.target_address = target.host,
+                                                 .target_port = target.port,
+                                                 .profile = profile_of(profile),
+                                                 .seed = seed}),
+                      "relay")),
+        thread_([this] { static_cast<void>(relay_.run(stop_).ok()); }) {}
+  ~OwnRelay() {
+    stop_ = true;
+    thread_.join();
+  }
+  Address address() const { return {"127.0.0.1", relay_.port()}; }
+
+ private:
+  std::atomic<bool> stop_ = false;
+  transport::UdpRelay relay_;
+  std::thread thread_;
+};
+
+void write_port(const std::string& path, std::uint16_t port) {
+  if (!path.empty()) write_file(path, std::to_string(port) + "\n");
+}
+
+}  // namespace
+
+template <class S> SessionConfig MatchPeer<S>::config_of(const PeerOptions& options, const Game& game) {
+  SessionConfig config;
+  config.mode = options.spectate   ? SessionMode::spectator
+                : options.lockstep ? SessionMode::lockstep
+                                   : SessionMode::rollback;
+  config.host = options.listen >= 0;
+  config.players = options.players;
+  config.local_players = config.host && !options.spectate ? 1 : 0;
+  if (config.host && options.spectate) config.mode = options.lockstep ? SessionMode::lockstep : SessionMode::rollback;
+  config.window = options.window;
+  config.delay = options.delay;
+  config.seed = static_cast<std::uint64_t>(steady_now()) | 1u;
+  config.identity = match_identity(game);
+  if (const char* problem = problem_of(config)) throw ToolError(exit_status::kUsage, problem);
+  return config;
+}
+
+template <class S> void MatchPeer<S>::take(const transport::Arrival& arrival, Time now) {
+  switch (arrival.kind) {
+    case transport::ArrivalKind::connected:
+      ++connected_;
+      has_met_ = true;
+      session_.connected(arrival.peer, now);
+      break;
+    case transport::ArrivalKind::disconnected:
+      if (connected_ > 0) --connected_;
+      session_.disconnected(arrival.peer, now);
+      if (options_.listen < 0) reconnect_at_ = now + kTryAgain;
+      break;
+    case transport::ArrivalKind::message: session_.receive(arrival.peer, arrival.channel, arrival.bytes, now); break;
+  }
+}
+
+template <class S> void MatchPeer<S>::reconnect(Time now) {
+  if (options_.listen >= 0 || session_.phase() == SessionPhase::refused) return;
+  if (connected_ > 0) {
+    alone_since_ = now;
+  } else if (alone_since_ == 0) {
+    alone_since_ = now;
+  }
+  if (now > alone_since_ + static_cast<Time>(options_.patience) * kSecond) gave_up_ = true;
+  if (reconnect_at_ == 0 || now < reconnect_at_) return;
+  reconnect_at_ = 0;
+  static_cast<void>(transport_.connect_again().ok());
+}
+
+template <class S> scenes::MatchInput MatchPeer<S>::input_of(int player) const {
+  const Frame frame = session_.current();
+  if (options_.inputs.empty()) return scenes::bot_input(options_.bot, player, frame);
+  const auto i = static_cast<std::size_t>(frame);
+  return i < inputs_.size() ? inputs_[i] : scenes::MatchInput{};
+}
+
+template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
+  std::string line = "frame " + std::to_string(session_.current()) + ": " + name_of(event.kind);
+  if (event.kind == SessionEvent::Kind::refused) {
+    line += ": " + std::string(event.field.key.view()) + " is \"" + std::string(event.field.in_file.view()) +
+            "\" on the client, \"" + std::string(event.field.here.view()) + "\" on the host";
+    if (options_.listen < 0) gave_up_ = true;
+  } else if (event.kind == SessionEvent::Kind::desync) {
+    line += ": " + (event.player == 0xff ? std::string("the host") : "player " + std::to_string(event.player)) +
+            " has another history: alike up to state " + std::to_string(event.agreed) + ", not at state " +
+            std::to_string(event.frame);
+    desynced_ = true;
+  } else if (event.player != 0xff) {
+    line += ": player " + std::to_string(event.player) + " from frame " + std::to_string(event.frame);
+  }
+  std::fprintf(stderr, "isostep peer: %s\n", line.c_str());
+  if (event.kind == SessionEvent::Kind::desync) write_desync_bundle(event);
+}
+
+template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& event) {
+  if (options_.bundle.empty()) return;
+  ReplayFile file(options_.bundle);
+  const std::uint32_t player = session_.local_player() < 0 ? 0xff : static_cast<std::uint32_t>(session_.local_player());
+  expect_written(write_bundle(file.sink(), history_, kMatchScene, {.player = player, .agreed = event.agreed}));
+  file.close();
+  std::fprintf(stderr, "isostep peer: wrote %s; compare it with the other peer's: isostep diff A B\n",
+               options_.bundle.c_str());
+  options_.bundle.clear();
+}
+
+/// What a memory fault does: the lowest bit of a velocity's mantissa, behind the world's back.
+template <class S> void MatchPeer<S>::flip_a_bit() {
+  auto& states = const_cast<WorldState<S>&>(game_.world().state()).awake.states;
+  if (states.empty()) return;
+  auto& x = states[states.size() / 2].velocity.x;
+  x = from_bits<std::remove_reference_t<decltype(x)>>(to_bits(x) ^ 1u);
+}
+
+template <class S> bool MatchPeer<S>::is_over(Time now) {
+  if (gave_up_) return true;
+  if (session_.confirmed() < first_ || session_.confirmed() < options_.frames) return false;
+  if (options_.listen < 0) return true;
+  if (done_at_ == 0) done_at_ = now;
+  return connected_ == 0 || now > done_at_ + kLinger;
+}
+
+template <class S> int MatchPeer<S>::finish(Time played) {
+  if (!options_.hashes.empty()) {
+    std::string text;
+    for (std::size_t i = 0; i < hashes_.size(); ++i) {
+      text += std::to_string(first_ + static_cast<Frame>(i)) + " " + hex(hashes_[i]) + "\n";
+    }
+    write_file(options_.hashes, text);
+  }
+  if (recorder_) {
+    expect_written(recorder_->finish());
+    file_->close();
+  }
+  const SessionStats& stats = session_.stats();
+  const double seconds = static_cast<double>(played) / 1e6;
+  const auto per_step = [&](double ms) { return stats.steps == 0 ? 0.0 : ms / static_cast<double>(stats.steps); };
+  std::uint64_t rollbacks = 0, deepest = 0;
+  for (std::uint64_t depth = 0; depth < 65; ++depth) {
+    rollbacks += stats.rollbacks[depth];
+    if (stats.rollbacks[depth] != 0) deepest = depth;
+  }
+  const double kb = static_cast<double>(stats.bytes_out) / 1000 / (seconds > 0 ? seconds : 1);
+  const std::size_t frames = hashes_.size();
+  nlohmann::ordered_json json = {
+      {"scalar", ScalarTraits<S>::kName},
+      {"player", session_.local_player()},
+      {"first", first_},
+      {"frames", frames},
+      {"hash", frames == 0 ? std::string() : hex(hashes_.back())},
+      {"rollbacks", rollbacks},
+      {"deepest", deepest},
+      {"depths", std::vector<std::uint64_t>(stats.rollbacks, stats.rollbacks + 65)},
+      {"steps", stats.steps},
+      {"waits", stats.waits},
+      {"round_trip_ms", static_cast<double>(stats.round_trip) / 1000},
+      {"delay", stats.delay},
+      {"kb_per_s", kb},
+      {"ms_per_step", per_step(step_ms_)},
+      {"session_us_per_frame", frames == 0 ? 0.0 : session_ms_ * 1000 / static_cast<double>(frames)},
+      {"events_confirmed", sounds_confirmed_},
+      {"events_retracted", sounds_retracted_},
+      {"desync", desynced_},
+      {"seconds", seconds}};
+  if (options_.json) {
+    std::printf("%s\n", json.dump().c_str());
+  } else {
+    std::printf("%zu frames final, last hash %s; %llu rollbacks, deepest %llu; %.1f KB/s sent; %.3f ms a step%s\n",
+                frames, json["hash"].get<std::string>().c_str(), static_cast<unsigned long long>(rollbacks),
+                static_cast<unsigned long long>(deepest), kb, per_step(step_ms_), desynced_ ? "; DESYNC" : "");
+  }
+  if (desynced_) return exit_status::kDifferent;
+  if (!gave_up_) return exit_status::kOk;
+  throw ToolError(exit_status::kNoInput, session_.phase() == SessionPhase::refused ? "the host refused this peer"
+                                         : has_met_                                ? "the host is gone"
+                                                                                   : "no host answers");
+}
+
+namespace {
+
+/// A host that hears nothing would wait for its timeout.
+void say_goodbye(transport::EnetTransport& transport) {
+  transport.disconnect(0);
+  for (const Time end = steady_now() + kGoodbye; steady_now() < end;) {
+    transport.poll();
+    transport.wait(kLongestSleep);
+  }
+}
+
+template <class S> int play(const PeerOptions& options, transport::EnetTransport& transport) {
+  MatchPeer<S> peer(options, options.inputs.empty() ? std::vector<scenes::MatchInput>{} : read_inputs(options.inputs),
+                    transport);
+  const Time start = steady_now();
+  for (Time now = start;; now = steady_now()) {
+    if (interrupted()) break;
+    peer.turn(now);
+    if (peer.is_over(now)) break;
+    const Time wait = peer.wait(steady_now());
+    transport.wait(wait < kLongestSleep ? wait : kLongestSleep);
+  }
+  const Time end = steady_now();
+  if (options.listen < 0) say_goodbye(transport);
+  return peer.finish(end - start);
+}
+
+}  // namespace
+
+int command_peer(const PeerOptions& options) {
+  if ((options.listen >= 0) == !options.connect.empty()) {
+    throw ToolError(exit_status::kUsage, "a peer either listens or connects: --listen PORT or --connect HOST:PORT");
+  }
+  if (options.listen >= 0 && !options.profile.empty()) {
+    throw ToolError(exit_status::kUsage, "--profile belongs to the peers that connect");
+  }
+  std::optional<OwnRelay> relay;
+  std::optional<transport::EnetTransport> transport;
+  if (options.listen >= 0) {
+    const auto port = static_cast<std::uint16_t>(options.listen);
+    transport.emplace(expect(transport::EnetTransport::listen(port), "port " + std::to_string(port)));
+    write_port(options.port_file, transport->port());
+    std::fprintf(stderr, "isostep peer: listening on port %u\n", static_cast<unsigned>(transport->port()));
+  } else {
+    Address address = parse_address(options.connect);
+    if (!options.profile.empty()) {
+      relay.emplace(address, options.profile, options.bot);
+      address = relay->address();
+    }
+    transport.emplace(expect(transport::EnetTransport::connect(address.host, address.port), options.connect));
+  }
+  int status = exit_status::kUsage;
+  const bool found =
+      with_scalar(options.scalar, [&](auto tag) { status = play<typename decltype(tag)::Type>(options, *transport); });
+  if (!found) throw ToolError(exit_status::kUsage, "this build lacks the scalar " + options.scalar);
+  return status;
+}
+
+int command_relay(const RelayOptions& options) {
+  const Address target = parse_address(options.target);
+  transport::UdpRelay relay =
+      expect(transport::UdpRelay::open({.listen_port = static_cast<std::uint16_t>(options.listen),
+                                        .target_address = target.host,
+                                        .target_port = target.port,
+                                        .profile = profile_of(options.profile),
+                                        .seed = options.seed}),
+             "relay");
+  write_port(options.port_file, relay.port());
+  std::fprintf(stderr, "isostep relay: 127.0.0.1:%u to %s, %s; Ctrl-C ends it\n", static_cast<unsigned>(relay.port()),
+               options.target.c_str(), options.profile.c_str());
+  while (!interrupted()) {
+    if (const Result<void> turn = relay.turn(50000); !turn) {
+      throw ToolError(exit_status::kSoftware, std::string(turn.error().message.view()));
+    }
+  }
+  const transport::RelayStatistics& s = relay.statistics();
+  std::printf("up: %llu packets, %llu lost, %llu doubled; down: %llu packets, %llu lost, %llu doubled\n",
+              static_cast<unsigned long long>(s.up.received), static_cast<unsigned long long>(s.up.lost),
+              static_cast<unsigned long long>(s.up.doubled), static_cast<unsigned long long>(s.down.received),
+              static_cast<unsigned long long>(s.down.lost), static_cast<unsigned long long>(s.down.doubled));
+  return exit_status::kOk;
+}
+
+}  // namespace isostep::tool

@@ -1,0 +1,133 @@
+// Two peers of one session: the first frame after which their recordings differ, its stage, and the fields.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <span>
+
+#include "isostep/core/version.hpp"
+#include "recorded_peer.hpp"
+
+namespace isostep::tool {
+
+inline bool is_bundle(const Input& input) { return facts_chunk(ReplayReader(input.bytes)) != nullptr; }
+
+template <class S> void print_peer(const char* name, const RecordedPeer<S>& peer) {
+  std::printf("%s: ", name);
+  if (peer.facts()) {
+    const BundleFacts& facts = *peer.facts();
+    std::printf("%s, ", facts.player == 0xff ? "the host" : ("player " + std::to_string(facts.player)).c_str());
+    if (facts.agreed != kNoFrame) std::printf("agreed before frame %d, ", facts.agreed);
+  }
+  std::printf("frames %d to %d\n", peer.first(), peer.end() - 1);
+}
+
+/// The first field on which they do not agree, and whether this build is of another behaviour than either.
+inline void print_headers(const ReplayHeader& a, const ReplayHeader& b) {
+  const HeaderMismatch mismatch = compare_headers(a, b);
+  if (!mismatch.key.empty()) {
+    const auto text = [](const auto& value) {
+      return value.empty() ? std::string("missing") : std::string(value.view());
+    };
+    std::printf("%s: %s in A, %s in B\n", std::string(mismatch.key.view()).c_str(), text(mismatch.in_file).c_str(),
+                text(mismatch.here).c_str());
+  }
+  const std::string here = hex(behaviour_version());
+  for (const auto& [name, header] : {std::pair{"A", &a}, std::pair{"B", &b}}) {
+    const ReplayField* field = header->find("behaviour");
+    if (field != nullptr && field->value.view() != here) {
+      std::printf("behaviour: %s here, %s in %s: what is played here says little\n", here.c_str(),
+                  std::string(field->value.view()).c_str(), name);
+    }
+  }
+}
+
+/// States as the peers had them before a frame.
+template <class S> void print_states(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
+  const std::optional<World<S>> of_a = a.state_before(frame), of_b = b.state_before(frame);
+  for (const auto& [name, state] : {std::pair{"A", &of_a}, std::pair{"B", &of_b}}) {
+    if (!*state) std::printf("  the state that %s had is not in its file and does not come out here\n", name);
+  }
+  if (!of_a || !of_b) return;
+  DiffReport report(kShown);
+  diff_states(of_a->state(), of_b->state(), report);
+  print(report, of_a->state());
+}
+
+inline const char* verdict(bool a, bool b) {
+  if (a && b) return "as recorded for both: they had other commands or other states before";
+  if (a) return "as A recorded it, not as B did";
+  if (b) return "as B recorded it, not as A did";
+  return "as neither recorded it";
+}
+
+/// What the peers' own traces say: an index as of stage_name.
+inline std::optional<std::size_t> traced_stage(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
+}
+
+inline void print_place(Frame frame, std::optional<std::size_t> stage, bool same_commands) {
+  if (stage) {
+    std::printf("frame %d, stage %s\n", frame, stage_name(*stage));
+  } else {
+    std::printf("within frame %d (trace was off)\n", frame);
+  }
+  if (!same_commands) std::printf("  the commands of this frame differ\n");
+  if (same_commands && stage == std::size_t{0}) {
+    std::printf("  the commands of this frame agree: something else changed a state before the step\n");
+  }
+}
+
+template <class S> void report_bundles(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
+  const auto again_a = a.play_again(frame), again_b = b.play_again(frame);
+  const bool same_commands = isostep::detail::same_bytes(a.tape(frame), b.tape(frame));
+  if (again_a.as_recorded && again_b.as_recorded) {
+    DiffReport report(kShown);
+    const std::size_t stage = first_different_stage(again_a.trace, again_b.trace, report).index;
+    print_place(frame, stage, same_commands);
+    print(report, again_a.trace[stage]);
+  } else {
+    print_place(frame, traced_stage(a.stages(frame), b.stages(frame)), same_commands);
+    print_states(a, b, frame + 1);
+  }
+  std::printf("played again here, the frame comes out %s\n", verdict(again_a.as_recorded, again_b.as_recorded));
+}
+
+/// By what was recorded; played again is only the frame that differs, and what leads to it where no state is stored.
+template <class S> int diff_bundles(const Input& input_a, const Input& input_b) {
+  RecordedPeer<S> a(input_a), b(input_b);
+  a.align(b);
+  b.align(a);
+  print_headers(a.header(), b.header());
+  print_peer("A", a);
+  print_peer("B", b);
+  const Frame first = std::max(a.first(), b.first()), end = std::min(a.end(), b.end());
+  if (first >= end) {
+    std::printf("no frame is in both\n");
+    return exit_status::kDifferent;
+  }
+  if (a.hash_before(first) != b.hash_before(first)) {
+    std::printf("before frame %d, the first that is in both\n", first);
+    print_states(a, b, first);
+    return exit_status::kDifferent;
+  }
+  for (Frame frame = first; frame < end; ++frame) {
+    if (a.hash_after(frame) != b.hash_after(frame)) {
+      report_bundles(a, b, frame);
+      return exit_status::kDifferent;
+    }
+    const auto root_a = a.root_after(frame), root_b = b.root_after(frame);
+    if (root_a && root_b && *root_a != *root_b) {
+      std::printf("frame %d: the worlds agree, what the games keep beside them differs (roots %s and %s)\n", frame,
+                  hex(*root_a).c_str(), hex(*root_b).c_str());
+      return exit_status::kDifferent;
+    }
+  }
+  std::printf("the same: frames %d to %d\n", first, end - 1);
+  return exit_status::kOk;
+}
+
+}  // namespace isostep::tool

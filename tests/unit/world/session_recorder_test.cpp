@@ -1,0 +1,249 @@
+// Recordings of sessions that roll back are those of a match that never did; the history keeps what was last true.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/session_recorder.hpp"
+
+#include "isostep/state/verify.hpp"
+#include "isostep/world/desync_bundle.hpp"
+#include "played_session.hpp"
+
+namespace isostep::test {
+namespace {
+
+/// The history first, as a driver would call both.
+template <class S> struct Recording {
+  FrameHistory<S>& history;
+  SessionRecorder<S>& recorder;
+
+  void before_step(Frame frame) { history.before_step(frame), recorder.before_step(frame); }
+  void after_step(Frame frame) { history.after_step(frame); }
+  void rolled_back(Frame frame) { history.rolled_back(frame), recorder.rolled_back(frame); }
+  void confirmed(Frame frame, std::uint64_t root) {
+    history.confirmed(frame, root);
+    recorder.confirmed(frame, root);
+  }
+  void restarted(Frame frame) { history.restarted(frame), recorder.restarted(frame); }
+};
+
+template <class S> std::vector<std::uint8_t> straight_recording(Arena<S>& arena, Frame first, Frame end) {
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(arena.world, sink_to(file));
+  bool ok = recorder.begin("arena").ok();
+  for (Frame frame = first; frame < end; ++frame) {
+    play_frame(arena, frame, input_of(frame));
+    ok = recorder.end_frame().ok() && ok;
+  }
+  EXPECT_TRUE(recorder.finish().ok() && ok);
+  return file;
+}
+template <class S> VerifyResult verify_world(const std::vector<std::uint8_t>& file) {
+  const ReplayReader replay(file);
+  World<S> world;
+  return verify(replay, world, SameHeader{replay.header()});
+}
+
+template <class S> class SessionRecording : public ::testing::Test {
+ protected:
+  Arena<S> arena, other;
+  FrameHistory<S> history{arena.world, {.frames = 16, .states = false}};
+  std::vector<std::uint8_t> file;
+  SessionRecorder<S> recorder{history, sink_to(file), "arena"};
+  Recording<S> both{history, recorder};
+};
+TYPED_TEST_SUITE(SessionRecording, AllScalars);
+
+TYPED_TEST(SessionRecording, is_byte_for_byte_that_of_a_match_without_rollback) {
+  play_session(this->arena, 0, 130, this->both);
+  ASSERT_TRUE(this->recorder.finish().ok());
+  EXPECT_EQ(this->recorder.frames(), 130);
+  EXPECT_EQ(this->file, straight_recording(this->other, 0, 130));
+  const VerifyResult result = verify_world<TypeParam>(this->file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  EXPECT_EQ(result.frames, 130u);
+}
+
+TYPED_TEST(SessionRecording, of_a_late_joiner_starts_with_the_state_that_was_joined) {
+  for (Frame frame = 0; frame < 47; ++frame) play_frame(this->other, frame, input_of(frame));
+  const std::vector<std::uint8_t> joined = bytes_of(this->other.world);
+  Reader reader(joined);
+  ASSERT_TRUE(this->arena.world.read_portable(reader).ok());
+  this->both.restarted(47);
+  play_session(this->arena, 47, 90, this->both);
+  ASSERT_TRUE(this->recorder.finish().ok());
+  EXPECT_EQ(this->file, straight_recording(this->other, 47, 90));
+}
+
+TYPED_TEST(SessionRecording, ends_whole_where_the_session_restarts) {
+  play_session(this->arena, 0, 24, this->both);
+  this->both.restarted(100);
+  EXPECT_FALSE(this->recorder.recording());
+  play_session(this->arena, 100, 112, this->both);
+  ASSERT_TRUE(this->recorder.finish().ok());
+  EXPECT_EQ(this->file, straight_recording(this->other, 0, 24));
+}
+
+TYPED_TEST(SessionRecording, holds_no_frame_that_was_not_confirmed) {
+  play_session(this->arena, 0, 12, this->both);
+  this->both.before_step(12);
+  play_frame(this->arena, 12, 3);
+  this->both.after_step(12);
+  ASSERT_TRUE(this->recorder.finish().ok());
+  EXPECT_EQ(this->recorder.frames(), 12);
+  EXPECT_EQ(verify_world<TypeParam>(this->file).frames, 12u);
+}
+
+TYPED_TEST(SessionRecording, says_when_the_history_is_too_short) {
+  FrameHistory<TypeParam> few(this->arena.world, {.frames = 5, .states = false});
+  SessionRecorder<TypeParam> poor(few, sink_to(this->file), "arena");
+  Recording<TypeParam> pair{few, poor};
+  play_session(this->arena, 0, 6, pair);
+  EXPECT_FALSE(poor.finish().ok());
+  EXPECT_FALSE(poor.recording());
+}
+
+TYPED_TEST(SessionRecording, says_when_a_frame_was_left_out) {
+  for (const Frame frame : {0, 1, 2}) {
+    this->both.before_step(frame);
+    play_frame(this->arena, frame, 0);
+    this->both.after_step(frame);
+    if (frame != 1) this->both.confirmed(frame, 0);
+  }
+  EXPECT_FALSE(this->recorder.finish().ok());
+  EXPECT_EQ(this->recorder.frames(), 1);
+}
+
+TYPED_TEST(SessionRecording, says_when_a_frame_is_not_one_step_of_the_world) {
+  this->both.before_step(0);
+  this->arena.world.step();
+  this->arena.world.step();
+  this->both.after_step(0);
+  this->both.confirmed(0, 1);
+  EXPECT_FALSE(this->recorder.finish().ok());
+}
+
+TYPED_TEST(SessionRecording, says_when_the_game_loads_its_world_inside_a_step) {
+  typename World<TypeParam>::Snapshot snapshot;
+  this->arena.world.save(snapshot);
+  this->both.before_step(0);
+  this->arena.world.load(snapshot);
+  this->arena.world.step();
+  this->both.after_step(0);
+  this->both.confirmed(0, 1);
+  EXPECT_FALSE(this->recorder.finish().ok());
+}
+
+TYPED_TEST(SessionRecording, leaves_the_tape_alone_between_frames) {
+  play_session(this->arena, 0, 6, this->both);
+  std::vector<std::uint8_t> tape;
+  EXPECT_TRUE(this->arena.world.records_to(nullptr));
+  this->arena.world.record_to(&tape);
+  play_frame(this->arena, 6, 0);
+  EXPECT_FALSE(tape.empty());
+}
+
+template <class S> class Bundles : public ::testing::Test {
+ protected:
+  Arena<S> arena;
+  FrameHistory<S> history{arena.world, {.frames = 32, .states = true, .stages = true}};
+  std::vector<std::uint8_t> file;
+
+  Result<void> write(Frame agreed) {
+    file.clear();
+    return write_bundle(sink_to(file), history, "arena", {.player = 3, .agreed = agreed, .states = 4});
+  }
+  BundleFacts facts(const ReplayReader& replay) {
+    EXPECT_EQ(replay.ancillaries().size(), 1u);
+    EXPECT_EQ(replay.ancillaries()[0].type, replay_chunk::kPeer);
+    return read_facts(replay.ancillaries()[0].payload, replay.frame_count()).value();
+  }
+};
+TYPED_TEST_SUITE(Bundles, AllScalars);
+
+TYPED_TEST(Bundles, are_replays_of_the_frames_since_the_last_agreed_state) {
+  play_session(this->arena, 0, 60, this->history);
+  ASSERT_TRUE(this->write(50).ok());
+  const VerifyResult result = verify_world<TypeParam>(this->file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  const ReplayReader replay(this->file);
+  EXPECT_EQ(replay.frame_count(), 10u);
+  EXPECT_EQ(replay.keyframes().size(), 4u);
+  const BundleFacts facts = this->facts(replay);
+  EXPECT_EQ(facts.player, 3u);
+  EXPECT_EQ(facts.first, 50);
+  EXPECT_EQ(facts.agreed, 50);
+  EXPECT_EQ(facts.stages.size(), 10u * kTraceHashes);
+  ASSERT_EQ(facts.roots.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(facts.roots[i], ~replay.frame(i).hash);
+}
+
+TYPED_TEST(Bundles, start_with_the_oldest_state_kept_when_the_agreed_one_is_gone) {
+  play_session(this->arena, 0, 60, this->history);
+  ASSERT_TRUE(this->write(kNoFrame).ok());
+  EXPECT_EQ(this->facts(ReplayReader(this->file)).first, 60 - 32 + 1);
+  EXPECT_EQ(verify_world<TypeParam>(this->file).outcome, VerifyOutcome::verified);
+}
+
+TYPED_TEST(Bundles, start_with_the_first_state_of_a_young_match) {
+  play_session(this->arena, 5, 10, this->history);
+  ASSERT_TRUE(this->write(kNoFrame).ok());
+  EXPECT_EQ(this->facts(ReplayReader(this->file)).first, 5);
+  EXPECT_EQ(verify_world<TypeParam>(this->file).frames, 5u);
+}
+
+TYPED_TEST(Bundles, hold_no_predicted_frame_and_are_refused_without_any_other) {
+  EXPECT_FALSE(this->write(kNoFrame).ok());
+  this->history.before_step(0);
+  play_frame(this->arena, 0, 0);
+  this->history.after_step(0);
+  EXPECT_FALSE(this->write(kNoFrame).ok());
+  this->history.confirmed(0, 1);
+  EXPECT_TRUE(this->write(kNoFrame).ok());
+  EXPECT_TRUE(this->write(0).ok());
+  EXPECT_FALSE(this->write(1).ok());
+  this->history.restarted(0);
+  EXPECT_FALSE(this->write(kNoFrame).ok());
+}
+
+TYPED_TEST(Bundles, keep_what_was_confirmed_when_a_sync_test_goes_behind_it) {
+  play_session(this->arena, 0, 60, this->history);
+  this->history.rolled_back(57);
+  EXPECT_NE(this->history.find(59), nullptr);
+  this->history.before_step(60);
+  this->history.after_step(60);
+  this->history.rolled_back(57);
+  EXPECT_EQ(this->history.find(60), nullptr);
+  EXPECT_EQ(this->history.last_confirmed(), 59);
+  ASSERT_TRUE(this->write(54).ok());
+  EXPECT_EQ(ReplayReader(this->file).frame_count(), 6u);
+}
+
+TYPED_TEST(Bundles, refuse_facts_that_are_cut_short_or_followed_by_more) {
+  std::vector<std::uint8_t> bytes;
+  Writer writer(bytes);
+  write_facts(writer, {1, 2, 3, {4}, std::vector<std::uint64_t>(kTraceHashes)});
+  for (std::size_t cut = 0; cut < bytes.size(); ++cut) EXPECT_FALSE(read_facts({bytes.data(), cut}, 1).ok()) << cut;
+  EXPECT_TRUE(read_facts(bytes, 1).ok());
+  bytes.push_back(0);
+  EXPECT_FALSE(read_facts(bytes, 1).ok());
+}
+
+TYPED_TEST(Bundles, refuse_facts_that_do_not_fit_their_frames) {
+  BundleFacts facts;
+  facts.roots = {1, 2};
+  const auto read = [&](std::uint64_t frames) {
+    std::vector<std::uint8_t> bytes;
+    Writer writer(bytes);
+    write_facts(writer, facts);
+    return read_facts(bytes, frames).ok();
+  };
+  EXPECT_TRUE(read(2));
+  EXPECT_FALSE(read(3));
+  facts.stages.resize(5);
+  EXPECT_FALSE(read(2));
+  facts.stages.resize(2 * kTraceHashes);
+  EXPECT_TRUE(read(2));
+  facts.first = -1;
+  EXPECT_FALSE(read(2));
+}
+
+}  // namespace
+}  // namespace isostep::test
