@@ -1,15 +1,14 @@
-// isostep peer: one machine of a match over UDP, played by a bot; and isostep relay, a bad network between machines.
+// isostep peer: one machine of a match over UDP, played by a bot.
 // SPDX-License-Identifier: MIT
 #include <atomic>
-#include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "isostep/world/state.hpp"
 #include "match_peer.hpp"
+#include "network.hpp"
 #include "transport/udp_relay.hpp"
 
 namespace isostep::tool {
@@ -19,38 +18,6 @@ constexpr Time kTryAgain = kSecond / 2;  // [us] between attempts to reach a hos
 constexpr Time kLinger = 20 * kSecond;   // [us] that a host which is done stays for the others
 constexpr Time kGoodbye = kSecond;       // [us] in which a leaving client's last word may be repeated
 constexpr Time kLongestSleep = 10000;    // [us]
-
-Time steady_now() {
-  return static_cast<Time>(
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now().time_since_epoch())
-          .count());
-}
-
-struct Address {
-  std::string host;
-  std::uint16_t port;
-};
-Address parse_address(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
-  const bool digits = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
-  const int number = digits ? std::stoi(port) : 0;
-  if (colon == 0 || number < 1 || number > 65535) {
-    throw ToolError(exit_status::kUsage, "\"" + text + "\" is no HOST:PORT");
-  }
-  return {text.substr(0, colon), static_cast<std::uint16_t>(number)};
-}
-
-transport::NetworkProfile profile_of(const std::string& text) {
-  const Result<transport::NetworkProfile> profile = transport::parse_profile(text);
-  if (!profile) throw ToolError(exit_status::kUsage, "--profile: " + std::string(profile.error().message.view()));
-  return profile.value();
-}
-
-template <class T> T expect(Result<T> result, const std::string& what) {
-  if (!result) throw ToolError(exit_status::kNoInput, what + ": " + std::string(result.error().message.view()));
-  return std::move(result.value());
-}
 
 const char* name_of(SessionEvent::Kind kind) {
   switch (kind) {
@@ -114,10 +81,6 @@ class OwnRelay {
   transport::UdpRelay relay_;
   std::thread thread_;
 };
-
-void write_port(const std::string& path, std::uint16_t port) {
-  if (!path.empty()) write_file(path, std::to_string(port) + "\n");
-}
 
 }  // namespace
 
@@ -219,7 +182,7 @@ template <class S> bool MatchPeer<S>::is_over(Time now) {
   return connected_ == 0 || now > done_at_ + kLinger;
 }
 
-template <class S> int MatchPeer<S>::finish(Time played) {
+template <class S> void MatchPeer<S>::write_files() {
   if (!options_.hashes.empty()) {
     std::string text;
     for (std::size_t i = 0; i < hashes_.size(); ++i) {
@@ -227,52 +190,59 @@ template <class S> int MatchPeer<S>::finish(Time played) {
     }
     write_file(options_.hashes, text);
   }
-  if (recorder_) {
-    expect_written(recorder_->finish());
-    file_->close();
-  }
+  if (!recorder_) return;
+  expect_written(recorder_->finish());
+  file_->close();
+}
+
+template <class S> void MatchPeer<S>::print_summary(Time played) const {
   const SessionStats& stats = session_.stats();
   const double seconds = static_cast<double>(played) / 1e6;
-  const auto per_step = [&](double ms) { return stats.steps == 0 ? 0.0 : ms / static_cast<double>(stats.steps); };
   std::uint64_t rollbacks = 0, deepest = 0;
   for (std::uint64_t depth = 0; depth < 65; ++depth) {
     rollbacks += stats.rollbacks[depth];
     if (stats.rollbacks[depth] != 0) deepest = depth;
   }
-  const double kb = static_cast<double>(stats.bytes_out) / 1000 / (seconds > 0 ? seconds : 1);
-  const std::size_t frames = hashes_.size();
-  nlohmann::ordered_json json = {
-      {"scalar", ScalarTraits<S>::kName},
-      {"player", session_.local_player()},
-      {"first", first_},
-      {"frames", frames},
-      {"hash", frames == 0 ? std::string() : hex(hashes_.back())},
-      {"rollbacks", rollbacks},
-      {"deepest", deepest},
-      {"depths", std::vector<std::uint64_t>(stats.rollbacks, stats.rollbacks + 65)},
-      {"steps", stats.steps},
-      {"waits", stats.waits},
-      {"round_trip_ms", static_cast<double>(stats.round_trip) / 1000},
-      {"delay", stats.delay},
-      {"kb_per_s", kb},
-      {"ms_per_step", per_step(step_ms_)},
-      {"session_us_per_frame", frames == 0 ? 0.0 : session_ms_ * 1000 / static_cast<double>(frames)},
-      {"events_confirmed", sounds_confirmed_},
-      {"events_retracted", sounds_retracted_},
-      {"desync", desynced_},
-      {"seconds", seconds}};
-  if (options_.json) {
-    std::printf("%s\n", json.dump().c_str());
-  } else {
+  const double kb = static_cast<double>(stats.bytes_out) / 1000 / seconds;
+  const double ms_per_step = step_ms_ / static_cast<double>(stats.steps);
+  if (!options_.json) {
     std::printf("%zu frames final, last hash %s; %llu rollbacks, deepest %llu; %.1f KB/s sent; %.3f ms a step%s\n",
-                frames, json["hash"].get<std::string>().c_str(), static_cast<unsigned long long>(rollbacks),
-                static_cast<unsigned long long>(deepest), kb, per_step(step_ms_), desynced_ ? "; DESYNC" : "");
+                hashes_.size(), hex(hashes_.back()).c_str(), static_cast<unsigned long long>(rollbacks),
+                static_cast<unsigned long long>(deepest), kb, ms_per_step, desynced_ ? "; DESYNC" : "");
+    return;
+  }
+  const nlohmann::ordered_json json = {{"scalar", ScalarTraits<S>::kName},
+                                       {"player", session_.local_player()},
+                                       {"first", first_},
+                                       {"frames", hashes_.size()},
+                                       {"hash", hex(hashes_.back())},
+                                       {"rollbacks", rollbacks},
+                                       {"deepest", deepest},
+                                       {"depths", std::vector<std::uint64_t>(stats.rollbacks, stats.rollbacks + 65)},
+                                       {"steps", stats.steps},
+                                       {"waits", stats.waits},
+                                       {"round_trip_ms", static_cast<double>(stats.round_trip) / 1000},
+                                       {"delay", stats.delay},
+                                       {"kb_per_s", kb},
+                                       {"ms_per_step", ms_per_step},
+                                       {"events_confirmed", sounds_confirmed_},
+                                       {"events_retracted", sounds_retracted_},
+                                       {"desync", desynced_},
+                                       {"seconds", seconds}};
+  std::printf("%s\n", json.dump().c_str());
+}
+
+template <class S> int MatchPeer<S>::finish(Time played) {
+  if (!hashes_.empty()) {
+    write_files();
+    print_summary(played);
   }
   if (desynced_) return exit_status::kDifferent;
-  if (!gave_up_) return exit_status::kOk;
-  throw ToolError(exit_status::kNoInput, session_.phase() == SessionPhase::refused ? "the host refused this peer"
-                                         : has_met_                                ? "the host is gone"
-                                                                                   : "no host answers");
+  if (!gave_up_) return interrupted() ? exit_status::kInterrupted : exit_status::kOk;
+  const bool refused = session_.phase() == SessionPhase::refused;
+  throw ToolError(exit_status::kNoInput, refused    ? "the host refused this peer"
+                                         : has_met_ ? "the host is gone"
+                                                    : "no host answers");
 }
 
 namespace {
@@ -331,31 +301,6 @@ int command_peer(const PeerOptions& options) {
       with_scalar(options.scalar, [&](auto tag) { status = play<typename decltype(tag)::Type>(options, *transport); });
   if (!found) throw ToolError(exit_status::kUsage, "this build lacks the scalar " + options.scalar);
   return status;
-}
-
-int command_relay(const RelayOptions& options) {
-  const Address target = parse_address(options.target);
-  transport::UdpRelay relay =
-      expect(transport::UdpRelay::open({.listen_port = static_cast<std::uint16_t>(options.listen),
-                                        .target_address = target.host,
-                                        .target_port = target.port,
-                                        .profile = profile_of(options.profile),
-                                        .seed = options.seed}),
-             "relay");
-  write_port(options.port_file, relay.port());
-  std::fprintf(stderr, "isostep relay: 127.0.0.1:%u to %s, %s; Ctrl-C ends it\n", static_cast<unsigned>(relay.port()),
-               options.target.c_str(), options.profile.c_str());
-  while (!interrupted()) {
-    if (const Result<void> turn = relay.turn(50000); !turn) {
-      throw ToolError(exit_status::kSoftware, std::string(turn.error().message.view()));
-    }
-  }
-  const transport::RelayStatistics& s = relay.statistics();
-  std::printf("up: %llu packets, %llu lost, %llu doubled; down: %llu packets, %llu lost, %llu doubled\n",
-              static_cast<unsigned long long>(s.up.received), static_cast<unsigned long long>(s.up.lost),
-              static_cast<unsigned long long>(s.up.doubled), static_cast<unsigned long long>(s.down.received),
-              static_cast<unsigned long long>(s.down.lost), static_cast<unsigned long long>(s.down.doubled));
-  return exit_status::kOk;
 }
 
 }  // namespace isostep::tool

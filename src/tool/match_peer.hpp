@@ -15,6 +15,7 @@
 #include "scenes/match.hpp"
 #include "tool.hpp"
 #include "transport/enet_transport.hpp"
+#include "transport/pump.hpp"
 
 namespace isostep::tool {
 
@@ -55,16 +56,9 @@ template <class S> class MatchPeer {
     for (int p = 0; p < options_.players; ++p) {
       if (session_.wants_input(p)) session_.add_local_input(p, input_of(p));
     }
-    const double before = thread_milliseconds();
     drive(session_, game_, now, *this);
-    const double after = thread_milliseconds();
-    while (const std::optional<Outgoing> out = session_.poll_send(now)) {
-      if (!out->bytes.empty()) static_cast<void>(transport_.send(out->peer, out->channel, out->bytes).ok());
-      if (out->close) transport_.disconnect(out->peer);
-    }
+    transport::dispatch(transport_, session_, now);
     transport_.flush();
-    drive_ms_ += after - before;
-    session_ms_ += thread_milliseconds() - after;
     while (const std::optional<SessionEvent> event = session_.poll_event()) report(*event);
     while (const auto notice = sounds_.poll()) {
       if (notice->kind == NoticeKind::confirmed) ++sounds_confirmed_;
@@ -109,7 +103,7 @@ template <class S> class MatchPeer {
     hashes_.push_back(root);
   }
 
-  /// Files are written; an exit status.
+  /// Files are written if a frame is final; an exit status.
   int finish(Time played);
 
  private:
@@ -123,6 +117,8 @@ template <class S> class MatchPeer {
   void report(const SessionEvent& event);
   void write_desync_bundle(const SessionEvent& event);
   void flip_a_bit();
+  void write_files();
+  void print_summary(Time played) const;
 
   PeerOptions options_;
   std::vector<scenes::MatchInput> inputs_;
@@ -139,7 +135,7 @@ template <class S> class MatchPeer {
   int connected_ = 0;  // peers
   Time reconnect_at_ = 0, alone_since_ = 0, done_at_ = 0;
   std::uint64_t sounds_confirmed_ = 0, sounds_retracted_ = 0;
-  double started_at_ = 0, step_ms_ = 0, drive_ms_ = 0, session_ms_ = 0;
+  double started_at_ = 0, step_ms_ = 0;
 };
 
 }  // namespace isostep::tool

@@ -16,18 +16,29 @@ fail() {
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$')
 [ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || fail "fewer commands than expected were found to run"
+background=''
 while IFS= read -r command; do
   arguments=${command#./isostep }
   # Word splitting is wanted: the commands hold no quotes.
-  "$tool" $arguments >/dev/null 2>&1 || fail "'$command' exits $?"
+  case $arguments in
+    *\&)
+      "$tool" ${arguments%&} >/dev/null 2>&1 &
+      background="$background $!"
+      ;;
+    *) "$tool" $arguments >/dev/null 2>&1 || fail "'$command' exits $?" ;;
+  esac
 done <<LIST
 $commands
 LIST
+for pid in $background; do
+  wait "$pid" || fail "a command in the background exits $?"
+done
 
-# The C++ block is the part of hello.cpp between its marks, less the indentation.
+# The C++ blocks are the parts of the examples between their marks, less the indentation.
 quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
-shown=$(awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' "$repository/src/examples/hello.cpp" | sed 's/^  //')
-[ "$quoted" = "$shown" ] || fail "the C++ block differs from src/examples/hello.cpp"
+shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' hello.cpp \
+  lockstep_game.cpp | sed 's/^  //')
+[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp and lockstep_game.cpp"
 
 for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
   [ -e "$repository/$link" ] || fail "links to $link, which does not exist"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Real processes over UDP: a host and clients whose lines are bad play one match; all hashes are equal, all replays hold.
 # SPDX-License-Identifier: MIT
-# usage: processes_test.sh TOOL PLAYERS FRAMES SCALAR PROFILE
+# usage: match_test.sh TOOL PLAYERS FRAMES SCALAR PROFILE
 set -u
 tool=$1 players=$2 frames=$3 scalar=$4 profile=$5
 dir=$(mktemp -d) || exit 1
