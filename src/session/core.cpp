@@ -45,6 +45,8 @@ std::optional<SessionEvent> SessionCore::poll_event() {
 
 void SessionCore::confirm(Frame state, std::uint64_t root) {
   confirmed_state_ = state;
+  if (state <= told_state_) return;  // a snapshot may lie before what was told
+  told_state_ = state;
   confirmed_.push({state - 1, root});
 }
 

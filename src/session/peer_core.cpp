@@ -7,7 +7,7 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kSlackBucket = 30;  // [frames]
+constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
 
 InputDelay::Settings delay_settings(const SessionConfig& config) {
@@ -77,9 +77,13 @@ void PeerCore::plan(Time now) {
   if (!running()) return;
   const Frame wrong = timeline_.first_wrong(streams_);
   if (wrong < current()) roll_back(wrong);
+  // By the clock and not by frames: a match that waits at every one of them is what a longer delay is for.
+  if (now >= next_observation_) {
+    next_observation_ = now + clock_.period();
+    observe_delay();
+    for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
+  }
   for (int i = steps_allowed(now); i > 0 && clock_.is_due(now); --i) {
-    if (observed_ != current()) observe_delay();
-    observed_ = current();
     sample_local_inputs();
     before_frame(now);
     if (!may_step()) {
@@ -95,7 +99,6 @@ void PeerCore::plan(Time now) {
     act(RequestKind::step, frame);
     act(RequestKind::save, frame + 1);
     clock_.stepped(now);
-    for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
   }
   after_steps();
   limit_ = final_limit();

@@ -25,6 +25,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options}
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 
 run(${WORK}/build/own_physics)
+run(${WORK}/build/own_match)
 if(MODE STREQUAL "installed")
   run(${WORK}/build/own_scalar)
   message("${output}")

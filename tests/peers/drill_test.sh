@@ -4,24 +4,12 @@
 # usage: drill_test.sh TOOL
 set -u
 tool=$1
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-fail() {
-  echo "$1" >&2
-  cat "$dir"/*.err "$dir/diff" >&2
-  exit 1
-}
+. "$(dirname "$0")/common.sh"
 
 match="--frames 260 --scalar q32.32 --trace"
-"$tool" peer --listen 0 --port-file "$dir/port" $match --bundle "$dir/host.bundle" 2>"$dir/host.err" >/dev/null &
-host=$!
-tries=0
-while [ ! -s "$dir/port" ]; do
-  tries=$((tries + 1))
-  [ "$tries" -lt 200 ] || fail "the host wrote no port"
-  sleep 0.05
-done
-"$tool" peer --connect "127.0.0.1:$(cat "$dir/port")" --profile latency=60,jitter=20,loss=5 $match --bot 2 --fault 150 \
+# Word splitting is wanted.
+start_host host $match --bundle "$dir/host.bundle"
+"$tool" peer --connect "127.0.0.1:$port" --profile latency=60,jitter=20,loss=5 $match --bot 2 --fault 150 \
   --bundle "$dir/client.bundle" 2>"$dir/client.err" >/dev/null
 client=$?
 wait "$host"
@@ -30,9 +18,9 @@ host=$?
 grep -q "DESYNC: player 1 " "$dir/host.err" || fail "the host does not name the player"
 grep -q "DESYNC: the host " "$dir/client.err" || fail "the client does not name the host"
 
-"$tool" diff "$dir/host.bundle" "$dir/client.bundle" >"$dir/diff"
+"$tool" diff "$dir/host.bundle" "$dir/client.bundle" >"$dir/diff.err"
 [ $? -eq 1 ] || fail "diff does not exit with 1"
-grep -q "^frame 150, stage commands" "$dir/diff" || fail "diff names another frame or stage"
-grep -q "velocity\.x: .*lsb apart \[body slot [0-9]*\]" "$dir/diff" || fail "diff names no field and body"
-grep -q "as A recorded it" "$dir/diff" || fail "diff does not say whose frame this machine makes"
-head -n 4 "$dir/diff"
+grep -q "^frame 150, stage commands" "$dir/diff.err" || fail "diff names another frame or stage"
+grep -q "velocity\.x: .*lsb apart \[body slot [0-9]*\]" "$dir/diff.err" || fail "diff names no field and body"
+grep -q "as A recorded it" "$dir/diff.err" || fail "diff does not say whose frame this machine makes"
+head -n 4 "$dir/diff.err"

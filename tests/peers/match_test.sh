@@ -4,30 +4,15 @@
 # usage: match_test.sh TOOL PLAYERS FRAMES SCALAR PROFILE
 set -u
 tool=$1 players=$2 frames=$3 scalar=$4 profile=$5
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-fail() {
-  echo "$1" >&2
-  cat "$dir"/*.err >&2
-  exit 1
-}
+. "$(dirname "$0")/common.sh"
 
 match="--players $players --frames $frames --scalar $scalar --json"
 # Word splitting is wanted: no argument holds a space.
-"$tool" peer --listen 0 --port-file "$dir/port" $match --bot 1 --hashes "$dir/0.txt" --record "$dir/0.replay" \
-  >"$dir/0.json" 2>"$dir/0.err" &
-host=$!
-tries=0
-while [ ! -s "$dir/port" ]; do
-  tries=$((tries + 1))
-  [ "$tries" -lt 200 ] || fail "the host wrote no port"
-  sleep 0.05
-done
-port=$(cat "$dir/port")
+start_host 0 $match --bot 1 --hashes "$dir/0.txt" --record "$dir/0.replay"
 pids=$host
 for p in $(seq 1 $((players - 1))); do
   "$tool" peer --connect "127.0.0.1:$port" --profile "$profile" $match --bot $((p + 1)) --hashes "$dir/$p.txt" \
-    --record "$dir/$p.replay" >"$dir/$p.json" 2>"$dir/$p.err" &
+    --record "$dir/$p.replay" >"$dir/$p.out" 2>"$dir/$p.err" &
   pids="$pids $!"
 done
 for pid in $pids; do
@@ -40,5 +25,5 @@ for p in $(seq 0 $((players - 1))); do
 done
 [ "$(cut -d ' ' -f 2 "$dir/0.txt" | sort -u | wc -l)" -eq "$frames" ] || fail "some frames have the same hash"
 "$tool" verify "$dir"/*.replay || fail "a replay does not verify"
-grep -q '"deepest":[1-9]' "$dir"/*.json || fail "nobody ever rolled back"
-sed 's/"depths":[^]]*],//' "$dir"/*.json
+grep -q '"deepest":[1-9]' "$dir"/*.out || fail "nobody ever rolled back"
+sed 's/"depths":[^]]*],//' "$dir"/*.out

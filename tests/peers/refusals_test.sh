@@ -4,8 +4,8 @@
 # usage: refusals_test.sh TOOL
 set -u
 tool=$1
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
+. "$(dirname "$0")/common.sh"
+
 failures=0
 # refuses STATUS WORDS-IN-THE-MESSAGE ARGUMENTS...
 refuses() {
@@ -40,17 +40,10 @@ refuses 66 "none" peer --listen 0 --inputs "$dir/none"
 # refused_for FIELD HOST-ARGUMENTS -- CLIENT-ARGUMENTS
 refused_for() {
   field=$1 host_words=$2 client_words=$3
-  rm -f "$dir/port"
   # Word splitting is wanted.
-  "$tool" peer --listen 0 --port-file "$dir/port" --frames 100 $host_words >/dev/null 2>"$dir/host" &
-  host=$!
-  tries=0
-  while [ ! -s "$dir/port" ] && [ "$tries" -lt 200 ]; do
-    tries=$((tries + 1))
-    sleep 0.05
-  done
-  refuses 66 "refused: $field is" peer --connect "127.0.0.1:$(cat "$dir/port")" --frames 100 $client_words
-  grep -q "refused: $field is" "$dir/host" || {
+  start_host host --frames 100 $host_words
+  refuses 66 "refused: $field is" peer --connect "127.0.0.1:$port" --frames 100 $client_words
+  grep -q "refused: $field is" "$dir/host.err" || {
     echo "the host does not name $field" >&2
     failures=$((failures + 1))
   }

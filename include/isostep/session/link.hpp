@@ -49,6 +49,12 @@ struct Link {
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
 
+  void connect(Time now) {
+    is_connected = true;
+    heard = now;
+    datagrams.start(now);
+    messages.start(now);
+  }
   /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {
     return now >= next_send || (sent_frame != current && now + period / 2 >= next_send);

@@ -1,0 +1,202 @@
+// The client on its way into the match: the connection, the host's answer, snapshots, the seat.
+// SPDX-License-Identifier: MIT
+#include <cstring>
+
+#include "isostep/session/client_core.hpp"
+
+namespace isostep {
+
+ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules) : PeerCore(config, rules) {}
+
+void ClientCore::connected(PeerId host, Time now) {
+  host_ = Link{};
+  host_.peer = host;
+  host_.connect(now);
+  must_greet_ = true;
+  must_close_ = is_greeted_ = must_ready_ = asked_ready_ = false;
+  runs_ = is_restoring_ = must_begin_ = false;  // the greeting names the state that we go on from
+  if (phase_ == SessionPhase::lost) phase_ = SessionPhase::waiting;
+}
+
+void ClientCore::disconnected(PeerId host, Time now) {
+  if (host_.is_connected && host == host_.peer) lose(now);
+}
+
+void ClientCore::lose(Time) {
+  host_.is_connected = false;
+  runs_ = false;
+  if (phase_ == SessionPhase::refused) return;
+  fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
+}
+
+void ClientCore::fail(SessionEvent::Kind kind, SessionPhase phase) {
+  phase_ = phase;
+  SessionEvent event{.kind = kind};
+  event.frame = current();
+  tell(event);
+}
+
+void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
+  if (!host_.is_connected || host != host_.peer) {
+    ++stats_.refused;
+    return;
+  }
+  if (channel == Channel::datagram) {
+    Packet packet;
+    if (!accept_datagram(host_, bytes, now, packet)) return;
+    if (!is_greeted_ || packet.header.match != welcome_.match) {
+      ++stats_.refused;
+      return;
+    }
+    host_.heard = now;
+    if (!is_restoring_ && !must_begin_) take_packet(packet, now);
+    return;
+  }
+  // A snapshot's pieces come as fast as the transport brings them.
+  const Result<MessageKind> kind = message_kind(bytes);
+  if (kind && kind.value() == MessageKind::piece) {
+    stats_.bytes_in += bytes.size();
+  } else if (!accept_message(host_, bytes, now)) {
+    return;
+  }
+  take_message(kind.value(), bytes, now);
+}
+
+void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
+  bool good = false;
+  if (kind == MessageKind::welcome) {
+    if (const Result<Welcome> welcome = read_welcome(bytes)) {
+      good = true;
+      take_welcome(welcome.value(), now);
+    }
+  } else if (kind == MessageKind::refuse) {
+    if (const Result<Refusal> refusal = read_refusal(bytes)) {
+      good = true;
+      SessionEvent event{.kind = SessionEvent::Kind::refused};
+      event.field = refusal.value();
+      tell(event);
+      phase_ = SessionPhase::refused;
+      runs_ = is_greeted_ = false;
+    }
+  } else if (kind == MessageKind::piece && is_restoring_) {
+    if (const Result<Piece> piece = read_piece(bytes)) {
+      good = true;
+      take_piece(piece.value());
+    }
+  } else if (kind == MessageKind::open && is_greeted_ && player_ >= 0) {
+    if (const Result<Frame> first = read_open(bytes)) {
+      good = true;
+      if (is_restoring_ || must_begin_) {
+        welcome_.opens = first.value();  // once we are there
+      } else {
+        open(first.value());
+      }
+    }
+  }
+  if (good) {
+    host_.heard = now;
+  } else {
+    ++stats_.refused;
+  }
+}
+
+void ClientCore::take_welcome(const Welcome& welcome, Time now) {
+  // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
+  const RootReport have = roots_.settled();
+  const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;
+  const bool fits = welcome.players == players() && welcome.snapshot_size <= config_.snapshot_cap &&
+                    (welcome.player != 0xff) == (config_.mode != SessionMode::spectator);
+  if (!fits || (welcome.snapshot_size == 0 && !has_start)) {
+    runs_ = is_greeted_ = is_restoring_ = must_begin_ = false;
+    must_close_ = true;
+    fail(SessionEvent::Kind::refused, SessionPhase::refused);
+    return;
+  }
+  welcome_ = welcome;
+  is_greeted_ = true;
+  runs_ = is_open_ = asked_ready_ = must_ready_ = false;
+  player_ = welcome.player == 0xff ? -1 : welcome.player;
+  token_ = welcome.token;
+  phase_ = SessionPhase::joining;
+  host_frame_at_ = now;
+  told_ = 0;
+  is_restoring_ = welcome.snapshot_size > 0;
+  must_begin_ = !is_restoring_;
+  portable_.clear();
+}
+
+void ClientCore::take_piece(const Piece& piece) {
+  // Memory grows with what has come, not with what was promised.
+  if (piece.offset != portable_.size() || piece.bytes.size() > welcome_.snapshot_size - portable_.size()) {
+    ++stats_.refused;
+    return;
+  }
+  portable_.insert(portable_.end(), piece.bytes.begin(), piece.bytes.end());
+  must_begin_ = portable_.size() == welcome_.snapshot_size;
+}
+
+void ClientCore::restored(bool ok) {
+  if (ok) return;
+  is_restoring_ = runs_ = is_greeted_ = false;
+  is_spoiled_ = must_close_ = true;
+  fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
+}
+
+void ClientCore::root_known(Frame state, std::uint64_t root) {
+  if (is_restoring_ && has_start_ && state == welcome_.start.frame) {
+    if (root != welcome_.root) {
+      restored(false);
+      return;
+    }
+    is_restoring_ = is_spoiled_ = false;
+    roots_.restart(welcome_.start, root);
+    confirmed_state_ = state;
+    return;
+  }
+  if (!is_spoiled_) PeerCore::root_known(state, root);
+}
+
+void ClientCore::begin_at(const RootReport& start) {
+  const Frame frame = start.frame;
+  if (is_restoring_) {
+    act(RequestKind::restore, frame);
+    timeline_.restart(frame);
+    act(RequestKind::save, frame);
+  } else {
+    go_back(frame);
+  }
+  base_ = frame;
+  for (InputStream& stream : streams_) stream.reset(frame);
+  for (View& view : views_) view = View{};
+  for (bool& is_present : is_present_) is_present = false;
+  accepted_ = frame;
+  clock_.forget_lean();
+  if (welcome_.opens != kNoFrame) open(welcome_.opens);
+}
+
+void ClientCore::open(Frame first) {
+  InputStream& own = streams_[static_cast<std::size_t>(player_)];
+  if (is_open_ || first < own.end() || first > own.end() + config_.history / 2) {
+    ++stats_.refused;
+    return;
+  }
+  own.append_absent_until(first);
+  is_open_ = true;
+  opens_ = accepted_ = host_.acked[player_] = first;
+  asked_ready_ = false;
+}
+
+bool ClientCore::is_vouched_for() const {
+  // Until the host says that nobody plays for us, inputs of ours from before are still on their way.
+  const InputStream& own = streams_[static_cast<std::size_t>(player_)];
+  if (own.end() == own.begin() || !own.last().absent) return false;
+  int needed = 1, vouching = views_[kHostMachine].agreed >= base_ ? 1 : 0;
+  for (int p = welcome_.host_players; p < players(); ++p) {
+    if (p == player_) continue;
+    if (!streams_[static_cast<std::size_t>(p)].last().absent) needed = 2;
+    if (views_[p].agreed >= base_) ++vouching;
+  }
+  return vouching >= needed;
+}
+
+}  // namespace isostep

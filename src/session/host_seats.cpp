@@ -1,0 +1,137 @@
+// The host's seats: who may take part, who sits where, who is in the match.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/host_core.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr Frame kNotice = 30;  // [frames] between a seat's opening and its first frame
+
+std::uint64_t draw64(Pcg32& random) {
+  const std::uint64_t high = random.next();
+  return high << 32 | random.next();
+}
+
+}  // namespace
+
+void HostCore::refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
+  guest.stage = Guest::Stage::refused;
+  guest.refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(theirs), ShortText<kReplayValueCap>(ours)};
+  ++stats_.refused;
+  SessionEvent event{.kind = SessionEvent::Kind::refused};
+  event.field = guest.refusal;
+  tell(event);
+}
+
+bool HostCore::is_refused(Guest& guest, const Hello& hello) {
+  const HeaderMismatch mismatch = compare_headers(hello.identity, config_.identity);
+  if (!mismatch.key.empty()) {
+    refuse(guest, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
+    return true;
+  }
+  const bool is_start = hello.have.frame == 0 && roots_.has_chain(0);
+  if (!started_ && (!is_start || hello.have.chain != roots_.chain(0))) {
+    ShortText<kReplayValueCap> theirs, ours;
+    refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(roots_.chain(0)).view());
+    return true;
+  }
+  if (!hello.spectator && find_seat(hello) < 0) {
+    refuse(guest, "seats", "one more", "all taken");
+    return true;
+  }
+  return false;
+}
+
+int HostCore::find_seat(const Hello& hello) const {
+  for (int p = config_.local_players; p < players(); ++p) {
+    if (hello.token != 0 && seats_[p].is_taken && seats_[p].token == hello.token) return p;
+  }
+  for (int p = config_.local_players; p < players(); ++p) {
+    if (!seats_[p].is_taken) return p;
+  }
+  for (int p = config_.local_players; p < players(); ++p) {
+    if (seats_[p].link < 0) return p;  // its player is away
+  }
+  return -1;
+}
+
+void HostCore::greet(Guest& guest, Bytes message, Time now) {
+  const Result<Hello> read = read_hello(message);
+  if (!read) {
+    refuse(guest, read.error().place.view(), "unreadable", read.error().message.view());
+    return;
+  }
+  const Hello& hello = read.value();
+  if (is_refused(guest, hello)) return;
+  if (!hello.spectator) {
+    const int player = find_seat(hello);
+    Seat& seat = seats_[player];
+    if (seat.link >= 0) {  // the same player, from a new address
+      Guest& old = guests_[static_cast<std::size_t>(seat.link)];
+      unseat(old);
+      old.must_close = true;
+    }
+    seat = {true, static_cast<int>(guest.peer), draw64(random_) | 1u, false, seat.owed};
+    guest.player = player;
+  }
+  guest.must_welcome = true;
+  const Frame have = hello.have.frame;
+  // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
+  const bool is_ahead = started_ && have > roots_.settled().frame && have <= known_end();
+  bool has_inputs = is_ahead || (roots_.has_chain(have) && roots_.chain(have) == hello.have.chain);
+  for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
+  if (has_inputs) {
+    go_live(guest, have);
+    guest.start_chain = hello.have.chain;
+    if (!started_ && guest.player >= 0) guest.opens = 0;
+  } else {
+    guest.stage = Guest::Stage::needs_snapshot;
+  }
+  bool all_taken = true;
+  for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
+  if (all_taken) start(now);
+}
+
+void HostCore::go_live(Guest& guest, Frame start) {
+  guest.stage = Guest::Stage::live;
+  guest.start = start;
+  for (Frame& acked : guest.acked) acked = start;
+}
+
+void HostCore::open_seat(Guest& guest, Time) {
+  if (guest.player < 0 || seats_[guest.player].is_open || !started_) return;
+  InputStream& stream = streams_[static_cast<std::size_t>(guest.player)];
+  const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
+  // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.
+  const Frame earliest = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
+  guest.opens = stream.end() > earliest ? stream.end() : earliest;
+  stream.append_absent_until(guest.opens);
+  guest.must_open = true;
+  seats_[guest.player].is_open = true;
+}
+
+void HostCore::close_seat(int player) {
+  Seat& seat = seats_[player];
+  if (!seat.is_open) return;
+  seat.is_open = false;
+  if (!started_) return;
+  slack_[player] = RecentLeast{};
+}
+
+void HostCore::unseat(Guest& guest) {
+  if (guest.player < 0) return;
+  close_seat(guest.player);
+  seats_[guest.player].link = -1;
+  views_[guest.player] = View{};
+  if (!started_) seats_[guest.player] = Seat{};
+  guest.player = -1;
+}
+
+void HostCore::drop(Guest& guest) {
+  unseat(guest);
+  const PeerId peer = guest.peer;
+  guest = Guest{};
+  guest.peer = peer;
+}
+
+}  // namespace isostep

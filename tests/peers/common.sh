@@ -1,0 +1,26 @@
+# What the tests of peers share: a host in the background, and a folder that goes away.
+# SPDX-License-Identifier: MIT
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+
+fail() {
+  echo "$1" >&2
+  cat "$dir"/*.err >&2
+  exit 1
+}
+
+# start_host NAME WORDS...: sets `host` to its process and `port` to the port that it was given.
+start_host() {
+  name=$1
+  shift
+  rm -f "$dir/port"
+  "$tool" peer --listen 0 --port-file "$dir/port" "$@" >"$dir/$name.out" 2>"$dir/$name.err" &
+  host=$!
+  tries=0
+  while [ ! -s "$dir/port" ]; do
+    tries=$((tries + 1))
+    [ "$tries" -lt 400 ] || fail "the host wrote no port"
+    sleep 0.05
+  done
+  port=$(cat "$dir/port")
+}
