@@ -1,4 +1,4 @@
-// isostep diff: the first frame, stage, record and field at which two replays part, or in which two snapshots differ.
+// isostep diff: the first frame, stage and field at which replays or bundles part, or in which two snapshots differ.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
@@ -28,9 +28,10 @@ template <class S> class Player {
     const Result<void> stepped = world_.step_recorded(frame(i).input);
     if (!stepped) refuse(input_.path, VerifyOutcome::corrupt, stepped.error());
   }
-  std::vector<WorldState<S>> trace_again(std::uint64_t i) {
+  /// The world is gone then.
+  PlayedFrame<S> play_again(std::uint64_t i) {
     world_.load(before_);
-    return trace_frame(world_, frame(i).input);
+    return {std::move(world_), frame(i).input};
   }
 
  private:
@@ -41,13 +42,11 @@ template <class S> class Player {
 };
 
 template <class S> int report_frame(Player<S>& a, Player<S>& b, std::uint64_t frame) {
-  DiffReport report(kShown);
-  const std::vector<WorldState<S>> trace_a = a.trace_again(frame), trace_b = b.trace_again(frame);
-  const StageDifference found = first_different_stage(trace_a, trace_b, report);
-  std::printf("frame %llu, stage %s\n", static_cast<unsigned long long>(frame), found.stage);
-  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input))
-    std::printf("  the inputs of this frame differ\n");
-  print(report, trace_a[found.index]);
+  PlayedFrame<S> of_a = a.play_again(frame), of_b = b.play_again(frame);
+  const StagePlace place(of_a.trace(), of_b.trace());
+  std::printf("frame %llu, %s\n", static_cast<unsigned long long>(frame), place.text().c_str());
+  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("%s", kTapesDiffer);
+  print_differences(of_a.state_at(place), of_b.state_at(place));
   return exit_status::kDifferent;
 }
 
@@ -133,11 +132,9 @@ int diff_snapshots(const Input& a, const Input& b) {
     World<S> world_a, world_b;
     load(world_a, a);
     load(world_b, b);
-    DiffReport report(kShown);
-    diff_states(world_a.state(), world_b.state(), report);
-    print(report, world_a.state());
-    if (!report.any()) std::printf("the same: %s\n", hex(world_a.hash()).c_str());
-    status = report.any() ? exit_status::kDifferent : exit_status::kOk;
+    const bool differ = print_differences(world_a.state(), world_b.state());
+    if (!differ) std::printf("the same: %s\n", hex(world_a.hash()).c_str());
+    status = differ ? exit_status::kDifferent : exit_status::kOk;
   });
   if (!found) {
     throw ToolError(exit_code(VerifyOutcome::corrupt),

@@ -92,8 +92,9 @@ class CommandLine {
   }
   void add_diff() {
     CLI::App* command =
-        add("diff", "the first frame, stage and field that differ", [this] { return tool::command_diff(diff_); });
-    command->add_option("a", diff_.a, "a replay or a portable snapshot")->required();
+        add("diff", "what differs first in two replays, desync bundles or snapshots: frame, stage, field",
+            [this] { return tool::command_diff(diff_); });
+    command->add_option("a", diff_.a, "a replay, a desync bundle or a portable snapshot")->required();
     command->add_option("b", diff_.b, "another of the same kind")->required();
   }
   void add_selftest() {

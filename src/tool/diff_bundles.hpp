@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <span>
 
 #include "isostep/core/version.hpp"
 #include "recorded_peer.hpp"
@@ -50,10 +49,7 @@ template <class S> void print_states(const RecordedPeer<S>& a, const RecordedPee
   for (const auto& [name, state] : {std::pair{"A", &of_a}, std::pair{"B", &of_b}}) {
     if (!*state) std::printf("  the state that %s had is not in its file and does not come out here\n", name);
   }
-  if (!of_a || !of_b) return;
-  DiffReport report(kShown);
-  diff_states(of_a->state(), of_b->state(), report);
-  print(report, of_a->state());
+  if (of_a && of_b) print_differences(of_a->state(), of_b->state());
 }
 
 inline const char* verdict(bool a, bool b) {
@@ -63,44 +59,43 @@ inline const char* verdict(bool a, bool b) {
   return "as neither recorded it";
 }
 
-/// What the peers' own traces say: an index as of stage_name.
-inline std::optional<std::size_t> traced_stage(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
-  if (a.empty() || b.empty()) return std::nullopt;
-  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
+/// What the peers' own traces say.
+template <class S>
+std::optional<StagePlace> traced_place(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
+  const std::optional<Trace> of_a = a.stages(frame), of_b = b.stages(frame);
+  if (!of_a || !of_b) return std::nullopt;
+  return StagePlace(*of_a, *of_b);
 }
 
-inline void print_place(Frame frame, std::optional<std::size_t> stage, bool same_commands) {
-  if (stage) {
-    std::printf("frame %d, stage %s\n", frame, stage_name(*stage));
+inline void print_place(Frame frame, const std::optional<StagePlace>& place, bool same_tapes) {
+  if (place) {
+    std::printf("frame %d, %s\n", frame, place->text().c_str());
   } else {
     std::printf("within frame %d (trace was off)\n", frame);
   }
-  if (!same_commands) std::printf("  the commands of this frame differ\n");
-  if (same_commands && stage == std::size_t{0}) {
-    std::printf("  the commands of this frame agree: something else changed a state before the step\n");
+  if (!same_tapes) std::printf("%s", kTapesDiffer);
+  if (same_tapes && place && place->is_outside_steps()) {
+    std::printf("  the commands of this frame agree: something else changed a state outside its steps\n");
   }
 }
 
 template <class S> void report_bundles(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
-  const auto again_a = a.play_again(frame), again_b = b.play_again(frame);
-  const bool same_commands = isostep::detail::same_bytes(a.tape(frame), b.tape(frame));
-  if (again_a.as_recorded && again_b.as_recorded) {
-    DiffReport report(kShown);
-    const std::size_t stage = first_different_stage(again_a.trace, again_b.trace, report).index;
-    print_place(frame, stage, same_commands);
-    print(report, again_a.trace[stage]);
+  std::optional<PlayedFrame<S>> again_a = a.play_again(frame), again_b = b.play_again(frame);
+  const bool same_tapes = isostep::detail::same_bytes(a.tape(frame), b.tape(frame));
+  if (again_a && again_b) {
+    const StagePlace place(again_a->trace(), again_b->trace());
+    print_place(frame, place, same_tapes);
+    print_differences(again_a->state_at(place), again_b->state_at(place));
   } else {
-    print_place(frame, traced_stage(a.stages(frame), b.stages(frame)), same_commands);
+    print_place(frame, traced_place(a, b, frame), same_tapes);
     print_states(a, b, frame + 1);
   }
-  std::printf("played again here, the frame comes out %s\n", verdict(again_a.as_recorded, again_b.as_recorded));
+  std::printf("played again here, the frame comes out %s\n", verdict(again_a.has_value(), again_b.has_value()));
 }
 
 /// By what was recorded; played again is only the frame that differs, and what leads to it where no state is stored.
 template <class S> int diff_bundles(const Input& input_a, const Input& input_b) {
-  RecordedPeer<S> a(input_a), b(input_b);
-  a.align(b);
-  b.align(a);
+  const RecordedPeer<S> a(input_a), b(input_b);
   print_headers(a.header(), b.header());
   print_peer("A", a);
   print_peer("B", b);

@@ -27,6 +27,15 @@ template <class S> void print(const DiffReport& report, const WorldState<S>& a) 
   }
 }
 
+/// Of all of two states; whether there are any.
+template <class S> bool print_differences(const WorldState<S>& a, const WorldState<S>& b) {
+  DiffReport report(kShown);
+  diff_states(a, b, report);
+  print(report, a);
+  return report.any();
+}
+inline constexpr char kTapesDiffer[] = "  the commands or steps of this frame differ\n";
+
 struct Input {
   std::string path;
   std::vector<std::uint8_t> bytes;

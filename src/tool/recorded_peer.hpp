@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
+#include <numeric>
 #include <optional>
-#include <span>
-#include <vector>
+#include <utility>
 
 #include "diff_input.hpp"
 #include "isostep/world/desync_bundle.hpp"
@@ -26,27 +25,23 @@ template <class S> class RecordedPeer {
  public:
   explicit RecordedPeer(const Input& input) : path_(input.path), replay_(input.bytes) {
     if (const ReplayAncillary* chunk = facts_chunk(replay_)) {
-      const Result<BundleFacts> facts = read_facts(chunk->payload, replay_.frame_count());
+      Result<BundleFacts> facts = read_facts(chunk->payload, replay_.frame_count());
       if (!facts) refuse(path_, VerifyOutcome::corrupt, facts.error());
-      facts_ = facts.value();
-      first_ = facts_->first;
+      facts_ = std::move(facts.value());
     }
-    tick_ = decode(replay_.state()).tick();
+    if (header().find(kFirstFrameKey) == nullptr) return;
+    const Result<std::uint64_t> first = header().number(kFirstFrameKey);
+    if (!first) refuse(path_, VerifyOutcome::corrupt, first.error());
+    if (first.value() > kLastFrame) {
+      refuse(path_, VerifyOutcome::corrupt, {ErrorCode::corrupt, "no frame has this number", "HEAD first_frame"});
+    }
+    first_ = static_cast<Frame>(first.value());
   }
 
   const ReplayHeader& header() const { return replay_.header(); }
   const std::optional<BundleFacts>& facts() const { return facts_; }
   Frame first() const { return first_; }
   Frame end() const { return first_ + static_cast<Frame>(replay_.frame_count()); }
-  /// A world's tick grows by one a frame: a recording without facts is placed by it.
-  void align(const RecordedPeer& other) {
-    if (facts_) return;
-    const std::int64_t first = other.first_ + static_cast<std::int64_t>(tick_ - other.tick_);
-    if (first < -kLastFrame || first > kLastFrame) {
-      refuse(path_, VerifyOutcome::corrupt, {ErrorCode::corrupt, "starts at a tick that no frame can have", "INIT"});
-    }
-    first_ = static_cast<Frame>(first);
-  }
 
   Bytes tape(Frame frame) const { return at(frame).input; }
   std::uint64_t hash_after(Frame frame) const { return at(frame).hash; }
@@ -57,10 +52,12 @@ template <class S> class RecordedPeer {
     if (!facts_) return std::nullopt;
     return facts_->roots[index(frame)];
   }
-  /// Empty when they were not traced.
-  std::span<const std::uint64_t> stages(Frame frame) const {
-    if (!facts_ || facts_->stages.empty()) return {};
-    return std::span(facts_->stages).subspan(index(frame) * kTraceHashes, kTraceHashes);
+  /// kTraceHashes a step; nothing when they were not traced.
+  std::optional<Trace> stages(Frame frame) const {
+    if (!facts_ || facts_->steps.empty()) return std::nullopt;
+    const auto steps = facts_->steps.begin() + static_cast<std::ptrdiff_t>(index(frame));
+    const std::size_t before = std::accumulate(facts_->steps.begin(), steps, std::size_t{0});
+    return Trace(facts_->stages).subspan(before * kTraceHashes, *steps * kTraceHashes);
   }
 
   /// The state before a frame or after the last, as the peer had it: stored, or played; nothing when neither has the
@@ -80,18 +77,13 @@ template <class S> class RecordedPeer {
     return world;
   }
 
-  struct Again {
-    bool as_recorded = false;
-    std::vector<WorldState<S>> trace;
-  };
-  /// One frame, played here from the state that the peer had before it.
-  Again play_again(Frame frame) const {
+  /// One frame, played here from the state that the peer had before it; nothing when it does not come out as recorded.
+  std::optional<PlayedFrame<S>> play_again(Frame frame) const {
     std::optional<World<S>> world = state_before(frame);
-    if (!world) return {};
-    Again again;
-    again.trace = trace_frame(*world, tape(frame));
-    again.as_recorded = world->hash() == hash_after(frame);
-    return again;
+    if (!world) return std::nullopt;
+    PlayedFrame<S> played(std::move(*world), tape(frame));
+    if (!played.playable() || played.hash() != hash_after(frame)) return std::nullopt;
+    return played;
   }
 
  private:
@@ -109,7 +101,6 @@ template <class S> class RecordedPeer {
   ReplayReader replay_;
   std::optional<BundleFacts> facts_;
   Frame first_ = 0;
-  std::uint64_t tick_ = 0;  // of the start
 };
 
 }  // namespace isostep::tool

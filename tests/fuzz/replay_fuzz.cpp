@@ -1,14 +1,15 @@
 // libFuzzer target: any bytes as a replay, as they are and with every checksum made right, so that what lies behind the
-// checksums is reached too.
+// checksums is reached too; and as a tape of a world and the facts of a bundle.
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude tests/fuzz/replay_fuzz.cpp
-//         src/state/*.cpp src/scalar/text.cpp -o replay_fuzz
+//         src/state/*.cpp src/scalar/*.cpp build/release/behaviour_version.cpp -o replay_fuzz
 
 #include <cstddef>
 #include <cstdint>
 
 #include "../unit/state/recording.hpp"
+#include "isostep/world/desync_bundle.hpp"
 
 namespace {
 
@@ -35,6 +36,25 @@ void seal(Buffer& file) {
   }
 }
 
+/// What is accepted is what a writer would write, and fits its frames.
+void check_facts(Bytes payload, std::uint64_t frames) {
+  const Result<BundleFacts> facts = read_facts(payload, frames);
+  if (!facts) return;
+  require(facts.value().roots.size() == frames);
+  Buffer again;
+  Writer writer(again);
+  write_facts(writer, facts.value());
+  require(isostep::detail::same_bytes(again, payload));
+}
+
+template <class S> void check_tape(Bytes tape) {
+  std::uint32_t commands = 0, steps = 0;
+  const Result<void> played = play_tape<S>(
+      tape, [&](const Command<S>&) { return ++commands != 1000; }, [&] { ++steps; });
+  require(steps <= kFrameStepCap && commands <= 1000 && commands + steps <= tape.size());
+  if (played) require(tape.empty() == (commands + steps == 0));
+}
+
 /// Everything the reader hands out must lie inside the file; its memory was checked by the sanitizer on the way.
 void read_all(const ReplayReader& replay, Bytes file) {
   std::uint64_t last = 0;
@@ -45,6 +65,7 @@ void read_all(const ReplayReader& replay, Bytes file) {
     last = at;
   }
   for (const ReplayKeyframe& key : replay.keyframes()) require(key.frames <= replay.frame_count());
+  for (const ReplayAncillary& chunk : replay.ancillaries()) check_facts(chunk.payload, replay.frame_count());
   require((replay.status() == ReplayStatus::complete) == replay.error().message.empty());
   require(replay.place() <= file.size());
   if (replay.has_header()) (void)identity_of(replay.header()).ok();
@@ -76,8 +97,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   seal(file);
   check(file);
 
-  // The other two readers of strange bytes: a header alone, and state of the toy's own.
+  // The other readers of strange bytes: a header alone, a tape, facts of as many frames as they say, state of the toy's
+  // own.
   (void)read_replay_header({data, size}).ok();
+  check_tape<float>({data, size});
+  check_tape<Q32_32>({data, size});
+  check_facts({data, size}, size < 12 ? 0 : load_le<std::uint32_t>(data + 8));
   toy::Game game;
   Reader reader({data, size});
   (void)game.read_portable(reader).ok();

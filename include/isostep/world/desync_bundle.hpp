@@ -19,34 +19,38 @@ inline constexpr std::uint32_t kPeer = replay_chunk_type('p', 'E', 'E', 'R');
 /// What a replay has no place for.
 struct BundleFacts {
   std::uint32_t player = 0;           // whose bundle it is; 0xff: the host's machine
-  Frame first = 0;                    // the session's number of the file's frame 0
   Frame agreed = kNoFrame;            // the last state that all had alike; kNoFrame: not known
   std::vector<std::uint64_t> roots;   // of the whole game after each frame
-  std::vector<std::uint64_t> stages;  // kTraceHashes for each frame, or none
+  std::vector<std::uint32_t> steps;   // that were traced in each frame; none: trace was off
+  std::vector<std::uint64_t> stages;  // kTraceHashes for each of them
 };
 
 ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
   writer.write(facts.player);
-  writer.write(facts.first);
   writer.write(facts.agreed);
   writer.write_array(facts.roots);
+  writer.write_array(facts.steps);
   writer.write_array(facts.stages);
 }
 /// `frames`: as many as the replay has.
 ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames) {
-  constexpr std::uint32_t most = kReplayUnknownCap / 8;
   BundleFacts facts;
   Reader reader(payload);
   reader.read(facts.player);
-  reader.read(facts.first);
   reader.read(facts.agreed);
-  reader.read_array(facts.roots, most);
-  reader.read_array(facts.stages, most);
+  reader.read_array(facts.roots, kReplayUnknownCap / 8);
+  reader.read_array(facts.steps, kReplayUnknownCap / 4);
+  reader.read_array(facts.stages, kReplayUnknownCap / 8);
   reader.expect_end();
-  const bool in_range = facts.first >= 0 && facts.first <= kLastFrame;
-  if (!in_range) reader.fail(ErrorCode::invalid, "the first frame is out of range");
-  if (facts.roots.size() != frames || (!facts.stages.empty() && facts.stages.size() != frames * kTraceHashes)) {
-    reader.fail(ErrorCode::corrupt, "not as many roots or stage hashes as frames");
+  std::uint64_t steps = 0;  // fewer than 2^22 summands below 2^32
+  for (const std::uint32_t n : facts.steps) steps += n;
+  const bool in_range = facts.agreed >= kNoFrame && facts.agreed <= kLastFrame;
+  if (!in_range) reader.fail(ErrorCode::invalid, "the agreed state is out of range");
+  if (facts.roots.size() != frames || (!facts.steps.empty() && facts.steps.size() != frames)) {
+    reader.fail(ErrorCode::corrupt, "not as many roots or step counts as frames");
+  }
+  if (facts.stages.size() != steps * kTraceHashes) {
+    reader.fail(ErrorCode::corrupt, "not as many stage hashes as the steps have");
   }
   if (const Result<void> read = reader.result("pEER"); !read) return read.error();
   return facts;
@@ -65,31 +69,32 @@ template <class S>
 ISO_INLINE Result<void> write_bundle(ReplaySink sink, const FrameHistory<S>& history, std::string_view scene,
                                      const BundleSettings& settings) {
   const Frame end = history.last_confirmed() + 1;
-  BundleFacts facts{settings.player, end, settings.agreed, {}, {}};
+  Frame first = end;
   const auto usable = [&](Frame frame) {
     const typename FrameHistory<S>::Kept* kept = history.find(frame);
     return kept != nullptr && kept->confirmed && history.state_before(frame) != nullptr;
   };
-  while (facts.first > 0 && facts.first > settings.agreed && usable(facts.first - 1)) --facts.first;
-  if (facts.first >= end) return Error{ErrorCode::invalid, "no confirmed frame with its state is kept", "bundle"};
+  while (first > 0 && first > settings.agreed && usable(first - 1)) --first;
+  if (first >= end) return Error{ErrorCode::invalid, "no confirmed frame with its state is kept", "bundle"};
 
   World<S> scratch(history.world().settings());
-  scratch.load(*history.state_before(facts.first));
-  const Result<ReplayHeader> header = make_replay_header(identity_of_world(scratch.settings(), scene));
+  scratch.load(*history.state_before(first));
+  const Result<ReplayHeader> header = header_of_world(scratch.settings(), scene, first);
   if (!header) return header.error();
   Recorder<World<S>> recorder(sink);
   Result<void> result = recorder.begin(scratch, header.value());
-  for (Frame frame = facts.first; frame < end && result; ++frame) {
+  BundleFacts facts{settings.player, settings.agreed, {}, {}, {}};
+  for (Frame frame = first; frame < end && result; ++frame) {
     const typename FrameHistory<S>::Kept& kept = *history.find(frame);
     facts.roots.push_back(kept.root);
+    if (history.settings().stages) facts.steps.push_back(static_cast<std::uint32_t>(kept.stages.size()) / kTraceHashes);
     facts.stages.insert(facts.stages.end(), kept.stages.begin(), kept.stages.end());
     result = recorder.frame(kept.tape, kept.hash);
-    if (!result || static_cast<std::uint32_t>(frame - facts.first) >= settings.states) continue;
+    if (!result || static_cast<std::uint32_t>(frame - first) >= settings.states) continue;
     scratch.load(kept.state);
     result = recorder.keyframe(scratch);
   }
   if (!result) return result;
-  if (facts.stages.size() != facts.roots.size() * kTraceHashes) facts.stages.clear();
   std::vector<std::uint8_t> bytes;
   Writer writer(bytes);
   write_facts(writer, facts);

@@ -7,29 +7,30 @@
 #include <vector>
 
 #include "isostep/session/frame.hpp"
+#include "isostep/world/recorder.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
 
 struct HistorySettings {
   std::size_t frames = 64;  // kept; more than a session may predict, and for bundles than it takes to notice a desync
-  bool states = true;       // the state after each: for bundles; costs a save a step
+  bool states = true;       // the state after each: for bundles; costs a save a frame
   bool stages = false;      // the hash after each stage: for the stage of a desync; costs kTraceHashes hashes a step
 };
 
-/// Observes `drive` for SessionRecorder and write_bundle. The world is the one that the game steps, exactly once a
-/// frame; it must outlive this and record to nothing else meanwhile. Nothing is allocated once the kept tapes and
-/// snapshots have grown.
+/// Observes `drive` for SessionRecorder and write_bundle. The world is the one that the game steps, at most
+/// kFrameStepCap times a frame; it must outlive this and record to nothing else meanwhile. Nothing is allocated once
+/// the kept tapes and snapshots have grown.
 template <class S> class FrameHistory {
  public:
   struct Kept {
-    Frame frame = kNoFrame;  // kNoFrame: nothing is kept here
-    bool confirmed = false;  // `root` is known, and nothing here will change
-    bool playable = false;   // the tape leads from the state before to the state after
-    std::uint64_t hash = 0;  // of the world after the frame
-    std::uint64_t root = 0;  // of the whole game after it, as the session compares
+    Frame frame = kNoFrame;      // kNoFrame: nothing is kept here
+    bool confirmed = false;      // `root` is known, and nothing here will change
+    const char* flaw = nullptr;  // why the tape does not lead from the state before to the state after; null: it does
+    std::uint64_t hash = 0;      // of the world after the frame
+    std::uint64_t root = 0;      // of the whole game after it, as the session compares
     std::vector<std::uint8_t> tape;
-    std::vector<std::uint64_t> stages;  // kTraceHashes, or none
+    std::vector<std::uint64_t> stages;  // kTraceHashes a step, or none
     typename World<S>::Snapshot state;  // after it, if states are kept
   };
 
@@ -42,7 +43,7 @@ template <class S> class FrameHistory {
   ISO_INLINE void before_step(Frame frame) {
     Kept& kept = at(frame);
     kept.confirmed = kept.confirmed && kept.frame == frame;
-    kept.playable = false;
+    kept.flaw = "the frame was not stepped to its end";
     kept.frame = frame;
     kept.tape.clear();
     kept.stages.clear();
@@ -51,15 +52,14 @@ template <class S> class FrameHistory {
       if (settings_.states) world_.save(start_);
     }
     tape_ = &kept.tape;
-    loads_ = world_.loads();
-    tick_ = world_.tick();
+    began_ = TapeStart<S>(world_);
     world_.record_to(tape_);
     if (settings_.stages) world_.trace_to(&kept.stages);
   }
   ISO_INLINE void after_step(Frame frame) {
     Kept& kept = at(frame);
     if (kept.frame != frame || tape_ != &kept.tape) return;
-    kept.playable = world_.records_to(tape_) && world_.loads() == loads_ && world_.tick() == tick_ + 1;
+    kept.flaw = began_.flaw(world_, kept.tape);
     kept.hash = world_.hash();
     if (settings_.states) world_.save(kept.state);
     let_go();
@@ -84,6 +84,7 @@ template <class S> class FrameHistory {
   }
 
   ISO_INLINE const World<S>& world() const { return world_; }
+  ISO_INLINE const HistorySettings& settings() const { return settings_; }
   /// Null when it is not kept, or no more.
   ISO_INLINE const Kept* find(Frame frame) const {
     if (frame < 0) return nullptr;
@@ -115,7 +116,7 @@ template <class S> class FrameHistory {
   Frame confirmed_ = kNoFrame;
   typename World<S>::Snapshot start_;          // before it
   std::vector<std::uint8_t>* tape_ = nullptr;  // of the frame being stepped
-  std::uint64_t loads_ = 0, tick_ = 0;         // when it began
+  TapeStart<S> began_;                         // it
 };
 
 }  // namespace isostep

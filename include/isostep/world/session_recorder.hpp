@@ -32,8 +32,7 @@ template <class S> class SessionRecorder {
     const typename FrameHistory<S>::Kept* kept = history_.find(frame);
     if (frame != next_) return fail("frames were not confirmed one after the other");
     if (kept == nullptr) return fail("the history is too short: a frame left it before it was confirmed");
-    if (!kept->playable)
-      return fail("the game did not step its world exactly once, or loaded or replaced it in its step");
+    if (kept->flaw != nullptr) return fail(kept->flaw);
     keep(recorder_.frame(kept->tape, kept->hash));
     if (result_) ++next_;
   }
@@ -58,7 +57,7 @@ template <class S> class SessionRecorder {
 
   ISO_INLINE void begin(Frame frame) {
     const World<S>& world = history_.world();
-    const Result<ReplayHeader> header = make_replay_header(identity_of_world(world.settings(), scene_.view()));
+    const Result<ReplayHeader> header = header_of_world(world.settings(), scene_.view(), frame);
     phase_ = Phase::open;
     first_ = next_ = frame;
     keep(header ? recorder_.begin(world, header.value()) : Result<void>(header.error()));

@@ -127,7 +127,8 @@ template <class S> class World {
   /// From now on every step appends the state's hash as it begins and after each stage, kTraceHashes in all (null: to
   /// nothing). What desyncs are narrowed down with; costs a hash a stage.
   void trace_to(std::vector<std::uint64_t>* hashes);
-  /// How often the world was loaded or read: a recording of commands alone does not survive it.
+  /// How often the world was loaded or read. Commands alone do not lead across that: a WorldRecorder ends there, and a
+  /// session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
   std::uint64_t loads() const;
 
   // What bodies are like. A stale id gives the zero of the answer's type.
@@ -179,7 +180,7 @@ template <class S> class World {
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
-  /// Commands and the one step among them, as `record_to` wrote them.
+  /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error.
   Result<void> step_recorded(Bytes input);
 
   /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.

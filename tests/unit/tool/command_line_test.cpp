@@ -303,7 +303,7 @@ TEST_F(CommandLine, FindsTheFrameInWhichReplaysPart) {
   EXPECT_EQ(run({"diff", path("a.replay"), path("a.replay")}).out, "the same: 6 frames\n");
   const Answer answer = run({"diff", path("a.replay"), path("b.replay")});
   EXPECT_EQ(answer.status, 1);
-  EXPECT_EQ(answer.out.rfind("frame 4, stage commands\n  the inputs of this frame differ\n"
+  EXPECT_EQ(answer.out.rfind("frame 4, stage commands\n  the commands or steps of this frame differ\n"
                              "  body_slots[1].generation: 2 | 1 ",
                              0),
             0u)

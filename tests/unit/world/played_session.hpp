@@ -22,9 +22,11 @@ template <class S> struct Arena {
 };
 
 inline int input_of(Frame frame) { return frame * 7 % 5 - 2; }
+/// The game pauses in some frames and runs twice as fast in others.
+inline int steps_of(Frame frame) { return frame % 5 == 3 ? 0 : frame % 7 == 4 ? 2 : 1; }
 
 /// One frame of the game: push the crate, drop a ball now and then, step, and take away the balls that began to touch.
-template <class S, class Step> void play_frame(Arena<S>& arena, Frame frame, int input, Step&& step) {
+template <class S, class Step> void play_frame(Arena<S>& arena, Frame frame, int input, int steps, Step&& step) {
   World<S>& world = arena.world;
   world.apply_impulse(arena.crate, vec<S>(0.25 * input, 0, 0));
   if (frame % 8 == 0) {
@@ -32,15 +34,17 @@ template <class S, class Step> void play_frame(Arena<S>& arena, Frame frame, int
     drop.user_data = 7;
     world.create(drop);
   }
-  step();
-  for (const ContactBegin<S>& begin : world.events().contact_begin) {
-    for (const BodyId body : {begin.a, begin.b}) {
-      if (world.user_data(body) == 7) world.destroy(body);
+  for (int i = 0; i < steps; ++i) {
+    step();
+    for (const ContactBegin<S>& begin : world.events().contact_begin) {
+      for (const BodyId body : {begin.a, begin.b}) {
+        if (world.user_data(body) == 7) world.destroy(body);
+      }
     }
   }
 }
 template <class S> void play_frame(Arena<S>& arena, Frame frame, int input) {
-  play_frame(arena, frame, input, [&] { arena.world.step(); });
+  play_frame(arena, frame, input, steps_of(frame), [&] { arena.world.step(); });
 }
 
 /// Frames first to end - 1. Every frame is predicted wrongly, and six at a time are stepped again with the true inputs

@@ -8,6 +8,7 @@
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/query/closest_point.hpp"
 #include "isostep/collision/query/ray_cast.hpp"
+#include "isostep/state/verify.hpp"
 #include "isostep/world/recorder.hpp"
 
 namespace isostep::test {
@@ -298,7 +299,7 @@ TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
   const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
   w.destroy(id);
   w.step();
-  for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 1}) {
+  for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 2}) {
     World<S> other(settings<S>());
     EXPECT_FALSE(other.step_recorded({tape.data(), cut}).ok()) << cut;
     EXPECT_EQ(other.tick(), 0u);
@@ -326,20 +327,55 @@ TYPED_TEST(WorldQuestions, a_tape_keeps_the_place_of_the_step_among_the_commands
   EXPECT_EQ(other.tick(), 1u);
 }
 
-TYPED_TEST(WorldQuestions, a_frame_with_no_step_or_two_is_refused_by_name) {
+TYPED_TEST(WorldQuestions, a_tape_plays_any_number_of_steps_up_to_the_cap) {
   using S = TypeParam;
-  World<S> w(settings<S>());
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
-  add_ball(w, 0.5);
-  EXPECT_EQ(World<S>(settings<S>()).step_recorded(tape).error().message.view(), "a frame without a step");
-  EXPECT_EQ(World<S>(settings<S>()).step_recorded({}).error().message.view(), "a frame without a step");
-  w.step();
-  w.step();
-  EXPECT_EQ(World<S>(settings<S>()).step_recorded(tape).error().message.view(), "a frame with two steps");
+  for (const std::uint32_t steps : {0u, 1u, 2u, kFrameStepCap, kFrameStepCap + 1}) {
+    World<S> w(settings<S>()), other(settings<S>());
+    std::vector<std::uint8_t> tape;
+    w.record_to(&tape);
+    const BodyId ball = w.create(moving<S>(add_ball(w, 0.5), {0, 5, 0}));
+    for (std::uint32_t i = 0; i < steps; ++i) {
+      w.step();
+      w.apply_impulse(ball, vec<S>(0.5, 0, 0));
+    }
+    const Result<void> played = other.step_recorded(tape);
+    EXPECT_EQ(other.tick(), std::min(steps, kFrameStepCap));
+    if (steps <= kFrameStepCap) {
+      EXPECT_TRUE(played.ok()) << steps;
+      EXPECT_EQ(other.hash(), w.hash()) << steps;
+    } else {
+      EXPECT_EQ(played.error().code, ErrorCode::limit);
+      EXPECT_EQ(played.error().message.view(), kTooManySteps);
+    }
+  }
+  World<S> still(settings<S>());
+  const std::uint64_t before = still.hash();
+  EXPECT_TRUE(still.step_recorded({}).ok());
+  EXPECT_EQ(still.hash(), before);
 }
 
-TYPED_TEST(WorldQuestions, a_recording_refuses_frames_of_no_step_or_two) {
+TYPED_TEST(WorldQuestions, a_recording_takes_pauses_and_several_steps_and_verifies) {
+  using S = TypeParam;
+  World<S> w;
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  const BodyId ball = w.create(moving<S>(add_ball(w, 0.5), {0, 5, 0}));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  for (const std::uint32_t steps : {0u, 1u, 2u, 0u, kFrameStepCap}) {
+    w.apply_impulse(ball, vec<S>(0.25, 0, 0));
+    for (std::uint32_t i = 0; i < steps; ++i) w.step();
+    ASSERT_TRUE(recorder.end_frame().ok()) << steps;
+  }
+  ASSERT_TRUE(recorder.finish().ok());
+  const ReplayReader replay(file);
+  World<S> again;
+  const VerifyResult result = verify(replay, again, SameHeader{replay.header()});
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  EXPECT_EQ(result.frames, 5u);
+  EXPECT_EQ(again.tick(), 3u + kFrameStepCap);
+}
+
+TYPED_TEST(WorldQuestions, a_recording_ends_before_a_frame_of_more_steps_than_the_cap) {
   using S = TypeParam;
   World<S> w;
   std::vector<std::uint8_t> file;
@@ -347,13 +383,11 @@ TYPED_TEST(WorldQuestions, a_recording_refuses_frames_of_no_step_or_two) {
   ASSERT_TRUE(recorder.begin("a test").ok());
   w.step();
   ASSERT_TRUE(recorder.end_frame().ok());
+  for (std::uint32_t i = 0; i <= kFrameStepCap; ++i) w.step();
+  EXPECT_EQ(recorder.end_frame().error().message.view(), kTooManySteps);
   EXPECT_FALSE(recorder.end_frame().ok());
-  World<S> twice;
-  WorldRecorder<S> other(twice, sink_to(file));
-  ASSERT_TRUE(other.begin("a test").ok());
-  twice.step();
-  twice.step();
-  EXPECT_FALSE(other.end_frame().ok());
+  ASSERT_TRUE(recorder.finish().ok());
+  EXPECT_EQ(ReplayReader(file).frame_count(), 1u);
 }
 
 TYPED_TEST(WorldQuestions, a_trace_is_the_hash_before_a_step_and_after_each_stage) {

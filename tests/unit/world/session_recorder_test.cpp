@@ -27,7 +27,7 @@ template <class S> struct Recording {
 template <class S> std::vector<std::uint8_t> straight_recording(Arena<S>& arena, Frame first, Frame end) {
   std::vector<std::uint8_t> file;
   WorldRecorder<S> recorder(arena.world, sink_to(file));
-  bool ok = recorder.begin("arena").ok();
+  bool ok = recorder.begin("arena", first).ok();
   for (Frame frame = first; frame < end; ++frame) {
     play_frame(arena, frame, input_of(frame));
     ok = recorder.end_frame().ok() && ok;
@@ -55,6 +55,7 @@ TYPED_TEST(SessionRecording, is_byte_for_byte_that_of_a_match_without_rollback) 
   play_session(this->arena, 0, 130, this->both);
   ASSERT_TRUE(this->recorder.finish().ok());
   EXPECT_EQ(this->recorder.frames(), 130);
+  EXPECT_NE(this->arena.world.tick(), 130u) << "frames of no step and of two were meant to be among them";
   EXPECT_EQ(this->file, straight_recording(this->other, 0, 130));
   const VerifyResult result = verify_world<TypeParam>(this->file);
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
@@ -70,6 +71,7 @@ TYPED_TEST(SessionRecording, of_a_late_joiner_starts_with_the_state_that_was_joi
   play_session(this->arena, 47, 90, this->both);
   ASSERT_TRUE(this->recorder.finish().ok());
   EXPECT_EQ(this->file, straight_recording(this->other, 47, 90));
+  EXPECT_EQ(ReplayReader(this->file).header().number("first_frame").value(), 47u);
 }
 
 TYPED_TEST(SessionRecording, ends_whole_where_the_session_restarts) {
@@ -111,11 +113,32 @@ TYPED_TEST(SessionRecording, says_when_a_frame_was_left_out) {
   EXPECT_EQ(this->recorder.frames(), 1);
 }
 
-TYPED_TEST(SessionRecording, says_when_a_frame_is_not_one_step_of_the_world) {
+TYPED_TEST(SessionRecording, takes_frames_of_no_step_and_of_as_many_as_the_cap) {
+  const std::uint32_t steps[] = {0, 1, 2, kFrameStepCap, 0};
+  Frame frame = 0;
+  for (const std::uint32_t n : steps) {
+    this->both.before_step(frame);
+    for (std::uint32_t i = 0; i < n; ++i) this->arena.world.step();
+    this->both.after_step(frame);
+    this->both.confirmed(frame++, 1);
+  }
+  ASSERT_TRUE(this->recorder.finish().ok());
+  const VerifyResult result = verify_world<TypeParam>(this->file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  EXPECT_EQ(result.frames, 5u);
+}
+
+TYPED_TEST(SessionRecording, says_when_a_frame_has_more_steps_than_the_cap) {
+  this->both.before_step(0);
+  for (std::uint32_t i = 0; i <= kFrameStepCap; ++i) this->arena.world.step();
+  this->both.after_step(0);
+  this->both.confirmed(0, 1);
+  EXPECT_EQ(this->recorder.finish().error().message.view(), kTooManySteps);
+}
+
+TYPED_TEST(SessionRecording, says_when_a_confirmed_frame_was_not_stepped_to_its_end) {
   this->both.before_step(0);
   this->arena.world.step();
-  this->arena.world.step();
-  this->both.after_step(0);
   this->both.confirmed(0, 1);
   EXPECT_FALSE(this->recorder.finish().ok());
 }
@@ -155,6 +178,7 @@ template <class S> class Bundles : public ::testing::Test {
     EXPECT_EQ(replay.ancillaries()[0].type, replay_chunk::kPeer);
     return read_facts(replay.ancillaries()[0].payload, replay.frame_count()).value();
   }
+  std::uint64_t first(const ReplayReader& replay) { return replay.header().number(kFirstFrameKey).value(); }
 };
 TYPED_TEST_SUITE(Bundles, AllScalars);
 
@@ -167,25 +191,50 @@ TYPED_TEST(Bundles, are_replays_of_the_frames_since_the_last_agreed_state) {
   EXPECT_EQ(replay.frame_count(), 10u);
   EXPECT_EQ(replay.keyframes().size(), 4u);
   const BundleFacts facts = this->facts(replay);
+  EXPECT_EQ(this->first(replay), 50u);
   EXPECT_EQ(facts.player, 3u);
-  EXPECT_EQ(facts.first, 50);
   EXPECT_EQ(facts.agreed, 50);
-  EXPECT_EQ(facts.stages.size(), 10u * kTraceHashes);
   ASSERT_EQ(facts.roots.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(facts.roots[i], ~replay.frame(i).hash);
+  EXPECT_EQ(facts.steps, (std::vector<std::uint32_t>{1, 1, 1, 0, 1, 1, 1, 1, 0, 1}));
+  EXPECT_EQ(facts.stages.size(), 8u * kTraceHashes);
+}
+
+TYPED_TEST(Bundles, tell_a_frame_that_paused_from_one_that_was_not_traced) {
+  FrameHistory<TypeParam> untraced(this->arena.world, {.frames = 8});
+  play_session(this->arena, 0, 4, untraced);
+  ASSERT_TRUE(write_bundle(sink_to(this->file), untraced, "arena", {}).ok());
+  EXPECT_TRUE(this->facts(ReplayReader(this->file)).steps.empty());
+  play_session(this->arena, 3, 5, this->history);
+  ASSERT_TRUE(this->write(kNoFrame).ok());
+  const BundleFacts facts = this->facts(ReplayReader(this->file));
+  EXPECT_EQ(facts.steps, (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_EQ(facts.stages.size(), 2 * kTraceHashes);
+}
+
+TYPED_TEST(Bundles, hold_a_frame_that_cannot_be_played_as_it_was) {
+  this->history.before_step(0);
+  for (std::uint32_t i = 0; i <= kFrameStepCap; ++i) this->arena.world.step();
+  this->history.after_step(0);
+  this->history.confirmed(0, 1);
+  ASSERT_TRUE(this->write(kNoFrame).ok());
+  EXPECT_EQ(this->facts(ReplayReader(this->file)).steps, (std::vector<std::uint32_t>{kFrameStepCap + 1}));
+  const VerifyResult result = verify_world<TypeParam>(this->file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::corrupt) << describe(result);
+  EXPECT_EQ(result.error.message.view(), kTooManySteps);
 }
 
 TYPED_TEST(Bundles, start_with_the_oldest_state_kept_when_the_agreed_one_is_gone) {
   play_session(this->arena, 0, 60, this->history);
   ASSERT_TRUE(this->write(kNoFrame).ok());
-  EXPECT_EQ(this->facts(ReplayReader(this->file)).first, 60 - 32 + 1);
+  EXPECT_EQ(this->first(ReplayReader(this->file)), 60u - 32 + 1);
   EXPECT_EQ(verify_world<TypeParam>(this->file).outcome, VerifyOutcome::verified);
 }
 
 TYPED_TEST(Bundles, start_with_the_first_state_of_a_young_match) {
   play_session(this->arena, 5, 10, this->history);
   ASSERT_TRUE(this->write(kNoFrame).ok());
-  EXPECT_EQ(this->facts(ReplayReader(this->file)).first, 5);
+  EXPECT_EQ(this->first(ReplayReader(this->file)), 5u);
   EXPECT_EQ(verify_world<TypeParam>(this->file).frames, 5u);
 }
 
@@ -219,7 +268,7 @@ TYPED_TEST(Bundles, keep_what_was_confirmed_when_a_sync_test_goes_behind_it) {
 TYPED_TEST(Bundles, refuse_facts_that_are_cut_short_or_followed_by_more) {
   std::vector<std::uint8_t> bytes;
   Writer writer(bytes);
-  write_facts(writer, {1, 2, 3, {4}, std::vector<std::uint64_t>(kTraceHashes)});
+  write_facts(writer, {1, 3, {4}, {1}, std::vector<std::uint64_t>(kTraceHashes)});
   for (std::size_t cut = 0; cut < bytes.size(); ++cut) EXPECT_FALSE(read_facts({bytes.data(), cut}, 1).ok()) << cut;
   EXPECT_TRUE(read_facts(bytes, 1).ok());
   bytes.push_back(0);
@@ -237,12 +286,22 @@ TYPED_TEST(Bundles, refuse_facts_that_do_not_fit_their_frames) {
   };
   EXPECT_TRUE(read(2));
   EXPECT_FALSE(read(3));
-  facts.stages.resize(5);
-  EXPECT_FALSE(read(2));
   facts.stages.resize(2 * kTraceHashes);
-  EXPECT_TRUE(read(2));
-  facts.first = -1;
   EXPECT_FALSE(read(2));
+  facts.steps = {0, 2};
+  EXPECT_TRUE(read(2));
+  facts.steps = {2};
+  EXPECT_FALSE(read(2));
+  facts.steps = {0xffffffffu, 3};
+  EXPECT_FALSE(read(2));
+  facts.steps = {0, 2};
+  facts.stages.pop_back();
+  EXPECT_FALSE(read(2));
+  facts.stages.push_back(0);
+  for (const Frame agreed : {-2, kLastFrame + 1}) {
+    facts.agreed = agreed;
+    EXPECT_FALSE(read(2)) << agreed;
+  }
 }
 
 }  // namespace
