@@ -67,8 +67,11 @@ int run(const Arguments& arguments) {
   if (!arguments.no_rollback) {
     std::vector<std::string> scalars;
     for (const Maker& maker : engines) scalars.push_back(maker.name);
-    rollback = measure_rollback("S4", scalars);
-    std::printf("\nRollback, S4 after 600 frames:\n\n%s", table_of(rollback).c_str());
+    for (const char* name : {"S4", "S9"}) {
+      const std::vector<RollbackRow> here = measure_rollback(name, scalars);
+      rollback.insert(rollback.end(), here.begin(), here.end());
+    }
+    std::printf("\nRollback, S4 and S9 as they are after the frames of a run:\n\n%s", table_of(rollback).c_str());
   }
   return write_json(arguments, json_of(rows, rollback, arguments.race));
 }

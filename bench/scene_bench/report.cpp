@@ -118,18 +118,6 @@ std::string table_of(const std::vector<Row>& rows) {
   return text;
 }
 
-std::string table_of(const std::vector<RollbackRow>& rows) {
-  std::string text =
-      "| scalar | save us | load us | hash us | step ms | load + 8 x (step, save, hash) ms | snapshot bytes | per "
-      "awake body |\n"
-      "|---|---|---|---|---|---|---|---|\n";
-  for (const RollbackRow& row : rows) {
-    text += print("| %s | %.1f | %.1f | %.1f | %.3f | %.2f | %zu | %.0f |\n", row.scalar.c_str(), row.save_us,
-                  row.load_us, row.hash_us, row.step_ms, row.eight_frames_ms, row.snapshot_bytes, row.bytes_per_awake);
-  }
-  return text;
-}
-
 std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback,
                     const RaceOptions& options) {
   Json json = {{"rounds", options.rounds},
@@ -138,7 +126,9 @@ std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>
                {"rollback", Json::array()}};
   for (const Row& row : rows) json["runs"].push_back(json_of(row, rows));
   for (const RollbackRow& row : rollback) {
-    json["rollback"].push_back({{"scalar", row.scalar},
+    json["rollback"].push_back({{"scene", row.scene},
+                                {"scalar", row.scalar},
+                                {"awake", row.awake},
                                 {"save_us", row.save_us},
                                 {"load_us", row.load_us},
                                 {"hash_us", row.hash_us},

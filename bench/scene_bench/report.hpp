@@ -11,7 +11,6 @@ namespace isostep::bench {
 std::string heading();
 /// The rows of one scene; ratios are against the peers among them.
 std::string table_of(const std::vector<Row>& rows);
-std::string table_of(const std::vector<RollbackRow>& rows);
 
 std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback, const RaceOptions& options);
 

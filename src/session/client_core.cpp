@@ -114,9 +114,10 @@ void ClientCore::before_steps(Time now) {
     phase_ = SessionPhase::watching;
   }
   const bool is_near = frames_behind(now) <= kCaughtUp + config_.most_delay;
+  if (is_near && near_since_ == 0) near_since_ = now;
   if (config_.mode == SessionMode::spectator) {
     if (is_near) phase_ = SessionPhase::watching;
-  } else if (!is_open_ && !asked_ready_ && is_near && is_vouched_for()) {
+  } else if (!is_open_ && !asked_ready_ && is_near && is_vouched_for(now)) {
     asked_ready_ = must_ready_ = true;
   }
 }

@@ -166,6 +166,7 @@ void ClientCore::begin_at(const RootReport& start) {
     go_back(frame);
   }
   base_ = frame;
+  near_since_ = 0;
   for (InputStream& stream : streams_) stream.reset(frame);
   for (View& view : views_) view = View{};
   for (bool& is_present : is_present_) is_present = false;
@@ -186,16 +187,20 @@ void ClientCore::open(Frame first) {
   asked_ready_ = false;
 }
 
-bool ClientCore::is_vouched_for() const {
+bool ClientCore::is_vouched_for(Time now) const {
   // Until the host says that nobody plays for us, inputs of ours from before are still on their way.
   const InputStream& own = streams_[static_cast<std::size_t>(player_)];
   if (own.end() == own.begin() || !own.last().absent) return false;
+  bool is_contradicted = false;
   int needed = 1, vouching = views_[kHostMachine].agreed >= base_ ? 1 : 0;
   for (int p = welcome_.host_players; p < players(); ++p) {
     if (p == player_) continue;
     if (!streams_[static_cast<std::size_t>(p)].last().absent) needed = 2;
     if (views_[p].agreed >= base_) ++vouching;
+    is_contradicted = is_contradicted || views_[p].differs;
   }
+  // Who says nothing at all does not keep us out for ever.
+  if (near_since_ != 0 && now - near_since_ > config_.patience && !is_contradicted) needed = 1;
   return vouching >= needed;
 }
 

@@ -6,6 +6,7 @@ namespace isostep {
 namespace {
 
 constexpr Frame kMostAhead = 128;           // [frames] beyond ours that a client's input may lie
+constexpr Frame kLateBeyond = 10;           // [frames] that an input may be late beyond what its way explains
 constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an event
 
 }  // namespace
@@ -13,8 +14,7 @@ constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an ev
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules),
       guests_(static_cast<std::size_t>(config.max_peers)),
-      random_(Pcg32::seeded(config.seed)),
-      match_(static_cast<std::uint16_t>(random_.next())) {
+      match_(static_cast<std::uint16_t>(secret())) {
   for (int p = 0; p < config.local_players; ++p) seats_[p] = {true, -1, 0, true};
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
@@ -63,7 +63,9 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   }
   if (!accept_message(guest, bytes, now)) return;
   const MessageKind kind = message_kind(bytes).value();
-  if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected && has_start_) {
+  if (kind == MessageKind::hello && !has_start_) {
+    guest.must_close = true;  // nothing was driven here yet: let it come again
+  } else if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected) {
     guest.heard = now;
     greet(guest, bytes, now);
   } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::receives_snapshot) {
@@ -160,6 +162,11 @@ void HostCore::fill_absent() {
   }
 }
 
+Frame HostCore::plausible_slack(Frame said, Time way) const {
+  const Frame most = static_cast<Frame>(way / clock_.period()) + kLateBeyond;
+  return said < -most ? -most : said;
+}
+
 void HostCore::observe_delay() {
   Frame least = RecentLeast::kNothing;
   Time farthest = 0;
@@ -167,7 +174,9 @@ void HostCore::observe_delay() {
     if (guest.stage != Guest::Stage::live || guest.player < 0 || !seats_[guest.player].is_open) continue;
     if (guest.round_trip > farthest) farthest = guest.round_trip;
     for (int p = 0; p < config_.local_players; ++p) {
-      if ((guest.reported_mask >> p & 1) != 0 && guest.slack[p] < least) least = guest.slack[p];
+      if ((guest.reported_mask >> p & 1) == 0) continue;
+      const Frame slack = plausible_slack(guest.slack[p], guest.round_trip);
+      if (slack < least) least = slack;
     }
   }
   stats_.round_trip = farthest;

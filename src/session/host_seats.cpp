@@ -7,12 +7,14 @@ namespace {
 
 constexpr Frame kNotice = 30;  // [frames] between a seat's opening and its first frame
 
-std::uint64_t draw64(Pcg32& random) {
-  const std::uint64_t high = random.next();
-  return high << 32 | random.next();
-}
-
 }  // namespace
+
+std::uint64_t HostCore::secret() {
+  HashCombiner number;
+  number.add(config_.seed);
+  number.add(secrets_++);
+  return number.value();
+}
 
 void HostCore::refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
   guest.stage = Guest::Stage::refused;
@@ -71,7 +73,7 @@ void HostCore::greet(Guest& guest, Bytes message, Time now) {
       unseat(old);
       old.must_close = true;
     }
-    seat = {true, static_cast<int>(guest.peer), draw64(random_) | 1u, false, seat.owed};
+    seat = {true, static_cast<int>(guest.peer), secret() | 1u, false, seat.owed};
     guest.player = player;
   }
   guest.must_welcome = true;

@@ -113,7 +113,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     Frame slack = slack_[p].value();
     for (const Guest& other : guests_) {
       const bool counts = other.stage == Guest::Stage::live && other.player >= 0 && seats_[other.player].is_open;
-      if (counts && (other.reported_mask >> p & 1) != 0 && other.slack[p] < slack) slack = other.slack[p];
+      if (!counts || (other.reported_mask >> p & 1) == 0) continue;
+      const Frame late = plausible_slack(other.slack[p], guest.round_trip + other.round_trip);
+      if (late < slack) slack = late;
     }
     header.slack[p] = static_cast<std::int8_t>(slack);
   }

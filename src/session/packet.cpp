@@ -6,6 +6,7 @@
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
 //         10000000  size varint, the input              10000001  as long as the previous: masks of 8, changed bytes
+//         11mmmmmm  as long as the previous, at most 6 bytes: mask of the changed ones, which follow
 #include "isostep/session/packet.hpp"
 
 #include "isostep/session/input_codec.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
 constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasRoot = 4, kPassesOn = 8, kKnownFlags = 15;
-constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81;
+constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
+constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
 
 bool is_frame(Frame frame) { return frame >= 0 && frame <= kLastFrame; }
@@ -47,6 +49,15 @@ void write_input(WireWriter& writer, Bytes previous, Bytes input) {
     writer.raw(input);
     return;
   }
+  if (input.size() <= kShortInput) {
+    unsigned mask = 0;
+    for (std::size_t k = 0; k < input.size(); ++k) mask |= (previous[k] != input[k] ? 1u : 0u) << k;
+    writer.byte(static_cast<std::uint8_t>(kShortDelta | mask));
+    for (std::size_t k = 0; k < input.size(); ++k) {
+      if (previous[k] != input[k]) writer.byte(input[k]);
+    }
+    return;
+  }
   writer.byte(kDelta);
   for (std::size_t i = 0; i < input.size(); i += 8) {
     const std::size_t end = i + 8 < input.size() ? i + 8 : input.size();
@@ -61,7 +72,8 @@ void write_input(WireWriter& writer, Bytes previous, Bytes input) {
 
 }  // namespace
 
-PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer) : buffer_(buffer), size_(0) {
+PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
+    : buffer_(buffer), size_(0), frame_(header.frame) {
   WireWriter writer(buffer, kDatagramCap);
   const bool has_root = header.root.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
   writer.byte(kKind);
@@ -120,7 +132,7 @@ Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Fr
   if (count == 0) return 0;
   WireWriter head(buffer_ + size_, kDatagramCap - size_);
   head.byte(player);
-  head.number(static_cast<std::uint32_t>(first));
+  head.difference(first - frame_);
   head.number(static_cast<std::uint32_t>(count));
   head.number(static_cast<std::uint32_t>(whole));
   head.raw({tokens, whole});
@@ -161,7 +173,7 @@ Result<Packet> read_packet(Bytes bytes) {
   while (reader.remaining() > 0) {
     InputSlice slice{};
     slice.player = reader.byte();
-    slice.first = static_cast<Frame>(reader.number());
+    slice.first = read_frame_near(reader, header.frame);
     slice.count = static_cast<Frame>(reader.number());
     slice.tokens = reader.raw(reader.number());
     if (reader.failed()) break;
@@ -216,6 +228,12 @@ bool SliceReader::read_token() {
         if (k >= previous_size_) return false;
         previous_[k] = reader.byte();
       }
+    }
+  } else if (token >= kShortDelta && previous_size_ > 0 && previous_size_ <= kShortInput) {
+    for (std::size_t k = 0; k < kShortInput; ++k) {
+      if ((token >> k & 1) == 0) continue;
+      if (k >= previous_size_) return false;
+      previous_[k] = reader.byte();
     }
   } else {
     return false;

@@ -169,6 +169,7 @@ void PeerCore::tell_who_plays(Frame frame) {
     const bool is_present = stream.contains(frame) && !stream.at(frame).absent;
     if (is_present == is_present_[p]) continue;
     is_present_[p] = is_present;
+    if (is_present) views_[p] = View{};  // who comes back, comes with a state that agreed
     SessionEvent event{.kind = is_present ? SessionEvent::Kind::joined : SessionEvent::Kind::left};
     event.player = static_cast<std::uint8_t>(p);
     event.frame = frame;

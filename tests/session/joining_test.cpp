@@ -164,7 +164,8 @@ TEST(TamperedSnapshot, OfAWorldIsRefused) {
   for (const std::size_t at : {3u, 60u, 500u, 1500u, 3001u, 5000u}) {
     SCOPED_TRACE(at);
     VirtualMatch<Game> match(
-        config_of(3, kShortHistory), [&] { return std::make_unique<Game>(scenes::MatchSettings{.players = 3, .pile = 6, .substeps = 2}); },
+        config_of(3, kShortHistory),
+        [&] { return std::make_unique<Game>(scenes::MatchSettings{.players = 3, .pile = 6, .substeps = 2}); },
         [](int player, Frame frame) { return scenes::bot_input(9, player, frame); });
     start_without_last(match, 3, 200, profile("lan"));
     Machine<Game>& joiner = match.add(profile("lan"));
@@ -235,7 +236,8 @@ TEST(LateJoin, AsksASecondMachineBeforeItPlays) {
   bool passes_on = false;
   joiner.middle = [&](Channel channel, std::vector<std::uint8_t>& bytes) {
     if (channel != Channel::datagram || passes_on) return;
-    alter_packet(bytes, [](PacketHeader& header) { header.reporter = 0xff; }, NothingAltered{});
+    alter_packet(
+        bytes, [](PacketHeader& header) { header.reporter = 0xff; }, NothingAltered{});
   };
   match.run(10 * kSecond, [] { return false; });
   EXPECT_FALSE(joiner.heard(SessionEvent::Kind::joined, 2));

@@ -58,7 +58,8 @@ template <class S> void run_matrix_row(const Row& row, MatrixTally& tally) {
   config.players = players;
   config.mode = kMatrixModes[row[2]];
   // Crowds cost: the more players, the fewer other bodies and sub-steps.
-  const scenes::MatchSettings settings = {.players = players, .pile = 12 / players, .seed = 3, .substeps = players > 4 ? 2 : 4};
+  const scenes::MatchSettings settings = {
+      .players = players, .pile = 12 / players, .seed = 3, .substeps = players > 4 ? 2 : 4};
   VirtualMatch<Game> match(
       config, [&] { return std::make_unique<Game>(settings); },
       [](int player, Frame frame) { return scenes::bot_input(5, player, frame); }, 1 + row[0]);
@@ -80,6 +81,7 @@ template <class S> void run_matrix_row(const Row& row, MatrixTally& tally) {
     EXPECT_TRUE(match.host().played(kMatrixFrames - 1, static_cast<int>(i))) << "is not in the match at its end";
     tally.returns += machine.heard(SessionEvent::Kind::lost_host) ? 1 : 0;
     if (!is_dark) {
+      EXPECT_EQ(match.host().count(SessionEvent::Kind::left), 0) << "left out on a line that works";
       EXPECT_EQ(machine.first, 0);
     }
   }

@@ -88,7 +88,7 @@ TEST(Spectators, CatchUpAfterTwentySecondsWithoutATurn) {
   EXPECT_FALSE(watched.was_ahead);
   ASSERT_TRUE(watched.match->run_to(2400, 60 * kSecond));
   expect_spectator(watcher);
-  expect_one_history(*watched.match);
+  expect_one_history(*watched.match, true);
 }
 
 TEST(Spectators, LeaveThePlayersAsTheyWouldBeAlone) {
@@ -99,7 +99,8 @@ TEST(Spectators, LeaveThePlayersAsTheyWouldBeAlone) {
   ASSERT_TRUE(alone.match->run_to(1200, 60 * kSecond));
   ASSERT_TRUE(watched.match->run(alone.match->now() + 1, [&] { return watched.match->now() >= alone.match->now(); }));
   for (std::size_t i = 0; i < 2; ++i) {
-    const SessionStats &without = alone.match->machine(i).session.stats(), &with = watched.match->machine(i).session.stats();
+    const SessionStats &without = alone.match->machine(i).session.stats(),
+                       &with = watched.match->machine(i).session.stats();
     EXPECT_EQ(without.steps, with.steps);
     EXPECT_EQ(without.waits, with.waits);
     EXPECT_EQ(without.delay, with.delay);

@@ -104,7 +104,8 @@ inline ToyInput toy_input(std::uint64_t seed, int player, Frame frame) {
   Pcg32 random = Pcg32::seeded(seed * 1000003u + static_cast<std::uint64_t>(player) * 7919u +
                                static_cast<std::uint64_t>(frame / hold));
   const std::uint32_t drawn = random.next();
-  return {static_cast<std::int8_t>(drawn), static_cast<std::int8_t>(drawn >> 8), static_cast<std::uint16_t>(drawn >> 16)};
+  return {static_cast<std::int8_t>(drawn), static_cast<std::int8_t>(drawn >> 8),
+          static_cast<std::uint16_t>(drawn >> 16)};
 }
 
 }  // namespace isostep::test

@@ -24,6 +24,7 @@ template <class Game> struct Machine {
       : endpoint(id), port(network.port(id)), session(config), game(std::move(its_game)) {}
 
   void before_step(Frame frame) {
+    if (will_step) will_step(frame);
     if (tamper) tamper(*game, frame);
     for (int p = 0; p < session.config().players; ++p) {
       guessed = guessed || session.status(frame, p) == InputStatus::predicted;
@@ -56,10 +57,14 @@ template <class Game> struct Machine {
   }
 
   void turn(Time world_now, const Bot<Game>& bot) {
-    const Time now = world_now + world_now / 1000 * static_cast<Time>(fast) - world_now / 1000 * static_cast<Time>(late);
+    const Time now =
+        world_now + world_now / 1000 * static_cast<Time>(fast) - world_now / 1000 * static_cast<Time>(late);
     while (const std::optional<transport::Arrival> arrival = port.receive()) {
       if (arrival->kind == transport::ArrivalKind::connected) session.connected(arrival->peer, now);
       if (arrival->kind == transport::ArrivalKind::disconnected) session.disconnected(arrival->peer, now);
+      if (arrival->kind != transport::ArrivalKind::message) {
+        is_offline = arrival->kind == transport::ArrivalKind::disconnected;
+      }
       if (arrival->kind == transport::ArrivalKind::message) {
         Bytes bytes = arrival->bytes;
         if (middle) {
@@ -87,7 +92,8 @@ template <class Game> struct Machine {
   /// Of one player, or of any.
   int count(SessionEvent::Kind kind, int player = -1) const {
     int count = 0;
-    for (const SessionEvent& event : events) count += event.kind == kind && (player < 0 || event.player == player) ? 1 : 0;
+    for (const SessionEvent& event : events)
+      count += event.kind == kind && (player < 0 || event.player == player) ? 1 : 0;
     return count;
   }
   bool heard(SessionEvent::Kind kind, int player = -1) const { return count(kind, player) > 0; }
@@ -115,21 +121,23 @@ template <class Game> struct Machine {
   Network::Port port;
   Session<Game> session;
   std::unique_ptr<Game> game;
-  std::function<void(Game&, Frame)> tamper;  // before a step: a fault to be found
+  std::function<void(Game&, Frame)> tamper;                         // before a step: a fault to be found
   std::function<void(Channel, std::vector<std::uint8_t>&)> middle;  // alters what arrives
   // What the observer sees, and the end of every turn.
+  std::function<void(Frame)> will_step;
   std::function<void(const Game&, Frame)> stepped;
   std::function<void(Frame)> went_back;
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
   bool muted = false;
-  bool returns = false;       // connects again when the host is lost, as a game would
-  bool keeps = true;          // what was confirmed
-  Time fast = 0, late = 0;    // [permille] of its clock
-  int seat = -1;              // the player for which it was asked last
-  bool guessed = false;       // stepped a frame on a predicted input
-  bool plays = true;                         // takes turns at all
-  Time slow = 0;                             // [us] between its turns
+  bool is_offline = false;    // the transport's last word
+  bool returns = false;     // connects again when the host is lost, as a game would
+  bool keeps = true;        // what was confirmed
+  Time fast = 0, late = 0;  // [permille] of its clock
+  int seat = -1;            // the player for which it was asked last
+  bool guessed = false;     // stepped a frame on a predicted input
+  bool plays = true;        // takes turns at all
+  Time slow = 0;            // [us] between its turns
   Time next_turn = 0;
   std::vector<SessionEvent> events;
   Frame first = 0;
@@ -180,7 +188,9 @@ template <class Game> class VirtualMatch {
         if (!machine->plays || now_ < machine->next_turn) continue;
         machine->next_turn = now_ + machine->slow;
         machine->turn(now_, bot_);
-        if (machine->returns && machine->session.phase() == SessionPhase::lost) network_.connect(machine->endpoint);
+        const SessionPhase phase = machine->session.phase();
+        const bool is_gone = phase == SessionPhase::lost || (machine->is_offline && phase == SessionPhase::waiting);
+        if (machine->returns && is_gone) network_.connect(machine->endpoint);
       }
       if (done()) return true;
     }

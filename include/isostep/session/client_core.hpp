@@ -43,7 +43,7 @@ class ClientCore : public PeerCore {
   void open(Frame first);
   void lean(Time now);
   /// Do the host's machine and enough others have the states that we have?
-  bool is_vouched_for() const;
+  bool is_vouched_for(Time now) const;
   void fail(SessionEvent::Kind kind, SessionPhase phase);
   /// [1/256 frame] the host's next frame, as we estimate it.
   std::int64_t host_position(Time now) const;
@@ -63,6 +63,7 @@ class ClientCore : public PeerCore {
   bool must_begin_ = false;  // from welcome_.start, in the next plan
   std::uint32_t told_ = 0;   // [bytes] of the snapshot that the host knows to have arrived
   bool is_spoiled_ = false;  // a snapshot was bad: the game may be in no state of this match
+  Time near_since_ = 0;      // [us] when we first had nearly caught up; 0: not yet
   Frame base_ = 0;           // the state with which our part of the match began
 
   std::int64_t host_frame_ = 0;  // [1/256 frame] when host_frame_at_

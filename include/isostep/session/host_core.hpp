@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/core/random.hpp"
 #include "isostep/session/peer_core.hpp"
 
 namespace isostep {
@@ -47,6 +46,7 @@ class HostCore : public PeerCore {
     bool must_welcome = false, must_open = false, must_close = false;
     Frame opens = kNoFrame;
     Frame start = 0;                                // the state from which it goes on
+    std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
     std::uint32_t sent = 0, arrived = 0, size = 0;  // [bytes] of the snapshot
     Refusal refusal{};
     RootReport root;
@@ -70,6 +70,10 @@ class HostCore : public PeerCore {
   /// Nobody plays on seats that are not open, up to the horizon.
   void fill_absent();
   void serve_snapshots();
+  /// Who lies about lateness makes others wait no longer than the network could.
+  Frame plausible_slack(Frame said, Time way) const;
+  /// Another number that only who knows the seed can guess.
+  std::uint64_t secret();
   /// Inputs of absent players are final up to here.
   Frame horizon() const;
   /// What lies ahead of us takes the place of what others may still lack: of a short log little.
@@ -81,7 +85,7 @@ class HostCore : public PeerCore {
   bool started_ = false;
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
-  Pcg32 random_;
+  std::uint64_t secrets_ = 0;  // given out
   std::uint16_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;  // [us]

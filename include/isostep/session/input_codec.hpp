@@ -14,7 +14,8 @@
 
 namespace isostep {
 
-/// Of one player's input for one frame [bytes]: some frames of it must fit a datagram.
+/// Of one player's input for one frame [bytes]. A datagram a frame carries what is not acknowledged, about a kilobyte of
+/// it: inputs of more than that in a round trip do not keep up with 60 Hz.
 inline constexpr std::size_t kInputCap = 512;
 
 /// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.
@@ -41,6 +42,14 @@ template <class Command, std::size_t N> struct CommandList {
 };
 
 namespace detail {
+/// What a leaf's bits mean.
+template <class T> constexpr std::uint32_t leaf_form() {
+  if constexpr (std::is_same_v<T, bool>) return 1;
+  else if constexpr (std::is_enum_v<T>) return 2;
+  else if constexpr (std::is_integral_v<T>) return std::is_signed_v<T> ? 3 : 4;
+  else return ScalarTraits<T>::kId;
+}
+template <class T> inline constexpr std::uint32_t kLeafForm = leaf_form<T>();
 /// Of names and widths in order: two builds whose inputs are laid out otherwise do not meet.
 struct SchemaVisitor {
   HashStream* stream;
@@ -50,14 +59,16 @@ struct SchemaVisitor {
   }
   template <class T> void add(const T& value) const {
     if constexpr (std::is_bounded_array_v<T>) {
-      const std::uint32_t extent = std::extent_v<T>;
-      stream->update(&extent, 1);
+      std::uint8_t extent[4];
+      store_le(extent, std::uint32_t{std::extent_v<T>});
+      stream->update(extent, sizeof extent);
       add(value[0]);
     } else if constexpr (HasFields<T>) {
       T::fields(*this, value);
     } else {
-      const std::uint8_t width = sizeof(T);
-      stream->update(&width, 1);
+      std::uint8_t form[5] = {sizeof(T)};
+      store_le(form + 1, kLeafForm<T>);
+      stream->update(form, sizeof form);
     }
   }
 };

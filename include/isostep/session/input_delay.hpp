@@ -17,7 +17,7 @@ class InputDelay {
   explicit InputDelay(const Settings& settings) : settings_(settings), delay_(settings.start) {}
 
   Frame frames() const { return delay_; }
-  /// By how much the latest of our inputs within a second came early, over all peers; once a frame.
+  /// By how much the latest of our inputs within a second came early, over all peers; once a frame of time.
   void observe(Frame slack) {
     if (++observed_ <= 0) return;
     if (slack < worst_) worst_ = slack;
@@ -53,7 +53,7 @@ class RecentLeast {
   void add(Frame value) {
     if (value < current_) current_ = value;
   }
-  /// Once a frame.
+  /// Once a frame of time.
   void tick(Frame bucket_frames) {
     if (++age_ < bucket_frames) return;
     age_ = 0;

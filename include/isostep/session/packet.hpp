@@ -60,6 +60,7 @@ class PacketWriter {
  private:
   std::uint8_t* buffer_;
   std::size_t size_;
+  Frame frame_;  // of the header
 };
 
 /// Views into `bytes`. Every number is checked; the tokens of the slices are read by SliceReader.

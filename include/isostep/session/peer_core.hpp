@@ -33,7 +33,7 @@ class PeerCore : public SessionCore {
   virtual void before_steps(Time) {}
   virtual void before_frame(Time) {}
   virtual void after_steps() {}
-  /// Once a frame: tells delay_ how early our inputs reach the others.
+  /// Once a frame of time: tells delay_ how early our inputs reach the others.
   virtual void observe_delay() = 0;
   virtual void blocked(Time) {}
   virtual void unblocked(Time) {}
@@ -91,7 +91,7 @@ class PeerCore : public SessionCore {
   };
   Pending pending_[kMaxPlayers];
   Frame limit_ = 0;            // of what may be settled, as of the last plan
-  Frame observed_ = kNoFrame;  // for which observe_delay was asked
+  Time next_observation_ = 0;  // [us] when observe_delay is asked again
   bool asked_start_ = false;
   std::uint8_t buffer_[kDatagramCap];
 };

@@ -36,7 +36,8 @@ class Game {
     std::uint64_t frame = 0;
     std::uint64_t marks[kMaxPlayers] = {};
   };
-  static constexpr std::size_t kBallast = 40000;  // [bytes] so that a portable snapshot takes several pieces
+  /// `ballast` [bytes] makes portable snapshots long: by default they take several pieces.
+  explicit Game(std::size_t ballast = 40000) : ballast_(ballast) {}
 
   void save(Snapshot& to) const { to = state_; }
   void load(const Snapshot& from) { state_ = from; }
@@ -52,13 +53,13 @@ class Game {
   void write_portable(Writer& writer) const {
     writer.write(state_.frame);
     writer.write(state_.marks);
-    for (std::size_t i = 0; i < kBallast; ++i) writer.write(static_cast<std::uint8_t>(i));
+    for (std::size_t i = 0; i < ballast_; ++i) writer.write(static_cast<std::uint8_t>(i));
   }
   Result<void> read_portable(Reader& reader) {
     Snapshot read;
     reader.read(read.frame);
     reader.read(read.marks);
-    for (std::size_t i = 0; i < kBallast && reader.ok(); ++i) {
+    for (std::size_t i = 0; i < ballast_ && reader.ok(); ++i) {
       if (reader.read<std::uint8_t>() != static_cast<std::uint8_t>(i)) reader.fail(ErrorCode::corrupt, "ballast");
     }
     if (reader.ok()) state_ = read;
@@ -69,6 +70,7 @@ class Game {
 
  private:
   Snapshot state_;
+  std::size_t ballast_;
 };
 
 inline Pad bot(int player, Frame frame) {
@@ -77,8 +79,9 @@ inline Pad bot(int player, Frame frame) {
 }
 
 using Match = test::VirtualMatch<Game>;
-inline Match make_match(const SessionConfig& config, std::uint64_t seed = 1) {
-  return Match(config, [] { return std::make_unique<Game>(); }, bot, seed);
+inline Match make_match(const SessionConfig& config, std::size_t ballast = 40000) {
+  return Match(
+      config, [ballast] { return std::make_unique<Game>(ballast); }, bot);
 }
 
 /// What the first word of a client of `config` is, as the session itself would say it.

@@ -1,0 +1,26 @@
+// The parts of the session benchmark; each prints a table for bench/README.md.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace isostep::bench {
+
+struct SessionBenchOptions {
+  int repeats = 5;  // of the same work; times are the least of them
+  int frames = 1500;
+  std::vector<int> players = {2, 4, 8};
+  std::vector<std::string> scalars;  // names
+};
+
+/// Sessions without their games, in a frame.
+void report_overhead(const SessionBenchOptions& options);
+/// Bytes of a player's link.
+void report_bandwidth(const SessionBenchOptions& options);
+/// The longest drive() of a match with a thousand bodies.
+void report_drives(const SessionBenchOptions& options);
+/// Memory and time of the states that are kept to explain a desync.
+void report_kept_states(const SessionBenchOptions& options);
+
+}  // namespace isostep::bench

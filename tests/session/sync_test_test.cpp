@@ -1,0 +1,213 @@
+// The sync test: passes a game whose state is whole at every depth, and finds what a game forgets, in the right frame.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "isostep/world/state.hpp"
+#include "scenes/match.hpp"
+#include "session/match_checks.hpp"
+#include "session/toy_game.hpp"
+
+namespace isostep::test {
+namespace {
+
+constexpr Time kPeriod = kSecond / 60 + 1;
+
+SessionConfig config_of(Frame depth, int players = 2) {
+  SessionConfig config;
+  config.mode = SessionMode::sync_test;
+  config.players = players;
+  config.window = depth;
+  return config;
+}
+
+/// What the frames looked like when they were stepped first, and when they were stepped last.
+struct Watcher {
+  struct Seen {
+    int times = 0;
+    int made_first = 0, made_last = 0;
+  };
+  std::map<Frame, Seen> frames;
+  std::vector<std::uint64_t> roots;
+  int rollbacks = 0;
+
+  void rolled_back(Frame) { ++rollbacks; }
+  void confirmed(Frame, std::uint64_t root) { roots.push_back(root); }
+  template <class Game> void stepped(const Game& game, Frame frame) {
+    int made = 0;
+    for (const scenes::MatchEvent& event : game.events()) {
+      made += event.kind == scenes::MatchEventKind::spawn || event.kind == scenes::MatchEventKind::vanish ? 1 : 0;
+    }
+    Seen& seen = frames[frame];
+    if (seen.times++ == 0) seen.made_first = made;
+    seen.made_last = made;
+  }
+};
+template <class Game> struct Observer {
+  Watcher& watcher;
+  Game& game;
+  void rolled_back(Frame frame) { watcher.rolled_back(frame); }
+  void confirmed(Frame frame, std::uint64_t root) { watcher.confirmed(frame, root); }
+  void after_step(Frame frame) { watcher.stepped(game, frame); }
+};
+
+template <class S> class SyncTest : public testing::Test {};
+using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
+TYPED_TEST_SUITE(SyncTest, Scalars);
+
+TYPED_TEST(SyncTest, AgreesAtEveryDepthWhereBodiesTouchAreMadeAndDestroyed) {
+  using Game = scenes::Match<TypeParam>;
+  constexpr Frame kFrames = 300;
+  int remade = 0;
+  for (Frame depth = 1; depth <= 16; ++depth) {
+    SCOPED_TRACE(depth);
+    const scenes::MatchSettings settings = {.players = 3, .pile = 40, .seed = 7, .substeps = 2};
+    const auto bot = [depth](int player, Frame frame) {
+      return scenes::bot_input(static_cast<std::uint64_t>(depth), player, frame);
+    };
+    Session<Game> session(config_of(depth, 3));
+    Game game(settings);
+    Watcher watcher;
+    std::size_t contacts = 0;
+    for (Time now = 0; session.current() < kFrames; now += kPeriod) {
+      for (int p = 0; p < 3; ++p) session.add_local_input(p, bot(p, session.current()));
+      drive(session, game, now, Observer<Game>{watcher, game});
+      contacts += game.world().state().contacts.size();
+    }
+    while (const std::optional<SessionEvent> event = session.poll_event()) {
+      EXPECT_NE(event->kind, SessionEvent::Kind::desync) << event->frame;
+    }
+    EXPECT_GT(contacts / kFrames, 50u) << "nothing touches";
+    EXPECT_GT(session.stats().rollbacks[depth], 20u) << "guesses were never wrong";
+    for (const auto& [frame, seen] : watcher.frames) {
+      if (frame > 0 && frame < kFrames - depth) {
+        ASSERT_GT(seen.times, depth);
+      }
+      remade += seen.made_first != seen.made_last ? 1 : 0;
+    }
+
+    // Nothing is left behind by frames that were stepped again: the states are those of a game that never went back.
+    Game alone(settings);
+    int made = 0;
+    for (Frame frame = 0; frame < static_cast<Frame>(watcher.roots.size()); ++frame) {
+      const scenes::MatchInput values[] = {bot(0, frame), bot(1, frame), bot(2, frame)};
+      const InputStatus statuses[3] = {};
+      alone.step({values, statuses});
+      made += static_cast<int>(alone.events().size());
+      ASSERT_EQ(watcher.roots[static_cast<std::size_t>(frame)], alone.hash()) << frame;
+    }
+    EXPECT_EQ(watcher.roots.size(), static_cast<std::size_t>(kFrames - depth));
+    EXPECT_GT(made, 0);
+  }
+  EXPECT_GT(remade, 16) << "no body was made or destroyed in a frame that was guessed wrong";
+}
+
+// --- games that forget ---
+
+constexpr std::uint64_t kFlaw = 100;  // [frames] the first whose outcome depends on what is forgotten
+
+/// A member beside the state.
+struct ForgetsAMember : Toy {
+  std::uint64_t calls = 0;
+  void step(InputView<ToyInput> inputs) {
+    ++calls;
+    if (state.tick == kFlaw) state.places[0] += calls;
+    Toy::step(inputs);
+  }
+};
+/// A counter outside of the game.
+struct CountsOutside : Toy {
+  static inline std::uint64_t calls = 0;
+  void step(InputView<ToyInput> inputs) {
+    ++calls;
+    if (state.tick == kFlaw) state.places[0] += calls;
+    Toy::step(inputs);
+  }
+};
+/// Its sum is saved, and not loaded.
+struct ForgetsToLoad : Toy {
+  struct Snapshot {
+    Toy::Snapshot toy;
+    std::uint64_t sum = 0;
+  };
+  std::uint64_t sum = 0;
+  void step(InputView<ToyInput> inputs) {
+    sum += std::uint64_t{inputs[0].word} | 1u;
+    if (state.tick == kFlaw) state.places[0] += sum;
+    Toy::step(inputs);
+  }
+  void save(Snapshot& to) const {
+    Toy::save(to.toy);
+    to.sum = sum;
+  }
+  void load(const Snapshot& from) { Toy::load(from.toy); }
+};
+/// Saves its world and not what belongs to it.
+struct SavesItsWorldOnly {
+  using Input = ToyInput;
+  using Snapshot = World<Q16_16>::Snapshot;
+  World<Q16_16> world;
+  BodyId ball;
+  int pushes = 0;
+
+  SavesItsWorldOnly() {
+    const ShapeId shape = world.add_shape(Sphere<Q16_16>{Q16_16(0.5)});
+    ball = world.create({.type = BodyType::dynamic, .shape = shape});
+  }
+  void step(InputView<ToyInput>) {
+    ++pushes;
+    const bool is_flaw = world.tick() == kFlaw;
+    if (is_flaw && pushes % 2 == 1) world.apply_impulse(ball, {Q16_16(1), Q16_16(0), Q16_16(0)});
+    world.step();
+  }
+  void save(Snapshot& to) const { world.save(to); }
+  void load(const Snapshot& from) { world.load(from); }
+  std::uint64_t hash() const { return world.hash(); }
+};
+
+/// The frames that the session says are wrong.
+template <class Game> std::vector<SessionEvent> flaws_of(Frame depth, Frame frames) {
+  Session<Game> session(config_of(depth));
+  Game game;
+  std::vector<SessionEvent> flaws;
+  for (Time now = 0; session.current() < frames; now += kPeriod) {
+    for (int p = 0; p < 2; ++p) session.add_local_input(p, toy_input(2, p, session.current()));
+    drive(session, game, now);
+    while (const std::optional<SessionEvent> event = session.poll_event()) {
+      if (event->kind == SessionEvent::Kind::desync) flaws.push_back(*event);
+    }
+  }
+  return flaws;
+}
+
+template <class Game> class SyncTestOfAFlaw : public testing::Test {};
+using Flawed = testing::Types<ForgetsAMember, CountsOutside, ForgetsToLoad>;
+TYPED_TEST_SUITE(SyncTestOfAFlaw, Flawed);
+
+TYPED_TEST(SyncTestOfAFlaw, NamesTheFirstStateThatComesOutOtherwise) {
+  for (const Frame depth : {1, 2, 3, 8, 16}) {
+    SCOPED_TRACE(depth);
+    const std::vector<SessionEvent> flaws = flaws_of<TypeParam>(depth, 140);
+    ASSERT_FALSE(flaws.empty());
+    EXPECT_EQ(flaws[0].frame, static_cast<Frame>(kFlaw) + 1);
+    EXPECT_EQ(flaws[0].agreed, static_cast<Frame>(kFlaw));
+    EXPECT_NE(flaws[0].ours, flaws[0].theirs);
+    EXPECT_TRUE(flaws_of<TypeParam>(depth, kFlaw).empty()) << "told before it had an effect";
+  }
+}
+
+TEST(SyncTestOfAWorld, FindsUserStateThatIsNotSavedWithIt) {
+  for (const Frame depth : {1, 3}) {  // an odd number of steps more: the push comes the other time
+    SCOPED_TRACE(depth);
+    const std::vector<SessionEvent> flaws = flaws_of<SavesItsWorldOnly>(depth, 140);
+    ASSERT_FALSE(flaws.empty());
+    EXPECT_EQ(flaws[0].frame, static_cast<Frame>(kFlaw) + 1);
+    EXPECT_EQ(flaws[0].agreed, static_cast<Frame>(kFlaw));
+  }
+}
+
+TEST(SyncTestOfAWorld, FindsNothingInAWholeGame) { EXPECT_TRUE(flaws_of<Toy>(8, 600).empty()); }
+
+}  // namespace
+}  // namespace isostep::test

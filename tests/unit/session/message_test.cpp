@@ -1,0 +1,176 @@
+// Messages: each is read as it was written, and no other bytes are.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace isostep {
+namespace {
+
+using Buffer = std::vector<std::uint8_t>;
+
+Hello hello() {
+  Hello hello;
+  hello.spectator = true;
+  hello.token = 0x1122334455667788u;
+  hello.have = {1234, 0xabcdef};
+  hello.identity.set("scene", "arena", true);
+  hello.identity.set("compiler", "any", false);
+  return hello;
+}
+Welcome welcome() {
+  return {.match = 0xbeef,
+          .players = 4,
+          .host_players = 1,
+          .player = 3,
+          .token = 7,
+          .start = {kLastFrame, 9},
+          .root = 10,
+          .snapshot_size = 0xffffffffu,
+          .opens = 77};
+}
+
+TEST(Message, EachIsReadAsItWasWritten) {
+  Buffer bytes{1, 2, 3};
+  write_hello(hello(), bytes);
+  EXPECT_EQ(message_kind(bytes).value(), MessageKind::hello);
+  const Hello read = read_hello(bytes).value();
+  EXPECT_TRUE(read.spectator);
+  EXPECT_EQ(read.token, hello().token);
+  EXPECT_EQ(read.have.frame, 1234);
+  EXPECT_EQ(read.have.chain, 0xabcdefu);
+  EXPECT_TRUE(compare_headers(read.identity, hello().identity).key.empty());
+
+  write_welcome(welcome(), bytes);
+  EXPECT_EQ(message_kind(bytes).value(), MessageKind::welcome);
+  const Welcome there = read_welcome(bytes).value();
+  EXPECT_EQ(there.match, 0xbeef);
+  EXPECT_EQ(there.players, 4);
+  EXPECT_EQ(there.host_players, 1);
+  EXPECT_EQ(there.player, 3);
+  EXPECT_EQ(there.token, 7u);
+  EXPECT_EQ(there.start.frame, kLastFrame);
+  EXPECT_EQ(there.start.chain, 9u);
+  EXPECT_EQ(there.root, 10u);
+  EXPECT_EQ(there.snapshot_size, 0xffffffffu);
+  EXPECT_EQ(there.opens, 77);
+
+  write_refusal({"solver", "a", "b"}, bytes);
+  const Refusal refusal = read_refusal(bytes).value();
+  EXPECT_EQ(refusal.key.view(), "solver");
+  EXPECT_EQ(refusal.in_file.view(), "a");
+  EXPECT_EQ(refusal.here.view(), "b");
+
+  write_piece({5, Buffer{1, 2, 3}}, bytes);
+  const Piece piece = read_piece(bytes).value();
+  EXPECT_EQ(piece.offset, 5u);
+  EXPECT_EQ(Buffer(piece.bytes.begin(), piece.bytes.end()), (Buffer{1, 2, 3}));
+
+  write_progress(99, bytes);
+  EXPECT_EQ(read_progress(bytes).value(), 99u);
+  write_open(42, bytes);
+  EXPECT_EQ(read_open(bytes).value(), 42);
+  write_ready(bytes);
+  EXPECT_EQ(bytes, Buffer{static_cast<std::uint8_t>(MessageKind::ready)});
+}
+
+TEST(Message, CutOrExtendedTheyAreRefused) {
+  const auto check = [](const Buffer& bytes, const std::function<bool(Bytes)>& reads) {
+    ASSERT_TRUE(reads(bytes));
+    for (std::size_t size = 0; size < bytes.size(); ++size) ASSERT_FALSE(reads(Bytes(bytes).first(size))) << size;
+    Buffer longer = bytes;
+    longer.push_back(0);
+    ASSERT_FALSE(reads(longer));
+  };
+  Buffer bytes;
+  write_hello(hello(), bytes);
+  check(bytes, [](Bytes message) { return read_hello(message).ok(); });
+  write_welcome(welcome(), bytes);
+  check(bytes, [](Bytes message) { return read_welcome(message).ok(); });
+  write_refusal({"solver", "a", "b"}, bytes);
+  check(bytes, [](Bytes message) { return read_refusal(message).ok(); });
+  write_piece({5, Buffer{1, 2, 3}}, bytes);
+  check(bytes, [](Bytes message) { return read_piece(message).ok(); });
+  write_progress(99, bytes);
+  check(bytes, [](Bytes message) { return read_progress(message).ok(); });
+  write_open(42, bytes);
+  check(bytes, [](Bytes message) { return read_open(message).ok(); });
+}
+
+TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
+  const auto reads = [](const std::function<void(Welcome&)>& change) {
+    Welcome its = welcome();
+    change(its);
+    Buffer bytes;
+    write_welcome(its, bytes);
+    return read_welcome(bytes).ok();
+  };
+  EXPECT_TRUE(reads([](Welcome& w) { w.players = 8; }));
+  EXPECT_TRUE(reads([](Welcome& w) { w.player = 0xff, w.opens = kNoFrame; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff; })) << "a spectator that plays";
+  EXPECT_FALSE(reads([](Welcome& w) { w.players = 0, w.host_players = 0; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.players = 9; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.host_players = 5; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.player = 4; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xfe; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.start.frame = kNoFrame; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.start.frame = kLastFrame + 1; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.opens = -2; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.opens = kLastFrame + 1; }));
+}
+
+TEST(Message, AHelloOfSomethingElseIsRefusedByName) {
+  Buffer bytes;
+  write_hello(hello(), bytes);
+  Buffer other = bytes;
+  other[1] ^= 1;
+  EXPECT_EQ(read_hello(other).error().code, ErrorCode::corrupt);
+  other = bytes;
+  other[5] ^= 1;
+  EXPECT_EQ(read_hello(other).error().code, ErrorCode::incompatible);
+  EXPECT_EQ(read_hello(other).error().place.view(), "protocol");
+  Hello late = hello();
+  late.have.frame = kLastFrame + 1;
+  write_hello(late, other);
+  EXPECT_FALSE(read_hello(other).ok());
+  late.have.frame = kNoFrame;
+  write_hello(late, other);
+  EXPECT_FALSE(read_hello(other).ok());
+}
+
+TEST(Message, ARefusalIsTextForPeopleAndNothingElse) {
+  for (const char* text : {"\x1b[2J", "two\nlines", "\x80", "\x7f"}) {
+    Buffer bytes;
+    write_refusal({"key", text, "here"}, bytes);
+    EXPECT_FALSE(read_refusal(bytes).ok());
+    write_refusal({text, "there", "here"}, bytes);
+    EXPECT_FALSE(read_refusal(bytes).ok());
+  }
+}
+
+TEST(Message, UnknownKindsAndSizesAreNoMessages) {
+  EXPECT_FALSE(message_kind({}).ok());
+  for (unsigned kind = 0; kind < 256; ++kind) {
+    EXPECT_EQ(message_kind(Buffer{static_cast<std::uint8_t>(kind)}).ok(), kind >= 1 && kind <= 7) << kind;
+  }
+  Buffer bytes(kReliableCap, 1);
+  EXPECT_TRUE(message_kind(bytes).ok());
+  bytes.push_back(1);
+  EXPECT_FALSE(message_kind(bytes).ok());
+}
+
+TEST(Message, OpeningsOutOfRangeAreRefused) {
+  Buffer bytes;
+  for (const Frame frame : {Frame{-1}, Frame{INT32_MIN}, Frame{INT32_MAX}, kLastFrame + 1}) {
+    write_open(frame, bytes);
+    EXPECT_FALSE(read_open(bytes).ok()) << frame;
+  }
+  write_open(kLastFrame, bytes);
+  EXPECT_TRUE(read_open(bytes).ok());
+}
+
+}  // namespace
+}  // namespace isostep
