@@ -145,6 +145,7 @@ struct RenamedInput {
     visit("buttons", self.buttons);
   }
 };
+static_assert(RenamedInput{} == RenamedInput{});
 struct RenamedToy : Toy {
   using Input = RenamedInput;
   void step(InputView<RenamedInput>) {}

@@ -227,8 +227,8 @@ TEST(LateJoin, IsNotAdmittedWhileThePeersDisagree) {
   for (Frame frame = 0; frame < match.host().end(); ++frame) ASSERT_FALSE(match.host().played(frame, 2));
 }
 
-// The host's word alone is enough only when there is nobody else to ask.
-TEST(LateJoin, AsksASecondMachineBeforeItPlays) {
+// The host's word alone is enough when there is nobody else to ask, or when nobody answers for the patience.
+void expect_a_second_machine_is_asked(bool asked_early) {
   VirtualMatch<Toy> match = toy_match(config_of(3, kShortHistory));
   start_without_last(match, 3, 400, profile("lan"));
   Machine<Toy>& joiner = match.add(profile("lan"));
@@ -239,14 +239,18 @@ TEST(LateJoin, AsksASecondMachineBeforeItPlays) {
     alter_packet(
         bytes, [](PacketHeader& header) { header.reporter = 0xff; }, NothingAltered{});
   };
-  match.run(10 * kSecond, [] { return false; });
+  match.run(4 * kSecond, [] { return false; });
   EXPECT_FALSE(joiner.heard(SessionEvent::Kind::joined, 2));
   EXPECT_EQ(joiner.restarts, 1);
-  passes_on = true;
+  passes_on = asked_early;
+  const Time before = match.now();
   ASSERT_TRUE(match.run(10 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::joined, 2); }));
+  EXPECT_EQ(match.now() < before + kSecond, asked_early);
   ASSERT_TRUE(match.run_to(match.host().end() + 300, 30 * kSecond));
   expect_one_history(match);
 }
+TEST(LateJoin, AsksASecondMachineBeforeItPlays) { expect_a_second_machine_is_asked(true); }
+TEST(LateJoin, TakesTheHostsWordWhenNobodyElseSpeaks) { expect_a_second_machine_is_asked(false); }
 
 }  // namespace
 }  // namespace isostep::test

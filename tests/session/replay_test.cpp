@@ -62,7 +62,7 @@ template <class S> struct RecordedMatch {
       Machine<Game>& machine = match.machine(i);
       recorders.push_back(std::make_unique<MatchRecorder<Game>>(machine.session, sink_to(files[i])));
       EXPECT_TRUE(recorders[i]->begin(*machine.game).ok());
-      machine.was_confirmed = [&machine, recorder = recorders[i].get()](Frame frame, std::uint64_t root) {
+      machine.was_confirmed = [recorder = recorders[i].get()](Frame frame, std::uint64_t root) {
         if (frame < kFrames) recorder->confirmed(frame, root);
       };
     }

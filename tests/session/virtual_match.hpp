@@ -130,7 +130,7 @@ template <class Game> struct Machine {
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
   bool muted = false;
-  bool is_offline = false;    // the transport's last word
+  bool is_offline = false;  // the transport's last word
   bool returns = false;     // connects again when the host is lost, as a game would
   bool keeps = true;        // what was confirmed
   Time fast = 0, late = 0;  // [permille] of its clock

@@ -153,7 +153,7 @@ class SessionCore {
  private:
   std::vector<SessionAction> actions_;
   Frame told_state_ = kNoFrame;  // the newest that poll_confirmed was given
-  int unsaved_ = 0;  // saves asked for and not reported
+  int unsaved_ = 0;              // saves asked for and not reported
   BoundedQueue<SessionEvent> events_;
   BoundedQueue<Confirmed> confirmed_;
 };

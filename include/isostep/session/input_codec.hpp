@@ -14,8 +14,8 @@
 
 namespace isostep {
 
-/// Of one player's input for one frame [bytes]. A datagram a frame carries what is not acknowledged, about a kilobyte of
-/// it: inputs of more than that in a round trip do not keep up with 60 Hz.
+/// Of one player's input for one frame [bytes]. A datagram a frame carries what is not acknowledged, about a kilobyte
+/// of it: inputs of more than that in a round trip do not keep up with 60 Hz.
 inline constexpr std::size_t kInputCap = 512;
 
 /// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.

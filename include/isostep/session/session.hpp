@@ -159,8 +159,8 @@ ISO_TELL(confirmed)
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
 ///   rolled_back(f)                  the state is again that before frame f
 ///   restarted(f)                    the state is one that arrived from elsewhere, before frame f
-///   confirmed(f, root)              frame f is final: once each, ascending, after restarted(f) from there; root is that
-///                                   of the state after it
+///   confirmed(f, root)              frame f is final: once each, ascending, after restarted(f) from there; root is
+///                                   that of the state after it
 /// Returns how many frames were stepped, those again included.
 template <class Game, class Predictor, class Observer = NoObserver>
 int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& observer = Observer{}) {
