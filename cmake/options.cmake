@@ -2,6 +2,7 @@
 option(ISOSTEP_TOOL "The command line tool" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_EXAMPLES "Examples, which tests run and README quotes" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_TESTS "Tests" ${PROJECT_IS_TOP_LEVEL})
+option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; tool, examples and tests bring it anyway" OFF)
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_NO_INT128 "Do without the compiler's __int128, as targets that lack it must" OFF)

@@ -6,7 +6,6 @@ namespace isostep {
 namespace {
 
 constexpr Frame kCatchUpBehind = 6;  // [frames] behind the host at which frames are stepped as fast as they can be
-constexpr int kCatchUpSteps = 6;     // in one advance
 constexpr Frame kCaughtUp = 3;       // [frames]
 
 }  // namespace
@@ -33,6 +32,9 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (header.started && !runs_) {
     runs_ = true;
     clock_.start(now);
+    // To the host, and on to the others where there are any.
+    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
+    delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
     SessionEvent event{.kind = SessionEvent::Kind::started};
     event.frame = current();
     tell(event);
@@ -94,9 +96,10 @@ void ClientCore::lean(Time now) {
   clock_.lean(static_cast<std::int32_t>(ahead < -kCap ? -kCap : ahead > kCap ? kCap : ahead));
 }
 
-int ClientCore::steps_allowed(Time now) const { return frames_behind(now) > kCatchUpBehind ? kCatchUpSteps : 2; }
+bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind; }
 
 void ClientCore::before_steps(Time now) {
+  stats_.peers = host_.is_connected ? 1 : 0;
   if (host_.is_connected && now - host_.heard > config_.silence) {
     must_close_ = true;
     lose(now);
@@ -107,7 +110,6 @@ void ClientCore::before_steps(Time now) {
     begin_at(welcome_.start);
   }
   if (!runs_ || is_restoring_) return;
-  if (frames_behind(now) > kCatchUpBehind) clock_.start(now);
   if (is_open_) {
     if (current() >= opens_) phase_ = SessionPhase::playing;
   } else if (phase_ == SessionPhase::playing) {

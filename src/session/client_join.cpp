@@ -6,7 +6,8 @@
 
 namespace isostep {
 
-ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules) : PeerCore(config, rules) {}
+ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
+    : PeerCore(config, rules), token_(config.token) {}
 
 void ClientCore::connected(PeerId host, Time now) {
   host_ = Link{};
@@ -15,7 +16,7 @@ void ClientCore::connected(PeerId host, Time now) {
   must_greet_ = true;
   must_close_ = is_greeted_ = must_ready_ = asked_ready_ = false;
   runs_ = is_restoring_ = must_begin_ = false;  // the greeting names the state that we go on from
-  if (phase_ == SessionPhase::lost) phase_ = SessionPhase::waiting;
+  if (phase_ == SessionPhase::lost || phase_ == SessionPhase::refused) phase_ = SessionPhase::waiting;
 }
 
 void ClientCore::disconnected(PeerId host, Time now) {

@@ -20,6 +20,7 @@ SessionCore::~SessionCore() = default;
 std::span<const SessionAction> SessionCore::advance(Time now) {
   if (unsaved_ != 0) {
     unsaved_ = 0;
+    misused();
     SessionEvent event{.kind = SessionEvent::Kind::misuse};
     tell(event);
   }

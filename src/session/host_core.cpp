@@ -32,8 +32,7 @@ void HostCore::disconnected(PeerId peer, Time) {
   if (peer < guests_.size() && guests_[peer].is_connected) drop(guests_[peer]);
 }
 
-void HostCore::start(Time now) {
-  if (started_ || !has_start_) return;
+void HostCore::begin(Time now) {
   started_ = true;
   clock_.start(now);
   phase_ = config_.local_players > 0 ? SessionPhase::playing : SessionPhase::watching;
@@ -67,7 +66,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     guest.must_close = true;  // nothing was driven here yet: let it come again
   } else if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected) {
     guest.heard = now;
-    greet(guest, bytes, now);
+    greet(guest, bytes);
   } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::receives_snapshot) {
     const Result<std::uint32_t> arrived = read_progress(bytes);
     if (arrived && arrived.value() > guest.arrived && arrived.value() <= guest.sent) {
@@ -129,8 +128,13 @@ bool HostCore::sends(int player, const Link& link) const {
 }
 
 void HostCore::before_steps(Time now) {
+  bool all_taken = true;
+  for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
+  if (!started_ && (all_taken || must_start_)) begin(now);
+  stats_.peers = 0;
   for (Guest& guest : guests_) {
     if (!guest.is_connected) continue;
+    ++stats_.peers;
     if (now - guest.heard > config_.silence) {
       guest.must_close = true;
       if (guest.player >= 0) close_seat(guest.player);

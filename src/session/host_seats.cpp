@@ -57,7 +57,7 @@ int HostCore::find_seat(const Hello& hello) const {
   return -1;
 }
 
-void HostCore::greet(Guest& guest, Bytes message, Time now) {
+void HostCore::greet(Guest& guest, Bytes message) {
   const Result<Hello> read = read_hello(message);
   if (!read) {
     refuse(guest, read.error().place.view(), "unreadable", read.error().message.view());
@@ -89,9 +89,6 @@ void HostCore::greet(Guest& guest, Bytes message, Time now) {
   } else {
     guest.stage = Guest::Stage::needs_snapshot;
   }
-  bool all_taken = true;
-  for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
-  if (all_taken) start(now);
 }
 
 void HostCore::go_live(Guest& guest, Frame start) {

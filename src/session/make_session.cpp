@@ -36,6 +36,9 @@ std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, cons
   schema.append_hex(rules.schema);
   players.append_number(static_cast<std::uint64_t>(config.players));
   whole.identity.set("input_schema", schema.view(), true);
+  ShortText<kReplayValueCap> hz;
+  hz.append_number(static_cast<std::uint64_t>(config.hz));
+  whole.identity.set("session_hz", hz.view(), true);
   whole.identity.set("players", players.view(), true);
   if (config.mode == SessionMode::sync_test) return std::make_unique<SyncTestCore>(whole, rules);
   if (config.mode == SessionMode::replay) return std::make_unique<ReplayCore>(whole, rules, recording);

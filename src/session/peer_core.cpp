@@ -7,6 +7,8 @@
 namespace isostep {
 namespace {
 
+constexpr int kDueSteps = 2;        // in one advance: a caller that comes late is forgiven one frame
+constexpr int kMostSteps = 6;       // while catching up
 constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
 
@@ -75,7 +77,9 @@ void PeerCore::plan(Time now) {
   if (!has_start_) return;
   before_steps(now);
   if (!running()) return;
-  const Frame wrong = timeline_.first_wrong(streams_);
+  Frame wrong = timeline_.first_wrong(streams_);
+  if (is_misused_ && roots_.settled().frame < wrong) wrong = roots_.settled().frame;
+  is_misused_ = false;
   if (wrong < current()) roll_back(wrong);
   // By the clock and not by frames: a match that waits at every one of them is what a longer delay is for.
   if (now >= next_observation_) {
@@ -83,7 +87,8 @@ void PeerCore::plan(Time now) {
     observe_delay();
     for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
   }
-  for (int i = steps_allowed(now); i > 0 && clock_.is_due(now); --i) {
+  for (int steps = 0; steps < kMostSteps && (clock_.is_due(now) || hurries(now)); ++steps) {
+    if (steps >= kDueSteps && !hurries(now)) break;
     sample_local_inputs();
     before_frame(now);
     if (!may_step()) {
@@ -118,6 +123,11 @@ void PeerCore::roll_back(Frame to) {
     act(RequestKind::step, frame);
     act(RequestKind::save, frame + 1);
   }
+}
+
+void PeerCore::misused() {
+  is_misused_ = true;
+  if (!has_start_) asked_start_ = false;
 }
 
 void PeerCore::go_back(Frame state) {
@@ -254,13 +264,23 @@ Bytes PeerCore::compose(Link& link, PacketHeader header, Time now) {
   header.frame = current();
   header.root = roots_.settled();
   PacketWriter writer(header, buffer_);
+  const bool continues = link.continues_burst(now);
+  link.burst = continues ? link.burst + 1 : 1;
   // In turns, so that one player's long inputs cannot keep another's out for ever.
+  bool is_left = false;
+  Frame added = 0;
   for (int i = 0; i < players(); ++i) {
     const int p = (i + current()) % players();
-    if (sends(p, link))
-      writer.add_slice(static_cast<std::uint8_t>(p), streams_[static_cast<std::size_t>(p)], link.acked[p]);
+    if (!sends(p, link)) continue;
+    const InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    const Frame first = continues && link.sent[p] > link.acked[p] ? link.sent[p] : link.acked[p];
+    const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first);
+    link.sent[p] = first + count;
+    added += count;
+    is_left = is_left || link.sent[p] < stream.end();
   }
-  link.next_send = now + clock_.period();
+  link.has_more = is_left && added > 0;
+  if (!continues) link.next_send = now + clock_.period();
   link.sent_frame = current();
   ++stats_.datagrams_out;
   stats_.bytes_out += writer.bytes().size();

@@ -92,6 +92,9 @@ std::uint64_t scalar_of(const Input& input) {
   if (replay.status() == ReplayStatus::corrupt) refuse(input.path, VerifyOutcome::corrupt, replay.error());
   if (replay.status() == ReplayStatus::incompatible) refuse(input.path, VerifyOutcome::incompatible, replay.error());
   if (!replay.has_state()) refuse(input.path, VerifyOutcome::truncated, replay.error());
+  if (replay.status() == ReplayStatus::truncated) {
+    std::fprintf(stderr, "isostep: %s is cut off: what is left of it is compared\n", input.path.c_str());
+  }
   const Result<std::uint64_t> id = replay.header().number("scalar_id");
   if (!id) refuse(input.path, VerifyOutcome::incompatible, id.error());
   return id.value();

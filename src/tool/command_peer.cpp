@@ -104,12 +104,10 @@ template <class S> SessionConfig MatchPeer<S>::config_of(const PeerOptions& opti
 template <class S> void MatchPeer<S>::take(const transport::Arrival& arrival, Time now) {
   switch (arrival.kind) {
     case transport::ArrivalKind::connected:
-      ++connected_;
       has_met_ = true;
       session_.connected(arrival.peer, now);
       break;
     case transport::ArrivalKind::disconnected:
-      if (connected_ > 0) --connected_;
       session_.disconnected(arrival.peer, now);
       if (options_.listen < 0) reconnect_at_ = now + kTryAgain;
       break;
@@ -118,12 +116,10 @@ template <class S> void MatchPeer<S>::take(const transport::Arrival& arrival, Ti
 }
 
 template <class S> void MatchPeer<S>::reconnect(Time now) {
-  if (options_.listen >= 0 || session_.phase() == SessionPhase::refused) return;
-  if (connected_ > 0) {
-    alone_since_ = now;
-  } else if (alone_since_ == 0) {
-    alone_since_ = now;
-  }
+  if (options_.listen >= 0) return;
+  if (must_reconnect_) reconnect_at_ = now + kTryAgain;
+  must_reconnect_ = false;
+  if (session_.stats().peers > 0 || alone_since_ == 0) alone_since_ = now;
   if (now > alone_since_ + static_cast<Time>(options_.patience) * kSecond) gave_up_ = true;
   if (reconnect_at_ == 0 || now < reconnect_at_) return;
   reconnect_at_ = 0;
@@ -142,7 +138,14 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::refused) {
     line += ": " + std::string(event.field.key.view()) + " is \"" + std::string(event.field.in_file.view()) +
             "\" on the client, \"" + std::string(event.field.here.view()) + "\" on the host";
-    if (options_.listen < 0) gave_up_ = true;
+    // A seat becomes free when the host notices that its player is gone; nothing else changes by waiting.
+    must_reconnect_ = event.field.key.view() == "seats";
+    if (options_.listen < 0 && !must_reconnect_) gave_up_ = true;
+  } else if (event.kind == SessionEvent::Kind::waiting_for) {
+    line += " for player";
+    for (int p = 0; p < options_.players; ++p) {
+      if ((event.players >> p & 1) != 0) line += " " + std::to_string(p);
+    }
   } else if (event.kind == SessionEvent::Kind::desync) {
     line += ": " + (event.player == 0xff ? std::string("the host") : "player " + std::to_string(event.player)) +
             " has another history: alike up to state " + std::to_string(event.agreed) + ", not at state " +
@@ -151,8 +154,15 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
   } else if (event.player != 0xff) {
     line += ": player " + std::to_string(event.player) + " from frame " + std::to_string(event.frame);
   }
-  std::fprintf(stderr, "isostep peer: %s\n", line.c_str());
+  must_reconnect_ = must_reconnect_ || event.kind == SessionEvent::Kind::lost_host;
+  std::fprintf(stderr, "isostep peer %s: %s\n", name().c_str(), line.c_str());
   if (event.kind == SessionEvent::Kind::desync) write_desync_bundle(event);
+}
+
+/// "host", "player 1" or "client": several peers may write to one terminal.
+template <class S> std::string MatchPeer<S>::name() const {
+  if (options_.listen >= 0) return "host";
+  return session_.local_player() < 0 ? "client" : "player " + std::to_string(session_.local_player());
 }
 
 template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& event) {
@@ -161,8 +171,8 @@ template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& ev
   const std::uint32_t player = session_.local_player() < 0 ? 0xff : static_cast<std::uint32_t>(session_.local_player());
   expect_written(write_bundle(file.sink(), history_, kMatchScene, {.player = player, .agreed = event.agreed}));
   file.close();
-  std::fprintf(stderr, "isostep peer: wrote %s; compare it with the other peer's: isostep diff A B\n",
-               options_.bundle.c_str());
+  std::fprintf(stderr, "isostep peer %s: wrote %s; compare it with the other peer's: isostep diff A B\n",
+               name().c_str(), options_.bundle.c_str());
   options_.bundle.clear();
 }
 
@@ -179,7 +189,7 @@ template <class S> bool MatchPeer<S>::is_over(Time now) {
   if (session_.confirmed() < first_ || session_.confirmed() < options_.frames) return false;
   if (options_.listen < 0) return true;
   if (done_at_ == 0) done_at_ = now;
-  return connected_ == 0 || now > done_at_ + kLinger;
+  return session_.stats().peers == 0 || now > done_at_ + kLinger;
 }
 
 template <class S> void MatchPeer<S>::write_files() {
@@ -281,6 +291,7 @@ int command_peer(const PeerOptions& options) {
   if (options.listen >= 0 && !options.profile.empty()) {
     throw ToolError(exit_status::kUsage, "--profile belongs to the peers that connect");
   }
+  for (const std::string& path : {options.hashes, options.bundle, options.port_file}) expect_writable(path);
   std::optional<OwnRelay> relay;
   std::optional<transport::EnetTransport> transport;
   if (options.listen >= 0) {

@@ -61,6 +61,16 @@ void write_file(const std::string& path, Bytes content) {
   write_file(path, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
+void expect_writable(const std::string& path) {
+  if (path.empty()) return;
+  std::error_code error;
+  const bool existed = std::filesystem::exists(path, error);
+  std::FILE* file = std::fopen(path.c_str(), "ab");
+  if (file == nullptr) fail(exit_status::kOutput, path);
+  std::fclose(file);
+  if (!existed) std::filesystem::remove(path, error);
+}
+
 ReplayFile::ReplayFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
   if (file_ == nullptr) fail(exit_status::kOutput, path);
 }

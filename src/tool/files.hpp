@@ -20,6 +20,9 @@ std::vector<std::uint8_t> read_file(const std::string& path);
 void write_file(const std::string& path, std::string_view content);
 void write_file(const std::string& path, Bytes content);
 
+/// Throws ToolError 74 when no file can be made there; an empty name is no file. So that a run does not end in vain.
+void expect_writable(const std::string& path);
+
 /// Open for a replay from `open` to `close`; what is cut short is a valid beginning.
 class ReplayFile {
  public:

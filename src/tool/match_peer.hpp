@@ -115,6 +115,7 @@ template <class S> class MatchPeer {
   void take(const transport::Arrival& arrival, Time now);
   void reconnect(Time now);
   void report(const SessionEvent& event);
+  std::string name() const;
   void write_desync_bundle(const SessionEvent& event);
   void flip_a_bit();
   void write_files();
@@ -132,7 +133,7 @@ template <class S> class MatchPeer {
   std::vector<std::uint64_t> hashes_;
   Frame first_ = 0;  // of hashes_
   bool desynced_ = false, gave_up_ = false, has_met_ = false;
-  int connected_ = 0;  // peers
+  bool must_reconnect_ = false;
   Time reconnect_at_ = 0, alone_since_ = 0, done_at_ = 0;
   std::uint64_t sounds_confirmed_ = 0, sounds_retracted_ = 0;
   double started_at_ = 0, step_ms_ = 0;

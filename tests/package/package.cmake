@@ -19,7 +19,8 @@ if(MODE STREQUAL "installed")
   list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_CXX_FLAGS=${FLAGS})
 else()
   # At -O0 and with one scalar: quick, a test of ISOSTEP_SCALARS, and the hashes must be those of the optimised library.
-  list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DCMAKE_CXX_FLAGS=-O0)
+  list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_TRANSPORT=ON
+    -DCMAKE_CXX_FLAGS=-O0)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
@@ -29,6 +30,8 @@ run(${WORK}/build/own_match)
 if(MODE STREQUAL "installed")
   run(${WORK}/build/own_scalar)
   message("${output}")
+else()
+  run(${WORK}/build/own_line)
 endif()
 
 run(${WORK}/build/game ${WORK}/game.replay)

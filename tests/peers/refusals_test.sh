@@ -32,6 +32,8 @@ refuses 64 "players" peer --listen 0 --players 9
 refuses 64 "delay" peer --listen 0 --delay 21
 refuses 66 "no host answers" peer --connect 127.0.0.1:9 --patience 1 --frames 10
 refuses 74 "" peer --listen 0 --record "$dir/none/a.replay"
+refuses 74 "" peer --listen 0 --hashes "$dir/none/a.txt"
+refuses 74 "" peer --listen 0 --bundle "$dir/none/a.bundle"
 refuses 64 "no HOST:PORT" relay --target nowhere
 printf '1 2 0 0\n1 2 300 0\n' >"$dir/inputs"
 refuses 64 "inputs:2: expected" peer --listen 0 --inputs "$dir/inputs"

@@ -134,6 +134,12 @@ TEST(Handshake, RefusesAnotherNumberOfPlayers) {
   expect_refused(meet(host, client, Toy(), Toy(), kAsItIs), "players");
 }
 
+TEST(Handshake, RefusesAnotherRateOfFrames) {
+  SessionConfig host = config_with(identity_of_world(Settings<float>{}, "arena")), client = host;
+  client.hz = 30;
+  expect_refused(meet(host, client, Toy(), Toy(), kAsItIs), "session_hz");
+}
+
 /// The same bytes, another meaning.
 struct RenamedInput {
   std::int8_t push = 0, pull = 0;

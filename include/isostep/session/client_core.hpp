@@ -18,6 +18,7 @@ class ClientCore : public PeerCore {
   std::optional<Outgoing> poll_send(Time now) override;
   void restored(bool ok) override;
   int local_player() const override { return player_; }
+  std::uint64_t token() const override { return token_; }
 
  protected:
   bool is_local(int player) const override { return is_open_ && player == player_; }
@@ -25,7 +26,7 @@ class ClientCore : public PeerCore {
   bool running() const override { return runs_; }
   Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
   Frame final_limit() const override;
-  int steps_allowed(Time now) const override;
+  bool hurries(Time now) const override;
   void before_steps(Time now) override;
   void observe_delay() override;
   void root_known(Frame state, std::uint64_t root) override;

@@ -38,6 +38,9 @@ struct SessionConfig {
   std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread
 
   std::uint64_t seed = 1;  // host: of match number and tokens; different for every match
+  /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
+  /// its seat is ours again. 0: a new player.
+  std::uint64_t token = 0;
   /// What must be equal on all peers, by name: make_replay_header(identity_of_world(...)) and what the game adds. The
   /// layout of the input is added by the session.
   ReplayHeader identity;

@@ -76,6 +76,7 @@ struct SessionStats {
   std::uint64_t flooded = 0;                  // dropped unread
   std::uint64_t events_lost = 0;              // the caller did not ask for them in time
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
+  int peers = 0;                              // connected
   Frame delay = 0;                            // [frames] an input waits now
 };
 
@@ -99,7 +100,12 @@ class SessionCore {
   /// [us] until `advance` has something to do, as far as is known now.
   virtual Time wait(Time now) const = 0;
 
-  Timeline::Used input(Frame frame, int player) const { return timeline_.used(frame, player); }
+  /// Of a stepped frame that is at most `kept` frames old; else nobody's.
+  Timeline::Used input(Frame frame, int player) const {
+    const bool is_kept = frame >= 0 && frame < current() && frame >= current() - config_.kept;
+    if (is_kept && player >= 0 && player < players()) return timeline_.used(frame, player);
+    return {InputStatus::disconnected, Bytes(rules_.neutral, rules_.neutral_size)};
+  }
   /// `capture` writes here, `restore` reads here.
   std::vector<std::uint8_t>& portable() { return portable_; }
   /// The outcome of `restore`.
@@ -118,6 +124,7 @@ class SessionCore {
   std::optional<SessionEvent> poll_event();
 
   SessionPhase phase() const { return phase_; }
+  virtual std::uint64_t token() const { return 0; }
   /// The first player of this machine; -1: none, or none yet.
   virtual int local_player() const { return -1; }
   const SessionConfig& config() const { return config_; }
@@ -129,6 +136,8 @@ class SessionCore {
 
  protected:
   virtual void plan(Time now) = 0;
+  /// Requests were not carried out: states that were to be saved are missing.
+  virtual void misused() {}
   /// A state's root is known.
   virtual void root_known(Frame state, std::uint64_t root) = 0;
 

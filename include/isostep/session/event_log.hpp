@@ -27,7 +27,7 @@ enum class NoticeKind : std::uint8_t {
 };
 
 /// Each happening is told as `predicted`, then `confirmed` or `retracted`; or, if its frame was confirmed before anyone
-/// asked (always in lockstep), as `confirmed` alone.
+/// asked (in lockstep on the host), as `confirmed` alone.
 ///
 ///     sounds, sparks                 if (notice.first) play(notice.event)
 ///     long ones, to be cut short     if (notice.kind == retracted) fade_out(playing[notice.happening])

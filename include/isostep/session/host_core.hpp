@@ -16,7 +16,7 @@ class HostCore : public PeerCore {
   void disconnected(PeerId peer, Time now) override;
   void receive(PeerId peer, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
-  void start(Time now) override;
+  void start(Time) override { must_start_ = true; }
   int local_player() const override { return config_.local_players > 0 ? 0 : -1; }
 
  protected:
@@ -53,7 +53,8 @@ class HostCore : public PeerCore {
     std::size_t next_reporter = 0;  // whose root it hears of next
   };
 
-  void greet(Guest& guest, Bytes message, Time now);
+  void begin(Time now);
+  void greet(Guest& guest, Bytes message);
   bool is_refused(Guest& guest, const Hello& hello);
   int find_seat(const Hello& hello) const;
   void go_live(Guest& guest, Frame start);
@@ -82,7 +83,7 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> next_datagram(Guest& guest, Time now);
   void refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
 
-  bool started_ = false;
+  bool started_ = false, must_start_ = false;
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::uint64_t secrets_ = 0;  // given out

@@ -14,8 +14,8 @@
 
 namespace isostep {
 
-/// Of one player's input for one frame [bytes]. A datagram a frame carries what is not acknowledged, about a kilobyte
-/// of it: inputs of more than that in a round trip do not keep up with 60 Hz.
+/// Of one player's input for one frame [bytes]. What is not acknowledged travels with every frame, in at most four
+/// datagrams: inputs of more than 4 KB in a round trip do not keep up with 60 Hz.
 inline constexpr std::size_t kInputCap = 512;
 
 /// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.
@@ -124,8 +124,9 @@ template <class Command, std::size_t N> struct InputCodec<CommandList<Command, N
 
   static std::size_t encode(const List& list, std::uint8_t* to) {
     std::uint8_t* at = to;
-    *at++ = list.count;
-    for (const Command& command : list) at = pack(at, command);
+    const std::size_t count = list.count < N ? list.count : N;
+    *at++ = static_cast<std::uint8_t>(count);
+    for (std::size_t i = 0; i < count; ++i) at = pack(at, list.items[i]);
     return static_cast<std::size_t>(at - to);
   }
   static bool decode(Bytes bytes, List& list) {

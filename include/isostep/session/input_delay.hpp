@@ -17,6 +17,11 @@ class InputDelay {
   explicit InputDelay(const Settings& settings) : settings_(settings), delay_(settings.start) {}
 
   Frame frames() const { return delay_; }
+  /// An input will be on its way for so many frames: before anything was observed.
+  void expect(Frame way) {
+    const Frame wanted = way + settings_.wanted_slack;
+    if (wanted > delay_) delay_ = wanted < settings_.most ? wanted : settings_.most;
+  }
   /// By how much the latest of our inputs within a second came early, over all peers; once a frame of time.
   void observe(Frame slack) {
     if (++observed_ <= 0) return;

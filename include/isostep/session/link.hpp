@@ -44,6 +44,9 @@ struct Link {
   Time round_trip = 0;      // [us] smoothed; 0: unknown
 
   Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
+  Frame sent[kMaxPlayers] = {};         // first frame of each that this period's datagrams left out
+  int burst = 0;                        // datagrams of this period
+  bool has_more = false;                // something did not fit
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
   std::uint8_t reported_mask = 0;       // players of whom it did
 
@@ -55,9 +58,12 @@ struct Link {
     datagrams.start(now);
     messages.start(now);
   }
+  /// A period's first datagram begins with what is not acknowledged; what does not fit goes into up to three more.
+  static constexpr int kBurst = 4;
+  bool continues_burst(Time now) const { return has_more && burst < kBurst && now < next_send; }
   /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {
-    return now >= next_send || (sent_frame != current && now + period / 2 >= next_send);
+    return now >= next_send || continues_burst(now) || (sent_frame != current && now + period / 2 >= next_send);
   }
   void set_clock(const PacketHeader& header, Time now) {
     has_clock = true;

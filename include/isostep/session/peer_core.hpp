@@ -28,8 +28,8 @@ class PeerCore : public SessionCore {
   virtual Frame window() const { return config_.mode == SessionMode::rollback ? config_.window : 0; }
   /// States up to this one cannot change any more.
   virtual Frame final_limit() const;
-  /// How many frames one call of advance may step.
-  virtual int steps_allowed(Time) const { return 2; }
+  /// Far behind: frames are stepped as fast as calls of advance come, not when they are due.
+  virtual bool hurries(Time) const { return false; }
   virtual void before_steps(Time) {}
   virtual void before_frame(Time) {}
   virtual void after_steps() {}
@@ -76,6 +76,7 @@ class PeerCore : public SessionCore {
   bool is_blocked_ = false;
 
  private:
+  void misused() override;
   void roll_back(Frame to);
   void sample_local_inputs();
   bool may_step() const;
@@ -93,6 +94,7 @@ class PeerCore : public SessionCore {
   Frame limit_ = 0;            // of what may be settled, as of the last plan
   Time next_observation_ = 0;  // [us] when observe_delay is asked again
   bool asked_start_ = false;
+  bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];
 };
 

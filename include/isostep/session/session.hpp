@@ -50,11 +50,13 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
 
   // From the transport.
-  void connected(PeerId peer, Time now) { core_->connected(peer, now); }
-  void disconnected(PeerId peer, Time now) { core_->disconnected(peer, now); }
-  void receive(PeerId peer, Channel channel, Bytes bytes, Time now) { core_->receive(peer, channel, bytes, now); }
+  void connected(PeerId peer, Time now) { core_->connected(peer, latest(now)); }
+  void disconnected(PeerId peer, Time now) { core_->disconnected(peer, latest(now)); }
+  void receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
+    core_->receive(peer, channel, bytes, latest(now));
+  }
   /// To the transport, until there is nothing more; the bytes hold until the next call.
-  std::optional<Outgoing> poll_send(Time now) { return core_->poll_send(now); }
+  std::optional<Outgoing> poll_send(Time now) { return core_->poll_send(latest(now)); }
 
   /// For the next frame; until that is stepped a later input replaces an earlier one. False when the player is not ours
   /// or not in the match now, or the input is none.
@@ -66,7 +68,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// Has the last one been taken? A game of orders hands over the next only then.
   bool wants_input(int player) const { return core_->wants_input(player); }
   /// Host: begins although seats are empty.
-  void start(Time now) { core_->start(now); }
+  void start(Time now) { core_->start(latest(now)); }
 
   /// What to do now, in order and all of it: the low level under drive().
   std::span<const Request<Input>> advance(Time now) {
@@ -74,7 +76,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     values_.clear();
     statuses_.clear();
     const auto players = static_cast<std::size_t>(config().players);
-    for (const SessionAction& action : core_->advance(now)) {
+    for (const SessionAction& action : core_->advance(latest(now))) {
       InputView<Input> inputs{};
       if (action.kind == RequestKind::step) {
         const std::size_t first = values_.size();
@@ -106,6 +108,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   Time wait(Time now) const { return core_->wait(now); }
 
   SessionPhase phase() const { return core_->phase(); }
+  /// Says who we are after a crash: see SessionConfig::token. 0: not seated yet.
+  std::uint64_t token() const { return core_->token(); }
   /// The first player of this machine; -1: none, or none yet.
   int local_player() const { return core_->local_player(); }
   const SessionConfig& config() const { return core_->config(); }
@@ -123,7 +127,14 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   InputStatus status(Frame frame, int player) const { return core_->input(frame, player).status; }
 
  private:
+  /// Cores reckon with times that never run backwards; a caller may read its clock twice in a turn.
+  Time latest(Time now) {
+    if (latest_ < now) latest_ = now;
+    return latest_;
+  }
+
   std::unique_ptr<SessionCore> core_;
+  Time latest_ = 0;
   std::vector<typename Game::Snapshot> states_;
   std::vector<Request<Input>> requests_;
   std::vector<Input> values_;

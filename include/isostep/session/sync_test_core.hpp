@@ -36,7 +36,7 @@ class SyncTestCore : public SessionCore {
   std::vector<InputStream> known_;  // what the session has been told, late
   std::vector<Root> roots_;
   Frame settled_ = 0, limit_ = 0;
-  bool asked_start_ = false;
+  bool asked_start_ = false, differs_ = false;
 };
 
 }  // namespace isostep

@@ -90,6 +90,7 @@ inline Hello hello_of(const SessionConfig& config) {
   hello.identity = config.identity;
   ShortText<kReplayValueCap> schema, players;
   hello.identity.set("input_schema", schema.append_hex(InputCodec<Pad>::schema()).view(), true);
+  hello.identity.set("session_hz", "60", true);
   hello.identity.set("players", players.append_number(static_cast<std::uint64_t>(config.players)).view(), true);
   hello.have = {0, Game{}.hash()};
   return hello;

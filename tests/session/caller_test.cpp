@@ -1,0 +1,191 @@
+// What callers do otherwise than the examples: slow loops, clocks that waver, requests that are dropped, wrong numbers.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "session/match_checks.hpp"
+#include "session/toy_game.hpp"
+
+namespace isostep::test {
+namespace {
+
+SessionConfig config_of(int players) {
+  SessionConfig config;
+  config.players = players;
+  return config;
+}
+VirtualMatch<Toy> toy_match(const SessionConfig& config) {
+  return VirtualMatch<Toy>(
+      config, [] { return std::make_unique<Toy>(); },
+      [](int player, Frame frame) { return toy_input(3, player, frame); });
+}
+
+TEST(Caller, WhoTurnsOnceAFrameStillCatchesUp) {
+  for (const Time turn : {Time{16000}, Time{33000}}) {
+    SCOPED_TRACE(turn);
+    VirtualMatch<Toy> match = toy_match(config_of(3));
+    match.add(profile("lan"));
+    match.run(kSecond, [] { return false; });
+    match.host().session.start(match.now());
+    ASSERT_TRUE(match.run_to(600, 20 * kSecond));
+    Machine<Toy>& joiner = match.add(profile("lan"));
+    joiner.slow = turn;
+    ASSERT_TRUE(match.run(12 * kSecond, [&] { return joiner.session.phase() == SessionPhase::playing; }));
+    ASSERT_TRUE(match.run_to(match.host().end() + 120, 10 * kSecond));
+    expect_one_history(match);
+  }
+}
+
+TEST(Caller, AHostThatPlaysAloneBeginsAtOnce) {
+  SessionConfig config = config_of(2);
+  config.local_players = 2;
+  VirtualMatch<Toy> match = toy_match(config);
+  EXPECT_TRUE(match.run_to(60, 3 * kSecond));
+  EXPECT_TRUE(match.host().heard(SessionEvent::Kind::started));
+}
+
+TEST(Caller, AStartBeforeTheFirstTurnIsRemembered) {
+  VirtualMatch<Toy> match = toy_match(config_of(2));
+  match.host().session.start(0);
+  EXPECT_TRUE(match.run_to(60, 3 * kSecond));
+}
+
+TEST(Caller, AClockThatStepsBackChangesNothing) {
+  VirtualMatch<Toy> match = toy_match(config_of(2));
+  Machine<Toy>& client = match.add(profile("wifi"));
+  Pcg32 random = Pcg32::seeded(5);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Machine<Toy>& machine = match.machine(i);
+    // Between its turns each machine is asked with times from up to 50 ms ago.
+    machine.after_turn = [&machine, &match, &random] {
+      const Time back = random_below(random, 50000);
+      const Time then = match.now() > back ? match.now() - back : 0;
+      drive(machine.session, *machine.game, then, machine);
+    };
+  }
+  ASSERT_TRUE(match.run_to(600, 20 * kSecond));
+  EXPECT_FALSE(client.heard(SessionEvent::Kind::lost_host));
+  EXPECT_FALSE(match.host().heard(SessionEvent::Kind::left));
+  expect_one_history(match);
+}
+
+/// What one machine alone confirmed.
+struct Diary {
+  const Session<Toy>& session;
+  std::vector<ToyInput> inputs;
+  std::vector<std::uint64_t> roots;
+  void confirmed(Frame frame, std::uint64_t root) {
+    inputs.push_back(session.input(frame, 0));
+    roots.push_back(root);
+  }
+};
+
+TEST(Caller, DroppedRequestsAreToldAndMadeGood) {
+  SessionConfig config = config_of(1);
+  config.host = true;
+  Session<Toy> session(config);
+  Toy game;
+  Diary diary{session, {}, {}};
+  int misuses = 0;
+  bool dropped = false;
+  for (Time now = 0; now < 5 * kSecond && diary.roots.size() < 100; now += 5000) {
+    session.add_local_input(0, toy_input(3, 0, session.current()));
+    if (session.current() % 30 == 7 && session.wait(now) == 0) {
+      dropped = !session.advance(now).empty() || dropped;  // and nothing of it is done
+      continue;
+    }
+    drive(session, game, now, diary);
+    while (const auto event = session.poll_event()) misuses += event->kind == SessionEvent::Kind::misuse ? 1 : 0;
+  }
+  EXPECT_TRUE(dropped);
+  EXPECT_GE(misuses, 1);
+  ASSERT_GE(diary.roots.size(), 100u) << "the match goes on";
+  Toy straight;
+  for (std::size_t frame = 0; frame < diary.roots.size(); ++frame) {
+    const InputStatus status = InputStatus::confirmed;
+    straight.step({{&diary.inputs[frame], 1}, {&status, 1}});
+    ASSERT_EQ(straight.hash(), diary.roots[frame]) << frame;
+  }
+}
+
+TEST(Caller, FramesAndPlayersThatAreNotThereHaveNeutralInputs) {
+  VirtualMatch<Toy> match = toy_match(config_of(2));
+  match.add(profile("lan"));
+  ASSERT_TRUE(match.run_to(200, 10 * kSecond));
+  const Session<Toy>& session = match.host().session;
+  for (const Frame frame : {Frame{-1}, Frame{0}, session.current(), session.current() + 5, kLastFrame}) {
+    EXPECT_EQ(session.input(frame, 0), ToyInput{}) << frame;
+    EXPECT_EQ(session.status(frame, 0), InputStatus::disconnected) << frame;
+  }
+  for (const int player : {-1, 2, 1000}) EXPECT_EQ(session.input(session.current() - 1, player), ToyInput{});
+}
+
+/// Half a kilobyte of input in every frame.
+struct LongInput {
+  std::uint32_t words[125] = {};
+  friend bool operator==(const LongInput& a, const LongInput& b) {
+    for (int i = 0; i < 125; ++i) {
+      if (a.words[i] != b.words[i]) return false;
+    }
+    return true;
+  }
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("words", self.words);
+  }
+};
+struct LongGame {
+  using Input = LongInput;
+  struct Snapshot {
+    std::uint64_t sum = 0;
+  };
+  std::uint64_t sum = 0;
+  void step(InputView<LongInput> inputs) {
+    for (const LongInput& input : inputs.values) {
+      for (const std::uint32_t word : input.words) sum = sum * 6364136223846793005u + word;
+    }
+  }
+  void save(Snapshot& to) const { to.sum = sum; }
+  void load(const Snapshot& from) { sum = from.sum; }
+  std::uint64_t hash() const { return sum; }
+};
+
+TEST(Caller, LongInputsKeepUpWithTheirFrames) {
+  VirtualMatch<LongGame> match(
+      config_of(2), [] { return std::make_unique<LongGame>(); },
+      [](int player, Frame frame) {
+        LongInput input;
+        Pcg32 random = Pcg32::seeded(static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(player));
+        for (std::uint32_t& word : input.words) word = random.next();
+        return input;
+      });
+  match.add(profile("wifi"));
+  ASSERT_TRUE(match.run_to(60, 10 * kSecond));
+  const Time before = match.now();
+  ASSERT_TRUE(match.run_to(660, 20 * kSecond));
+  EXPECT_LT(match.now() - before, 11 * kSecond) << "600 frames are ten seconds";
+  EXPECT_EQ(match.network().oversized(), 0u);
+}
+
+TEST(Caller, ARestartedProcessProvesByItsTokenWhoItWas) {
+  VirtualMatch<Toy> match = toy_match(config_of(2));
+  Machine<Toy>& first = match.add(profile("lan"));
+  ASSERT_TRUE(match.run_to(120, 10 * kSecond));
+  const std::uint64_t token = first.session.token();
+  ASSERT_NE(token, 0u);
+  first.plays = false;
+  match.network().set_silent(first.endpoint, true);  // a crash: the host does not know yet
+
+  SessionConfig config = config_of(2);
+  config.local_players = 0;
+  Machine<Toy>& stranger = match.add(profile("lan"), config);
+  ASSERT_TRUE(match.run(kSecond, [&] { return stranger.heard(SessionEvent::Kind::refused); }));
+  EXPECT_EQ(stranger.last(SessionEvent::Kind::refused).field.key.view(), "seats");
+  stranger.plays = false;
+
+  config.token = token;
+  Machine<Toy>& second = match.add(profile("lan"), config);
+  ASSERT_TRUE(match.run(4 * kSecond, [&] { return second.session.phase() == SessionPhase::playing; }));
+  EXPECT_EQ(second.session.local_player(), 1);
+}
+
+}  // namespace
+}  // namespace isostep::test
