@@ -102,7 +102,7 @@ void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
   if (host_.is_connected && now - host_.heard > config_.silence) {
     must_close_ = true;
-    lose(now);
+    lose();
     return;
   }
   if (must_begin_) {

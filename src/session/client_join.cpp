@@ -19,11 +19,11 @@ void ClientCore::connected(PeerId host, Time now) {
   if (phase_ == SessionPhase::lost || phase_ == SessionPhase::refused) phase_ = SessionPhase::waiting;
 }
 
-void ClientCore::disconnected(PeerId host, Time now) {
-  if (host_.is_connected && host == host_.peer) lose(now);
+void ClientCore::disconnected(PeerId host, Time) {
+  if (host_.is_connected && host == host_.peer) lose();
 }
 
-void ClientCore::lose(Time) {
+void ClientCore::lose() {
   host_.is_connected = false;
   runs_ = false;
   if (phase_ == SessionPhase::refused) return;

@@ -79,7 +79,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     guest.heard = now;  // of the last pieces
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
-    open_seat(guest, now);
+    open_seat(guest);
   } else {
     ++stats_.refused;
   }

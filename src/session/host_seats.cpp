@@ -97,7 +97,7 @@ void HostCore::go_live(Guest& guest, Frame start) {
   for (Frame& acked : guest.acked) acked = start;
 }
 
-void HostCore::open_seat(Guest& guest, Time) {
+void HostCore::open_seat(Guest& guest) {
   if (guest.player < 0 || seats_[guest.player].is_open || !started_) return;
   InputStream& stream = streams_[static_cast<std::size_t>(guest.player)];
   const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());

@@ -273,11 +273,11 @@ Bytes PeerCore::compose(Link& link, PacketHeader header, Time now) {
     const int p = (i + current()) % players();
     if (!sends(p, link)) continue;
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
-    const Frame first = continues && link.sent[p] > link.acked[p] ? link.sent[p] : link.acked[p];
+    const Frame first = continues && link.burst_end[p] > link.acked[p] ? link.burst_end[p] : link.acked[p];
     const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first);
-    link.sent[p] = first + count;
+    link.burst_end[p] = first + count;
     added += count;
-    is_left = is_left || link.sent[p] < stream.end();
+    is_left = is_left || link.burst_end[p] < stream.end();
   }
   link.has_more = is_left && added > 0;
   if (!continues) link.next_send = now + clock_.period();

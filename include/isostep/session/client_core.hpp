@@ -32,7 +32,7 @@ class ClientCore : public PeerCore {
   void root_known(Frame state, std::uint64_t root) override;
 
  private:
-  void lose(Time now);
+  void lose();
   void take_message(MessageKind kind, Bytes bytes, Time now);
   void take_welcome(const Welcome& welcome, Time now);
   void take_piece(const Piece& piece);

@@ -45,7 +45,7 @@ struct SessionEvent {
     waiting_for,   // players (a bit each) whose inputs are missing hold the match up
     resumed,       // it goes on
     refused,       // field, theirs, ours: which field differs; the host tells it too
-    lost_host,     //
+    lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
     bad_snapshot,  // the state that arrived is not what the host's root says, or was refused: error
     misuse         // requests of the last advance were not carried out

@@ -60,7 +60,7 @@ class HostCore : public PeerCore {
   void go_live(Guest& guest, Frame start);
   void take_packet(Guest& guest, const Packet& packet, Time now);
   void take_inputs(Guest& guest, const InputSlice& slice, Time now);
-  void open_seat(Guest& guest, Time now);
+  void open_seat(Guest& guest);
   void close_seat(int player);
   /// Its player's seat is free for who comes next.
   void unseat(Guest& guest);
@@ -94,7 +94,6 @@ class HostCore : public PeerCore {
   bool told_blocked_ = false;
 
   // The one snapshot that is being sent; whoever needs another waits until nobody needs this one.
-  bool capturing_ = false;
   RootReport snapshot_;
   std::uint64_t snapshot_root_ = 0;
   std::size_t next_guest_ = 0;

@@ -44,7 +44,7 @@ struct Link {
   Time round_trip = 0;      // [us] smoothed; 0: unknown
 
   Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
-  Frame sent[kMaxPlayers] = {};         // first frame of each that this period's datagrams left out
+  Frame burst_end[kMaxPlayers] = {};    // first frame of each that this period's datagrams left out
   int burst = 0;                        // datagrams of this period
   bool has_more = false;                // something did not fit
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said

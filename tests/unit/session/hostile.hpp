@@ -11,9 +11,8 @@
 #include "isostep/session/session.hpp"
 #include "session/virtual_match.hpp"
 
-namespace hostile {
+namespace isostep::hostile {
 
-using namespace isostep;
 using Buffer = std::vector<std::uint8_t>;
 
 struct Pad {
@@ -182,4 +181,4 @@ struct BentPeer {
   }
 };
 
-}  // namespace hostile
+}  // namespace isostep::hostile
