@@ -33,6 +33,8 @@ function(isostep_library target export_name include_dir)
   endforeach()
 endfunction()
 
+set(isostep_avx512 -mavx512f -mavx512dq -mavx512vl)
+
 # A kernel of one instruction set: its own file, its own flags, where the compiler targets x86-64.
 function(isostep_kernel_flags file)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64" AND CMAKE_SIZEOF_VOID_P EQUAL 8)

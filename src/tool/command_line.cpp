@@ -72,8 +72,8 @@ class CommandLine {
         ->check(CLI::IsMember({"soft_step"}))
         ->capture_default_str();
     command->add_option("--threads", run_.threads, "only 1")->check(CLI::Range(1, 1))->capture_default_str();
-    command->add_option("--simd", run_.simd, "widest lanes to use; never changes a bit")
-        ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2"}))
+    command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
+        ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2", "avx512"}))
         ->capture_default_str();
     command->add_option("--load", run_.load, "begin with this portable snapshot");
     command->add_option("--save", run_.save, "write a portable snapshot of the end");

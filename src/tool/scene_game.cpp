@@ -37,6 +37,7 @@ Simd simd_named(const std::string& name) {
   if (name == "scalar") return Simd::scalar;
   if (name == "sse2") return Simd::sse2;
   if (name == "avx2") return Simd::avx2;
+  if (name == "avx512") return Simd::avx512;
   return Simd::best;
 }
 

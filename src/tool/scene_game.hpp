@@ -25,7 +25,8 @@ Simd simd_named(const std::string& name);
 /// These lanes, or the widest narrower ones that processor, build and scalar have.
 template <class S> void use_lanes(World<S>& world, Simd simd) {
   if (world.use_simd(simd)) return;
-  if (simd == Simd::avx2 && world.use_simd(Simd::sse2)) return;
+  if (simd == Simd::avx512 && world.use_simd(Simd::avx2)) return;
+  if (simd != Simd::sse2 && world.use_simd(Simd::sse2)) return;
   world.use_simd(Simd::scalar);
 }
 

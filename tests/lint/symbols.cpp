@@ -140,7 +140,7 @@ void check_library(const std::string& nm, const std::vector<std::string>& object
   std::map<std::string, std::string> homes;
   for (const std::string& object : objects) {
     const bool kernel =
-        contains(object, "kernels_avx2") || contains(object, "kernels_sse2") || contains(object, "kernels_neon");
+        contains(object, "kernels_avx") || contains(object, "kernels_sse") || contains(object, "kernels_neon");
     std::set<std::string> names;  // an object may hold a constructor two or three times over
     for (const Symbol& symbol : defined_symbols(nm, object)) {
       if (!symbol.is_weak() || symbol.name.rfind("DW.ref.", 0) == 0) continue;

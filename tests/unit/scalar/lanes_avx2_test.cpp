@@ -48,6 +48,8 @@ TEST_F(Avx2Test, TheTrappingPolicyStillTraps) {
   using L = Lanes<T, 4, Avx2>;
   const L big = L::broadcast(T::highest());
   EXPECT_EQ(Block<L>::of(big - big).lane[3].raw(), 0);
+  EXPECT_EQ(to_bits(less(big, L::zero())), 0u);
+  EXPECT_EQ(to_bits(less(L::zero(), big)), 0xfu);
   EXPECT_DEATH(Block<L>::of(big + big), "");
   EXPECT_DEATH(Block<L>::of(big * big), "");
 }

@@ -82,7 +82,7 @@ template <class S> bool same_value(S a, S b) { return same_bits(a, b) || (is_nan
 template <class L> struct Block {
   using S = typename L::Scalar;
   static constexpr int kWidth = L::kWidth;
-  alignas(32) S lane[kWidth];
+  alignas(isostep::kLaneAlignment<S, kWidth>) S lane[kWidth];
 
   static Block sampled(Random& random) {
     Block r;

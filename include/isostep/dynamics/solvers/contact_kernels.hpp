@@ -44,8 +44,8 @@ template <class S> struct ContactKernels {
   void (*restitute[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 
-/// The kernels for `simd`; `best` is the widest this processor runs. Null when the processor or build lacks it. Every
-/// scalar has its own full specialisation, a strong symbol: see ISO_DEFINE_CONTACT_KERNELS.
+/// The kernels for `simd`. Null when the processor or build lacks it; never for `best`. Every scalar has its own full
+/// specialisation, a strong symbol.
 template <class S> const ContactKernels<S>* contact_kernels(Simd simd);
 
 namespace detail {
@@ -53,6 +53,7 @@ namespace detail {
 template <class S> const ContactKernels<S>* scalar_kernels();
 template <class S> const ContactKernels<S>* sse2_kernels();
 template <class S> const ContactKernels<S>* avx2_kernels();
+template <class S> const ContactKernels<S>* avx512_kernels();
 }  // namespace detail
 
 #define ISO_DECLARE_CONTACT_KERNELS(S)                                \
@@ -61,6 +62,7 @@ template <class S> const ContactKernels<S>* avx2_kernels();
   template <> const ContactKernels<S>* scalar_kernels<S>();           \
   template <> const ContactKernels<S>* sse2_kernels<S>();             \
   template <> const ContactKernels<S>* avx2_kernels<S>();             \
+  template <> const ContactKernels<S>* avx512_kernels<S>();           \
   }
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_CONTACT_KERNELS)
 

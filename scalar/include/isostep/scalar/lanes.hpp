@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "isostep/scalar/scalar.hpp"
 
@@ -21,21 +22,27 @@
 namespace isostep {
 
 /// Instruction sets. An empty tag in every name keeps code of different sets apart for the linker. A tag is complete
-/// only where its own header (lanes_sse2.hpp, lanes_avx2.hpp) is included: no file can mix the versions up.
+/// only where its own header (lanes_sse2.hpp, lanes_avx2.hpp, lanes_avx512.hpp) is included: no file can mix the
+/// versions up.
 namespace isa {
 struct Portable {};
 struct Sse2;
 struct Avx2;
+struct Avx512;
 }  // namespace isa
 
 namespace detail {
-/// Formats of one width share their masks: compare Unit<S>, select S.
-template <class S> struct MaskKeyOf { using Type = S; };
-template <class Rep, int F, Overflow P> struct MaskKeyOf<Fixed<Rep, F, P>> { using Type = Rep; };
+/// What registers and masks know of a scalar. Formats of one width share their masks: compare Unit<S>, select S. Fixed
+/// point is its Rep where it wraps, as registers do.
+template <class S> struct LaneKeyOf { using Type = S; };
+template <class Rep, int F, Overflow P> struct LaneKeyOf<Fixed<Rep, F, P>> {
+  using Type = std::conditional_t<P == Overflow::wrap, Rep, Fixed<Rep, 1, P>>;
+};
+template <class S> using LaneKey = typename LaneKeyOf<S>::Type;
 
-/// The largest power of two that divides the size of W scalars, at most a 32-byte register.
+/// The largest power of two that divides the size of W scalars, at most a 64-byte register.
 constexpr std::size_t lane_alignment(std::size_t bytes) {
-  std::size_t alignment = 32;
+  std::size_t alignment = 64;
   while (bytes % alignment != 0) alignment /= 2;
   return alignment;
 }
@@ -55,7 +62,7 @@ template <class S> ISO_INLINE S sqrt_lane(S a) {
 /// Where load and store expect their W scalars to begin [bytes].
 template <class S, int W> inline constexpr std::size_t kLaneAlignment = detail::lane_alignment(W * sizeof(S));
 
-/// W answers of a comparison. Key is the scalar, or the Rep of a fixed-point scalar.
+/// W answers of a comparison. Key is detail::LaneKey of the scalar.
 template <class Key, int W, class Isa> struct LaneMask {
   static_assert(W >= 1 && W <= 32, "the bits of a mask fit 32");
   bool v[W];
@@ -94,7 +101,7 @@ template <class S, int W, class Isa> struct Lanes {
   static_assert(W >= 1 && W <= 32);
   static_assert(sizeof(Isa) > 0, "include the lanes header of this instruction set");
   using Scalar = S;
-  using Mask = LaneMask<typename detail::MaskKeyOf<S>::Type, W, Isa>;
+  using Mask = LaneMask<detail::LaneKey<S>, W, Isa>;
   static constexpr int kWidth = W;
   S v[W];
 
@@ -191,8 +198,8 @@ template <class SumS, int W, class Isa> struct LaneSum {
     return r;
   }
   template <class A, class B> static ISO_INLINE LaneSum of_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
-    alignas(32) A x[W];
-    alignas(32) B y[W];
+    alignas(kLaneAlignment<A, W>) A x[W];
+    alignas(kLaneAlignment<B, W>) B y[W];
     a.store(x);
     b.store(y);
     LaneSum r;
@@ -246,9 +253,9 @@ template <class Out, class A, class B, int W, class Isa>
 ISO_INLINE Out divide_to(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
   if constexpr (kIsFixed<A>) {
     using Quotient = typename Out::Scalar;
-    alignas(32) A x[W];
-    alignas(32) B y[W];
-    alignas(32) Quotient q[W];
+    alignas(kLaneAlignment<A, W>) A x[W];
+    alignas(kLaneAlignment<B, W>) B y[W];
+    alignas(kLaneAlignment<Quotient, W>) Quotient q[W];
     a.store(x);
     b.store(y);
     ISO_UNROLL for (int i = 0; i < W; ++i) q[i] = divide_to<Quotient>(x[i], y[i]);

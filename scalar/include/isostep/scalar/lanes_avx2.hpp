@@ -8,7 +8,7 @@
 
 #include <immintrin.h>
 
-#include "isostep/scalar/lanes.hpp"
+#include "isostep/scalar/lanes_registers.hpp"
 
 namespace isostep {
 
@@ -17,17 +17,26 @@ struct Avx2 {};
 }  // namespace isa
 
 namespace detail {
-/// 4 x 4 doubles, or anything of 64 bits.
-ISO_INLINE void transpose_4x4(const __m256d* in, __m256d* out) {
-  const __m256d a = _mm256_unpacklo_pd(in[0], in[1]);
-  const __m256d b = _mm256_unpackhi_pd(in[0], in[1]);
-  const __m256d c = _mm256_unpacklo_pd(in[2], in[3]);
-  const __m256d d = _mm256_unpackhi_pd(in[2], in[3]);
-  out[0] = _mm256_permute2f128_pd(a, c, 0x20);
-  out[1] = _mm256_permute2f128_pd(b, d, 0x20);
-  out[2] = _mm256_permute2f128_pd(a, c, 0x31);
-  out[3] = _mm256_permute2f128_pd(b, d, 0x31);
-}
+/// All ones or all zeros in each of W lanes.
+template <int W> struct Avx2Masks {
+  using Mask = __m256i;
+  static constexpr int kWidth = W;
+
+  static ISO_INLINE Mask mask_from_bits(std::uint32_t bits) {
+    const __m256i lane = W == 8 ? _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1) : _mm256_set_epi64x(8, 4, 2, 1);
+    const __m256i all_bits = W == 8 ? _mm256_set1_epi32(static_cast<int>(bits)) : _mm256_set1_epi64x(bits);
+    const __m256i chosen = _mm256_and_si256(all_bits, lane);
+    return W == 8 ? _mm256_cmpeq_epi32(chosen, lane) : _mm256_cmpeq_epi64(chosen, lane);
+  }
+  static ISO_INLINE std::uint32_t bits_of_mask(Mask a) {
+    return static_cast<std::uint32_t>(W == 8 ? _mm256_movemask_ps(_mm256_castsi256_ps(a))
+                                             : _mm256_movemask_pd(_mm256_castsi256_pd(a)));
+  }
+  static ISO_INLINE Mask mask_and(Mask a, Mask b) { return _mm256_and_si256(a, b); }
+  static ISO_INLINE Mask mask_or(Mask a, Mask b) { return _mm256_or_si256(a, b); }
+  static ISO_INLINE Mask mask_not(Mask a) { return _mm256_xor_si256(a, _mm256_set1_epi32(-1)); }
+};
+
 /// In each 128-bit half a transposed 4 x 4 block of 32-bit lanes.
 ISO_INLINE void transpose_halves(const __m256* in, __m256* out) {
   const __m256 a = _mm256_unpacklo_ps(in[0], in[1]);
@@ -39,158 +48,165 @@ ISO_INLINE void transpose_halves(const __m256* in, __m256* out) {
   out[2] = _mm256_shuffle_ps(b, d, 0x44);
   out[3] = _mm256_shuffle_ps(b, d, 0xee);
 }
-/// Eight rows of N 32-bit scalars to N registers. Row i shares a register with row i + 4, so that only loads and
-/// stores cross the halves.
-template <int N> ISO_INLINE void load_rows_32(const float* const* rows, __m256* out) {
-  ISO_UNROLL for (int n = 0; n < N; n += 4) {
-    __m256 r[4];
-    ISO_UNROLL for (int i = 0; i < 4; ++i) {
-      r[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i] + n)), _mm_loadu_ps(rows[i + 4] + n), 1);
-    }
-    transpose_halves(r, out + n);
-  }
-}
-template <int N> ISO_INLINE void store_rows_32(float* const* rows, const __m256* in, std::uint32_t lane_mask) {
-  __m256 r[N];
-  ISO_UNROLL for (int n = 0; n < N; n += 4) transpose_halves(in + n, r + n);
-  ISO_UNROLL for (int i = 0; i < 8; ++i) {
-    if (((lane_mask >> i) & 1u) == 0) continue;
-    ISO_UNROLL for (int n = 0; n < N; n += 4) {
-      const __m256 both = r[n + i % 4];
-      _mm_storeu_ps(rows[i] + n, i < 4 ? _mm256_castps256_ps128(both) : _mm256_extractf128_ps(both, 1));
-    }
-  }
-}
-template <int N> ISO_INLINE void load_rows_64(const double* const* rows, __m256d* out) {
-  ISO_UNROLL for (int n = 0; n < N; n += 4) {
-    __m256d r[4];
-    ISO_UNROLL for (int i = 0; i < 4; ++i) r[i] = _mm256_loadu_pd(rows[i] + n);
-    transpose_4x4(r, out + n);
-  }
-}
-template <int N> ISO_INLINE void store_rows_64(double* const* rows, const __m256d* in, std::uint32_t lane_mask) {
-  __m256d r[N];
-  ISO_UNROLL for (int n = 0; n < N; n += 4) transpose_4x4(in + n, r + n);
-  ISO_UNROLL for (int i = 0; i < 4; ++i) {
-    if (((lane_mask >> i) & 1u) == 0) continue;
-    ISO_UNROLL for (int n = 0; n < N; n += 4) _mm256_storeu_pd(rows[i] + n, r[n + i]);
-  }
+/// 4 x 4 doubles, or anything of 64 bits.
+ISO_INLINE void transpose_4x4(const __m256d* in, __m256d* out) {
+  const __m256d a = _mm256_unpacklo_pd(in[0], in[1]);
+  const __m256d b = _mm256_unpackhi_pd(in[0], in[1]);
+  const __m256d c = _mm256_unpacklo_pd(in[2], in[3]);
+  const __m256d d = _mm256_unpackhi_pd(in[2], in[3]);
+  out[0] = _mm256_permute2f128_pd(a, c, 0x20);
+  out[1] = _mm256_permute2f128_pd(b, d, 0x20);
+  out[2] = _mm256_permute2f128_pd(a, c, 0x31);
+  out[3] = _mm256_permute2f128_pd(b, d, 0x31);
 }
 }  // namespace detail
 
-/// All ones or all zeros in each lane of 32 or 64 bits.
-template <class Key, int W>
-requires(sizeof(Key) * W == 32) struct LaneMask<Key, W, isa::Avx2> {
-  __m256i v;
+template <> struct Registers<float, isa::Avx2> : detail::Avx2Masks<8> {
+  using Type = __m256;
 
-  static ISO_INLINE LaneMask from_bits(std::uint32_t bits) {
-    const __m256i lane = W == 8 ? _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1) : _mm256_set_epi64x(8, 4, 2, 1);
-    const __m256i all_bits = W == 8 ? _mm256_set1_epi32(static_cast<int>(bits)) : _mm256_set1_epi64x(bits);
-    const __m256i chosen = _mm256_and_si256(all_bits, lane);
-    return {W == 8 ? _mm256_cmpeq_epi32(chosen, lane) : _mm256_cmpeq_epi64(chosen, lane)};
-  }
-  friend ISO_INLINE std::uint32_t to_bits(LaneMask a) {
-    return static_cast<std::uint32_t>(W == 8 ? _mm256_movemask_ps(_mm256_castsi256_ps(a.v))
-                                             : _mm256_movemask_pd(_mm256_castsi256_pd(a.v)));
-  }
-  friend ISO_INLINE bool any(LaneMask a) { return to_bits(a) != 0; }
-  friend ISO_INLINE bool all(LaneMask a) { return to_bits(a) == (1u << W) - 1; }
-  friend ISO_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {_mm256_and_si256(a.v, b.v)}; }
-  friend ISO_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {_mm256_or_si256(a.v, b.v)}; }
-  friend ISO_INLINE LaneMask operator~(LaneMask a) { return {_mm256_xor_si256(a.v, _mm256_set1_epi32(-1))}; }
-};
-
-template <> struct Lanes<float, 8, isa::Avx2> {
-  using Scalar = float;
-  using Mask = LaneMask<float, 8, isa::Avx2>;
-  static constexpr int kWidth = 8;
-  __m256 v;
-
-  static ISO_INLINE Lanes load(const float* p) { return {_mm256_load_ps(p)}; }
-  ISO_INLINE void store(float* p) const { _mm256_store_ps(p, v); }
-  static ISO_INLINE Lanes broadcast(float a) { return {_mm256_set1_ps(a)}; }
-  static ISO_INLINE Lanes zero() { return {_mm256_setzero_ps()}; }
-
-  friend ISO_INLINE Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_ps(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_ps(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator-(Lanes a) { return {_mm256_xor_ps(a.v, _mm256_set1_ps(-0.0f))}; }
-  friend ISO_INLINE Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_ps(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_ps(a.v, b.v)}; }
+  static ISO_INLINE Type load(const float* p) { return _mm256_load_ps(p); }
+  static ISO_INLINE void store(float* p, Type a) { _mm256_store_ps(p, a); }
+  static ISO_INLINE Type broadcast(float a) { return _mm256_set1_ps(a); }
+  static ISO_INLINE Type add(Type a, Type b) { return _mm256_add_ps(a, b); }
+  static ISO_INLINE Type subtract(Type a, Type b) { return _mm256_sub_ps(a, b); }
+  static ISO_INLINE Type multiply(Type a, Type b) { return _mm256_mul_ps(a, b); }
+  static ISO_INLINE Type divide(Type a, Type b) { return _mm256_div_ps(a, b); }
+  static ISO_INLINE Type sqrt(Type a) { return _mm256_sqrt_ps(a); }
+  static ISO_INLINE Type negate(Type a) { return _mm256_xor_ps(a, _mm256_set1_ps(-0.0f)); }
   // The instruction answers its second operand when neither is smaller: exactly b < a ? b : a and a < b ? b : a.
-  friend ISO_INLINE Lanes min(Lanes a, Lanes b) { return {_mm256_min_ps(b.v, a.v)}; }
-  friend ISO_INLINE Lanes max(Lanes a, Lanes b) { return {_mm256_max_ps(b.v, a.v)}; }
-  friend ISO_INLINE Lanes abs(Lanes a) {  // flips the sign of what is below zero: -0.0 and NaN keep theirs
-    const __m256 negative = _mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_LT_OQ);
-    return {_mm256_xor_ps(a.v, _mm256_and_ps(negative, _mm256_set1_ps(-0.0f)))};
+  static ISO_INLINE Type min(Type a, Type b) { return _mm256_min_ps(b, a); }
+  static ISO_INLINE Type max(Type a, Type b) { return _mm256_max_ps(b, a); }
+  static ISO_INLINE Type abs(Type a) {  // flips the sign of what is below zero: -0.0 and NaN keep theirs
+    const __m256 negative = _mm256_cmp_ps(a, _mm256_setzero_ps(), _CMP_LT_OQ);
+    return _mm256_xor_ps(a, _mm256_and_ps(negative, _mm256_set1_ps(-0.0f)));
   }
-  friend ISO_INLINE Lanes sqrt(Lanes a) { return {_mm256_sqrt_ps(a.v)}; }
+  static ISO_INLINE Mask less(Type a, Type b) { return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_LT_OQ)); }
+  static ISO_INLINE Mask less_equal(Type a, Type b) { return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
+  static ISO_INLINE Mask equal(Type a, Type b) { return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
+  static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm256_blendv_ps(b, a, _mm256_castsi256_ps(m)); }
 
-  friend ISO_INLINE Mask less(Lanes a, Lanes b) { return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ))}; }
-  friend ISO_INLINE Mask less_equal(Lanes a, Lanes b) {
-    return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))};
+  // Row i shares a register with row i + 4, so that only loads and stores cross the halves.
+  template <int N> static ISO_INLINE void load_rows(const float* const* rows, Type* out) {
+    ISO_UNROLL for (int n = 0; n < N; n += 4) {
+      Type r[4];
+      ISO_UNROLL for (int i = 0; i < 4; ++i) {
+        r[i] =
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i] + n)), _mm_loadu_ps(rows[i + 4] + n), 1);
+      }
+      detail::transpose_halves(r, out + n);
+    }
   }
-  friend ISO_INLINE Mask equal(Lanes a, Lanes b) { return {_mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ))}; }
-  friend ISO_INLINE Lanes select(Mask mask, Lanes a, Lanes b) {
-    return {_mm256_blendv_ps(b.v, a.v, _mm256_castsi256_ps(mask.v))};
-  }
-
-  template <int N> static ISO_INLINE void load_rows(const float* const* rows, Lanes* out) {
-    __m256 r[N];
-    detail::load_rows_32<N>(rows, r);
-    ISO_UNROLL for (int n = 0; n < N; ++n) out[n].v = r[n];
-  }
-  template <int N> static ISO_INLINE void store_rows(float* const* rows, const Lanes* in, std::uint32_t lane_mask) {
-    __m256 r[N];
-    ISO_UNROLL for (int n = 0; n < N; ++n) r[n] = in[n].v;
-    detail::store_rows_32<N>(rows, r, lane_mask);
+  template <int N> static ISO_INLINE void store_rows(float* const* rows, const Type* in, std::uint32_t lane_mask) {
+    Type r[N];
+    ISO_UNROLL for (int n = 0; n < N; n += 4) detail::transpose_halves(in + n, r + n);
+    ISO_UNROLL for (int i = 0; i < 8; ++i) {
+      if (((lane_mask >> i) & 1u) == 0) continue;
+      ISO_UNROLL for (int n = 0; n < N; n += 4) {
+        const Type both = r[n + i % 4];
+        _mm_storeu_ps(rows[i] + n, i < 4 ? _mm256_castps256_ps128(both) : _mm256_extractf128_ps(both, 1));
+      }
+    }
   }
 };
 
-template <> struct Lanes<double, 4, isa::Avx2> {
-  using Scalar = double;
-  using Mask = LaneMask<double, 4, isa::Avx2>;
-  static constexpr int kWidth = 4;
-  __m256d v;
+template <> struct Registers<double, isa::Avx2> : detail::Avx2Masks<4> {
+  using Type = __m256d;
 
-  static ISO_INLINE Lanes load(const double* p) { return {_mm256_load_pd(p)}; }
-  ISO_INLINE void store(double* p) const { _mm256_store_pd(p, v); }
-  static ISO_INLINE Lanes broadcast(double a) { return {_mm256_set1_pd(a)}; }
-  static ISO_INLINE Lanes zero() { return {_mm256_setzero_pd()}; }
+  static ISO_INLINE Type load(const double* p) { return _mm256_load_pd(p); }
+  static ISO_INLINE void store(double* p, Type a) { _mm256_store_pd(p, a); }
+  static ISO_INLINE Type broadcast(double a) { return _mm256_set1_pd(a); }
+  static ISO_INLINE Type add(Type a, Type b) { return _mm256_add_pd(a, b); }
+  static ISO_INLINE Type subtract(Type a, Type b) { return _mm256_sub_pd(a, b); }
+  static ISO_INLINE Type multiply(Type a, Type b) { return _mm256_mul_pd(a, b); }
+  static ISO_INLINE Type divide(Type a, Type b) { return _mm256_div_pd(a, b); }
+  static ISO_INLINE Type sqrt(Type a) { return _mm256_sqrt_pd(a); }
+  static ISO_INLINE Type negate(Type a) { return _mm256_xor_pd(a, _mm256_set1_pd(-0.0)); }
+  static ISO_INLINE Type min(Type a, Type b) { return _mm256_min_pd(b, a); }
+  static ISO_INLINE Type max(Type a, Type b) { return _mm256_max_pd(b, a); }
+  static ISO_INLINE Type abs(Type a) {
+    const __m256d negative = _mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_LT_OQ);
+    return _mm256_xor_pd(a, _mm256_and_pd(negative, _mm256_set1_pd(-0.0)));
+  }
+  static ISO_INLINE Mask less(Type a, Type b) { return _mm256_castpd_si256(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
+  static ISO_INLINE Mask less_equal(Type a, Type b) { return _mm256_castpd_si256(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }
+  static ISO_INLINE Mask equal(Type a, Type b) { return _mm256_castpd_si256(_mm256_cmp_pd(a, b, _CMP_EQ_OQ)); }
+  static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(m)); }
 
-  friend ISO_INLINE Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_pd(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_pd(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator-(Lanes a) { return {_mm256_xor_pd(a.v, _mm256_set1_pd(-0.0))}; }
-  friend ISO_INLINE Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_pd(a.v, b.v)}; }
-  friend ISO_INLINE Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_pd(a.v, b.v)}; }
-  friend ISO_INLINE Lanes min(Lanes a, Lanes b) { return {_mm256_min_pd(b.v, a.v)}; }
-  friend ISO_INLINE Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(b.v, a.v)}; }
-  friend ISO_INLINE Lanes abs(Lanes a) {
-    const __m256d negative = _mm256_cmp_pd(a.v, _mm256_setzero_pd(), _CMP_LT_OQ);
-    return {_mm256_xor_pd(a.v, _mm256_and_pd(negative, _mm256_set1_pd(-0.0)))};
+  template <int N> static ISO_INLINE void load_rows(const double* const* rows, Type* out) {
+    ISO_UNROLL for (int n = 0; n < N; n += 4) {
+      Type r[4];
+      ISO_UNROLL for (int i = 0; i < 4; ++i) r[i] = _mm256_loadu_pd(rows[i] + n);
+      detail::transpose_4x4(r, out + n);
+    }
   }
-  friend ISO_INLINE Lanes sqrt(Lanes a) { return {_mm256_sqrt_pd(a.v)}; }
+  template <int N> static ISO_INLINE void store_rows(double* const* rows, const Type* in, std::uint32_t lane_mask) {
+    Type r[N];
+    ISO_UNROLL for (int n = 0; n < N; n += 4) detail::transpose_4x4(in + n, r + n);
+    ISO_UNROLL for (int i = 0; i < 4; ++i) {
+      if (((lane_mask >> i) & 1u) == 0) continue;
+      ISO_UNROLL for (int n = 0; n < N; n += 4) _mm256_storeu_pd(rows[i] + n, r[n + i]);
+    }
+  }
+};
 
-  friend ISO_INLINE Mask less(Lanes a, Lanes b) { return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ))}; }
-  friend ISO_INLINE Mask less_equal(Lanes a, Lanes b) {
-    return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ))};
-  }
-  friend ISO_INLINE Mask equal(Lanes a, Lanes b) { return {_mm256_castpd_si256(_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ))}; }
-  friend ISO_INLINE Lanes select(Mask mask, Lanes a, Lanes b) {
-    return {_mm256_blendv_pd(b.v, a.v, _mm256_castsi256_pd(mask.v))};
-  }
+template <> struct Registers<std::int32_t, isa::Avx2> : detail::Avx2Masks<8> {
+  using Type = __m256i;
 
-  template <int N> static ISO_INLINE void load_rows(const double* const* rows, Lanes* out) {
-    __m256d r[N];
-    detail::load_rows_64<N>(rows, r);
-    ISO_UNROLL for (int n = 0; n < N; ++n) out[n].v = r[n];
+  static ISO_INLINE Type load(const std::int32_t* p) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(p)); }
+  static ISO_INLINE void store(std::int32_t* p, Type a) { _mm256_store_si256(reinterpret_cast<__m256i*>(p), a); }
+  static ISO_INLINE Type broadcast(std::int32_t a) { return _mm256_set1_epi32(a); }
+  static ISO_INLINE Type add(Type a, Type b) { return _mm256_add_epi32(a, b); }
+  static ISO_INLINE Type subtract(Type a, Type b) { return _mm256_sub_epi32(a, b); }
+  static ISO_INLINE Type min(Type a, Type b) { return _mm256_min_epi32(a, b); }
+  static ISO_INLINE Type max(Type a, Type b) { return _mm256_max_epi32(a, b); }
+  static ISO_INLINE Type abs(Type a) { return _mm256_abs_epi32(a); }
+  static ISO_INLINE Mask less(Type a, Type b) { return _mm256_cmpgt_epi32(b, a); }
+  static ISO_INLINE Mask less_equal(Type a, Type b) { return mask_not(less(b, a)); }
+  static ISO_INLINE Mask equal(Type a, Type b) { return _mm256_cmpeq_epi32(a, b); }
+  static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm256_blendv_epi8(b, a, m); }
+
+  /// 64-bit products of the even lanes.
+  static ISO_INLINE __m256i multiply_even(Type a, Type b) { return _mm256_mul_epi32(a, b); }
+  static ISO_INLINE Type odd_to_even(Type a) { return _mm256_shuffle_epi32(a, 0xf5); }
+  static ISO_INLINE Type even_and_odd(Type even, Type odd) { return _mm256_blend_epi32(even, odd, 0xaa); }
+  template <int N> static ISO_INLINE Type shift_right(Type a) { return _mm256_srai_epi32(a, N); }
+};
+
+template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
+  using Type = __m256i;
+  static constexpr bool kMultiplies = false;  // no product of 64 bits
+
+  static ISO_INLINE Type load(const std::int64_t* p) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(p)); }
+  static ISO_INLINE void store(std::int64_t* p, Type a) { _mm256_store_si256(reinterpret_cast<__m256i*>(p), a); }
+  static ISO_INLINE Type broadcast(std::int64_t a) { return _mm256_set1_epi64x(a); }
+  static ISO_INLINE Type add(Type a, Type b) { return _mm256_add_epi64(a, b); }
+  static ISO_INLINE Type subtract(Type a, Type b) { return _mm256_sub_epi64(a, b); }
+  static ISO_INLINE Type min(Type a, Type b) { return select(less(b, a), b, a); }
+  static ISO_INLINE Type max(Type a, Type b) { return select(less(a, b), b, a); }
+  static ISO_INLINE Type abs(Type a) {
+    const __m256i negative = _mm256_cmpgt_epi64(_mm256_setzero_si256(), a);
+    return _mm256_sub_epi64(_mm256_xor_si256(a, negative), negative);
   }
-  template <int N> static ISO_INLINE void store_rows(double* const* rows, const Lanes* in, std::uint32_t lane_mask) {
-    __m256d r[N];
-    ISO_UNROLL for (int n = 0; n < N; ++n) r[n] = in[n].v;
-    detail::store_rows_64<N>(rows, r, lane_mask);
+  static ISO_INLINE Mask less(Type a, Type b) { return _mm256_cmpgt_epi64(b, a); }
+  static ISO_INLINE Mask less_equal(Type a, Type b) { return mask_not(less(b, a)); }
+  static ISO_INLINE Mask equal(Type a, Type b) { return _mm256_cmpeq_epi64(a, b); }
+  static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm256_blendv_epi8(b, a, m); }
+
+  static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm256_mul_epu32(a, b); }
+  static ISO_INLINE Type low_word(Type a) { return _mm256_and_si256(a, _mm256_set1_epi64x(0xffffffff)); }
+  /// b where a is negative, else zero.
+  static ISO_INLINE Type where_negative(Type a, Type b) {
+    return _mm256_and_si256(_mm256_cmpgt_epi64(_mm256_setzero_si256(), a), b);
+  }
+  template <int N> static ISO_INLINE Type shift_left(Type a) { return _mm256_slli_epi64(a, N); }
+  template <int N> static ISO_INLINE Type shift_in_zeros(Type a) { return _mm256_srli_epi64(a, N); }
+  /// (x + half) >> N with the sign, N in 1..63: AVX2 has no such shift of 64 bits. Adding 2^63 turns the signed order
+  /// into the unsigned one, and comes out of the shift as 2^(63 - N).
+  template <int N> static ISO_INLINE Type shift_right(Type x, std::uint64_t half) {
+    const auto bias = static_cast<std::int64_t>(half + (std::uint64_t{1} << 63));
+    const __m256i shifted = _mm256_srli_epi64(_mm256_add_epi64(x, _mm256_set1_epi64x(bias)), N);
+    return _mm256_sub_epi64(shifted, _mm256_set1_epi64x(static_cast<std::int64_t>(std::uint64_t{1} << (63 - N))));
   }
 };
 
 }  // namespace isostep
-
-#include "isostep/scalar/lanes_avx2_fixed.hpp"
