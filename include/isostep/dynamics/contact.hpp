@@ -5,7 +5,9 @@
 #include <cstdint>
 
 #include "isostep/core/fields.hpp"
+#include "isostep/dynamics/body.hpp"
 #include "isostep/math/vec3.hpp"
+#include "isostep/scalar/math.hpp"
 
 namespace isostep {
 
@@ -67,6 +69,13 @@ template <class S> struct MixedMaterial {
   S rolling_resistance;      // [m]
   Vec3<S> surface_velocity;  // [m/s] of b's surface against a's, world
 };
+
+/// Friction by the root of the product, the rest by the larger.
+template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const Material<S>& b) {
+  const S friction = a.friction == b.friction ? a.friction : sqrt(a.friction * b.friction);
+  return {friction, max(a.restitution, b.restitution), max(a.rolling_resistance, b.rolling_resistance),
+          b.surface_velocity - a.surface_velocity};
+}
 
 /// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the
 /// contacts.

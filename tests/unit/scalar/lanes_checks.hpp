@@ -9,7 +9,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "isostep/scalar/lanes.hpp"
+#include "isostep/scalar/lanes_math.hpp"
 
 // Each test file keeps its own copy of all this, compiled for its own instruction set.
 namespace {
@@ -153,6 +153,47 @@ template <class L> void check_sqrt() {
     const auto whole = static_cast<S>(random.below(4096));
     const auto square = sqrt(L::broadcast(whole * whole));
     EXPECT_LANES(same_bits, square, whole);
+  }
+}
+
+/// Roots, quotients and directions; every other round of ordinary size, where no square leaves the range.
+template <class L> void check_math() {
+  using S = typename L::Scalar;
+  using U = isostep::Unit<S>;
+  constexpr int kWidth = L::kWidth;
+  Random random{11};
+  for (int round = 0; round < kRounds; ++round) {
+    Block<L> x, y, z, root, quotient, length;
+    Block<isostep::Unit<L>> dx, dy, dz;
+    for (int i = 0; i < kWidth; ++i) {
+      const auto number = [&] {
+        return round % 2 == 0 ? sample<S>(random)
+                              : isostep::from_double<S>(static_cast<double>(random.below(2001) - 1000) / 1024);
+      };
+      x.lane[i] = number();
+      y.lane[i] = number();
+      z.lane[i] = number();
+    }
+    const std::uint32_t bits = static_cast<std::uint32_t>(random.next());
+    const auto mask = L::Mask::from_bits(bits & (0xffffffffu >> (32 - kWidth)));
+    isostep::root(x.load()).store(root.lane);
+    isostep::quotient_where<L>(mask, x.load(), y.load()).store(quotient.lane);
+    const auto d = isostep::direction_where(mask, x.load(), y.load(), z.load());
+    d.x.store(dx.lane);
+    d.y.store(dy.lane);
+    d.z.store(dz.lane);
+    d.length.store(length.lane);
+    for (int i = 0; i < kWidth; ++i) {
+      const S a = x.lane[i], b = y.lane[i], c = z.lane[i];
+      ASSERT_TRUE(same_value(root.lane[i], isostep::sqrt(a))) << "lane " << i;
+      const bool chosen = ((bits >> i) & 1u) != 0;
+      ASSERT_TRUE(same_value(quotient.lane[i], chosen ? a / b : S(0))) << "lane " << i;
+      if (!chosen) continue;
+      const isostep::Direction<S> one = isostep::direction_of(a, b, c);
+      ASSERT_TRUE(same_value<U>(dx.lane[i], one.x) && same_value<U>(dy.lane[i], one.y) &&
+                  same_value<U>(dz.lane[i], one.z) && same_value(length.lane[i], one.length))
+          << "lane " << i;
+    }
   }
 }
 
@@ -329,6 +370,7 @@ TYPED_TEST_SUITE_P(LanesTest);
 
 TYPED_TEST_P(LanesTest, ArithmeticAnswersTheScalarsBits) { check_arithmetic<TypeParam>(); }
 TYPED_TEST_P(LanesTest, ComparisonsAndSelectionsAnswerTheScalars) { check_masks<TypeParam>(); }
+TYPED_TEST_P(LanesTest, RootsQuotientsAndDirectionsAnswerTheScalars) { check_math<TypeParam>(); }
 TYPED_TEST_P(LanesTest, TransposesGatherAndScatterRecords) {
   check_transposes<4, TypeParam>();
   check_transposes<8, TypeParam>();
@@ -345,6 +387,7 @@ template <class S, int W, class Isa> void check_usual_sums(Lanes<S, W, Isa>) {
 }
 TYPED_TEST_P(LanesTest, SumsOfProductsRoundOnce) { check_usual_sums(TypeParam::zero()); }
 REGISTER_TYPED_TEST_SUITE_P(LanesTest, ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
-                            TransposesGatherAndScatterRecords, SumsOfProductsRoundOnce);
+                            RootsQuotientsAndDirectionsAnswerTheScalars, TransposesGatherAndScatterRecords,
+                            SumsOfProductsRoundOnce);
 
 }  // namespace

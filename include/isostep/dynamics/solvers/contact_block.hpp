@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "isostep/dynamics/contact.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -54,6 +55,13 @@ template <class S, int W, int P> struct RollingBlock {
   RollingRows<S, W> rolling;
   ContactBlock<S, W, P> contact;
 };
+
+/// Size of a block of contacts of `points` points.
+template <class S, int W> ISO_INLINE constexpr std::size_t block_bytes(std::int32_t points, bool rolling) {
+  const auto missing = static_cast<std::size_t>(kMaxContactPoints - points);
+  return sizeof(ContactBlock<S, W, kMaxContactPoints>) - missing * sizeof(NormalRow<S, W>) +
+         (rolling ? sizeof(RollingRows<S, W>) : 0);
+}
 
 /// Which rows of SolverBodies a block's lanes read, and which of them they may write (one bit a lane).
 struct BlockBodies {

@@ -5,6 +5,8 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/dynamics/solvers/contact_prepare.inl"
+#include "isostep/dynamics/solvers/contact_store.inl"
 #include "isostep/scalar/lanes.hpp"
 
 namespace isostep {
@@ -230,7 +232,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
 };
 
 template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_kernels(const char* name) {
-  ContactKernels<S> table = {name, W, {}, {}, {}, {}};
+  ContactKernels<S> table = {name, W, &ContactPreparer<S, W, Isa>::prepare, &ContactStorer<S, W, Isa>::store, {}, {},
+                             {},   {}};
   const auto fill = [&]<int P, bool Rolling>() {
     using Kernel = ContactKernel<S, W, Isa, P, Rolling>;
     const int variant = (Rolling ? kMaxContactPoints : 0) + P - 1;

@@ -32,12 +32,39 @@ template <class S> struct BlockRun {
   const MotionRow<Velocity<S>>* displacement;
 };
 
+/// Contacts of one shape that are to become blocks: everything of their state and geometry that solving needs.
+template <class S> struct PrepareRun {
+  void* blocks;         // as in BlockRun, to be filled
+  BlockBodies* bodies;  // a block, to be filled
+  std::int32_t count;   // contacts
+  std::int32_t points;  // of each
+  bool rolling;
+  const std::uint32_t* order;  // which contacts, W a block
+  const Contact<S>* contacts;
+  const ContactGeometry<S>* geometry;
+  const MotionRow<Velocity<S>>* velocity;
+  const SolverMass<S>* mass;
+};
+
+/// Blocks of one shape whose impulses go back to their contacts.
+template <class S> struct StoreRun {
+  const void* blocks;
+  std::int32_t count;   // contacts
+  std::int32_t points;  // of each
+  bool rolling;
+  const std::uint32_t* order;  // which contacts, W a block
+  Contact<S>* contacts;
+  Velocity<S>* step_impulses;  // [m/s] a contact, what its points pushed over the step
+};
+
 /// Index of a kernel's variant: rolling * 4 + points - 1.
 inline constexpr int kContactVariants = 2 * kMaxContactPoints;
 
 template <class S> struct ContactKernels {
   const char* name;
   std::int32_t width;
+  void (*prepare)(const PrepareRun<S>&);
+  void (*store)(const StoreRun<S>&);
   void (*warm_start[kContactVariants])(const BlockRun<S>&);
   void (*solve[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
   void (*relax[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);

@@ -1,172 +1,333 @@
-// Bodies of contact_prepare.hpp.
+// From contacts' geometry to the blocks their kernel reads: W contacts at once, written once for every scalar and
+// instruction set. Part of contact_kernel.inl, with internal linkage like it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/solvers/contact_prepare.hpp"
+#include <cstddef>
+
+#include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/math/mat3.hpp"
+#include "isostep/scalar/lanes_math.hpp"
 
 namespace isostep {
+namespace {
 
-template <class S> MixedMaterial<S> mix(const Material<S>& a, const Material<S>& b) {
-  const S friction = a.friction == b.friction ? a.friction : sqrt(a.friction * b.friction);
-  return {friction, max(a.restitution, b.restitution), max(a.rolling_resistance, b.rolling_resistance),
-          b.surface_velocity - a.surface_velocity};
-}
+/// Every lane has the bits that W = 1 gives it: branches are selections, skipped where no lane needs them.
+/// Symbols: n = normal from a to b, arm = from a body's centre of mass to a point, kappa = mass times inverse inertia.
+template <class S, int W, class Isa> struct ContactPreparer {
+  using L = Lanes<S, W, Isa>;
+  using V = Lanes<Velocity<S>, W, Isa>;
+  using U = Lanes<Unit<S>, W, Isa>;
+  using Mask = typename L::Mask;
+  using Block = ContactBlock<S, W, kMaxContactPoints>;  // its first `points` normals alone are there
+  using Row = AngularRow<S, W>;
+  using Geometry = ContactGeometry<S>;
+  using Point = typename Geometry::Point;
 
-namespace detail {
+  struct Body {
+    Vec3<V> velocity, spin;
+    L mass;
+    Mat3<L> kappa;
+    Mask moves;
+  };
+  struct Impulses {
+    V normal[kMaxContactPoints];
+    Vec3<V> friction;
+    V twist;
+  };
+  struct Materials {
+    L friction, restitution, rolling;
+    Vec3<L> surface;
+  };
+  struct Arms {
+    Vec3<L> a, b;
+  };
 
-/// How a row of Jacobian (linear part `share` apart) meets the two bodies.
-template <class S> struct RowMaker {
-  const SolverMass<S>& mass_a;
-  const SolverMass<S>& mass_b;
-  MassShare<S> share;
+  static_assert(sizeof(Block) == W * sizeof(ContactBlock<S, 1, kMaxContactPoints>), "words of lanes and nothing else");
 
-  /// Angular parts of a row whose speed is jacobian_b . spin_b - jacobian_a . spin_a; returns 1 / (linear + angular).
-  ISO_INLINE void angular(Vec3<S> jacobian_a, Vec3<S> jacobian_b, S linear, AngularRow<S, 1>& row) const {
-    const Vec3<S> spin_a = (mass_a.kappa * jacobian_a) * share.a;
-    const Vec3<S> spin_b = (mass_b.kappa * jacobian_b) * share.b;
-    const S k = linear + round_to<S>(dot_sum(jacobian_a, spin_a) + dot_sum(jacobian_b, spin_b));
-    for (int i = 0; i < 3; ++i) {
-      row.jacobian_a[i][0] = jacobian_a[i];
-      row.jacobian_b[i][0] = jacobian_b[i];
-      row.spin_a[i][0] = spin_a[i];
-      row.spin_b[i][0] = spin_b[i];
-    }
-    // Rows that push have k >= 1. A turning row with less than an eighth has hardly a lever: it resists nothing.
-    row.effective_mass[0] = k > S(0.125) ? S(1) / k : S(0);
-    row.impulse[0] = Velocity<S>(0);
+  // ---- gathering: the records are read in runs of four and eight words, which transpose by whole registers
+
+  static_assert(offsetof(Contact<S>, friction_impulse) == offsetof(Contact<S>, normal_impulse) + 4 * sizeof(S));
+  static_assert(offsetof(Contact<S>, twist_impulse) == offsetof(Contact<S>, normal_impulse) + 7 * sizeof(S));
+  static_assert(sizeof(Point) == 7 * sizeof(S) && sizeof(SolverMass<S>) == 10 * sizeof(S));
+  static_assert(offsetof(Geometry, material) == offsetof(Geometry, points) + kMaxContactPoints * sizeof(Point));
+  static_assert(sizeof(MixedMaterial<S>) == 6 * sizeof(S));
+
+  template <int Words, class T, class Record, class Field>
+  static ISO_INLINE void gather(const Record* const* records, Field&& field, Lanes<T, W, Isa>* out) {
+    const T* rows[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) rows[i] = field(*records[i]);
+    load_transposed<Words>(rows, out);
   }
-  ISO_INLINE void pushing(Vec3<S> direction, Vec3<S> arm_a, Vec3<S> arm_b, AngularRow<S, 1>& row) const {
-    angular(cross(arm_a, direction), cross(arm_b, direction), share.a + share.b, row);
+  static ISO_INLINE Impulses gather_impulses(const Contact<S>* const* contacts) {
+    V w[8];
+    gather<8>(
+        contacts, [](const Contact<S>& c) ISO_INLINE_LAMBDA { return &c.normal_impulse[0]; }, w);
+    return {{w[0], w[1], w[2], w[3]}, {w[4], w[5], w[6]}, w[7]};
+  }
+  static ISO_INLINE Vec3<U> gather_normal(const Geometry* const* geometry) {
+    U w[4];  // the last is no direction
+    gather<4>(
+        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.normal.x; }, w);
+    return {w[0], w[1], w[2]};
+  }
+  static ISO_INLINE Arms gather_point(const Geometry* const* geometry, int p, L& separation) {
+    L w[8];
+    gather<8>(
+        geometry, [p](const Geometry& g) ISO_INLINE_LAMBDA { return &g.points[p].arm_a.x; }, w);
+    separation = w[6];
+    return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
+  }
+  /// Two words earlier, so that eight end with the record.
+  static ISO_INLINE Materials gather_material(const Geometry* const* geometry) {
+    L w[8];
+    gather<8>(
+        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.points[kMaxContactPoints - 1].arm_b.z; }, w);
+    return {w[2], w[3], w[4], {w[5], w[6], w[7]}};
+  }
+  static ISO_INLINE Body gather_body(const PrepareRun<S>& run, const std::uint32_t* rows) {
+    const Velocity<S>* motion[W];
+    const S* mass[W];
+    const S* rest[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      motion[i] = &run.velocity[rows[i]].linear.x;
+      mass[i] = &run.mass[rows[i]].mass;
+      rest[i] = &run.mass[rows[i]].kappa.rows[1].z;
+    }
+    V v[8];
+    L m[8], r[4];
+    load_transposed<8>(motion, v);
+    load_transposed<8>(mass, m);
+    load_transposed<4>(rest, r);
+    return {{v[0], v[1], v[2]},
+            {v[4], v[5], v[6]},
+            m[0],
+            {{{m[1], m[2], m[3]}, {m[4], m[5], m[6]}, {m[7], r[2], r[3]}}},
+            less(L::zero(), m[0])};
+  }
+
+  // ---- storing
+
+  template <class T> static ISO_INLINE void store(const Vec3<Lanes<T, W, Isa>>& v, T (&field)[3][W]) {
+    v.x.store(field[0]);
+    v.y.store(field[1]);
+    v.z.store(field[2]);
+  }
+
+  // ---- rows
+
+  /// How a row of Jacobian meets the two bodies.
+  struct RowMaker {
+    const Mat3<L>& kappa_a;
+    const Mat3<L>& kappa_b;
+    L share_a, share_b;
+
+    /// Angular parts of a row whose speed is jacobian_b . spin_b - jacobian_a . spin_a, `linear` apart.
+    ISO_INLINE void angular(Vec3<L> jacobian_a, Vec3<L> jacobian_b, L linear, V impulse, Row& row) const {
+      const Vec3<L> spin_a = (kappa_a * jacobian_a) * share_a;
+      const Vec3<L> spin_b = (kappa_b * jacobian_b) * share_b;
+      const L k = linear + round_to<L>(dot_sum(jacobian_a, spin_a) + dot_sum(jacobian_b, spin_b));
+      store(jacobian_a, row.jacobian_a);
+      store(jacobian_b, row.jacobian_b);
+      store(spin_a, row.spin_a);
+      store(spin_b, row.spin_b);
+      // Rows that push have k >= 1. A turning row with less than an eighth has hardly a lever: it resists nothing.
+      const Mask sound = less(L::broadcast(S(0.125)), k);
+      quotient_where<L>(sound, L::broadcast(S(1)), k).store(row.effective_mass);
+      impulse.store(row.impulse);
+    }
+    ISO_INLINE void pushing(Vec3<L> direction, const Arms& arms, V impulse, Row& row) const {
+      angular(cross(arms.a, direction), cross(arms.b, direction), share_a + share_b, impulse, row);
+    }
+  };
+
+  /// mass_share() of solver_body.hpp.
+  static ISO_INLINE void share_masses(const Body& a, const Body& b, L& share_a, L& share_b) {
+    const L zero = L::zero(), one = L::broadcast(S(1)), half = L::broadcast(S(0.5));
+    const L half_sum = half * a.mass + half * b.mass;  // the sum itself may not fit
+    const L ratio = quotient_where<L>(a.moves & b.moves, half * b.mass, half_sum);
+    share_a = select(a.moves, select(b.moves, ratio, one), zero);
+    share_b = select(b.moves, select(a.moves, one - ratio, one), zero);
+  }
+
+  /// v_b - v_a at the ends of two arms [m/s].
+  static ISO_INLINE Vec3<V> relative_velocity(const Body& a, const Body& b, const Arms& arms) {
+    const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
+      return round_to<V>(product(b.spin[i], arms.b[j]) - product(b.spin[j], arms.b[i]) - product(a.spin[i], arms.a[j]) +
+                         product(a.spin[j], arms.a[i]));
+    };
+    return b.velocity - a.velocity + Vec3<V>{part(1, 2), part(2, 0), part(0, 1)};
+  }
+
+  // ---- tangents
+
+  template <class T>
+  static ISO_INLINE Vec3<Lanes<T, W, Isa>> choose(Mask mask, Vec3<Lanes<T, W, Isa>> a, Vec3<Lanes<T, W, Isa>> b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+  }
+  /// A vector less its part along the normal.
+  static ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
+    const V along = round_to<V>(dot_sum(x, n));
+    return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)),
+            x.z - round_to<V>(product(along, n.z))};
+  }
+  /// tangents_of() of vec3.hpp.
+  static ISO_INLINE Tangents<U> any_tangents(Vec3<U> n) {
+    const U half = U::broadcast(Unit<S>(0.5)), one = U::broadcast(Unit<S>(1)), minus = U::broadcast(Unit<S>(-1));
+    const Mask negative = less(n.z, U::zero());
+    const U half_z = n.z * half;
+    const U divisor = select(negative, U::broadcast(Unit<S>(-0.5)), half) + half_z;
+    const U a = -divide_to<U>(half, divisor);
+    const U b = n.x * (n.y * a);
+    const U xx = n.x * (n.x * a);
+    const U yy = n.y * (n.y * a);
+    // The sign is chosen before the sum: of the two sums the one that is not wanted need not fit.
+    return {{one + select(negative, -xx, xx), select(negative, -b, b), select(negative, n.x, -n.x)},
+            {b, select(negative, minus, one) + yy, -n.y}};
+  }
+  /// The first along a flat vector where one leads, else any.
+  static ISO_INLINE Tangents<U> basis_along(Mask leads, Vec3<V> lead, Vec3<U> n) {
+    if (!any(leads)) return any_tangents(n);
+    const Direction<V> t = direction_where(leads, lead.x, lead.y, lead.z);
+    const Vec3<U> first = {t.x, t.y, t.z};
+    const Vec3<U> second = cross(n, first);
+    if (all(leads)) return {first, second};
+    const Tangents<U> other = any_tangents(n);
+    return {choose(leads, first, other.t), choose(leads, second, other.u)};
+  }
+  /// The friction basis. Sliding: along the slip, for that is what friction opposes. Else along the friction that the
+  /// contact bears already; where there is neither, any. The kernel's cone is exact along the basis.
+  static ISO_INLINE Tangents<U> friction_basis(Vec3<U> n, Vec3<V> borne, V limit, Vec3<V> slip) {
+    const Vec3<V> slide = flatten(slip, n);
+    // [m/s] slower is the trembling of what sticks
+    const Mask slides = less(V::broadcast(Velocity<S>(0.05)), max_abs(slide));
+    if (all(slides)) return basis_along(slides, slide, n);
+    const Vec3<V> force = flatten(borne, n);
+    const Mask bears = less(limit, V::broadcast(Velocity<S>(8)) * max_abs(force));  // below an eighth: noise
+    return basis_along(slides | bears, choose(slides, slide, force), n);
+  }
+
+  // ---- a block
+
+  /// [m] 1.082 times the root mean square distance of the points from their middle: a square patch under even pressure
+  /// resists twisting as if all friction acted at 0.541 of its half diagonal.
+  static ISO_INLINE L patch_radius(const Vec3<L>* arms_b, Vec3<L> middle, int points, L share) {
+    auto sum = SumOf<L, L>::zero();
+    for (int p = 0; p < points; ++p) {
+      const Vec3<L> half = (arms_b[p] - middle) * L::broadcast(S(0.5));  // so that the largest patch's square fits
+      sum = sum + dot_sum(half * share, half);
+    }
+    return L::broadcast(S(2 * 0.541)) * root(round_to<L>(sum));
+  }
+
+  static ISO_INLINE void fill(const PrepareRun<S>& run, const Contact<S>* const* contacts,
+                              const Geometry* const* geometry, unsigned char* memory, BlockBodies& bodies) {
+    Block& block = *reinterpret_cast<Block*>(memory + (run.rolling ? sizeof(RollingRows<S, W>) : 0));
+    std::uint32_t rows_a[W], rows_b[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      bodies.a[i] = rows_a[i] = geometry[i]->row_a;
+      bodies.b[i] = rows_b[i] = geometry[i]->row_b;
+    }
+    const Body a = gather_body(run, rows_a), b = gather_body(run, rows_b);
+    bodies.write_a = to_bits(a.moves);
+    bodies.write_b = to_bits(b.moves);
+
+    RowMaker make = {a.kappa, b.kappa, {}, {}};
+    share_masses(a, b, make.share_a, make.share_b);
+    make.share_a.store(block.share_a);
+    make.share_b.store(block.share_b);
+    const Vec3<U> normal = gather_normal(geometry);
+    const Vec3<L> n = {convert<L>(normal.x), convert<L>(normal.y), convert<L>(normal.z)};
+    store(n, block.normal);
+    const Materials material = gather_material(geometry);
+    material.friction.store(block.friction);
+    material.restitution.store(block.restitution);
+
+    const Impulses impulses = gather_impulses(contacts);
+    V total = V::zero();
+    Arms sum = {{L::zero(), L::zero(), L::zero()}, {L::zero(), L::zero(), L::zero()}};
+    Arms first = sum;
+    Vec3<L> arms_b[kMaxContactPoints];
+    for (int p = 0; p < run.points; ++p) {
+      NormalRow<S, W>& row = block.normals[p];
+      L separation;
+      const Arms arms = gather_point(geometry, p, separation);
+      const V impulse = impulses.normal[p];
+      make.pushing(n, arms, impulse, row.row);
+      convert<V>(separation).store(row.separation);
+      round_to<V>(dot_sum(relative_velocity(a, b, arms), normal)).store(row.approach);
+      (-impulse).store(row.total_impulse);  // the first warm start is the last step's
+      total = total + impulse;
+      sum = {sum.a + arms.a, sum.b + arms.b};
+      if (p == 0) first = arms;
+      arms_b[p] = arms.b;
+    }
+
+    constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
+    const L share = L::broadcast(kShares[run.points - 1]);
+    const Arms arms = {sum.a * share, sum.b * share};
+    const Vec3<V> surface = {convert<V>(material.surface.x), convert<V>(material.surface.y),
+                             convert<V>(material.surface.z)};
+    const V limit = round_to<V>(product(material.friction, total));
+    const Tangents<U> basis = friction_basis(normal, impulses.friction, limit, relative_velocity(a, b, arms) + surface);
+    const Vec3<U> directions[2] = {basis.t, basis.u};
+    for (int k = 0; k < 2; ++k) {
+      FrictionRow<S, W>& tangent = block.tangents[k];
+      const Vec3<U> d = directions[k];
+      const Vec3<L> t = {convert<L>(d.x), convert<L>(d.y), convert<L>(d.z)};
+      make.pushing(t, arms, round_to<V>(dot_sum(impulses.friction, d)), tangent.row);
+      store(t, tangent.direction);
+      round_to<V>(dot_sum(surface, d)).store(tangent.surface);
+    }
+
+    const bool patch = run.points > 1;
+    const L radius = patch ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();
+    const Vec3<L> twist = n * radius;
+    make.angular(twist, twist, L::zero(), patch ? impulses.twist : V::zero(), block.twist);
+    if (run.rolling) {
+      prepare_rolling(a, b, first, normal, material.rolling, make, *reinterpret_cast<RollingRows<S, W>*>(memory));
+    }
+  }
+
+  static ISO_INLINE void prepare_rolling(const Body& a, const Body& b, const Arms& arms, Vec3<U> n, L resistance,
+                                         const RowMaker& make, RollingRows<S, W>& rolling) {
+    // The rows' radius is the distance from the contact to the centre that rolls: it keeps the coefficients near one.
+    const L zero = L::zero();
+    const L radius = max(select(a.moves, abs(dot(arms.a, n)), zero), select(b.moves, abs(dot(arms.b, n)), zero));
+    // Along the rolling itself, so that the two rows' separate limits resist it as one.
+    const Vec3<V> spin = flatten(b.spin - a.spin, n);
+    const Mask rolls = less(V::broadcast(Velocity<S>(0.01)), max_abs(spin));  // [rad/s] slower is rest
+    const Tangents<U> basis = basis_along(rolls, spin, n);
+    const Vec3<U> axes[2] = {basis.t, basis.u};
+    for (int k = 0; k < 2; ++k) {
+      const Vec3<L> axis = {convert<L>(axes[k].x), convert<L>(axes[k].y), convert<L>(axes[k].z)};
+      const Vec3<L> jacobian = axis * radius;
+      make.angular(jacobian, jacobian, zero, V::zero(), rolling.rows[k]);
+    }
+    // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
+    const L lever = quotient_where<L>(less(zero, radius), resistance, radius);
+    min(lever, L::broadcast(S(4))).store(rolling.lever);
+  }
+
+  static void prepare(const PrepareRun<S>& run) {
+    const std::size_t bytes = block_bytes<S, W>(run.points, run.rolling);
+    // Lanes that are left over hold a contact of nothing with nothing, whose impulses stay zero.
+    const Contact<S> no_contact = {};
+    const Geometry no_geometry = {};
+    auto* memory = static_cast<unsigned char*>(run.blocks);
+    BlockBodies* bodies = run.bodies;
+    for (std::int32_t at = 0; at < run.count; at += W, memory += bytes, ++bodies) {
+      const Contact<S>* contacts[W];
+      const Geometry* geometry[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) {
+        const bool real = at + i < run.count;
+        contacts[i] = real ? &run.contacts[run.order[at + i]] : &no_contact;
+        geometry[i] = real ? &run.geometry[run.order[at + i]] : &no_geometry;
+      }
+      fill(run, contacts, geometry, memory, *bodies);
+    }
   }
 };
 
-/// v_b - v_a at the ends of two arms [m/s].
-template <class S>
-ISO_INLINE Vec3<Velocity<S>> relative_velocity(const MotionRow<Velocity<S>>& a, Vec3<S> arm_a,
-                                               const MotionRow<Velocity<S>>& b, Vec3<S> arm_b) {
-  using V = Velocity<S>;
-  const auto part = [&](int i, int j) {
-    return round_to<V>(product(b.angular[i], arm_b[j]) - product(b.angular[j], arm_b[i]) -
-                       product(a.angular[i], arm_a[j]) + product(a.angular[j], arm_a[i]));
-  };
-  return b.linear - a.linear + Vec3<V>{part(1, 2), part(2, 0), part(0, 1)};
-}
-
-/// A vector less its part along the normal.
-template <class V, class U> ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
-  const V along = round_to<V>(dot_sum(x, n));
-  return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)),
-          x.z - round_to<V>(product(along, n.z))};
-}
-/// Two tangents, the first along a flat vector.
-template <class V, class U> ISO_INLINE Tangents<U> basis_along(Vec3<V> lead, Vec3<U> n) {
-  const Direction<V> t = direction_of(lead.x, lead.y, lead.z);
-  const Vec3<U> first = {t.x, t.y, t.z};
-  return {first, cross(n, first)};
-}
-
-/// The friction basis. Sliding: along the slip, for that is what friction opposes. Else along the friction that the
-/// contact bears already; where there is neither, any. The kernel's cone is exact along the basis.
-template <class S>
-ISO_INLINE Tangents<Unit<S>> friction_basis(Vec3<Unit<S>> n, Vec3<Velocity<S>> borne, Velocity<S> limit,
-                                            Vec3<Velocity<S>> slip) {
-  using V = Velocity<S>;
-  const Vec3<V> slide = flatten(slip, n);
-  if (max_abs(slide) > V(0.05)) return basis_along(slide, n);  // [m/s] slower is the trembling of what sticks
-  const Vec3<V> force = flatten(borne, n);
-  return V(8) * max_abs(force) > limit ? basis_along(force, n) : tangents_of(n);  // below an eighth: noise
-}
-
-/// Mean arm of the contact's points.
-template <class S> ISO_INLINE Vec3<S> mean_arm(const ContactGeometry<S>& g, std::uint32_t count, bool of_b) {
-  constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
-  Vec3<S> sum = Vec3<S>::zero();
-  for (std::uint32_t i = 0; i < count; ++i) sum += of_b ? g.points[i].arm_b : g.points[i].arm_a;
-  return sum * kShares[count - 1];
-}
-
-}  // namespace detail
-
-template <class S>
-void prepare_contact(const Contact<S>& contact, const ContactGeometry<S>& g, const SolverBodies<S>& bodies,
-                     ContactBlock<S, 1, kMaxContactPoints>& block) {
-  using V = Velocity<S>;
-  const MotionRow<V>& motion_a = bodies.velocity[g.row_a];
-  const MotionRow<V>& motion_b = bodies.velocity[g.row_b];
-  const SolverMass<S>& mass_a = bodies.mass[g.row_a];
-  const SolverMass<S>& mass_b = bodies.mass[g.row_b];
-  const detail::RowMaker<S> make = {mass_a, mass_b, mass_share(mass_a.mass, mass_b.mass)};
-  const Vec3<S> n = convert<S>(g.normal);
-  for (int i = 0; i < 3; ++i) block.normal[i][0] = n[i];
-  block.share_a[0] = make.share.a;
-  block.share_b[0] = make.share.b;
-  block.friction[0] = g.material.friction;
-  block.restitution[0] = g.material.restitution;
-
-  V total = V(0);
-  for (std::uint32_t p = 0; p < contact.count; ++p) {
-    NormalRow<S, 1>& normal = block.normals[p];
-    const auto& point = g.points[p];
-    make.pushing(n, point.arm_a, point.arm_b, normal.row);
-    normal.row.impulse[0] = contact.normal_impulse[p];
-    normal.separation[0] = convert<V>(point.separation);
-    normal.approach[0] =
-        round_to<V>(dot_sum(detail::relative_velocity<S>(motion_a, point.arm_a, motion_b, point.arm_b), g.normal));
-    normal.total_impulse[0] = -contact.normal_impulse[p];  // the first warm start is the last step's
-    total += contact.normal_impulse[p];
-  }
-
-  const Vec3<S> arm_a = detail::mean_arm(g, contact.count, false);
-  const Vec3<S> arm_b = detail::mean_arm(g, contact.count, true);
-  const Vec3<V> slip =
-      detail::relative_velocity<S>(motion_a, arm_a, motion_b, arm_b) + convert<V>(g.material.surface_velocity);
-  const V limit = round_to<V>(product(g.material.friction, total));
-  const Tangents<Unit<S>> basis = detail::friction_basis<S>(g.normal, contact.friction_impulse, limit, slip);
-  const Vec3<Unit<S>> directions[2] = {basis.t, basis.u};
-  for (int k = 0; k < 2; ++k) {
-    FrictionRow<S, 1>& tangent = block.tangents[k];
-    const Vec3<S> t = convert<S>(directions[k]);
-    make.pushing(t, arm_a, arm_b, tangent.row);
-    for (int i = 0; i < 3; ++i) tangent.direction[i][0] = t[i];
-    tangent.row.impulse[0] = round_to<V>(dot_sum(contact.friction_impulse, directions[k]));
-    tangent.surface[0] = round_to<V>(dot_sum(convert<V>(g.material.surface_velocity), directions[k]));
-  }
-
-  S radius = S(0);
-  if (contact.count > 1) {
-    // A square patch under even pressure resists twisting as if all friction acted at 0.541 of its half diagonal.
-    constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
-    auto sum = SumOf<S, S>{};
-    for (std::uint32_t p = 0; p < contact.count; ++p) {
-      const Vec3<S> half = (g.points[p].arm_b - arm_b) * S(0.5);  // so that the largest patch's square fits
-      sum = sum + dot_sum(half * kShares[contact.count - 1], half);
-    }
-    radius = S(2 * 0.541) * sqrt(round_to<S>(sum));
-  }
-  make.angular(n * radius, n * radius, S(0), block.twist);
-  block.twist.impulse[0] = contact.count > 1 ? contact.twist_impulse : V(0);
-}
-
-template <class S>
-void prepare_rolling(const ContactGeometry<S>& g, const SolverBodies<S>& bodies,
-                     const ContactBlock<S, 1, kMaxContactPoints>& block, RollingRows<S, 1>& rolling) {
-  const detail::RowMaker<S> make = {bodies.mass[g.row_a], bodies.mass[g.row_b], {block.share_a[0], block.share_b[0]}};
-  // The rows' radius is the distance from the contact to the centre that rolls: it keeps the coefficients near one.
-  const S radius_a = bodies.moves(g.row_a) ? abs(dot(g.points[0].arm_a, g.normal)) : S(0);
-  const S radius_b = bodies.moves(g.row_b) ? abs(dot(g.points[0].arm_b, g.normal)) : S(0);
-  const S radius = max(radius_a, radius_b);
-  // Along the rolling itself, so that the two rows' separate limits resist it as one.
-  using V = Velocity<S>;
-  const Vec3<V> spin = detail::flatten(bodies.velocity[g.row_b].angular - bodies.velocity[g.row_a].angular, g.normal);
-  const bool rolls = max_abs(spin) > V(0.01);  // [rad/s] slower is rest
-  const Tangents<Unit<S>> basis = rolls ? detail::basis_along(spin, g.normal) : tangents_of(g.normal);
-  const Vec3<Unit<S>> axes[2] = {basis.t, basis.u};
-  for (int k = 0; k < 2; ++k) {
-    const Vec3<S> jacobian = convert<S>(axes[k]) * radius;
-    make.angular(jacobian, jacobian, S(0), rolling.rows[k]);
-  }
-  // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
-  rolling.lever[0] = radius > S(0) ? min(g.material.rolling_resistance / radius, S(4)) : S(0);
-}
-
+}  // namespace
 }  // namespace isostep

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 
 #include "isostep/dynamics/gyroscopic.hpp"
-#include "isostep/dynamics/solvers/contact_prepare.inl"
 #include "isostep/dynamics/solvers/soft_step.hpp"
 
 namespace isostep {
@@ -21,38 +19,14 @@ template <class S> inline constexpr S kContactDamping = S(5);                   
 template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);         // [m/s]
 template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(1);  // [m/s]
 
-/// Words of a contact's block at W = 1.
-template <class S> constexpr std::size_t contact_words(std::uint32_t points) {
-  using Block = ContactBlock<S, 1, kMaxContactPoints>;
-  return (sizeof(Block) - (kMaxContactPoints - points) * sizeof(NormalRow<S, 1>)) / sizeof(S);
-}
-template <class S> constexpr std::size_t rolling_words() { return sizeof(RollingRows<S, 1>) / sizeof(S); }
-
-template <class S> struct Variant {
-  std::uint32_t points;
+/// What a kernel's index says of its contacts.
+struct Variant {
+  std::int32_t points;
   bool rolling;
-  static constexpr Variant of(std::uint32_t index) {
-    return {index % kMaxContactPoints + 1, index >= kMaxContactPoints};
+  static ISO_INLINE constexpr Variant of(std::uint32_t index) {
+    return {static_cast<std::int32_t>(index) % kMaxContactPoints + 1, index >= kMaxContactPoints};
   }
-  constexpr std::size_t words() const { return contact_words<S>(points) + (rolling ? rolling_words<S>() : 0); }
 };
-
-/// `count` words at `from` into lane `lane` of a block W wide whose fields start at `to`.
-template <class S>
-ISO_INLINE void pack(const void* from, std::size_t count, unsigned char* to, std::size_t width, std::size_t lane) {
-  const auto* source = static_cast<const unsigned char*>(from);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::memcpy(to + (i * width + lane) * sizeof(S), source + i * sizeof(S), sizeof(S));
-  }
-}
-/// The way back, for one field: `byte` is its place in a block of one contact.
-template <class S, class T>
-ISO_INLINE T unpack(const unsigned char* from, std::size_t byte, std::size_t width, std::size_t lane) {
-  static_assert(sizeof(T) == sizeof(S));
-  T value;
-  std::memcpy(&value, from + byte * width + lane * sizeof(S), sizeof(T));
-  return value;
-}
 
 /// No motion along and about locked axes, whatever pushed.
 template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
@@ -110,7 +84,8 @@ void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t varian
   const std::uint32_t blocks = (count + width - 1) / width;
   runs_.push_back({&kernels, variant, first, count, block_count_, blocks, memory_bytes_});
   block_count_ += blocks;
-  memory_bytes_ += blocks * width * detail::Variant<S>::of(variant).words() * sizeof(S);
+  const detail::Variant shape = detail::Variant::of(variant);
+  memory_bytes_ += blocks * width * block_bytes<S, 1>(shape.points, shape.rolling);
   memory_bytes_ = (memory_bytes_ + 63) / 64 * 64;
 }
 
@@ -162,32 +137,10 @@ template <class S> void SoftStep<S>::prepare(const SolverInput<S>& input) {
   memory_.resize((memory_bytes_ + 63) / 64 + 1);
   block_bodies_.resize(block_count_ + 1);
   for (const Run& run : runs_) {
-    const auto width = static_cast<std::uint32_t>(run.kernels->width);
-    const detail::Variant<S> variant = detail::Variant<S>::of(run.variant);
-    const std::size_t block_bytes = variant.words() * width * sizeof(S);
-    unsigned char* const memory = memory_.data()->bytes + run.offset;
-    if (run.count % width != 0) std::memset(memory + (run.blocks - 1) * block_bytes, 0, block_bytes);
-    for (std::uint32_t block = 0; block < run.blocks; ++block) block_bodies_[run.first_block + block] = BlockBodies{};
-    for (std::uint32_t i = 0; i < run.count; ++i) {
-      const std::uint32_t index = order_[run.first + i];
-      const ContactGeometry<S>& g = input.geometry[index];
-      const std::uint32_t lane = i % width;
-      unsigned char* block = memory + i / width * block_bytes;
-      ContactBlock<S, 1, kMaxContactPoints> one;
-      prepare_contact(input.contacts[index], g, bodies_, one);
-      if (variant.rolling) {
-        RollingRows<S, 1> rolling;
-        prepare_rolling(g, bodies_, one, rolling);
-        detail::pack<S>(&rolling, detail::rolling_words<S>(), block, width, lane);
-        block += detail::rolling_words<S>() * width * sizeof(S);
-      }
-      detail::pack<S>(&one, detail::contact_words<S>(variant.points), block, width, lane);
-      BlockBodies& bodies = block_bodies_[run.first_block + i / width];
-      bodies.a[lane] = g.row_a;
-      bodies.b[lane] = g.row_b;
-      bodies.write_a |= (bodies_.moves(g.row_a) ? 1u : 0u) << lane;
-      bodies.write_b |= (bodies_.moves(g.row_b) ? 1u : 0u) << lane;
-    }
+    const detail::Variant shape = detail::Variant::of(run.variant);
+    run.kernels->prepare({memory_.data()->bytes + run.offset, &block_bodies_[run.first_block],
+                          static_cast<std::int32_t>(run.count), shape.points, shape.rolling, &order_[run.first],
+                          input.contacts.data(), input.geometry.data(), bodies_.velocity.data(), bodies_.mass.data()});
   }
 }
 
@@ -287,51 +240,11 @@ template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
   for (const Run& run : runs_) run.kernels->restitute[run.variant](blocks_of(run), pass);
 }
 
-namespace detail {
-/// A solved contact's impulses out of lane `lane` of its block; answers what its points pushed over the step.
-template <class S>
-ISO_INLINE Velocity<S> read_impulses(const unsigned char* block, std::size_t width, std::size_t lane,
-                                     Contact<S>& contact) {
-  using V = Velocity<S>;
-  using Block = ContactBlock<S, 1, kMaxContactPoints>;
-  using Row = AngularRow<S, 1>;
-  using Normal = NormalRow<S, 1>;
-  using Tangent = FrictionRow<S, 1>;
-  constexpr std::size_t impulse = offsetof(Row, impulse);
-  V total = V(0);
-  for (std::uint32_t p = 0; p < contact.count; ++p) {
-    const std::size_t normal = offsetof(Block, normals) + p * sizeof(Normal);
-    contact.normal_impulse[p] = unpack<S, V>(block, normal + impulse, width, lane);
-    total += unpack<S, V>(block, normal + offsetof(Normal, total_impulse), width, lane) + contact.normal_impulse[p];
-  }
-  contact.twist_impulse = unpack<S, V>(block, offsetof(Block, twist) + impulse, width, lane);
-  Vec3<V> friction = Vec3<V>::zero();
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t tangent = offsetof(Block, tangents) + k * sizeof(Tangent);
-    const V size = unpack<S, V>(block, tangent + impulse, width, lane);
-    const auto part = [&](std::size_t axis) {
-      const std::size_t at = tangent + offsetof(Tangent, direction) + axis * sizeof(S);
-      return round_to<V>(product(unpack<S, S>(block, at, width, lane), size));
-    };
-    friction += {part(0), part(1), part(2)};
-  }
-  contact.friction_impulse = friction;
-  contact.flags = V(0) < total ? contact.flags | contact_flag::kTouching : contact.flags & ~contact_flag::kTouching;
-  return total;
-}
-}  // namespace detail
-
 template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input) {
   for (const Run& run : runs_) {
-    const auto width = static_cast<std::size_t>(run.kernels->width);
-    const detail::Variant<S> variant = detail::Variant<S>::of(run.variant);
-    const std::size_t block_bytes = variant.words() * width * sizeof(S);
-    const std::size_t rolling_bytes = variant.rolling ? detail::rolling_words<S>() * width * sizeof(S) : 0;
-    for (std::uint32_t i = 0; i < run.count; ++i) {
-      const std::uint32_t index = order_[run.first + i];
-      const unsigned char* block = memory_.data()->bytes + run.offset + i / width * block_bytes + rolling_bytes;
-      input.step_impulses[index] = detail::read_impulses(block, width, i % width, input.contacts[index]);
-    }
+    const detail::Variant shape = detail::Variant::of(run.variant);
+    run.kernels->store({memory_.data()->bytes + run.offset, static_cast<std::int32_t>(run.count), shape.points,
+                        shape.rolling, &order_[run.first], input.contacts.data(), input.step_impulses.data()});
   }
   for (std::size_t i = 0; i < input.states.size(); ++i) {
     input.states[i].velocity = bodies_.velocity[i + 1].linear;

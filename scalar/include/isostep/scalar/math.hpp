@@ -118,16 +118,21 @@ ISO_INLINE constexpr std::uint64_t length_of(UInt128Parts q, InverseLength inver
   return nearest_root(int128_from(subtract(q, multiply(guess, guess))), guess);
 }
 
-/// A power of two that brings the squares of a vector with squared length n2 into range, and its inverse.
+/// Powers of two that bring the squares of a vector with squared length n2 into range, and their inverses.
 template <class S> struct Rescale { S up, down; };
+template <class S> struct RescaleLimits;
+template <> struct RescaleLimits<float> {
+  static constexpr float kLow = 0x1p-100f, kHigh = 0x1p120f;
+  static constexpr Rescale<float> kTiny = {0x1p100f, 0x1p-100f}, kHuge = {0x1p-70f, 0x1p70f};
+};
+template <> struct RescaleLimits<double> {
+  static constexpr double kLow = 0x1p-900, kHigh = 0x1p1000;
+  static constexpr Rescale<double> kTiny = {0x1p600, 0x1p-600}, kHuge = {0x1p-600, 0x1p600};
+};
 template <class S> ISO_INLINE Rescale<S> rescale(S n2) {
-  if constexpr (std::same_as<S, float>) {
-    if (n2 < 0x1p-100f) return {0x1p100f, 0x1p-100f};
-    if (n2 > 0x1p120f) return {0x1p-70f, 0x1p70f};
-  } else {
-    if (n2 < 0x1p-900) return {0x1p600, 0x1p-600};
-    if (n2 > 0x1p1000) return {0x1p-600, 0x1p600};
-  }
+  using Limits = RescaleLimits<S>;
+  if (n2 < Limits::kLow) return {Limits::kTiny.up, Limits::kTiny.down};
+  if (n2 > Limits::kHigh) return {Limits::kHuge.up, Limits::kHuge.down};
   return {S(1), S(1)};
 }
 

@@ -37,7 +37,11 @@ ISO_INLINE constexpr int leading_zeros(std::uint64_t a) {
     return static_cast<int>(index) ^ 63;
   }
 #endif
+#if defined(__GNUC__)
+  return __builtin_clzll(a);  // std::countl_zero would be a weak symbol at -O0
+#else
   return std::countl_zero(a);
+#endif
 }
 ISO_INLINE constexpr int leading_zeros(UInt128Parts a) {
   return a.high != 0 ? leading_zeros(a.high) : 64 + leading_zeros(a.low);

@@ -1,0 +1,80 @@
+// Roots, quotients and directions of lanes: every lane has the bits of the scalar's own function.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/scalar/lanes.hpp"
+#include "isostep/scalar/math.hpp"
+
+namespace isostep {
+
+/// Square roots. Fixed point takes them one by one.
+template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> root(Lanes<S, W, Isa> a) {
+  if constexpr (kIsFixed<S>) {
+    alignas(kLaneAlignment<S, W>) S x[W];
+    a.store(x);
+    ISO_UNROLL for (int i = 0; i < W; ++i) x[i] = sqrt(x[i]);
+    return Lanes<S, W, Isa>::load(x);
+  } else {
+    return sqrt(a);
+  }
+}
+
+/// a / b where the mask says so, zero elsewhere. Fixed point divides those lanes alone, for its divisions are dear.
+template <class Out, class Mask, class A, class B, int W, class Isa>
+ISO_INLINE Out quotient_where(Mask mask, Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+  if constexpr (kIsFixed<A>) {
+    using Quotient = typename Out::Scalar;
+    const std::uint32_t bits = to_bits(mask);
+    alignas(kLaneAlignment<A, W>) A x[W];
+    alignas(kLaneAlignment<B, W>) B y[W];
+    alignas(kLaneAlignment<Quotient, W>) Quotient q[W];
+    a.store(x);
+    b.store(y);
+    for (int i = 0; i < W; ++i) q[i] = ((bits >> i) & 1u) != 0 ? divide_to<Quotient>(x[i], y[i]) : Quotient(0);
+    return Out::load(q);
+  } else {
+    return select(mask, a / b, Out::zero());
+  }
+}
+
+/// direction_of the vectors that the mask names, of the others anything. Fixed point takes them one by one.
+template <class Mask, class S, int W, class Isa>
+ISO_INLINE Direction<Lanes<S, W, Isa>> direction_where(Mask mask, Lanes<S, W, Isa> x, Lanes<S, W, Isa> y,
+                                                       Lanes<S, W, Isa> z) {
+  using L = Lanes<S, W, Isa>;
+  if constexpr (kIsFixed<S>) {
+    using U = Unit<S>;
+    const std::uint32_t bits = to_bits(mask);
+    alignas(kLaneAlignment<S, W>) S in[3][W];
+    alignas(kLaneAlignment<U, W>) U out[3][W];
+    alignas(kLaneAlignment<S, W>) S length[W];
+    x.store(in[0]);
+    y.store(in[1]);
+    z.store(in[2]);
+    for (int i = 0; i < W; ++i) {
+      const Direction<S> d =
+          ((bits >> i) & 1u) != 0 ? direction_of(in[0][i], in[1][i], in[2][i]) : Direction<S>{U(0), U(0), U(0), S(0)};
+      out[0][i] = d.x;
+      out[1][i] = d.y;
+      out[2][i] = d.z;
+      length[i] = d.length;
+    }
+    return {Unit<L>::load(out[0]), Unit<L>::load(out[1]), Unit<L>::load(out[2]), L::load(length)};
+  } else {
+    using Limits = detail::RescaleLimits<S>;
+    const auto number = [](S a) ISO_INLINE_LAMBDA { return L::broadcast(a); };
+    const L plain = x * x + y * y + z * z;
+    const auto tiny = less(plain, number(Limits::kLow)), huge = less(number(Limits::kHigh), plain);
+    const L one = number(S(1));
+    const L up = select(tiny, number(Limits::kTiny.up), select(huge, number(Limits::kHuge.up), one));
+    const L down = select(tiny, number(Limits::kTiny.down), select(huge, number(Limits::kHuge.down), one));
+    const L a = x * up, b = y * up, c = z * up;
+    const L length = sqrt(a * a + b * b + c * c);
+    const auto none = equal(length, L::zero());
+    const L zero = L::zero();
+    return {select(none, zero, a / length), select(none, zero, b / length), select(none, zero, c / length),
+            select(none, zero, length * down)};
+  }
+}
+
+}  // namespace isostep
