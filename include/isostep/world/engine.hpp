@@ -29,6 +29,17 @@ struct Location {
   bool is_frozen() const { return set < kAwake; }
 };
 
+/// What the narrow phase asks of a body.
+template <class S> struct BodyFrame {
+  Vec3<S> centre;       // [m] of mass, world
+  Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
+  const Child<S>* children;
+  std::uint32_t child_count;
+  std::uint32_t row;  // of SolverBodies: 0 unless awake
+  bool plain;         // one part, not moved
+  bool sensor, frozen;
+};
+
 template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);
@@ -128,9 +139,9 @@ template <class S> class WorldEngine {
   void wake_touched_islands();
   bool bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const;
   template <class Visit>
-  ISO_INLINE void visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin, Visit&& visit) const;
-  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyProperties<S>& a,
-                   const BodyProperties<S>& b, Vec3<S> from_a_to_b);
+  static ISO_INLINE void visit_manifolds(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit);
+  BodyFrame<S> frame_at(Location at) const;
+  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyFrame<S>& a, const BodyFrame<S>& b);
   void collect_joined_pairs();
   std::uint32_t row_of(std::uint32_t slot) const;
   void update_sensors();
@@ -167,7 +178,7 @@ template <class S> class WorldEngine {
   std::vector<Acceleration<S>> accelerations_;
   std::vector<Pose<S>> start_poses_;        // of the centres of bodies awake when the step began
   std::vector<std::uint32_t> start_slots_;  // of those bodies, ascending; drawing asks for them after the step
-  std::vector<Mat3<Unit<S>>> rotations_;    // of awake bodies
+  std::vector<BodyFrame<S>> frames_;        // of awake bodies
   std::vector<Contact<S>> old_contacts_;
   std::size_t old_cursor_ = 0;
   std::vector<ContactGeometry<S>> geometry_;

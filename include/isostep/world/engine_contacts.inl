@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/bounds.hpp"
@@ -15,23 +17,24 @@ namespace detail {
 /// names.
 template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& contact) {
   using V = Velocity<S>;
-  bool claimed[kMaxContactPoints] = {};
-  bool found[kMaxContactPoints] = {};
-  std::uint32_t missing = 0;
+  std::uint32_t claimed = 0, missing = 0;  // bit q: of old's point q; bit p: of contact's point p
   for (std::uint32_t p = 0; p < contact.count; ++p) {
+    bool found = false;
     for (std::uint32_t q = 0; q < old.count; ++q) {
       if (old.features[q] != contact.features[p]) continue;
       contact.normal_impulse[p] = old.normal_impulse[q];
-      found[p] = claimed[q] = true;
+      claimed |= 1u << q;
+      found = true;
     }
-    missing += found[p] ? 0u : 1u;
+    if (!found) missing |= 1u << p;
   }
+  if (missing == 0) return;
   V left = V(0);
-  for (std::uint32_t q = 0; q < old.count; ++q) left += claimed[q] ? V(0) : old.normal_impulse[q];
-  if (missing == 0 || !(left > V(0))) return;
-  const V share = left / V(missing);
+  for (std::uint32_t q = 0; q < old.count; ++q) left += (claimed >> q & 1u) != 0 ? V(0) : old.normal_impulse[q];
+  if (!(left > V(0))) return;
+  const V share = left / V(std::popcount(missing));
   for (std::uint32_t p = 0; p < contact.count; ++p) {
-    if (!found[p]) contact.normal_impulse[p] = share;
+    if ((missing >> p & 1u) != 0) contact.normal_impulse[p] = share;
   }
 }
 }  // namespace detail
@@ -47,47 +50,53 @@ template <class S> void WorldEngine<S>::find_pairs() {
   wake_touched_islands();
 }
 
-/// visit(child_a, child_b, manifold, from_a_to_b) for every two parts within the margin, in order of their indices.
+template <class S> BodyFrame<S> WorldEngine<S>::frame_at(Location at) const {
+  const BodyState<S>& state = state_at(at);
+  const BodyProperties<S>& body = properties_at(at);
+  const std::span<const Child<S>> children = children_of(body.shape);
+  const Mat3<Unit<S>> turn = to_matrix(state.orientation);
+  return {state.centre,
+          {-(turn * body.local_centre), turn},
+          children.data(),
+          static_cast<std::uint32_t>(children.size()),
+          at.set == Location::kAwake ? at.index + 1 : 0,
+          children.size() == 1 && children[0].pose.is_identity(),
+          (body.flags & body_flag::kSensor) != 0,
+          at.is_frozen()};
+}
+
+/// visit(child_a, child_b, manifold) for every two parts within the margin, in order of their indices.
 /// Frames: everything relative to a's centre of mass, axes as the world's: far from the origin costs no precision.
 template <class S>
 template <class Visit>
-ISO_INLINE void WorldEngine<S>::visit_manifolds(std::uint32_t slot_a, std::uint32_t slot_b, S margin,
-                                                Visit&& visit) const {
-  const Location at_a = locations_[slot_a], at_b = locations_[slot_b];
-  const BodyState<S>& state_a = state_at(at_a);
-  const BodyState<S>& state_b = state_at(at_b);
-  const BodyProperties<S>& body_a = properties_at(at_a);
-  const BodyProperties<S>& body_b = properties_at(at_b);
-  const std::span<const Child<S>> children_a = children_of(body_a.shape), children_b = children_of(body_b.shape);
-  const auto rotation = [&](Location at, const BodyState<S>& state) {
-    return at.set == Location::kAwake && at.index < rotations_.size() ? rotations_[at.index]
-                                                                      : to_matrix(state.orientation);
-  };
-  const Mat3<Unit<S>> turn_a = rotation(at_a, state_a), turn_b = rotation(at_b, state_b);
-  const Vec3<S> from_a_to_b = state_b.centre - state_a.centre;
-  const Transform<S> origin_a = {-(turn_a * body_a.local_centre), turn_a};
-  const Transform<S> origin_b = {from_a_to_b - turn_b * body_b.local_centre, turn_b};
+ISO_INLINE void WorldEngine<S>::visit_manifolds(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit) {
+  const Transform<S> origin_b = {b.centre - a.centre + b.origin.position, b.origin.rotation};
+  Manifold<S> manifold;
+  if (a.plain && b.plain) {
+    collide(a.children->primitive, a.origin, b.children->primitive, origin_b, margin, manifold);
+    if (manifold.count > 0) visit(0u, 0u, manifold);
+    return;
+  }
   const auto placed = [](const Transform<S>& origin, const Child<S>& child) {
     return child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
   };
-  const bool several = children_a.size() > 1 || children_b.size() > 1;
-  Manifold<S> manifold;
-  for (std::uint32_t i = 0; i < children_a.size(); ++i) {
-    const Transform<S> ta = placed(origin_a, children_a[i]);
-    const Aabb<S> box_a = several ? grow(bounds(children_a[i].primitive, ta), margin) : Aabb<S>{};
-    for (std::uint32_t j = 0; j < children_b.size(); ++j) {
-      const Transform<S> tb = placed(origin_b, children_b[j]);
-      if (several && !overlap(box_a, bounds(children_b[j].primitive, tb))) continue;
-      collide(children_a[i].primitive, ta, children_b[j].primitive, tb, margin, manifold);
-      if (manifold.count > 0 && !visit(i, j, manifold, from_a_to_b)) return;
+  const bool several = a.child_count > 1 || b.child_count > 1;
+  for (std::uint32_t i = 0; i < a.child_count; ++i) {
+    const Transform<S> ta = placed(a.origin, a.children[i]);
+    const Aabb<S> box_a = several ? grow(bounds(a.children[i].primitive, ta), margin) : Aabb<S>{};
+    for (std::uint32_t j = 0; j < b.child_count; ++j) {
+      const Transform<S> tb = placed(origin_b, b.children[j]);
+      if (several && !overlap(box_a, bounds(b.children[j].primitive, tb))) continue;
+      collide(a.children[i].primitive, ta, b.children[j].primitive, tb, margin, manifold);
+      if (manifold.count > 0 && !visit(i, j, manifold)) return;
     }
   }
 }
 
 template <class S> bool WorldEngine<S>::bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const {
   bool touch = false;
-  visit_manifolds(slot_a, slot_b, detail::kSpeculativeDistance<S>,
-                  [&](std::uint32_t, std::uint32_t, const Manifold<S>&, Vec3<S>) {
+  visit_manifolds(frame_at(locations_[slot_a]), frame_at(locations_[slot_b]), detail::kSpeculativeDistance<S>,
+                  [&](std::uint32_t, std::uint32_t, const Manifold<S>&) {
                     touch = true;
                     return false;
                   });
@@ -98,7 +107,6 @@ template <class S> bool WorldEngine<S>::bodies_touch(std::uint32_t slot_a, std::
 /// left.
 template <class S> void WorldEngine<S>::wake_touched_islands() {
   if (state_.frozen.empty()) return;
-  rotations_.clear();
   std::vector<std::uint32_t>& touched = slots_;
   do {
     touched.clear();
@@ -132,62 +140,66 @@ template <class S> void WorldEngine<S>::collect_joined_pairs() {
 }
 
 template <class S>
-void WorldEngine<S>::add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyProperties<S>& a,
-                                 const BodyProperties<S>& b, Vec3<S> from_a_to_b) {
-  Contact<S> contact = {};
+void WorldEngine<S>::add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyFrame<S>& a,
+                                 const BodyFrame<S>& b) {
+  Contact<S>& contact = state_.contacts.emplace_back();
   contact.key = key;
   contact.count = static_cast<std::uint32_t>(manifold.count);
-  ContactGeometry<S> g;
-  g.row_a = row_of(key.body_a);
-  g.row_b = row_of(key.body_b);
+  ContactGeometry<S>& g = geometry_.emplace_back();
+  g.row_a = a.row;
+  g.row_b = b.row;
   g.normal = manifold.normal;
-  g.material = mix(a.material, b.material);
-  for (std::uint32_t p = 0; p < contact.count; ++p) {
+  g.material = mix(properties_at(locations_[key.body_a]).material, properties_at(locations_[key.body_b]).material);
+  const Vec3<S> from_a_to_b = b.centre - a.centre;
+  for (int p = 0; p < kMaxContactPoints; ++p) {
+    if (p == manifold.count) break;
     const ManifoldPoint<S>& point = manifold.points[p];
     contact.features[p] = point.feature;
     g.points[p] = {point.position, point.position - from_a_to_b, point.separation};
   }
   while (old_cursor_ < old_contacts_.size() && old_contacts_[old_cursor_].key < key) ++old_cursor_;
-  if (old_cursor_ < old_contacts_.size() && old_contacts_[old_cursor_].key == key) {
-    const Contact<S>& old = old_contacts_[old_cursor_];
-    contact.flags = old.flags;
-    contact.friction_impulse = old.friction_impulse;
-    contact.twist_impulse = old.twist_impulse;
-    detail::inherit_impulses(old, contact);
-  }
-  state_.contacts.push_back(contact);
-  geometry_.push_back(g);
+  if (old_cursor_ == old_contacts_.size() || !(old_contacts_[old_cursor_].key == key)) return;
+  const Contact<S>& old = old_contacts_[old_cursor_];
+  contact.flags = old.flags;
+  contact.friction_impulse = old.friction_impulse;
+  contact.twist_impulse = old.twist_impulse;
+  detail::inherit_impulses(old, contact);
 }
 
 template <class S> void WorldEngine<S>::update_manifolds() {
   collect_joined_pairs();
-  rotations_.resize(state_.awake.states.size());
-  for (std::size_t i = 0; i < rotations_.size(); ++i) rotations_[i] = to_matrix(state_.awake.states[i].orientation);
+  frames_.resize(state_.awake.states.size());
+  for (std::uint32_t i = 0; i < frames_.size(); ++i) frames_[i] = frame_at({Location::kAwake, i});
   old_contacts_.swap(state_.contacts);
   state_.contacts.clear();
   geometry_.clear();
   new_overlaps_.clear();
   old_cursor_ = 0;
   std::size_t joined = 0;
+  std::uint32_t slot_a = kNoBody;  // whose frame `own_a` is, unless awake: pairs of one body follow each other
+  BodyFrame<S> own_a, own_b;
   for (const std::uint64_t key : proxies_.pairs()) {
     while (joined < joined_pairs_.size() && joined_pairs_[joined] < key) ++joined;
     if (joined < joined_pairs_.size() && joined_pairs_[joined] == key) continue;
     const std::uint32_t a = pair_a(key), b = pair_b(key);
-    const BodyProperties<S>& body_a = properties_at(locations_[a]);
-    const BodyProperties<S>& body_b = properties_at(locations_[b]);
-    const bool sensor_a = (body_a.flags & body_flag::kSensor) != 0, sensor_b = (body_b.flags & body_flag::kSensor) != 0;
-    if (sensor_a || sensor_b) {
-      if (sensor_a && sensor_b) continue;
-      visit_manifolds(a, b, S(0), [&](std::uint32_t, std::uint32_t, const Manifold<S>&, Vec3<S>) {
-        new_overlaps_.push_back(sensor_a ? SensorOverlap{a, b} : SensorOverlap{b, a});
+    const Location at_a = locations_[a], at_b = locations_[b];
+    if (at_a.set != Location::kAwake && slot_a != a) own_a = frame_at(at_a);
+    if (at_b.set != Location::kAwake) own_b = frame_at(at_b);
+    slot_a = a;
+    const BodyFrame<S>& frame_a = at_a.set == Location::kAwake ? frames_[at_a.index] : own_a;
+    const BodyFrame<S>& frame_b = at_b.set == Location::kAwake ? frames_[at_b.index] : own_b;
+    if (frame_a.sensor || frame_b.sensor) {
+      if (frame_a.sensor && frame_b.sensor) continue;
+      visit_manifolds(frame_a, frame_b, S(0), [&](std::uint32_t, std::uint32_t, const Manifold<S>&) {
+        new_overlaps_.push_back(frame_a.sensor ? SensorOverlap{a, b} : SensorOverlap{b, a});
         return false;
       });
       continue;
     }
-    if (locations_[a].is_frozen() || locations_[b].is_frozen()) continue;  // a kinematic body at rest against sleepers
-    visit_manifolds(a, b, detail::kSpeculativeDistance<S>,
-                    [&](std::uint32_t i, std::uint32_t j, const Manifold<S>& manifold, Vec3<S> from_a_to_b) {
-                      add_contact({a, b, i, j}, manifold, body_a, body_b, from_a_to_b);
+    if (frame_a.frozen || frame_b.frozen) continue;  // a kinematic body at rest against sleepers
+    visit_manifolds(frame_a, frame_b, detail::kSpeculativeDistance<S>,
+                    [&](std::uint32_t i, std::uint32_t j, const Manifold<S>& manifold) {
+                      add_contact({a, b, i, j}, manifold, frame_a, frame_b);
                       return true;
                     });
   }
@@ -227,23 +239,19 @@ template <class S> void WorldEngine<S>::update_sensors() {
 template <class S> void WorldEngine<S>::emit_contact_events() {
   const std::vector<Contact<S>>& now = state_.contacts;
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
-  const auto pair_of = [](const Contact<S>& c) { return pair_key(c.key.body_a, c.key.body_b); };
-  const auto touched = [&](const std::vector<Contact<S>>& list, std::size_t& at) {
-    const std::uint64_t pair = pair_of(list[at]);
-    bool any = false;
-    for (; at < list.size() && pair_of(list[at]) == pair; ++at)
-      any = any || (list[at].flags & contact_flag::kTouching) != 0;
-    return any;
+  constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  const auto pair_at = [&](const std::vector<Contact<S>>& list, std::size_t at) {
+    return at < list.size() ? pair_key(list[at].key.body_a, list[at].key.body_b) : kNone;
   };
+  const auto touching = [](const Contact<S>& c) { return (c.flags & contact_flag::kTouching) != 0; };
   std::size_t i = 0, j = 0;
-  while (i < old_contacts_.size() || j < now.size()) {
-    const std::uint64_t none = ~std::uint64_t{0};
-    const std::uint64_t old_pair = i < old_contacts_.size() ? pair_of(old_contacts_[i]) : none;
-    const std::uint64_t new_pair = j < now.size() ? pair_of(now[j]) : none;
+  std::uint64_t old_pair = pair_at(old_contacts_, 0), new_pair = pair_at(now, 0);
+  while (min(old_pair, new_pair) != kNone) {
     const std::uint64_t pair = min(old_pair, new_pair);
     const std::size_t first = j;
-    const bool was = old_pair == pair && touched(old_contacts_, i);
-    const bool is = new_pair == pair && touched(now, j);
+    bool was = false, is = false;
+    for (; old_pair == pair; old_pair = pair_at(old_contacts_, ++i)) was = was || touching(old_contacts_[i]);
+    for (; new_pair == pair; new_pair = pair_at(now, ++j)) is = is || touching(now[j]);
     if (was && !is) events_.contact_end.push_back({id(pair_a(pair)), id(pair_b(pair))});
     if (!was && is)
       events_.contact_begin.push_back(

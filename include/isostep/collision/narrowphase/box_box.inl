@@ -53,15 +53,27 @@ ISO_INLINE bool examine_cross(const BoxPair<S>& p, int i, int j, S reach, S& lim
   return true;
 }
 
-template <class S> ISO_INLINE BestAxis<S> best_axis(const BoxPair<S>& p, S reach) {
+/// The separation along a's axis I [m]; fills in what of the pair it needs.
+template <int I, class S>
+ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const Mat3<Unit<S>>& turn_b, Vec3<S> gap) {
+  const Vec3<Unit<S>> axis = turn_a.column(I);
+  p.offset.set(I, dot(axis, gap));
+  p.turn.rows[I] = transposed_times(turn_b, axis);
+  p.turn_size.rows[I] = abs(p.turn.rows[I]);
+  return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
+}
+
+/// Fills in the rest of the pair as it goes along: half of all pairs end at one of the first axes.
+template <class S>
+ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Transform<S>& tb, S reach) {
   BestAxis<S> best = {-1, S(0), Vec3<Unit<S>>::zero()};
   const auto& q = p.turn_size;
-  const Vec3<S> size = abs(p.offset);
-  const S a0 = size.x - p.half_a.x - dot(q.rows[0], p.half_b);
+  const Vec3<S> gap = tb.position - ta.position;
+  const S a0 = separation_of_a<0>(p, ta.rotation, tb.rotation, gap);
   if (a0 > reach) return best;
-  const S a1 = size.y - p.half_a.y - dot(q.rows[1], p.half_b);
+  const S a1 = separation_of_a<1>(p, ta.rotation, tb.rotation, gap);
   if (a1 > reach) return best;
-  const S a2 = size.z - p.half_a.z - dot(q.rows[2], p.half_b);
+  const S a2 = separation_of_a<2>(p, ta.rotation, tb.rotation, gap);
   if (a2 > reach) return best;
   const S b0 = abs(dot(p.offset, p.turn.column(0))) - p.half_b.x - dot(q.column(0), p.half_a);
   if (b0 > reach) return best;
@@ -131,14 +143,10 @@ template <class S>
 void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
                      S margin, Manifold<S>& out) {
   out.clear();
-  const Vec3<S> gap = tb.position - ta.position;
   detail::BoxPair<S> pair;
   pair.half_a = a.half;
   pair.half_b = b.half;
-  pair.offset = transposed_times(ta.rotation, gap);
-  pair.turn = transpose(ta.rotation) * tb.rotation;
-  pair.turn_size = {{abs(pair.turn.rows[0]), abs(pair.turn.rows[1]), abs(pair.turn.rows[2])}};
-  const detail::BestAxis<S> best = detail::best_axis(pair, margin + a.radius + b.radius);
+  const detail::BestAxis<S> best = detail::best_axis(pair, ta, tb, margin + a.radius + b.radius);
   if (best.axis < 0) return;
   if (best.axis >= 6) {
     detail::touch_edges(pair, best, a.radius, b.radius, ta, out);
@@ -148,9 +156,10 @@ void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primit
   const Primitive<S>& reference = of_a ? a : b;
   const Primitive<S>& incident = of_a ? b : a;
   const Transform<S>& frame = of_a ? ta : tb;
-  const detail::FacePair<S> faces = {reference.half, incident.half,
-                                     of_a ? pair.offset : -transposed_times(tb.rotation, gap),
-                                     of_a ? pair.turn : transpose(pair.turn), of_a ? best.axis : best.axis - 3};
+  const detail::FacePair<S> faces =
+      of_a ? detail::face_pair(best.axis, a.half, b.half, pair.offset, pair.turn)
+           : detail::face_pair(best.axis - 3, b.half, a.half, -transposed_times(tb.rotation, tb.position - ta.position),
+                               transpose(pair.turn));
   detail::touch_faces(faces, reference.radius, incident.radius, frame, margin, of_a, out);
 }
 

@@ -22,24 +22,23 @@ template <class S>
 void collide(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb, S margin,
              Manifold<S>& out) {
   using enum ShapeType;
-  const bool swapped = b.type < a.type;
-  const Primitive<S>& first = swapped ? b : a;
-  const Primitive<S>& second = swapped ? a : b;
-  const Transform<S>& t1 = swapped ? tb : ta;
-  const Transform<S>& t2 = swapped ? ta : tb;
-  switch (detail::pair_of(first.type, second.type)) {
-    case detail::pair_of(sphere, sphere): collide_sphere_sphere(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(sphere, box): collide_sphere_box(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(sphere, capsule): collide_sphere_capsule(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(sphere, half_space): collide_sphere_half_space(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(box, box): collide_box_box(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(box, capsule): collide_box_capsule(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(box, half_space): collide_box_half_space(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(capsule, capsule): collide_capsule_capsule(first, t1, second, t2, margin, out); break;
-    case detail::pair_of(capsule, half_space): collide_capsule_half_space(first, t1, second, t2, margin, out); break;
+  if (b.type < a.type) {
+    collide(b, tb, a, ta, margin, out);
+    out.normal = -out.normal;
+    return;
+  }
+  switch (detail::pair_of(a.type, b.type)) {
+    case detail::pair_of(sphere, sphere): return collide_sphere_sphere(a, ta, b, tb, margin, out);
+    case detail::pair_of(sphere, box): return collide_sphere_box(a, ta, b, tb, margin, out);
+    case detail::pair_of(sphere, capsule): return collide_sphere_capsule(a, ta, b, tb, margin, out);
+    case detail::pair_of(sphere, half_space): return collide_sphere_half_space(a, ta, b, tb, margin, out);
+    case detail::pair_of(box, box): return collide_box_box(a, ta, b, tb, margin, out);
+    case detail::pair_of(box, capsule): return collide_box_capsule(a, ta, b, tb, margin, out);
+    case detail::pair_of(box, half_space): return collide_box_half_space(a, ta, b, tb, margin, out);
+    case detail::pair_of(capsule, capsule): return collide_capsule_capsule(a, ta, b, tb, margin, out);
+    case detail::pair_of(capsule, half_space): return collide_capsule_half_space(a, ta, b, tb, margin, out);
     default: out.clear(); break;
   }
-  if (swapped) out.normal = -out.normal;
 }
 
 }  // namespace isostep

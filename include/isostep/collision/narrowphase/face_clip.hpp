@@ -6,13 +6,31 @@
 
 namespace isostep::detail {
 
-/// The incident box seen from the reference box, and the reference face's axis.
+/// The incident box seen from the reference box. Index 0, 1: along the reference face, u and v; 2: out of it, height.
 template <class S> struct FacePair {
-  Vec3<S> half, incident_half;  // [m]
-  Vec3<S> offset;               // [m] the incident box's centre
-  Mat3<Unit<S>> turn;           // rows: reference axes; columns: incident axes
-  int axis;
+  int axes[3];         // the reference box's axis of each
+  S half[3];           // [m] the reference box's
+  S offset[3];         // [m] the incident box's centre
+  Unit<S> turn[3][3];  // columns: incident axes
+  S incident_half[3];  // [m] along its own axes
 };
+
+/// turn: rows: reference axes; columns: incident axes.
+template <class S>
+ISO_INLINE FacePair<S> face_pair(int axis, Vec3<S> half, Vec3<S> incident_half, Vec3<S> offset,
+                                 const Mat3<Unit<S>>& turn) {
+  const S sizes[3] = {half.x, half.y, half.z}, places[3] = {offset.x, offset.y, offset.z};
+  FacePair<S> pair;
+  for (int k = 0; k < 3; ++k) {
+    const int i = axis + k < 2 ? axis + k + 1 : axis + k - 2;
+    pair.axes[k] = i;
+    pair.half[k] = sizes[i];
+    pair.offset[k] = places[i];
+    pair.incident_half[k] = incident_half[k];
+    for (int j = 0; j < 3; ++j) pair.turn[k][j] = turn.rows[i][j];
+  }
+  return pair;
+}
 
 /// A corner of the contact polygon. Its edges name it: 0..3 edges of the incident face, 4..7 sides of the reference.
 template <class S> struct ClipPoint {
@@ -29,33 +47,35 @@ template <class S> struct ClipPolygon {
 };
 
 /// Cuts off what lies beyond `side` (0: u < -half, 1: u > half, 2, 3: v). A corner on the line stays, not doubled.
-template <class S> ISO_INLINE void clip_side(ClipPolygon<S>& polygon, unsigned side, S half) {
+/// The result is in `to` if something was cut, which is the answer, else still in `from`.
+template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigned side, S half, ClipPolygon<S>& to) {
   S beyond[kClipPoints];
   bool cuts = false;
-  for (int i = 0; i < polygon.count; ++i) {
-    const S w = side < 2 ? polygon.points[i].u : polygon.points[i].v;
+  for (int i = 0; i < from.count; ++i) {
+    const S w = side < 2 ? from.points[i].u : from.points[i].v;
     beyond[i] = ((side & 1u) ? w : -w) - half;
     cuts = cuts || beyond[i] > S(0);
   }
-  if (!cuts) return;
-  const ClipPolygon<S> from = polygon;
-  polygon.count = 0;
+  if (!cuts) return false;
+  int count = 0;
   for (int i = 0; i < from.count; ++i) {
     const int next = i + 1 < from.count ? i + 1 : 0;
     const ClipPoint<S>& p = from.points[i];
     const ClipPoint<S>& q = from.points[next];
-    if (!(beyond[i] > S(0)) && polygon.count < kClipPoints) polygon.points[polygon.count++] = p;
-    const bool leaves = beyond[i] < S(0) && beyond[next] > S(0), enters = beyond[i] > S(0) && beyond[next] < S(0);
-    if (!(leaves || enters) || polygon.count == kClipPoints) continue;
+    const bool p_out = beyond[i] > S(0), q_out = beyond[next] > S(0);
+    if (!p_out && count < kClipPoints) to.points[count++] = p;
+    if (p_out == q_out || !((p_out ? beyond[next] : beyond[i]) < S(0)) || count == kClipPoints) continue;
     const Unit<S> t = divide_to<Unit<S>>(beyond[i], beyond[i] - beyond[next]);
-    ClipPoint<S>& cut = polygon.points[polygon.count++];
+    ClipPoint<S>& cut = to.points[count++];
     const S border = (side & 1u) ? half : -half;
     cut.u = side < 2 ? border : p.u + (q.u - p.u) * t;
     cut.v = side < 2 ? p.v + (q.v - p.v) * t : border;
     cut.height = p.height + (q.height - p.height) * t;
-    cut.before = leaves ? p.after : 4 + side;
-    cut.after = leaves ? 4 + side : p.after;
+    cut.before = q_out ? p.after : 4 + side;
+    cut.after = q_out ? 4 + side : p.after;
   }
+  to.count = count;
+  return true;
 }
 
 /// Twice the signed area of a triangle in the face [m^2], exact for fixed point.
@@ -116,21 +136,25 @@ template <class S> ISO_INLINE void reduce_to_four(ClipPolygon<S>& polygon, S tie
 /// The face of the incident box that looks most against the reference normal; ties go to the lowest axis. Returns
 /// axis * 2, + 1 for its negative side.
 template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bool below, ClipPolygon<S>& polygon) {
-  const int u_axis = (pair.axis + 1) % 3, v_axis = (pair.axis + 2) % 3;
-  const Vec3<Unit<S>> facing = pair.turn.rows[pair.axis];
-  const Vec3<Unit<S>> size = abs(facing);
+  const Unit<S>(&facing)[3] = pair.turn[2];
+  const Vec3<Unit<S>> size = {abs(facing[0]), abs(facing[1]), abs(facing[2])};
   const int m = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const bool negative = (facing[m] > Unit<S>(0)) != below;
-  const int m1 = (m + 1) % 3, m2 = (m + 2) % 3;
-  const Vec3<S> to_face = pair.turn.column(m) * negate_if(negative, pair.incident_half[m]);
-  const Vec3<S> e1 = pair.turn.column(m1) * pair.incident_half[m1];
-  const Vec3<S> e2 = pair.turn.column(m2) * pair.incident_half[m2];
-  const Vec3<S> centre = pair.offset + to_face;
-  const Vec3<S> low = centre - e2, high = centre + e2;
-  const Vec3<S> corners[4] = {low - e1, low + e1, high + e1, high - e1};
+  const int m1 = m < 2 ? m + 1 : 0, m2 = m < 1 ? 2 : m - 1;
+  const S to_face = negate_if(negative, pair.incident_half[m]);
+  S corners[3][4];
+  for (int k = 0; k < 3; ++k) {
+    const S e1 = pair.turn[k][m1] * pair.incident_half[m1], e2 = pair.turn[k][m2] * pair.incident_half[m2];
+    const S centre = pair.offset[k] + pair.turn[k][m] * to_face;
+    const S low = centre - e2, high = centre + e2;
+    corners[k][0] = low - e1;
+    corners[k][1] = low + e1;
+    corners[k][2] = high + e1;
+    corners[k][3] = high - e1;
+  }
   for (unsigned i = 0; i < 4; ++i) {
-    const Vec3<S> c = corners[i];
-    polygon.points[i] = {c[u_axis], c[v_axis], negate_if(below, c[pair.axis]) - pair.half[pair.axis], (i + 3) & 3u, i};
+    const S height = negate_if(below, corners[2][i]) - pair.half[2];
+    polygon.points[i] = {corners[0][i], corners[1][i], height, (i + 3) & 3u, i};
   }
   polygon.count = 4;
   return unsigned(m) * 2 + (negative ? 1u : 0u);
@@ -139,36 +163,43 @@ template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bo
 template <class S>
 ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius, const Transform<S>& frame, S margin,
                             bool of_a, Manifold<S>& out) {
-  const int u_axis = (pair.axis + 1) % 3, v_axis = (pair.axis + 2) % 3;
-  const bool below = pair.offset[pair.axis] < S(0);
-  ClipPolygon<S> polygon;
-  const unsigned face = incident_face(pair, below, polygon);
-  clip_side(polygon, 0, pair.half[u_axis]);
-  clip_side(polygon, 1, pair.half[u_axis]);
-  clip_side(polygon, 2, pair.half[v_axis]);
-  clip_side(polygon, 3, pair.half[v_axis]);
+  const bool below = pair.offset[2] < S(0);
+  ClipPolygon<S> polygons[2];
+  const unsigned face = incident_face(pair, below, polygons[0]);
+  unsigned now = 0;
+  now ^= clip_side(polygons[now], 0, pair.half[0], polygons[now ^ 1u]) ? 1u : 0u;
+  now ^= clip_side(polygons[now], 1, pair.half[0], polygons[now ^ 1u]) ? 1u : 0u;
+  now ^= clip_side(polygons[now], 2, pair.half[1], polygons[now ^ 1u]) ? 1u : 0u;
+  now ^= clip_side(polygons[now], 3, pair.half[1], polygons[now ^ 1u]) ? 1u : 0u;
+  ClipPolygon<S>& polygon = polygons[now];
 
   const S radii = radius + incident_radius;
   int kept = 0;
   for (int i = 0; i < polygon.count; ++i) {
-    if (polygon.points[i].height - radii <= margin) polygon.points[kept++] = polygon.points[i];
+    if (!(polygon.points[i].height - radii <= margin)) continue;
+    if (kept != i) polygon.points[kept] = polygon.points[i];
+    ++kept;
   }
   polygon.count = kept;
   if (kept == 0) return;
-  if (kept > kManifoldPoints) reduce_to_four(polygon, axis_tolerance(pair.half, pair.incident_half) * S(0.125));
+  if (kept > kManifoldPoints) {
+    const Vec3<S> half = {pair.half[0], pair.half[1], pair.half[2]};
+    const Vec3<S> incident = {pair.incident_half[0], pair.incident_half[1], pair.incident_half[2]};
+    reduce_to_four(polygon, axis_tolerance(half, incident) * S(0.125));
+  }
 
-  const Vec3<Unit<S>> outward = negate_if(below, frame.rotation.column(pair.axis));
+  const Vec3<Unit<S>> outward = negate_if(below, frame.rotation.column(pair.axes[2]));
   out.normal = of_a ? outward : -outward;
   const std::uint32_t name =
-      1u << 31 | (of_a ? 0u : 1u) << 12 | unsigned(pair.axis) << 10 | (below ? 1u : 0u) << 9 | face << 6;
+      1u << 31 | (of_a ? 0u : 1u) << 12 | unsigned(pair.axes[2]) << 10 | (below ? 1u : 0u) << 9 | face << 6;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
-    const S level = pair.half[pair.axis] + (p.height + radius - incident_radius) * S(0.5);
-    Vec3<S> local = Vec3<S>::zero();
-    local.set(u_axis, p.u);
-    local.set(v_axis, p.v);
-    local.set(pair.axis, negate_if(below, level));
-    out.add(to_world(frame, local), p.height - radii, name | p.before << 3 | p.after);
+    const S level = pair.half[2] + (p.height + radius - incident_radius) * S(0.5);
+    S local[3];
+    local[pair.axes[0]] = p.u;
+    local[pair.axes[1]] = p.v;
+    local[pair.axes[2]] = negate_if(below, level);
+    out.add(to_world(frame, Vec3<S>{local[0], local[1], local[2]}), p.height - radii, name | p.before << 3 | p.after);
   }
 }
 
