@@ -35,10 +35,12 @@ endfunction()
 
 set(isostep_avx512 -mavx512f -mavx512dq -mavx512vl)
 
-# A kernel of one instruction set: its own file, its own flags, where the compiler targets x86-64.
+# A kernel of one instruction set: its own file, its own flags, where the compiler targets x86-64. gcc gathers sums of
+# integers at their end, with every term waiting in memory till then; without these two passes it adds as it goes.
 function(isostep_kernel_flags file)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
     # Under sanitizers these templates take minutes and gigabytes; the kernels of one lane are the same code.
-    set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${ARGN};-fno-sanitize=all")
+    set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
+      "${ARGN};-fno-sanitize=all;$<$<CXX_COMPILER_ID:GNU>:-fno-tree-ter>;$<$<CXX_COMPILER_ID:GNU>:-fno-tree-reassoc>")
   endif()
 endfunction()

@@ -299,6 +299,10 @@ template <class A, class B, class Out, int W, class Isa> void check_sums() {
     }
     const LO rounded = isostep::round_to<LO>(lanes);
     EXPECT_LANES(same_value, rounded, isostep::round_to<Out>(sums[i]));
+    const auto x = Block<LA>::sampled(random);
+    const auto y = Block<LB>::sampled(random);
+    const LO one = isostep::round_product<LO>(x.load(), y.load());
+    EXPECT_LANES(same_value, one, isostep::round_to<Out>(product(x.lane[i], y.lane[i])));
   }
 }
 

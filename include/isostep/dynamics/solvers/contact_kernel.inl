@@ -44,24 +44,32 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     const V all[8] = {m.linear[0], m.linear[1], m.linear[2], zero, m.angular[0], m.angular[1], m.angular[2], zero};
     store_transposed<8>(pointers, all, mask);
   }
-  template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
+  template <class A> static ISO_INLINE V times(A a, V b) { return round_product<V>(a, b); }
 
-  /// b's angular part of the row minus a's.
+  /// b's angular part of the row minus a's. One product at a time: of an expression gcc keeps all of them.
   static ISO_INLINE auto angular_sum(const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
-    return product(L::load(row.jacobian_b[0]), b.angular[0]) + product(L::load(row.jacobian_b[1]), b.angular[1]) +
-           product(L::load(row.jacobian_b[2]), b.angular[2]) - product(L::load(row.jacobian_a[0]), a.angular[0]) -
-           product(L::load(row.jacobian_a[1]), a.angular[1]) - product(L::load(row.jacobian_a[2]), a.angular[2]);
+    auto sum = product(L::load(row.jacobian_b[0]), b.angular[0]);
+    for (int i = 1; i < 3; ++i) sum += product(L::load(row.jacobian_b[i]), b.angular[i]);
+    for (int i = 0; i < 3; ++i) sum -= product(L::load(row.jacobian_a[i]), a.angular[i]);
+    return sum;
   }
   /// Speed (or displacement) of b against a along the row.
   static ISO_INLINE V along(const S (&direction)[3][W], const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
-    return round_to<V>(product(L::load(direction[0]), b.linear[0] - a.linear[0]) +
-                       product(L::load(direction[1]), b.linear[1] - a.linear[1]) +
-                       product(L::load(direction[2]), b.linear[2] - a.linear[2]) + angular_sum(row, a, b));
+    auto sum = product(L::load(direction[0]), b.linear[0] - a.linear[0]);
+    for (int i = 1; i < 3; ++i) sum += product(L::load(direction[i]), b.linear[i] - a.linear[i]);
+    return round_to<V>(sum + angular_sum(row, a, b));
   }
   static ISO_INLINE void turn(const AngularRow<S, W>& row, V impulse, Motion& a, Motion& b) {
     for (int i = 0; i < 3; ++i) {
       a.angular[i] = a.angular[i] - times(L::load(row.spin_a[i]), impulse);
       b.angular[i] = b.angular[i] + times(L::load(row.spin_b[i]), impulse);
+    }
+  }
+  /// turn() of a row that has no lever and bears nothing.
+  static ISO_INLINE void turn_by_nothing(const AngularRow<S, W>& row, Motion& a, Motion& b) {
+    for (int i = 0; i < 3; ++i) {
+      a.angular[i] = subtract_zero(a.angular[i], L::load(row.spin_a[i]));
+      b.angular[i] = add_zero(b.angular[i], L::load(row.spin_b[i]));
     }
   }
   static ISO_INLINE void push(const S (&direction)[3][W], const AngularRow<S, W>& row, const Shares& share, V impulse,
@@ -111,7 +119,9 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   static ISO_INLINE void solve_tangents(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass, Motion& a,
                                         Motion& b) {
     const V limit = times(L::load(c.friction), min(total_normal_impulse(c), pass.max_load));
-    {
+    if constexpr (P == 1) {  // one point resists no twisting
+      turn_by_nothing(c.twist, a, b);
+    } else {
       AngularRow<S, W>& row = c.twist;
       const V speed = round_to<V>(angular_sum(row, a, b));
       const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
@@ -173,7 +183,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const BlockBodies& bodies = run.bodies[i];
       Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
       const Shares share = {L::load(c.share_a), L::load(c.share_b)};
-      turn(c.twist, V::load(c.twist.impulse), a, b);
+      if constexpr (P == 1) turn_by_nothing(c.twist, a, b);
+      if constexpr (P != 1) turn(c.twist, V::load(c.twist.impulse), a, b);
       for (const FrictionRow<S, W>& t : c.tangents) push(t.direction, t.row, share, V::load(t.row.impulse), a, b);
       if constexpr (Rolling) {
         for (const AngularRow<S, W>& row : block.rolling.rows) turn(row, V::load(row.impulse), a, b);

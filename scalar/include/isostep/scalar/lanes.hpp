@@ -216,6 +216,10 @@ template <class SumS, int W, class Isa> struct LaneSum {
     ISO_UNROLL for (int i = 0; i < W; ++i) r.v[i] = round_to<Out>(v[i]);
     return r;
   }
+  template <class Out, class A, class B>
+  static ISO_INLINE Lanes<Out, W, Isa> round_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+    return of_product(a, b).template round<Out>();
+  }
   friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) {
     ISO_UNROLL for (int i = 0; i < W; ++i) a.v[i] = a.v[i] + b.v[i];
     return a;
@@ -243,10 +247,28 @@ template <class Out, class SumS, int W, class Isa> ISO_INLINE Out round_to(LaneS
 }
 template <class Out, class S, int W, class Isa> ISO_INLINE Out round_to(Lanes<S, W, Isa> sum) { return sum; }
 
+/// round_to<Out>(product(a, b)), which registers of 64-bit integers do in fewer steps.
+template <class Out, class A, class B, int W, class Isa>
+ISO_INLINE Out round_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+  if constexpr (kIsFixed<A>) return LaneSum<SumOf<A, B>, W, Isa>::template round_product<typename Out::Scalar>(a, b);
+  if constexpr (!kIsFixed<A>) return a * b;
+}
+/// a + b and a - b where b is zero: of floats the sign of a zero may change.
+template <class A, class B, int W, class Isa>
+ISO_INLINE Lanes<A, W, Isa> add_zero(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+  if constexpr (kIsFixed<A>) return a;
+  if constexpr (!kIsFixed<A>) return a + b;
+}
+template <class A, class B, int W, class Isa>
+ISO_INLINE Lanes<A, W, Isa> subtract_zero(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+  if constexpr (kIsFixed<A>) return a;
+  if constexpr (!kIsFixed<A>) return a - b;
+}
+
 /// a b in the coarser of the two formats.
 template <class A, class B, int W, class Isa>
 requires(kIsFixed<A>&& kIsFixed<B>) ISO_INLINE auto operator*(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
-  return round_to<Lanes<decltype(A{} * B{}), W, Isa>>(product(a, b));
+  return round_product<Lanes<decltype(A{} * B{}), W, Isa>>(a, b);
 }
 /// a / b as lanes of Out. Fixed point divides lane by lane: no instruction set here has an integer division.
 template <class Out, class A, class B, int W, class Isa>

@@ -174,7 +174,7 @@ template <> struct Registers<std::int32_t, isa::Avx2> : detail::Avx2Masks<8> {
 
 template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
   using Type = __m256i;
-  static constexpr bool kMultiplies = false;  // no product of 64 bits
+  using NearSum = detail::FlippedSum<Registers>;  // no product of 64 bits
 
   static ISO_INLINE Type load(const std::int64_t* p) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(p)); }
   static ISO_INLINE void store(std::int64_t* p, Type a) { _mm256_store_si256(reinterpret_cast<__m256i*>(p), a); }
@@ -194,6 +194,9 @@ template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
 
   static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm256_mul_epu32(a, b); }
   static ISO_INLINE Type low_word(Type a) { return _mm256_and_si256(a, _mm256_set1_epi64x(0xffffffff)); }
+  static ISO_INLINE Type flip(Type a, std::uint64_t bits) {
+    return _mm256_xor_si256(a, _mm256_set1_epi64x(static_cast<std::int64_t>(bits)));
+  }
   /// b where a is negative, else zero.
   static ISO_INLINE Type where_negative(Type a, Type b) {
     return _mm256_and_si256(_mm256_cmpgt_epi64(_mm256_setzero_si256(), a), b);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/scalar/lanes.hpp"
+#include "isostep/scalar/lanes_wide_sums.hpp"
 
 namespace isostep {
 
@@ -126,6 +127,10 @@ struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
       }
     }
   }
+  template <class Out, class A, class B>
+  static ISO_INLINE Lanes<Out, W, Isa> round_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+    return of_product(a, b).template round<Out>();
+  }
   friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) {
     return {R64::add(a.even, b.even), R64::add(a.odd, b.odd)};
   }
@@ -135,84 +140,43 @@ struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
   friend ISO_INLINE LaneSum operator-(LaneSum a) { return zero() - a; }
 };
 
-/// Exact sums X modulo 2^128, in columns that carry only once, when they are rounded:
-///   X = c2 2^64 + c1 2^32 + c0   modulo 2^128, while fewer than 2^29 products are added
-///   X = middle 2^32 + c0         modulo 2^96
-/// A rounding by up to 32 bits reads the second line, by more the first; what is not read the compiler removes.
-/// With a = ah 2^32 + al read as unsigned, a b = ah bh 2^64 + (ah bl + al bh) 2^32 + al bl, less b 2^64 where a is
-/// negative and a 2^64 where b is.
+/// Exact sums X of 64-bit products, twice: `far` modulo 2^128 and `near` modulo 2^96, which is all that a rounding by
+/// up to 32 bits reads and takes half the work. What is not read the compiler removes.
 template <int F, int W, class Isa>
 requires InRegister<std::int64_t, W, Isa>
 struct LaneSum<FixedSum<std::int64_t, F>, W, Isa> {
   using R = Registers<std::int64_t, Isa>;
-  using Type = typename R::Type;
-  Type c0;
-  Type c1;
-  Type c2;
-  Type middle;
+  using Near = typename R::NearSum;
+  detail::FarSum<R> far;
+  Near near;
 
-  static ISO_INLINE LaneSum zero() {
-    const Type z = R::broadcast(0);
-    return {z, z, z, z};
-  }
+  static ISO_INLINE LaneSum zero() { return {detail::FarSum<R>::zero(), Near::zero()}; }
   template <class A, class B> static ISO_INLINE LaneSum of_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
-    const Type ah = R::template shift_in_zeros<32>(a.v);
-    const Type bh = R::template shift_in_zeros<32>(b.v);
-    const Type ll = R::multiply_low_words(a.v, b.v);
-    const Type lh = R::multiply_low_words(a.v, bh);
-    const Type hl = R::multiply_low_words(ah, b.v);
-    const Type carry = R::template shift_in_zeros<32>(ll);
-    const Type hh =
-        R::subtract(R::multiply_low_words(ah, bh), R::add(R::where_negative(a.v, b.v), R::where_negative(b.v, a.v)));
-    const Type cross = R::add(R::low_word(lh), R::low_word(hl));
-    const Type cross_high = R::add(R::template shift_in_zeros<32>(lh), R::template shift_in_zeros<32>(hl));
-    Type middle;
-    if constexpr (R::kMultiplies) {
-      middle = R::add(R::multiply(a.v, R::template shift_right<32>(b.v, 0)),
-                      R::multiply(R::template shift_right<32>(a.v, 0), R::low_word(b.v)));
-    } else {
-      middle = R::add(R::add(lh, hl), R::template shift_left<32>(hh));
-    }
-    return {R::low_word(ll), R::add(carry, cross), R::add(hh, cross_high), R::add(carry, middle)};
+    return {detail::FarSum<R>::of_product(a.v, b.v), Near::of_product(a.v, b.v)};
   }
-  /// x 2^shift: the 128-bit value in two words first, then in columns.
   template <class A> static ISO_INLINE LaneSum of_lanes(Lanes<A, W, Isa> a) {
     constexpr int shift = F - A::kFracBits;
     static_assert(shift > 0);
-    Type high;
+    // x 2^shift: the 128-bit value in two words
+    typename R::Type high;
     if constexpr (shift < 64) high = R::template shift_right<64 - shift>(a.v, 0);
     if constexpr (shift >= 64) high = R::template shift_left<shift - 64>(a.v);
-    const Type low = R::template shift_left<shift>(a.v);  // zero from 64 on
-    const Type c1 = R::template shift_in_zeros<32>(low);
-    return {R::low_word(low), c1, high, R::add(c1, R::template shift_left<32>(high))};
+    const auto low = R::template shift_left<shift>(a.v);  // zero from 64 on
+    return {detail::FarSum<R>::of_words(high, low), Near::of_words(high, low)};
   }
-  /// The 64 bits from bit `shift` on of X + 2^(shift - 1). The column that holds the rounding bit is shifted with its
-  /// sign, for differences leave negative columns; the columns above are multiples of 2^shift and only move.
   template <class Out> ISO_INLINE Lanes<Out, W, Isa> round() const {
     constexpr int shift = F - Out::kFracBits;
-    if constexpr (shift <= 0) {
-      return {R::add(R::template shift_left<32 - shift>(middle), R::template shift_left<-shift>(c0))};
-    } else {
-      constexpr std::uint64_t half = std::uint64_t{1} << ((shift - 1) % 32);
-      if constexpr (shift <= 32) {
-        return {R::add(R::template shift_left<32 - shift>(middle), R::template shift_right<shift>(c0, half))};
-      } else {
-        const Type carried = R::add(c1, R::template shift_right<32>(c0, 0));
-        if constexpr (shift <= 64) {
-          return {R::add(R::template shift_left<64 - shift>(c2), R::template shift_right<shift - 32>(carried, half))};
-        } else {
-          const Type top = R::add(c2, R::template shift_right<32>(carried, 0));
-          return {R::template shift_right<shift - 64>(top, std::uint64_t{1} << (shift - 65))};
-        }
-      }
-    }
+    if constexpr (shift <= 32) return {near.template round<shift>()};
+    if constexpr (shift > 32) return {far.template round<shift>()};
   }
-  friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) {
-    return {R::add(a.c0, b.c0), R::add(a.c1, b.c1), R::add(a.c2, b.c2), R::add(a.middle, b.middle)};
+  template <class Out, class A, class B>
+  static ISO_INLINE Lanes<Out, W, Isa> round_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
+    constexpr int shift = F - Out::kFracBits;
+    if constexpr (shift > 0 && shift <= 32) return {Near::template round_product<shift>(a.v, b.v)};
+    if constexpr (shift <= 0 || shift > 32) return of_product(a, b).template round<Out>();
   }
-  friend ISO_INLINE LaneSum operator-(LaneSum a, LaneSum b) {
-    return {R::subtract(a.c0, b.c0), R::subtract(a.c1, b.c1), R::subtract(a.c2, b.c2), R::subtract(a.middle, b.middle)};
-  }
+  friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) { return {a.far + b.far, a.near + b.near}; }
+  friend ISO_INLINE LaneSum operator-(LaneSum a, LaneSum b) { return {a.far - b.far, a.near - b.near}; }
   friend ISO_INLINE LaneSum operator-(LaneSum a) { return zero() - a; }
 };
 
