@@ -68,6 +68,55 @@ TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_
   }
 }
 
+/// Ragdolls of one shape and a few of others, some on a wall, one on a turntable; joints go, and come back between others.
+template <class S> std::vector<std::uint64_t> hashes_of_trees(Simd simd, bool changing) {
+  World<S> w(settings<S>(-10, 60, 4));
+  w.use_simd(simd);
+  add_ground(w);
+  const ShapeId part = w.add_shape(Capsule<S>{num<S>(0.125), num<S>(0.25)});
+  BodyDefinition<S> table = still<S>(add_box(w, 1, 0.25, 1), {0, 1, -6});
+  table.type = BodyType::kinematic;
+  table.angular_velocity = vec<S>(0, 1, 0);
+  const BodyId turntable = w.create(table);
+  Dice dice(31);
+  const auto ball = [&](BodyId a, BodyId b, D3 at) {
+    w.create(w.joint_at(JointType::ball, a, b, {vec<S>(at), Quat<Unit<S>>::identity()}));
+  };
+  for (int i = 0; i < 23; ++i) {
+    const D3 at = {1.5 * (i % 5) - 3, 3 + dice.in(0, 1), 1.5 * (i / 5) - 3};
+    const BodyId trunk = w.create(moving<S>(part, at, dice.point(1)));
+    for (int k = 0; k < (i < 19 ? 3 : 2); ++k) {
+      const D3 side = k == 0 ? D3{0.5, 0.25, 0} : k == 1 ? D3{-0.5, 0.25, 0} : D3{0, 0.75, 0};
+      const BodyId limb = w.create(moving<S>(part, at + side, dice.point(1)));
+      ball(k == 1 ? limb : trunk, k == 1 ? trunk : limb, at + side * 0.5);
+    }
+    if (i % 8 == 7) ball(i == 7 ? BodyId{} : turntable, trunk, at + D3{0, -0.375, 0});
+  }
+  std::vector<std::uint64_t> hashes;
+  for (std::uint64_t f = 0; f < 90; ++f) {
+    if (changing) w.use_simd(static_cast<Simd>(f % 5));
+    const std::vector<JointId> joints = w.joints();
+    if (f % 12 == 11) w.destroy(joints[f % joints.size()]);
+    if (f % 24 == 23) {
+      const std::vector<BodyId> bodies = w.bodies();
+      const BodyId a = bodies[f % bodies.size()], b = bodies[(f + 3) % bodies.size()];
+      w.create(w.joint_at(JointType::ball, a, b, w.pose(b)));
+    }
+    w.step();
+    hashes.push_back(w.hash());
+  }
+  return hashes;
+}
+TYPED_TEST(SameHashes, of_joint_trees_with_every_width_of_lanes) {
+  using S = TypeParam;
+  const std::vector<std::uint64_t> one = hashes_of_trees<S>(Simd::scalar, false);
+  for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512, Simd::best}) {
+    if (!World<S>().use_simd(simd)) continue;
+    EXPECT_EQ(hashes_of_trees<S>(simd, false), one) << static_cast<unsigned>(simd);
+  }
+  EXPECT_EQ(hashes_of_trees<S>(Simd::best, true), one);
+}
+
 TYPED_TEST(SameHashes, with_heap_blocks_come_and_gone_and_many_worlds_in_turn) {
   using S = TypeParam;
   Dice dice(99);

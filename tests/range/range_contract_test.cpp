@@ -116,6 +116,25 @@ TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
   EXPECT_LT(this->world.centre(last).y, S(9));
 }
 
+TYPED_TEST(RangeContract, ChainsOfBallJointsCarryLoad) {
+  using S = TypeParam;
+  const ShapeId link = this->world.add_shape(Capsule{0.125, 0.25}), weight = this->world.add_shape(Sphere{0.5}),
+                bead = this->world.add_shape(Sphere{0.0625});
+  for (const ShapeId shape : {link, bead}) {  // beads turn easily: their tension is taken implicitly
+    BodyId last = {};
+    for (int i = 0; i < 12; ++i) {
+      const S z = shape == bead ? S(4) : S(0);
+      const BodyId body = this->add(i < 11 ? shape : weight, {S(i), S(10), z}, i < 11 ? S(1) : S(20));
+      const JointProperties<S> joint =
+          this->world.joint_at(JointType::ball, last, body, {{S(i) - S(0.5), S(10), z}, Quat<Unit<S>>::identity()});
+      EXPECT_TRUE(this->world.create(joint)) << fault_text(this->world.fault());
+      last = body;
+    }
+    this->world.set_velocity(last, {0, Limits<S>::speed() * S(0.25), 0}, {0, 0, 0});
+  }
+  for (int i = 0; i < 120; ++i) this->world.step();
+}
+
 TYPED_TEST(RangeContract, TheEdgeOfTheWorldHolds) {
   using S = TypeParam;
   const ShapeId ball = this->world.add_shape(Sphere{0.5});

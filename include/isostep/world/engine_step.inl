@@ -31,7 +31,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::colour_constraints);
   solver_.prepare(input);
   after(Stage::prepare);
-  solver_.solve_substeps(input);
+  solver_.solve_substeps(input, *tree_kernels_);
   after(Stage::solve_substeps);
   solver_.restitute(input);
   after(Stage::restitution);

@@ -8,6 +8,7 @@
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
+#include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
@@ -39,12 +40,18 @@
                                                             Vec3<OwnScalar>);                                         \
   template class AabbTree<OwnScalar>;                                                                                 \
   template class PairSet<OwnScalar>;                                                                                  \
-  template class JointTrees<OwnScalar>;                                                                               \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
   ISO_DEFINE_SCALAR_KERNELS(OwnScalar)                                                                                \
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \
     const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
     return here ? detail::scalar_kernels<OwnScalar>() : nullptr;                                                      \
   }                                                                                                                   \
+  ISO_DECLARE_TREE_KERNELS(OwnScalar)                                                                                 \
+  ISO_DEFINE_SCALAR_TREE_KERNELS(OwnScalar)                                                                           \
+  template <> const TreeKernels<OwnScalar>* tree_kernels<OwnScalar>(Simd simd) {                                      \
+    const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
+    return here ? detail::scalar_tree_kernels<OwnScalar>() : nullptr;                                                 \
+  }                                                                                                                   \
+  template class JointTrees<OwnScalar>;                                                                               \
   template class World<OwnScalar>;                                                                                    \
   }

@@ -43,7 +43,10 @@ template <class S> const Settings<S>& World<S>::settings() const { return engine
 template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool World<S>::use_simd(Simd simd) {
   const ContactKernels<S>* kernels = contact_kernels<S>(simd);
-  if (kernels != nullptr) engine_->kernels_ = kernels;
+  if (kernels != nullptr) {
+    engine_->kernels_ = kernels;
+    engine_->tree_kernels_ = tree_kernels<S>(simd);
+  }
   return kernels != nullptr;
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }

@@ -9,7 +9,9 @@
 #include <limits>
 #include <type_traits>
 
+#include "isostep/scalar/lanes_bounded.hpp"
 #include "isostep/scalar/lanes_math.hpp"
+#include "isostep/scalar/lanes_reciprocal.hpp"
 
 // Each test file keeps its own copy of all this, compiled for its own instruction set.
 namespace {
@@ -370,6 +372,53 @@ template <class L> class LanesTest : public testing::Test {
     if (!cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
   }
 };
+/// Sums up to a hundred times the bound, about it, on it, and of halves that round across it.
+template <class L> void check_bounded_sums() {
+  using S = typename L::Scalar;
+  Random random{9};
+  const S most = S(1);
+  for (int round = 0; round < kRounds; ++round) {
+    Block<L> x, y;
+    for (int i = 0; i < L::kWidth; ++i) {
+      const auto pick = [&] {
+        const S half = isostep::from_double<S>(0.5), step = isostep::resolution<S>();
+        const S ends[] = {S(1),        S(-1),       half,        -half,
+                          S(1) - step, step - S(1), half + step, isostep::from_double<S>(1.5)};
+        const double fine = static_cast<double>(random.next() >> 32) / 0x1p31 - 1;
+        return random.below(2) == 0 ? ends[random.below(8)] : isostep::from_double<S>(1.9 * fine);
+      };
+      x.lane[i] = pick();
+      y.lane[i] = pick();
+    }
+    const auto sum = product(x.load(), y.load()) + product(y.load(), y.load());
+    const auto expected = [&](int i) {
+      const auto whole = product(x.lane[i], y.lane[i]) + product(y.lane[i], y.lane[i]);
+      const auto limit = isostep::widen<isostep::Sum<S>>(most);
+      return isostep::round_to<S>(isostep::clamp(whole, -limit, limit));
+    };
+    EXPECT_LANES(same_bits, isostep::round_within<L>(sum, most), expected(i));
+  }
+}
+
+/// Any number; in every other round all lanes of one size, as a fast path may ask for, and about powers of two.
+template <class L> void check_reciprocals() {
+  using S = typename L::Scalar;
+  Random random{10};
+  for (int round = 0; round < 4 * kRounds; ++round) {
+    auto x = Block<L>::sampled(random);
+    if constexpr (isostep::kIsFixed<S>) {
+      const int size = random.below(S::kBits - 1);
+      for (S& a : x.lane) {
+        if (round % 2 == 0) break;
+        const std::uint64_t near = (std::uint64_t{1} << size) + static_cast<std::uint64_t>(random.below(5)) - 2;
+        const std::uint64_t any = (std::uint64_t{1} << size) | (random.next() & ((std::uint64_t{1} << size) - 1));
+        a = S::from_raw(static_cast<typename S::Raw>(random.below(2) == 0 ? near : any));
+      }
+    }
+    EXPECT_LANES(same_value, reciprocal(x.load()), S(1) / x.lane[i]);
+  }
+}
+
 TYPED_TEST_SUITE_P(LanesTest);
 
 TYPED_TEST_P(LanesTest, ArithmeticAnswersTheScalarsBits) { check_arithmetic<TypeParam>(); }
@@ -390,7 +439,10 @@ template <class S, int W, class Isa> void check_usual_sums(Lanes<S, W, Isa>) {
   check_sums<U, U, U, W, Isa>();
 }
 TYPED_TEST_P(LanesTest, SumsOfProductsRoundOnce) { check_usual_sums(TypeParam::zero()); }
-REGISTER_TYPED_TEST_SUITE_P(LanesTest, ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
+TYPED_TEST_P(LanesTest, SumsAreHeldWithinABound) { check_bounded_sums<TypeParam>(); }
+TYPED_TEST_P(LanesTest, ReciprocalsAnswerTheScalars) { check_reciprocals<TypeParam>(); }
+REGISTER_TYPED_TEST_SUITE_P(LanesTest, ReciprocalsAnswerTheScalars, SumsAreHeldWithinABound,
+                            ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
                             RootsQuotientsAndDirectionsAnswerTheScalars, TransposesGatherAndScatterRecords,
                             SumsOfProductsRoundOnce);
 

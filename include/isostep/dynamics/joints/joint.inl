@@ -11,11 +11,6 @@ namespace isostep {
 
 namespace detail {
 
-/// [m/s] a joint's error is closed no faster than this.
-template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);
-/// [1] of the diagonal of K: what keeps a block solvable in directions in which its bodies cannot move.
-template <class S> inline constexpr S kBlockCompliance = S(0x1p-16) + S(16) * resolution<S>();
-
 template <class S> ISO_INLINE S trace_bound(const SolverMass<S>& a, const SolverMass<S>& b, MassShare<S> share) {
   const auto entry = [&](int i) { return share.a * a.kappa.rows[i][i] + share.b * b.kappa.rows[i][i]; };
   return max(entry(0), max(entry(1), entry(2)));
@@ -32,6 +27,8 @@ template <class S> ISO_INLINE S radius_of(S turning) { return turning > S(0) ? S
 template <class S>
 ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
                           JointConstraint<S>& joint) {
+  joint.radius = S(0);
+  if (joint.block_count + joint.drive_count < 2) return;  // no row turns alone
   joint.radius = radius_of(trace_bound(a, b, joint.share));
   joint.drives[0].radius = joint.drives[1].radius = joint.radius;
   if (joint.drive_count == 0 || joint.properties.type == JointType::distance) return;
@@ -193,6 +190,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   detail::count_rows(joint);
   detail::load_impulses(state, joint);
   detail::set_radii(a, mass_a, mass_b, joint);
+  joint.motor_force = S(0);
+  if (!joint.drives[0].driven) return;
   // torque h / (reduced mass radius) is the impulse, in its unit, that the motor gives in h.
   const S reduced = mass_a.mass > S(0) ? mass_a.mass * joint.share.a : mass_b.mass * joint.share.b;
   joint.motor_force = divide_to<S>(properties.motor_torque, reduced * joint.drives[0].radius);

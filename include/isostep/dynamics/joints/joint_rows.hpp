@@ -133,28 +133,41 @@ ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t 
   if (bodies.moves(b)) bodies.velocity[b] = m.b;
 }
 
-/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle.
+template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
+
+/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle. T may
+/// be lanes.
 /// Method: LDL^T, whose pivots stay near one where a determinant would vanish in fixed point. A pivot that rounding
 ///         took below the softness is held there: such a direction moves nothing.
 /// Error:  measured in tests/unit/dynamics/joints_test.cpp.
-template <class S> ISO_INLINE Mat3<S> invert_symmetric(const Mat3<S>& m, S softness) {
-  const S d0 = max(m.rows[0].x + softness, softness);
-  const S i0 = S(1) / d0;
-  const S l1 = m.rows[0].y * i0, l2 = m.rows[0].z * i0;
-  const S d1 = max(m.rows[1].y + softness - l1 * m.rows[0].y, softness);
-  const S i1 = S(1) / d1;
-  const S e = m.rows[1].z - l1 * m.rows[0].z;
-  const S l3 = e * i1;
-  const S d2 = max(m.rows[2].z + softness - round_to<S>(product(l2, m.rows[0].z) + product(l3, e)), softness);
-  const S i2 = S(1) / d2;
+template <class T> ISO_INLINE Mat3<T> invert_symmetric(const Mat3<T>& m, T softness) {
+  const T d0 = max(m.rows[0].x + softness, softness);
+  const T i0 = reciprocal(d0);
+  const T l1 = m.rows[0].y * i0, l2 = m.rows[0].z * i0;
+  const T d1 = max(m.rows[1].y + softness - l1 * m.rows[0].y, softness);
+  const T i1 = reciprocal(d1);
+  const T e = m.rows[1].z - l1 * m.rows[0].z;
+  const T l3 = e * i1;
+  const T d2 = max(m.rows[2].z + softness - round_to<T>(product(l2, m.rows[0].z) + product(l3, e)), softness);
+  const T i2 = reciprocal(d2);
   // L^-1 = [1; -l1 1; l1 l3 - l2, -l3, 1]
-  const S n20 = l1 * l3 - l2;
-  const S zz = i2, yz = -(l3 * i2), xz = n20 * i2;
-  const S yy = i1 - l3 * yz;
-  const S xy = -(l1 * i1) - l3 * xz;
-  const S xx = i0 + round_to<S>(product(l1 * l1, i1) + product(n20, xz));
+  const T n20 = l1 * l3 - l2;
+  const T zz = i2, yz = -(l3 * i2), xz = n20 * i2;
+  const T yy = i1 - l3 * yz;
+  const T xy = -(l1 * i1) - l3 * xz;
+  const T xx = i0 + round_to<T>(product(l1 * l1, i1) + product(n20, xz));
   return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
 }
+namespace detail {
+/// [m/s] a joint's error is closed no faster than this.
+template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);
+/// [1] of the diagonal of K: what keeps a block solvable in directions in which its bodies cannot move.
+template <class S> inline constexpr S kBlockCompliance = S(0x1p-16) + S(16) * resolution<S>();
+/// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
+template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
+/// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.
+template <class S> inline constexpr S kTautLimit = S(2);
+}  // namespace detail
 
 /// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
 template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {

@@ -9,6 +9,7 @@
 
 #include "isostep/dynamics/island.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/tree_kernels.hpp"
 
 namespace isostep {
 
@@ -26,13 +27,21 @@ namespace isostep {
 ///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
+/// Batches: trees of ball joints without limits are solved by a TreeKernels, as many of one shape at once as it is
+///          wide; all other joints, and trees that share a body with them, are one batch more. Batches write no body in
+///          common: each may be warm-started and solved by a thread of its own, and in any order.
 template <class S> class JointTrees {
  public:
-  /// Once a step, after its joints are prepared.
-  void plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  /// Once a step, after its joints are prepared. Null for no joint to be solved by kernels.
+  void plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies, const TreeKernels<S>* wide);
+  ISO_INLINE std::uint32_t batch_count() const {
+    return static_cast<std::uint32_t>(batches_.size()) + (rest_.empty() ? 0u : 1u);
+  }
   /// Each sub-step: the state of the joints now, then last impulses; biased; and, after positions moved, relaxed.
-  void warm_start(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
-  void solve(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
+  void solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  /// Once a step, after the last sub-step: impulses back to the joints.
+  void store(std::uint32_t batch, std::span<JointConstraint<S>> joints);
 
  private:
   static constexpr std::uint32_t kMaxBlocksAtBody = 8;
@@ -51,17 +60,60 @@ template <class S> class JointTrees {
     Mat3<S> up;        // K_ij, then D_i^-1 K_ij
   };
 
+  /// A tree whose joints are solved by a kernel, as a list that next_ links.
+  struct Tree {
+    std::uint64_t hash;  // of its joints' ends
+    std::uint32_t first, last, joint_count, body_count;
+  };
+  /// A joint's ends as its tree numbers bodies: equal lists of them are equal shapes.
+  struct Ends {
+    std::uint32_t a, b;
+    bool a_moves, b_moves, closes_loop;
+  };
+  struct HashOfTree {
+    ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.hash; }
+  };
+  /// Where a shape's lists begin.
+  struct Shape {
+    std::uint32_t first_joint, joint_count, first_link, link_count, first_body, body_count;
+  };
+  struct Batch {
+    const TreeKernels<S>* kernels;
+    std::uint32_t shape;
+    std::uint32_t first_joint, first_row;  // in lane_joints_ and lane_rows_
+    std::uint32_t lanes;
+    std::size_t offset;  // [bytes] in memory_
+  };
+  struct alignas(64) Chunk {
+    unsigned char bytes[64];
+  };
+
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);
-  void eliminate_all(std::span<const JointConstraint<S>> joints);
+  void eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some);
   void add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent);
+
+  void mark_odd_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  void find_plain_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  void add_to_tree(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j, Tree& tree);
+  bool same_shape(const Tree& a, const Tree& b) const;
+  void make_batches(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+                    const TreeKernels<S>& wide);
+  void add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree);
+  void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees,
+                 const TreeKernels<S>& kernels);
+  TreeShape shape_of(const Shape& shape) const;
+  TreeRun<S> run_of(const Batch& batch);
+
   void couple(const Node& node, Link& link, std::span<const JointConstraint<S>> joints,
               const SolverBodies<S>& bodies) const;
   void factor(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
   void stiffen(const SolverBodies<S>& bodies);
+  void warm_start_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
+  void solve_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
   void find_right_sides(std::span<const JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
   Link& link_between(std::uint32_t i, std::uint32_t j);
 
@@ -84,6 +136,23 @@ template <class S> class JointTrees {
   std::vector<Node> nodes_;
   std::vector<Link> links_;
   std::vector<Vec3<Velocity<S>>> right_;  // right-hand sides, then answers
+
+  std::vector<std::uint32_t> rest_;         // joints that no kernel solves
+  std::vector<std::uint8_t> odd_;           // of each set of bodies: no kernel solves its tree
+  std::vector<std::uint32_t> tree_of_set_;  // in trees_
+  std::vector<std::uint32_t> local_;        // of each row: its number in its tree
+  std::vector<std::uint32_t> next_;         // of each joint: the next of its tree
+  std::vector<Ends> ends_;                  // of each joint
+  std::vector<Tree> trees_, sorted_trees_;
+  std::vector<std::uint32_t> listed_;  // joints of one tree
+  std::vector<Shape> shapes_;
+  std::vector<TreeJoint> shape_joints_;
+  std::vector<TreeLink> shape_links_;
+  std::vector<TreeBody> shape_bodies_;
+  std::vector<std::uint32_t> shape_given_;
+  std::vector<Batch> batches_;
+  std::vector<std::uint32_t> lane_joints_, lane_rows_;
+  std::vector<Chunk> memory_;
 };
 
 }  // namespace isostep

@@ -3,14 +3,11 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint.inl"
-#include "isostep/dynamics/joints/joint_tree_plan.inl"
+#include "isostep/dynamics/joints/joint_tree_batches.inl"
 
 namespace isostep {
 
 namespace detail {
-/// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
-template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
-
 /// K_ij between blocks at one body, without the mass share of j.
 template <class S>
 ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const JointBlock<S>& j, bool j_is_a) {
@@ -33,9 +30,6 @@ ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const Joi
   }
   return k;
 }
-/// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.
-template <class S> inline constexpr S kTautLimit = S(2);
-
 template <class S> struct Pull {
   Vec3<Unit<S>> axis;  // along the arm
   S stiffness;         // [m^2] h^2 f.r / mass
@@ -116,8 +110,9 @@ template <class S> void JointTrees<S>::factor(std::span<JointConstraint<S>> join
 template <class S> void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
   taut_.clear();
-  for (const JointConstraint<S>& joint : joints) {
-    if (!joint.holds || joint.block_count == 0) continue;
+  for (const std::uint32_t j : rest_) {
+    const JointConstraint<S>& joint = joints[j];
+    if (joint.block_count == 0) continue;
     for (const bool is_a : {true, false}) {
       const std::uint32_t row = is_a ? joint.row_a : joint.row_b;
       if (!bodies.moves(row)) continue;
@@ -150,35 +145,32 @@ template <class S> void JointTrees<S>::stiffen(const SolverBodies<S>& bodies) {
   }
 }
 
-template <class S> void JointTrees<S>::warm_start(std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
-  for (JointConstraint<S>& joint : joints) {
-    if (!joint.holds) continue;
+template <class S> void JointTrees<S>::warm_start_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
+  for (const std::uint32_t j : rest_) {
+    JointConstraint<S>& joint = joints[j];
     linearise_joint(joint, step);
     kappa_[joint.row_a] = step.bodies->mass[joint.row_a].kappa;
     kappa_[joint.row_b] = step.bodies->mass[joint.row_b].kappa;
   }
   find_taut(joints, step);
   stiffen(*step.bodies);
-  for (JointConstraint<S>& joint : joints) {
-    if (joint.holds) weigh_joint(joint, kappa_[joint.row_a], kappa_[joint.row_b]);
-  }
+  for (const std::uint32_t j : rest_) weigh_joint(joints[j], kappa_[joints[j].row_a], kappa_[joints[j].row_b]);
   for (const std::uint32_t j : loose_) {
     for (std::uint32_t i = 0; i < joints[j].block_count; ++i) {
       joints[j].blocks[i].inverse = invert_symmetric(joints[j].blocks[i].coupling, detail::kBlockCompliance<S>);
     }
   }
   factor(joints, *step.bodies);
-  for (JointConstraint<S>& joint : joints) {
-    if (!joint.holds) continue;
-    weigh_drives(joint);
-    apply_impulses(joint, *step.bodies);
+  for (const std::uint32_t j : rest_) {
+    weigh_drives(joints[j]);
+    apply_impulses(joints[j], *step.bodies);
   }
 }
 
 template <class S>
-void JointTrees<S>::solve(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax) {
-  for (JointConstraint<S>& joint : joints) {
-    if (joint.holds && joint.drive_count > 0) solve_drives(joint, step, relax);
+void JointTrees<S>::solve_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax) {
+  for (const std::uint32_t j : rest_) {
+    if (joints[j].drive_count > 0) solve_drives(joints[j], step, relax);
   }
   for (int sweep = 0; sweep < kLooseSweeps; ++sweep) {
     for (const std::uint32_t j : loose_) solve_blocks(joints[j], step, relax);

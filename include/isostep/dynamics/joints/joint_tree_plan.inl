@@ -7,25 +7,29 @@
 namespace isostep {
 
 namespace detail {
-enum JointRole : std::uint8_t { kIdle, kLoose, kTree, kClosing, kQueued, kDone };
+enum JointRole : std::uint8_t { kIdle, kBatched, kLoose, kTree, kClosing, kQueued, kDone };
 /// [1] what a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
 template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
 }  // namespace detail
 
-template <class S> void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+template <class S>
+void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+                         const TreeKernels<S>* wide) {
   nodes_.clear();
   links_.clear();
   loose_.clear();
+  rest_.clear();
+  batches_.clear();
   if (joints.empty()) return;
   find_trees(joints, bodies);
+  if (wide != nullptr) find_plain_trees(joints, bodies);
   list_joints_of_bodies(joints);
-  eliminate_all(joints);
-  for (Node& node : nodes_) {
-    for (std::uint32_t l = 0; l < node.link_count; ++l) {
-      Link& link = links_[node.first_link + l];
-      link.to = node_of_[link.to];
-    }
+  if (wide != nullptr) make_batches(joints, bodies, *wide);
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] != detail::kIdle && role_[j] != detail::kBatched) rest_.push_back(j);
   }
+  if (rest_.empty()) return;
+  eliminate(joints, rest_);
   right_.resize(nodes_.size());
   kappa_.resize(bodies.mass.size());
   tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
@@ -97,6 +101,8 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
 }
 
 template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const JointConstraint<S>> joints) {
+  node_of_.assign(joints.size() * 2, 0);
+  closing_.resize(joints.size());
   first_.assign(degree_.size() + 1, 0);
   for (std::size_t row = 0; row < degree_.size(); ++row) first_[row + 1] = first_[row] + degree_[row];
   at_body_.resize(first_.back());
@@ -113,11 +119,13 @@ template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const Joi
 }
 
 /// Leaves first: a joint's turn comes when one of its bodies has no other joint left. What does not move has degree 0.
-template <class S> void JointTrees<S>::eliminate_all(std::span<const JointConstraint<S>> joints) {
-  node_of_.assign(joints.size() * 2, 0);
-  closing_.resize(joints.size());
+/// `some` are whole trees; what else is among them is left alone.
+template <class S>
+void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some) {
+  nodes_.clear();
+  links_.clear();
   queue_.clear();
-  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+  for (const std::uint32_t j : some) {
     if (role_[j] < detail::kTree) continue;
     closing_[j] = role_[j] == detail::kClosing;
     if (degree_[joints[j].row_a] <= 1 || degree_[joints[j].row_b] <= 1) {
@@ -143,6 +151,7 @@ template <class S> void JointTrees<S>::eliminate_all(std::span<const JointConstr
       role_[other] = detail::kQueued;
     }
   }
+  for (Link& link : links_) link.to = node_of_[link.to];
 }
 
 template <class S>

@@ -49,7 +49,7 @@ template <class S> class SoftStep {
   void gather_bodies(const SolverInput<S>& input);
   void colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide);
   void prepare(const SolverInput<S>& input);
-  void solve_substeps(const SolverInput<S>& input);
+  void solve_substeps(const SolverInput<S>& input, const TreeKernels<S>& trees);
   void restitute(const SolverInput<S>& input);
   void store_impulses(const SolverInput<S>& input);
 

@@ -214,22 +214,25 @@ template <class S> ContactPass<S> contact_pass(const SolverInput<S>& input) {
 }
 }  // namespace detail
 
-template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input) {
+template <class S>
+void SoftStep<S>::solve_substeps(const SolverInput<S>& input, const TreeKernels<S>& trees) {
   const ContactPass<S> pass = detail::contact_pass(input);
   const S rate = S(input.hz * input.substeps);
   const JointStep<S> joint_step = {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate),
                                    joint_softness(rate)};
-  joint_trees_.plan(input.joints, bodies_);
+  joint_trees_.plan(input.joints, bodies_, &trees);
+  const std::uint32_t batches = joint_trees_.batch_count();
   for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
     integrate_velocities(input);
-    joint_trees_.warm_start(input.joints, joint_step);
+    for (std::uint32_t i = 0; i < batches; ++i) joint_trees_.warm_start(i, input.joints, joint_step);
     for (const Run& run : runs_) run.kernels->warm_start[run.variant](blocks_of(run));
-    joint_trees_.solve(input.joints, joint_step, false);
+    for (std::uint32_t i = 0; i < batches; ++i) joint_trees_.solve(i, input.joints, joint_step, false);
     for (const Run& run : runs_) run.kernels->solve[run.variant](blocks_of(run), pass);
     integrate_positions(input);
-    joint_trees_.solve(input.joints, joint_step, true);
+    for (std::uint32_t i = 0; i < batches; ++i) joint_trees_.solve(i, input.joints, joint_step, true);
     for (const Run& run : runs_) run.kernels->relax[run.variant](blocks_of(run), pass);
   }
+  for (std::uint32_t i = 0; i < batches; ++i) joint_trees_.store(i, input.joints);
 }
 
 template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {

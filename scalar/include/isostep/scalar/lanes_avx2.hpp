@@ -193,6 +193,18 @@ template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
   static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm256_blendv_epi8(b, a, m); }
 
   static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm256_mul_epu32(a, b); }
+  static ISO_INLINE Type multiply_low(Type a, Type b) {
+    const __m256i cross = _mm256_add_epi64(_mm256_mul_epu32(_mm256_srli_epi64(a, 32), b),
+                                           _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
+    return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(cross, 32));
+  }
+  /// An integer next to n / a, for a and it in [0, 2^52): to and from doubles by the mantissa of 2^52 plus the number.
+  static ISO_INLINE Type quotient_near(double n, Type a) {
+    const __m256d shift = _mm256_set1_pd(0x1p52);
+    const __m256d divisor = _mm256_sub_pd(_mm256_castsi256_pd(_mm256_or_si256(a, _mm256_castpd_si256(shift))), shift);
+    const __m256d quotient = _mm256_add_pd(_mm256_div_pd(_mm256_set1_pd(n), divisor), shift);
+    return _mm256_xor_si256(_mm256_castpd_si256(quotient), _mm256_castpd_si256(shift));
+  }
   static ISO_INLINE Type low_word(Type a) { return _mm256_and_si256(a, _mm256_set1_epi64x(0xffffffff)); }
   static ISO_INLINE Type flip(Type a, std::uint64_t bits) {
     return _mm256_xor_si256(a, _mm256_set1_epi64x(static_cast<std::int64_t>(bits)));

@@ -208,6 +208,11 @@ template <> struct Registers<std::int64_t, isa::Avx512> : detail::Avx512Masks<8>
   static ISO_INLINE Type select(Mask m, Type a, Type b) { return _mm512_mask_blend_epi64(m, b, a); }
 
   static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm512_mul_epu32(a, b); }
+  static ISO_INLINE Type multiply_low(Type a, Type b) { return multiply(a, b); }
+  /// An integer next to n / a, for a and it in [0, 2^52).
+  static ISO_INLINE Type quotient_near(double n, Type a) {
+    return _mm512_cvtpd_epi64(_mm512_div_pd(_mm512_set1_pd(n), _mm512_cvtepi64_pd(a)));
+  }
   static ISO_INLINE Type low_word(Type a) { return _mm512_and_si512(a, _mm512_set1_epi64(0xffffffff)); }
   static ISO_INLINE Type where_negative(Type a, Type b) { return _mm512_maskz_mov_epi64(_mm512_movepi64_mask(a), b); }
   template <int N> static ISO_INLINE Type shift_left(Type a) { return _mm512_slli_epi64(a, N); }

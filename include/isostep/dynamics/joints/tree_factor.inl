@@ -1,0 +1,245 @@
+// Where W trees are now, what their joints move, and K = L D L^T of it. Part of tree_kernel.inl, with internal linkage
+// like it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/tree_gather.inl"
+#include "isostep/scalar/lanes_reciprocal.hpp"
+
+namespace isostep {
+namespace {
+
+/// Symbols: r = arm from a body's centre to the joint, kappa = mass times inverse inertia. An impulse p at r turns the
+///          body by C p, row i of C = kappa_i x r; that moves the end of another arm q of the body by (C p) x q. With
+///          D, K, lambda as in joint_tree.hpp.
+template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, Isa> {
+  using Base = TreeGatherer<S, W, Isa>;
+  using Base::load;
+  using Base::number;
+  using Base::store;
+  using typename Base::Body;
+  using typename Base::Joint;
+  using typename Base::L;
+  using typename Base::Link;
+  using typename Base::Mask;
+  using typename Base::Memory;
+  using typename Base::U;
+  using typename Base::V;
+
+  static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
+                                   const JointStep<S>& step) {
+    place_bodies(run, m, joints, step.states);
+    const std::size_t count = run.shape.joints.size();
+    for (std::size_t j = 0; j < count; ++j) linearise(run.shape.joints[j], m, m.joints[j], step.h);
+    stiffen(run.shape, m);
+    for (std::size_t j = 0; j < count; ++j) weigh(run.shape.joints[j], m, m.joints[j]);
+    for (std::size_t j = 0; j < count; ++j) couple(run.shape, j, m);
+    for (std::size_t j = 0; j < count; ++j) eliminate(run.shape, j, m);
+  }
+
+ private:
+  static ISO_INLINE void place_bodies(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
+                                      const BodyState<S>* states) {
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      const TreeBody& of = run.shape.bodies[b];
+      const S* centre[W];
+      const Unit<S>* orientation[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) {
+        const std::uint32_t row = run.rows[b * W + static_cast<std::size_t>(i)];
+        const JointConstraint<S>& joint = joints[run.joints[of.joint * W + static_cast<std::size_t>(i)]];
+        const Pose<S>& fixed = of.is_a ? joint.pose_a : joint.pose_b;
+        centre[i] = row == 0 ? &fixed.position.x : &states[row - 1].centre.x;
+        orientation[i] = row == 0 ? &fixed.orientation.x : &states[row - 1].orientation.x;
+      }
+      L c[4];  // the last is no coordinate
+      U q[4];
+      load_transposed<4>(centre, c);
+      load_transposed<4>(orientation, q);
+      store({c[0], c[1], c[2]}, m.bodies[b].centre);
+      store(matrix_of(q), m.bodies[b].rotation);
+      L::zero().store(m.bodies[b].pull);
+    }
+  }
+  /// to_matrix() of mat3.hpp.
+  static ISO_INLINE Mat3<U> matrix_of(const U (&q)[4]) {
+    const auto xx = product(q[0], q[0]), yy = product(q[1], q[1]), zz = product(q[2], q[2]);
+    const auto xy = product(q[0], q[1]), xz = product(q[0], q[2]), yz = product(q[1], q[2]);
+    const auto wx = product(q[3], q[0]), wy = product(q[3], q[1]), wz = product(q[3], q[2]);
+    const auto one = widen<decltype(product(U{}, U{}))>(U::broadcast(Unit<S>(1)));
+    const auto twice = [](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(sum + sum); };
+    const auto rest = [one](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(one - (sum + sum)); };
+    return {{{rest(yy + zz), twice(xy - wz), twice(xz + wy)},
+             {twice(xy + wz), rest(xx + zz), twice(yz - wx)},
+             {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
+  }
+
+  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_ball() and pull_on().
+  static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, Step<S> h) {
+    Body& a = m.bodies[of.body_a];
+    Body& b = m.bodies[of.body_b];
+    const Vec3<L> arm_a = load(a.rotation) * load(joint.frame_a), arm_b = load(b.rotation) * load(joint.frame_b);
+    const Vec3<L> between = (load(b.centre) - load(a.centre)) + (arm_b - arm_a);
+    const L most = number(S(32) * h);
+    const auto bound = [most](L e) ISO_INLINE_LAMBDA { return convert<V>(clamp(e, -most, most)); };
+    store(arm_a, joint.arm_a);
+    store(arm_b, joint.arm_b);
+    store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, joint.error);
+    const Vec3<V> impulse = load(joint.impulse);
+    const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(h);
+    const auto pull = [&](Vec3<L> arm, L share, Body& body, S(&field)[W]) ISO_INLINE_LAMBDA {
+      const L along = share * round_to<L>(dot_sum(arm, impulse));
+      const L size = max(along, L::zero()) * length;
+      size.store(field);
+      (L::load(body.pull) + size).store(body.pull);
+    };
+    if (of.a_moves) pull(arm_a, -L::load(joint.share_a), a, joint.pull_a);
+    if (of.b_moves) pull(arm_b, L::load(joint.share_b), b, joint.pull_b);
+  }
+
+  // ---- tension, as JointTrees::find_taut() and stiffen() have it
+
+  static ISO_INLINE bool taut(const Body& body) { return any(less(L::load(body.calm), L::load(body.pull))); }
+
+  static ISO_INLINE void stiffen(const TreeShape& shape, Memory m) {
+    bool some = false;
+    for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+      Body& body = m.bodies[b];
+      store(load(body.kappa), body.felt);
+      if (!shape.bodies[b].moves || !taut(body)) continue;
+      some = true;
+      for (S(&field)[W] : body.tension) L::zero().store(field);
+    }
+    if (!some) return;
+    for (const std::uint32_t j : shape.given) {
+      const TreeJoint& of = shape.joints[j];
+      const Joint& joint = m.joints[j];
+      if (of.a_moves) tighten(load(joint.arm_a), L::load(joint.pull_a), m.bodies[of.body_a]);
+      if (of.b_moves) tighten(load(joint.arm_b), L::load(joint.pull_b), m.bodies[of.body_b]);
+    }
+    for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+      if (shape.bodies[b].moves && taut(m.bodies[b])) stiffen(m.bodies[b]);
+    }
+  }
+  /// Adds s (1 - n n^T) where s > 0.
+  static ISO_INLINE void tighten(Vec3<L> arm, L s, Body& body) {
+    const Mask pulls = less(L::zero(), s);
+    if (!taut(body) || !any(pulls)) return;
+    const Direction<L> n = direction_where(pulls, arm.x, arm.y, arm.z);
+    const L parts[6] = {s - s * (n.x * n.x), -(s * (n.x * n.y)), -(s * (n.x * n.z)),
+                        s - s * (n.y * n.y), -(s * (n.y * n.z)), s - s * (n.z * n.z)};
+    ISO_UNROLL for (int i = 0; i < 6; ++i) {
+      const L old = L::load(body.tension[i]);
+      select(pulls, old + parts[i], old).store(body.tension[i]);
+    }
+  }
+  static ISO_INLINE void stiffen(Body& body) {
+    const Mat3<L> kappa = load(body.kappa), tension = load(body.tension);
+    const auto square = [&](int i) ISO_INLINE_LAMBDA { return round_to<L>(dot_sum(kappa.rows[i], tension.rows[i])); };
+    const L stiffness = square(0) + square(1) + square(2);
+    const L limit = number(S(2) * detail::kTautLimit<S>), one = number(S(1));
+    const Mask acts = less(limit, stiffness);
+    if (!any(acts)) return;
+    const L largest = max(kappa.rows[0].x, max(kappa.rows[1].y, kappa.rows[2].z));
+    const L unit = quotient_where<L>(acts, one, largest);
+    const L excess = one - quotient_where<L>(acts, limit, stiffness);
+    Mat3<L> inertia = invert_symmetric(scaled_by(kappa, unit), number(S(0x1p-12)));
+    inertia = inertia + scaled_by(scaled_by(tension, largest), excess);
+    const Mat3<L> felt = scaled_by(invert_symmetric(inertia, L::zero()), largest);
+    Mat3<L> chosen;
+    ISO_UNROLL for (int i = 0; i < 3; ++i) {
+      const auto choose = [acts](L x, L y) ISO_INLINE_LAMBDA { return select(acts, x, y); };
+      chosen.rows[i] = {choose(felt.rows[i].x, kappa.rows[i].x), choose(felt.rows[i].y, kappa.rows[i].y),
+                        choose(felt.rows[i].z, kappa.rows[i].z)};
+    }
+    store(chosen, body.felt);
+  }
+
+  // ---- K
+
+  /// Column j: where a unit impulse along axis j at another joint of the body, whose turns are `turn`, moves `arm`.
+  static ISO_INLINE Mat3<L> moved(const Mat3<L>& turn, Vec3<L> arm) {
+    return transpose(Mat3<L>{{cross(turn.column(0), arm), cross(turn.column(1), arm), cross(turn.column(2), arm)}});
+  }
+  static ISO_INLINE void weigh(const TreeJoint& of, Memory m, Joint& joint) {
+    const auto turns = [](const Mat3<L>& kappa, Vec3<L> arm) ISO_INLINE_LAMBDA {
+      return Mat3<L>{{cross(kappa.rows[0], arm), cross(kappa.rows[1], arm), cross(kappa.rows[2], arm)}};
+    };
+    const Vec3<L> arm_a = load(joint.arm_a), arm_b = load(joint.arm_b);
+    const Mat3<L> turn_a = turns(load(m.bodies[of.body_a].felt), arm_a);
+    const Mat3<L> turn_b = turns(load(m.bodies[of.body_b].felt), arm_b);
+    store(turn_a, joint.turn_a);
+    store(turn_b, joint.turn_b);
+    const L share_a = L::load(joint.share_a), share_b = L::load(joint.share_b), one = share_a + share_b;
+    const Mat3<L> a = moved(turn_a, arm_a), b = moved(turn_b, arm_b);
+    const auto mix = [&](L of_a, L of_b)
+                         ISO_INLINE_LAMBDA { return round_to<L>(product(share_a, of_a) + product(share_b, of_b)); };
+    (one + mix(a.rows[0].x, b.rows[0].x)).store(joint.inverse[0]);
+    mix(a.rows[0].y, b.rows[0].y).store(joint.inverse[1]);
+    mix(a.rows[0].z, b.rows[0].z).store(joint.inverse[2]);
+    (one + mix(a.rows[1].y, b.rows[1].y)).store(joint.inverse[3]);
+    mix(a.rows[1].z, b.rows[1].z).store(joint.inverse[4]);
+    (one + mix(a.rows[2].z, b.rows[2].z)).store(joint.inverse[5]);
+  }
+  static ISO_INLINE void couple(const TreeShape& shape, std::size_t i, Memory m) {
+    const TreeJoint& of = shape.joints[i];
+    const Joint& from = m.joints[i];
+    const L one = number(S(1));
+    for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
+      const TreeLink& link = shape.links[l];
+      const Joint& to = m.joints[link.to];
+      Mat3<L> k = moved(load(link.to_is_a ? to.turn_a : to.turn_b), load(link.from_is_a ? from.arm_a : from.arm_b));
+      k.rows[0].x += one;
+      k.rows[1].y += one;
+      k.rows[2].z += one;
+      if (link.from_is_a != link.to_is_a) k = {{-k.rows[0], -k.rows[1], -k.rows[2]}};
+      store(scaled_by(k, L::load(link.to_is_a ? to.share_a : to.share_b)), m.links[l].up);
+      store(scaled_by(transpose(k), L::load(link.from_is_a ? from.share_a : from.share_b)), m.links[l].down);
+    }
+  }
+  static ISO_INLINE std::uint32_t link_between(const TreeShape& shape, std::uint32_t i, std::uint32_t j) {
+    std::uint32_t l = shape.joints[i].first_link;
+    while (shape.links[l].to != j) ++l;
+    return l;
+  }
+  static ISO_INLINE void subtract(S (&field)[9][W], const Mat3<L>& p) {
+    Mat3<L> whole = load(field);
+    isostep::subtract(whole, p);
+    store(whole, field);
+  }
+  static ISO_INLINE void eliminate(const TreeShape& shape, std::size_t i, Memory m) {
+    const TreeJoint& of = shape.joints[i];
+    const S softness = of.closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
+    const Mat3<L> inverse = invert_symmetric(load(m.joints[i].inverse), number(softness));
+    store(inverse, m.joints[i].inverse);
+    const std::uint32_t end = of.first_link + of.link_count;
+    for (std::uint32_t l = of.first_link; l < end; ++l) store(inverse * load(m.links[l].up), m.links[l].up);
+    for (std::uint32_t j = of.first_link; j < end; ++j) {
+      const Mat3<L> down = load(m.links[j].down);
+      const std::uint32_t to_j = shape.links[j].to;
+      for (std::uint32_t k = of.first_link; k < end; ++k) {
+        const Mat3<L> up = load(m.links[k].up);
+        const std::uint32_t to_k = shape.links[k].to;
+        if (to_j == to_k) {
+          subtract_symmetric(m.joints[to_j].inverse, down, up);
+        } else if (to_j < to_k) {
+          subtract(m.links[link_between(shape, to_j, to_k)].up, down * up);
+        } else {
+          subtract(m.links[link_between(shape, to_k, to_j)].down, down * up);
+        }
+      }
+    }
+  }
+  /// The upper triangle of a product that is symmetric.
+  static ISO_INLINE void subtract_symmetric(S (&field)[6][W], const Mat3<L>& p, const Mat3<L>& q) {
+    const Vec3<L> x = q.column(0), y = q.column(1), z = q.column(2);
+    (L::load(field[0]) - dot(p.rows[0], x)).store(field[0]);
+    (L::load(field[1]) - dot(p.rows[0], y)).store(field[1]);
+    (L::load(field[2]) - dot(p.rows[0], z)).store(field[2]);
+    (L::load(field[3]) - dot(p.rows[1], y)).store(field[3]);
+    (L::load(field[4]) - dot(p.rows[1], z)).store(field[4]);
+    (L::load(field[5]) - dot(p.rows[2], z)).store(field[5]);
+  }
+};
+
+}  // namespace
+}  // namespace isostep

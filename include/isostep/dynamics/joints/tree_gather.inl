@@ -1,0 +1,168 @@
+// From joints and bodies to lanes and back, for the tree kernel. Part of tree_kernel.inl, with internal linkage like
+// it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "isostep/dynamics/joints/tree_kernels.hpp"
+#include "isostep/dynamics/joints/tree_lanes.hpp"
+#include "isostep/scalar/lanes_math.hpp"
+
+namespace isostep {
+namespace {
+
+/// Lanes as vectors and matrices, and records by runs of four and eight words, which transpose by whole registers.
+template <class S, int W, class Isa> struct TreeGatherer {
+  using L = Lanes<S, W, Isa>;
+  using V = Lanes<Velocity<S>, W, Isa>;
+  using U = Lanes<Unit<S>, W, Isa>;
+  using Mask = typename L::Mask;
+  using Body = TreeBodyLanes<S, W>;
+  using Joint = TreeJointLanes<S, W>;
+  using Link = TreeLinkLanes<S, W>;
+  using Memory = TreeMemory<S, W>;
+
+  static_assert(sizeof(Body) == W * sizeof(TreeBodyLanes<S, 1>) && sizeof(Joint) == W * sizeof(TreeJointLanes<S, 1>) &&
+                    sizeof(Link) == W * sizeof(TreeLinkLanes<S, 1>),
+                "lanes and nothing between");
+  static_assert(sizeof(SolverMass<S>) == 10 * sizeof(S) && sizeof(Pose<S>) == 7 * sizeof(S));
+  static_assert(offsetof(BodyState<S>, orientation) == offsetof(BodyState<S>, centre) + 3 * sizeof(S));
+
+  static ISO_INLINE L number(S a) { return L::broadcast(a); }
+
+  template <class T> static ISO_INLINE Vec3<Lanes<T, W, Isa>> load(const T (&field)[3][W]) {
+    using A = Lanes<T, W, Isa>;
+    return {A::load(field[0]), A::load(field[1]), A::load(field[2])};
+  }
+  template <class T> static ISO_INLINE Mat3<Lanes<T, W, Isa>> load(const T (&field)[9][W]) {
+    using A = Lanes<T, W, Isa>;
+    return {{{A::load(field[0]), A::load(field[1]), A::load(field[2])},
+             {A::load(field[3]), A::load(field[4]), A::load(field[5])},
+             {A::load(field[6]), A::load(field[7]), A::load(field[8])}}};
+  }
+  static ISO_INLINE Mat3<L> load(const S (&field)[6][W]) {
+    const L xx = L::load(field[0]), xy = L::load(field[1]), xz = L::load(field[2]);
+    const L yy = L::load(field[3]), yz = L::load(field[4]), zz = L::load(field[5]);
+    return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
+  }
+  template <class T> static ISO_INLINE void store(const Vec3<Lanes<T, W, Isa>>& v, T (&field)[3][W]) {
+    v.x.store(field[0]);
+    v.y.store(field[1]);
+    v.z.store(field[2]);
+  }
+  template <class T> static ISO_INLINE void store(const Mat3<Lanes<T, W, Isa>>& m, T (&field)[9][W]) {
+    ISO_UNROLL for (int i = 0; i < 3; ++i) {
+      m.rows[i].x.store(field[3 * i]);
+      m.rows[i].y.store(field[3 * i + 1]);
+      m.rows[i].z.store(field[3 * i + 2]);
+    }
+  }
+  /// The upper triangle.
+  static ISO_INLINE void store(const Mat3<L>& m, S (&field)[6][W]) {
+    m.rows[0].x.store(field[0]);
+    m.rows[0].y.store(field[1]);
+    m.rows[0].z.store(field[2]);
+    m.rows[1].y.store(field[3]);
+    m.rows[1].z.store(field[4]);
+    m.rows[2].z.store(field[5]);
+  }
+
+  // ---- velocities, for the length of a pass
+
+  static ISO_INLINE void gather_velocities(const TreeRun<S>& run, Memory m, const SolverBodies<S>& bodies) {
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      const Velocity<S>* rows[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) {
+        rows[i] = &bodies.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
+      }
+      V w[8];
+      load_transposed<8>(rows, w);
+      store({w[0], w[1], w[2]}, m.bodies[b].linear);
+      store({w[4], w[5], w[6]}, m.bodies[b].angular);
+    }
+  }
+  static ISO_INLINE void scatter_velocities(const TreeRun<S>& run, Memory m, SolverBodies<S>& bodies) {
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      if (!run.shape.bodies[b].moves) continue;
+      Velocity<S>* rows[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) {
+        rows[i] = &bodies.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
+      }
+      const Vec3<V> linear = load(m.bodies[b].linear), angular = load(m.bodies[b].angular);
+      const V w[8] = {linear.x, linear.y, linear.z, V::zero(), angular.x, angular.y, angular.z, V::zero()};
+      store_transposed<8>(rows, w, run.lanes);
+    }
+  }
+
+  // ---- once a step
+
+  static void prepare(const TreeRun<S>& run, const JointConstraint<S>* joints, const SolverBodies<S>& bodies) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) prepare_body(&run.rows[b * W], bodies, m.bodies[b]);
+    for (std::size_t j = 0; j < run.shape.joints.size(); ++j) prepare_joint(&run.joints[j * W], joints, m.joints[j]);
+  }
+  static void store_impulses(const TreeRun<S>& run, JointConstraint<S>* joints) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    for (std::size_t j = 0; j < run.shape.joints.size(); ++j) {
+      for (int i = 0; i < W; ++i) {
+        if (((run.lanes >> i) & 1u) == 0) continue;
+        const auto& impulse = m.joints[j].impulse;
+        joints[run.joints[j * W + static_cast<std::size_t>(i)]].blocks[0].impulse = {impulse[0][i], impulse[1][i],
+                                                                                     impulse[2][i]};
+      }
+    }
+  }
+
+ private:
+  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the largest
+  ///         moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k nothing can
+  ///         come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
+  static ISO_INLINE void prepare_body(const std::uint32_t* rows, const SolverBodies<S>& bodies, Body& body) {
+    const S* mass[W];
+    const S* rest[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      mass[i] = &bodies.mass[rows[i]].mass;
+      rest[i] = &bodies.mass[rows[i]].kappa.rows[1].z;
+    }
+    L k[8], r[4];
+    load_transposed<8>(mass, k);
+    load_transposed<4>(rest, r);
+    const L xx = k[1], yy = k[5], zz = r[3];
+    store(Mat3<L>{{{xx, k[2], k[3]}, {k[4], yy, r[0]}, {k[7], r[2], zz}}}, body.kappa);
+    const L largest = max(xx, max(yy, zz));
+    const Mask turns = less(L::zero(), largest);
+    const L calm = quotient_where<L>(turns, number(S(1)), largest) - number(S(64) * resolution<S>());
+    select(turns, calm, number(highest<S>())).store(body.calm);
+  }
+  static ISO_INLINE void prepare_joint(const std::uint32_t* lanes, const JointConstraint<S>* joints, Joint& joint) {
+    const S* frame_a[W];
+    const S* frame_b[W];
+    const S* share[W];
+    const Velocity<S>* impulse[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      const JointConstraint<S>& j = joints[lanes[i]];
+      frame_a[i] = &j.properties.frame_a.position.x;
+      frame_b[i] = &j.properties.frame_b.position.x;
+      share[i] = &j.share.a;
+      impulse[i] = &j.blocks[0].error.z;  // a word earlier, so that four end with the impulse
+    }
+    L a[4], b[4], s[4];
+    V p[4];
+    load_transposed<4>(frame_a, a);
+    load_transposed<4>(frame_b, b);
+    load_transposed<4>(share, s);
+    load_transposed<4>(impulse, p);
+    store({a[0], a[1], a[2]}, joint.frame_a);
+    store({b[0], b[1], b[2]}, joint.frame_b);
+    s[0].store(joint.share_a);
+    s[1].store(joint.share_b);
+    store({p[1], p[2], p[3]}, joint.impulse);
+  }
+  static_assert(offsetof(JointBlock<S>, impulse) == offsetof(JointBlock<S>, error) + 3 * sizeof(S));
+  static_assert(sizeof(MassShare<S>) == 2 * sizeof(S) &&
+                offsetof(JointConstraint<S>, pose_a) == offsetof(JointConstraint<S>, share) + 2 * sizeof(S));
+};
+
+}  // namespace
+}  // namespace isostep

@@ -1,0 +1,57 @@
+// The kernels that solve trees of ball joints side by side, as a table: one for each instruction set, chosen at run
+// time, all giving the same bits.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/tree_shape.hpp"
+#include "isostep/dynamics/solvers/simd.hpp"
+
+namespace isostep {
+
+/// Up to W trees of one shape. Lanes without a tree repeat the first one and write nothing.
+template <class S> struct TreeRun {
+  TreeShape shape;
+  const std::uint32_t* joints;  // in the step's constraints: W for every joint of the shape
+  const std::uint32_t* rows;    // of SolverBodies: W for every body of the shape
+  std::uint32_t lanes;          // which of the W have a tree, one bit each
+  void* memory;                 // TreeMemory<S, W>
+};
+
+template <class S> struct TreeKernels {
+  const char* name;
+  std::int32_t width;
+  /// Once a step: from the constraints, and back.
+  void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints, const SolverBodies<S>& bodies);
+  void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
+  /// Once a sub-step each, as JointTrees has them.
+  void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
+  void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
+  void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
+};
+
+/// The kernels for `simd`. Null when the processor or build lacks it; never for `best`.
+template <class S> const TreeKernels<S>* tree_kernels(Simd simd);
+
+namespace detail {
+/// One translation unit an instruction set. Null where the build has none.
+template <class S> const TreeKernels<S>* scalar_tree_kernels();
+template <class S> const TreeKernels<S>* sse2_tree_kernels();
+template <class S> const TreeKernels<S>* avx2_tree_kernels();
+template <class S> const TreeKernels<S>* avx512_tree_kernels();
+}  // namespace detail
+
+#define ISO_DECLARE_TREE_KERNELS(S)                             \
+  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd); \
+  namespace detail {                                            \
+  template <> const TreeKernels<S>* scalar_tree_kernels<S>();   \
+  template <> const TreeKernels<S>* sse2_tree_kernels<S>();     \
+  template <> const TreeKernels<S>* avx2_tree_kernels<S>();     \
+  template <> const TreeKernels<S>* avx512_tree_kernels<S>();   \
+  }
+ISO_FOR_EACH_SCALAR(ISO_DECLARE_TREE_KERNELS)
+
+}  // namespace isostep

@@ -1,0 +1,209 @@
+// Trees of joints solved side by side: every width, order of batches and plan gives what one tree by itself gives.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "unit/dynamics/joint_world.hpp"
+
+namespace isostep {
+namespace {
+
+/// Whole thousandths in [-size, size].
+class Draw {
+ public:
+  explicit Draw(std::uint32_t seed) : random_(seed) {}
+  double operator()(double size) { return size * (static_cast<double>(random_() % 2001) - 1000) / 1000; }
+  D3 point(double size) {
+    const double x = (*this)(size), y = (*this)(size), z = (*this)(size);
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937 random_;
+};
+D3 operator+(D3 a, D3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+template <class S>
+std::uint32_t add_part(JointWorld<S>& world, Draw& draw, D3 at, double mass, D3 half = {0.25, 0.3, 0.2}) {
+  const std::uint32_t body = world.add_box(at, mass, {half.x * (1 + draw(0.125)), half.y, half.z});
+  world.states[body].velocity = JointWorld<S>::velocity(draw.point(1));
+  world.states[body].spin = JointWorld<S>::velocity(draw.point(2));
+  return body;
+}
+/// A trunk with arms of two: joints made inwards and outwards. `arms` up to 4.
+template <class S> void add_creature(JointWorld<S>& world, Draw& draw, D3 at, int arms) {
+  const std::uint32_t trunk = add_part(world, draw, at, 2 + draw(0.5));
+  constexpr D3 kSides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < arms; ++i) {
+    const D3 side = kSides[i], half = {side.x / 2, 0, side.z / 2};
+    const std::uint32_t upper = add_part(world, draw, at + side, 1 + draw(0.5));
+    const std::uint32_t lower = add_part(world, draw, at + side + side, 1 + draw(0.5));
+    world.join(JointType::ball, i % 2 == 0 ? trunk : upper, i % 2 == 0 ? upper : trunk, at + half);
+    world.join(JointType::ball, upper, lower, at + side + half);
+  }
+}
+/// Links along x from `from` (kNoBody: the world), a weight at the end. Returns the weight. Small links at long arms turn
+/// easily: under a weight of 20 their tension is taken implicitly.
+template <class S>
+std::uint32_t add_chain(JointWorld<S>& world, Draw& draw, std::uint32_t from, D3 at, int links, double weight,
+                        double half = 0.25) {
+  for (int i = 0; i < links; ++i) {
+    const std::uint32_t link =
+        add_part(world, draw, at + D3{i + 0.5, 0, 0}, i + 1 < links ? 1 : weight, {half, half, half});
+    world.join(JointType::ball, from, link, at + D3{static_cast<double>(i), 0, 0});
+    from = link;
+  }
+  return from;
+}
+
+/// Trees of five shapes that kernels solve, in numbers that leave lanes over, and everything that they do not solve.
+template <class S> void build_forest(JointWorld<S>& world) {
+  Draw draw(11);
+  for (int i = 0; i < 21; ++i) add_creature(world, draw, {6.0 * (i % 5), 2, 6.0 * (i / 5)}, 4);
+  for (int i = 0; i < 3; ++i) add_creature(world, draw, {6.0 * i, 8, 0}, 3);
+  for (int i = 0; i < 5; ++i) add_chain(world, draw, kNoBody, {0, 12, 3.0 * i}, 5, 20, 0.04);
+  add_chain(world, draw, kNoBody, {0, 16, 0}, 9, 15, 0.04);
+  for (int i = 0; i < 2; ++i) {
+    const std::uint32_t end = add_chain(world, draw, kNoBody, {0, 20, 3.0 * i}, 4, 1);
+    world.join(JointType::ball, end, kNoBody, {4, 20, 3.0 * i});  // a bridge
+  }
+  const std::uint32_t rotor = world.add_body({0, 24, 0}, 0, {0, 0, 0});
+  world.states[rotor].spin = JointWorld<S>::velocity({0, 2, 0});
+  world.states[rotor].velocity = JointWorld<S>::velocity({0.5, 0, 0});
+  for (int i = 0; i < 3; ++i) add_chain(world, draw, rotor, {0.5, 24, 3.0 * i}, 3, 5);
+}
+constexpr std::uint32_t kPlainTrees = 21 + 3 + 5 + 1 + 2 + 3;
+
+template <class S> void add_others(JointWorld<S>& world) {
+  Draw draw(12);
+  const std::uint32_t tail = add_chain(world, draw, kNoBody, {0, 28, 0}, 4, 1);
+  const auto first = static_cast<std::uint32_t>(world.states.size()) - 4;
+  world.join(JointType::ball, tail, first, {2, 28, 0.5});  // a ring
+  add_creature(world, draw, {0, 32, 0}, 4);
+  world.joints.back().type = JointType::hinge;
+  add_creature(world, draw, {8, 32, 0}, 4);
+  world.joints.back().flags = joint_flag::kCone;
+  world.joints.back().cone = S(0.5);
+  const std::uint32_t hub = add_part(world, draw, {0, 36, 0}, 3);
+  for (int i = 0; i < 10; ++i) {  // more than a tree may have at one body
+    const std::uint32_t spoke = add_part(world, draw, {std::cos(i), 36, std::sin(i)}, 1);
+    world.join(JointType::ball, hub, spoke, {std::cos(i) / 2, 36, std::sin(i) / 2});
+  }
+  add_creature(world, draw, {8, 36, 0}, 2);
+  const auto one = static_cast<std::uint32_t>(world.states.size()) - 1;
+  add_creature(world, draw, {16, 36, 0}, 2);
+  const auto other = static_cast<std::uint32_t>(world.states.size()) - 1;
+  JointProperties<S>& rope = world.join(JointType::distance, one, other, {11, 36, 0});  // two trees, tied
+  rope.upper = S(8);
+}
+
+template <class S> using Numbers = std::vector<RawBits<S>>;
+/// The bits of what moved and of what was pushed; for float and double -0 counts as 0 where `signless`.
+template <class S> Numbers<S> numbers_of(const JointWorld<S>& world, bool signless) {
+  Numbers<S> out;
+  const auto add = [&](auto a) { out.push_back(to_bits(signless && a == decltype(a)(0) ? decltype(a)(0) : a)); };
+  const auto add_vector = [&](auto v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  };
+  for (const BodyState<S>& state : world.states) {
+    add_vector(state.centre);
+    add(state.orientation.w);
+    add_vector(Vec3<Unit<S>>{state.orientation.x, state.orientation.y, state.orientation.z});
+    add_vector(state.velocity);
+    add_vector(state.spin);
+  }
+  for (const JointState<S>& joint : world.impulses) add_vector(joint.point);
+  return out;
+}
+
+struct Way {
+  Simd simd = Simd::scalar;
+  bool kernels = true, last_batch_first = false, signless = false;
+};
+/// Every frame's numbers. In the middle joints go: trees fall apart into others.
+template <class S> std::vector<Numbers<S>> play(const Way& way, bool others = true) {
+  JointWorld<S> world;
+  world.kernels = way.kernels ? tree_kernels<S>(way.simd) : nullptr;
+  world.last_batch_first = way.last_batch_first;
+  build_forest(world);
+  if (others) add_others(world);
+  std::vector<Numbers<S>> frames;
+  for (int frame = 0; frame < 24; ++frame) {
+    if (frame == 12) {
+      for (const std::size_t gone : {std::size_t{200}, std::size_t{90}, std::size_t{14}, std::size_t{3}}) {
+        world.joints.erase(world.joints.begin() + static_cast<std::ptrdiff_t>(gone));
+        world.impulses.erase(world.impulses.begin() + static_cast<std::ptrdiff_t>(gone));
+      }
+    }
+    world.step();
+    frames.push_back(numbers_of(world, way.signless));
+  }
+  return frames;
+}
+
+template <class S> class JointTreesTest : public testing::Test {};
+using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
+TYPED_TEST_SUITE(JointTreesTest, Scalars);
+
+TYPED_TEST(JointTreesTest, EveryWidthGivesTheBitsOfOneTreeByItself) {
+  using S = TypeParam;
+  const auto expected = play<S>({});
+  for (const Simd simd : {Simd::best, Simd::sse2, Simd::avx2, Simd::avx512}) {
+    if (tree_kernels<S>(simd) == nullptr) continue;
+    const auto frames = play<S>({.simd = simd});
+    for (std::size_t f = 0; f < frames.size(); ++f)
+      ASSERT_EQ(frames[f], expected[f]) << tree_kernels<S>(simd)->name << " frame " << f;
+  }
+}
+
+TYPED_TEST(JointTreesTest, KernelsGiveTheNumbersOfTheCodeForAnyKindOfJoint) {
+  using S = TypeParam;
+  EXPECT_EQ(play<S>({.signless = true}), play<S>({.kernels = false, .signless = true}));
+}
+
+TYPED_TEST(JointTreesTest, BatchesMayComeInAnyOrder) {
+  using S = TypeParam;
+  EXPECT_EQ(play<S>({.simd = Simd::best, .last_batch_first = true}), play<S>({.simd = Simd::best}));
+}
+
+TYPED_TEST(JointTreesTest, WhatSharesNoBodyWithATreeChangesNothingOfIt) {
+  using S = TypeParam;
+  const auto whole = play<S>({.simd = Simd::best}), alone = play<S>({.simd = Simd::best}, false);
+  JointWorld<S> forest;
+  build_forest(forest);
+  const std::size_t bodies = forest.states.size() * 13;
+  for (std::size_t f = 0; f < alone.size(); ++f) {
+    for (std::size_t i = 0; i < bodies; ++i) ASSERT_EQ(alone[f][i], whole[f][i]) << "frame " << f;
+  }
+}
+
+TYPED_TEST(JointTreesTest, TreesOfOneShapeShareBatchesAndTheRestIsOne) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  world.kernels = tree_kernels<S>(Simd::scalar);
+  build_forest(world);
+  world.gather();
+  EXPECT_EQ(world.trees.batch_count(), kPlainTrees);
+  world.kernels = tree_kernels<S>(Simd::best);
+  world.gather();
+  const auto width = static_cast<std::uint32_t>(world.kernels->width);
+  const auto blocks = [width](std::uint32_t trees) { return (trees + width - 1) / width; };
+  EXPECT_EQ(world.trees.batch_count(), blocks(21) + blocks(3) + blocks(5) + 1 + blocks(2) + blocks(3));
+  add_others(world);
+  world.gather();
+  EXPECT_EQ(world.trees.batch_count(), blocks(21) + blocks(3) + blocks(5) + 1 + blocks(2) + blocks(3) + 1);
+  world.kernels = nullptr;
+  world.gather();
+  EXPECT_EQ(world.trees.batch_count(), 1u);
+  world.joints.clear();
+  world.gather();
+  EXPECT_EQ(world.trees.batch_count(), 0u);
+}
+
+}  // namespace
+}  // namespace isostep
