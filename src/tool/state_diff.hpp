@@ -8,8 +8,8 @@
 namespace isostep::tool {
 
 namespace detail {
-template <class T>
-void diff_array(const PathPart& path, const std::vector<T>& a, const std::vector<T>& b, DiffReport& report) {
+/// Vectors, or arrays in pages.
+template <class Array> void diff_array(const PathPart& path, const Array& a, const Array& b, DiffReport& report) {
   if (a.size() != b.size()) report.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
     diff_value(PathPart{&path, nullptr, i}, a[i], b[i], report);

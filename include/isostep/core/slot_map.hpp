@@ -7,6 +7,7 @@
 
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
+#include "isostep/core/paged_array.hpp"
 
 namespace isostep {
 
@@ -24,21 +25,27 @@ struct SlotEntry {
 };
 static_assert(kHasNoPadding<SlotEntry>);
 
+/// Copies share the table's pages: a copy costs what was taken or given back since the last.
 class SlotMap {
  public:
+  static constexpr std::uint32_t kPageSize = 512;
+  using Entries = PagedArray<SlotEntry, kPageSize>;
+
   template <class AnyId> ISO_INLINE AnyId take() {
+    hash_.forget();
     if (first_free_ == SlotEntry::kEnd) {
       entries_.push_back({1, SlotEntry::kTaken});
       return {static_cast<std::uint32_t>(entries_.size() - 1), 1};
     }
     const std::uint32_t slot = first_free_;
-    SlotEntry& entry = entries_[slot];
+    SlotEntry& entry = entries_.change(slot);
     first_free_ = entry.next_free;
     entry.next_free = SlotEntry::kTaken;
     return {slot, entry.generation};
   }
   ISO_INLINE void give_back(std::uint32_t slot) {
-    SlotEntry& entry = entries_[slot];
+    hash_.forget();
+    SlotEntry& entry = entries_.change(slot);
     entry.generation += entry.generation == 0xffffffffu ? 2u : 1u;  // 0 stays null
     entry.next_free = first_free_;
     first_free_ = slot;
@@ -49,8 +56,10 @@ class SlotMap {
   ISO_INLINE bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
   template <class AnyId> ISO_INLINE AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
 
-  ISO_INLINE const std::vector<SlotEntry>& entries() const { return entries_; }
+  ISO_INLINE const Entries& entries() const { return entries_; }
   ISO_INLINE std::uint32_t first_free() const { return first_free_; }
+  /// What was computed of the whole table.
+  ISO_INLINE const Remembered& remembered_hash() const { return hash_; }
   /// From a file: false when the free list is not one list of just the free slots.
   ISO_INLINE bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
     std::size_t free = 0, met = 0;
@@ -62,13 +71,16 @@ class SlotMap {
       if (slot >= entries.size() || entries[slot].next_free == SlotEntry::kTaken || ++met > free) return false;
     }
     if (met != free) return false;
-    entries_ = entries;
+    hash_.forget();
+    entries_.clear();
+    for (const SlotEntry& entry : entries) entries_.push_back(entry);
     first_free_ = first_free;
     return true;
   }
 
  private:
-  std::vector<SlotEntry> entries_;
+  Remembered hash_;
+  Entries entries_;
   std::uint32_t first_free_ = SlotEntry::kEnd;
 };
 

@@ -67,4 +67,18 @@ template <class T> ISO_INLINE std::uint64_t hash_records(const T* first, std::si
   }
 }
 
+/// Adds n records to a stream: pieces one after another give the hash of the whole array.
+template <class T> ISO_INLINE void update_records(HashStream& stream, const T* first, std::size_t n) {
+  static_assert(kHasNoPadding<T>, "padding has no value, so it can have no hash");
+  if constexpr (std::endian::native == std::endian::little) {
+    stream.update(first, n * sizeof(T));
+  } else {
+    std::uint8_t bytes[kPackedSize<T> + 1];
+    for (std::size_t i = 0; i < n; ++i) {
+      pack(bytes, first[i]);
+      stream.update(bytes, kPackedSize<T>);
+    }
+  }
+}
+
 }  // namespace isostep

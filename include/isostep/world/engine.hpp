@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/bitset.hpp"
 #include "isostep/dynamics/island.hpp"
 #include "isostep/dynamics/solvers/soft_step.hpp"
 #include "isostep/world/checks.hpp"
@@ -40,16 +41,24 @@ template <class S> struct BodyFrame {
   bool sensor, frozen;
 };
 
+/// A record of a woken island, to be sorted into the awake image.
+template <class S> struct WokenRecord {
+  std::uint64_t key;  // its place among the awake
+  const FrozenIsland<S>* island;
+  std::size_t index;
+};
+
 template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);
 
-  // engine_commands.inl, engine_joint_commands.inl: one function a command; each answers what it made or whether it was
-  // accepted.
+  // engine_commands.inl, engine_destroy.inl, engine_joint_commands.inl: one function a command; each answers what it
+  // made or whether it was accepted.
   ShapeId execute(const AddShape<S>& command);
   bool execute(const RemoveShape& command);
   BodyId execute(const CreateBody<S>& command);
   bool execute(const DestroyBody& command);
+  template <class Accepted> std::size_t destroy_all(std::span<const BodyId> bodies, const Accepted& accepted);
   bool execute(const WakeBody& command);
   bool execute(const SetPose<S>& command);
   bool execute(const SetVelocity<S>& command);
@@ -113,12 +122,10 @@ template <class S> class WorldEngine {
   BodyState<S>* awake_state(std::uint32_t slot);
   BodyProperties<S>& mutable_properties(std::uint32_t slot);
   void insert_body(BodySet<S>& set, std::uint32_t set_name, const BodyState<S>& state, const BodyProperties<S>& body);
-  void erase_body(BodySet<S>& set, std::uint32_t set_name, std::uint32_t index);
   void relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from);
   void insert_joint(const JointState<S>& state, const JointProperties<S>& joint);
   void relabel_joints(const JointSet<S>& set, std::uint32_t set_name, std::size_t from);
   void renew_fat_box(BodyState<S>& state, const BodyProperties<S>& body, bool always);
-  void forget_contacts(std::uint32_t slot);
   void draw_from_here(const BodyState<S>& state);
   void wake_touching(std::uint32_t slot);
   void wake_held_by(std::uint32_t slot);
@@ -130,6 +137,11 @@ template <class S> class WorldEngine {
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+
+  // engine_destroy.inl
+  bool doom(BodyId body);
+  void bury_doomed();
+  void destroy_joints_of(std::uint32_t slot);
 
   // engine_joint_commands.inl
   std::uint32_t wake_joint(JointId joint);
@@ -163,15 +175,20 @@ template <class S> class WorldEngine {
   void update_sleep_clocks();
   void freeze_ready_islands();
   void freeze_marked();
-  void thaw(std::uint32_t frozen_index);
+  void unlist(std::uint32_t frozen_index);
+  void merge_woken();
   void thaw_body(std::uint32_t slot);
+  void thaw_bodies(std::span<const std::uint32_t> slots);
+  void count_names(const FrozenIsland<S>& island, std::uint32_t by);
 
   // engine_state.inl
-  void refresh_caches();
+  void forget_places(bool other_fixed);
+  void renew_places(bool other_fixed);
 
   // Caches: functions of the state.
   std::vector<Location> locations_;        // by body slot
   std::vector<Location> joint_locations_;  // by joint slot
+  std::vector<std::uint32_t> named_;       // by body slot: contacts and joints of frozen islands that name the body
   Proxies<S> proxies_;
 
   // One step's scratch; drawing and the next step's events read some of it.
@@ -193,6 +210,11 @@ template <class S> class WorldEngine {
   std::size_t woke_reported_ = 0;           // of events_.woke, told by the last step
   DisjointSets islands_;
   std::vector<std::uint32_t> island_clock_;
+  std::vector<std::shared_ptr<const FrozenIsland<S>>> woken_;  // off the list, not yet in the awake image
+  std::vector<WokenRecord<S>> woken_records_, woken_scratch_;
+  std::vector<std::uint32_t> doomed_;         // destroyed, their records not yet dropped
+  Bitset is_doomed_;                          // the same
+  std::vector<std::uint32_t> other_islands_;  // indices at which two states differ
 };
 
 }  // namespace isostep

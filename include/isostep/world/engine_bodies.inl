@@ -34,12 +34,12 @@ template <class S> Location WorldEngine<S>::locate(BodyId body) const {
 }
 template <class S> const BodyState<S>& WorldEngine<S>::state_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.states[at.index];
-  if (at.set == Location::kFixed) return state_.fixed.states[at.index];
+  if (at.set == Location::kFixed) return state_.fixed->states[at.index];
   return state_.frozen[at.set]->bodies.states[at.index];
 }
 template <class S> const BodyProperties<S>& WorldEngine<S>::properties_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.properties[at.index];
-  if (at.set == Location::kFixed) return state_.fixed.properties[at.index];
+  if (at.set == Location::kFixed) return state_.fixed->properties[at.index];
   return state_.frozen[at.set]->bodies.properties[at.index];
 }
 template <class S> const BodyState<S>* WorldEngine<S>::state_of(BodyId body) const {
@@ -58,8 +58,8 @@ template <class S> const JointProperties<S>* WorldEngine<S>::properties_of(Joint
 }
 
 template <class S> std::span<const Child<S>> WorldEngine<S>::children_of(std::uint32_t shape_slot) const {
-  const ShapeRecord& record = state_.shapes[shape_slot];
-  return {state_.children.data() + record.first_child, record.child_count};
+  const ShapeRecord& record = (*state_.shapes)[shape_slot];
+  return {state_.children->data() + record.first_child, record.child_count};
 }
 
 /// A body's origin is its centre less the centre's place in the body.
@@ -77,7 +77,7 @@ template <class S> Pose<S> WorldEngine<S>::centre_pose_at(std::uint32_t slot) co
 
 template <class S> BodyProperties<S>& WorldEngine<S>::mutable_properties(std::uint32_t slot) {
   const Location at = locations_[slot];
-  return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.properties[at.index];
+  return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.change().properties[at.index];
 }
 
 template <class S> void WorldEngine<S>::relabel(const BodySet<S>& set, std::uint32_t set_name, std::size_t from) {
@@ -98,14 +98,11 @@ void WorldEngine<S>::insert_body(BodySet<S>& set, std::uint32_t set_name, const 
   const std::size_t at = detail::lower_bound_slot(set, state.slot);
   set.states.insert(set.states.begin() + static_cast<std::ptrdiff_t>(at), state);
   set.properties.insert(set.properties.begin() + static_cast<std::ptrdiff_t>(at), body);
-  if (locations_.size() <= state.slot) locations_.resize(state.slot + 1);
+  if (locations_.size() <= state.slot) {
+    locations_.resize(state.slot + 1);
+    named_.resize(locations_.size());
+  }
   relabel(set, set_name, at);
-}
-template <class S> void WorldEngine<S>::erase_body(BodySet<S>& set, std::uint32_t set_name, std::uint32_t index) {
-  locations_[set.states[index].slot] = Location{};
-  set.states.erase(set.states.begin() + index);
-  set.properties.erase(set.properties.begin() + index);
-  relabel(set, set_name, index);
 }
 template <class S> void WorldEngine<S>::insert_joint(const JointState<S>& state, const JointProperties<S>& joint) {
   const std::size_t at = detail::lower_bound_slot(state_.joints, state.slot);
@@ -119,16 +116,6 @@ template <class S> void WorldEngine<S>::renew_fat_box(BodyState<S>& state, const
   const Transform<S> origin = Transform<S>::of(origin_pose(state, body));
   const Aabb<S> tight = bounds(children_of(body.shape), origin);
   if (always || !contains(state.fat, tight)) state.fat = grow(tight, detail::kFatMargin<S>);
-}
-
-/// Contacts of the awake image that name the slot.
-template <class S> void WorldEngine<S>::forget_contacts(std::uint32_t slot) {
-  std::size_t kept = 0;
-  for (const Contact<S>& contact : state_.contacts) {
-    if (contact.key.body_a == slot || contact.key.body_b == slot) continue;
-    state_.contacts[kept++] = contact;
-  }
-  state_.contacts.resize(kept);
 }
 
 /// What a command puts somewhere is drawn there and not on the way from where its slot was before.
@@ -156,21 +143,26 @@ template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   });
   std::vector<std::uint64_t> scratch(met.size());
   stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
-  for (const std::uint64_t other : met) thaw_body(static_cast<std::uint32_t>(other));
+  for (const std::uint64_t other : met) {
+    const Location at = locations_[other];
+    if (at.is_frozen()) unlist(at.set);
+  }
+  merge_woken();
 }
 
 /// Thaws every island with a joint to, or a contact with, a body that no island holds. Its box need not meet theirs any
 /// more: a contact is frozen as the last step found it.
 template <class S> void WorldEngine<S>::wake_held_by(std::uint32_t slot) {
-  for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); i-- > 0;) {
+  for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); named_[slot] != 0 && i-- > 0;) {
     const FrozenIsland<S>& island = *state_.frozen[i];
     bool held = false;
     for (const JointProperties<S>& joint : island.joints.properties)
       held = held || joint.body_a == slot || joint.body_b == slot;
     for (const Contact<S>& contact : island.contacts)
       held = held || contact.key.body_a == slot || contact.key.body_b == slot;
-    if (held) thaw(i);
+    if (held) unlist(i);
   }
+  merge_woken();
 }
 
 /// The awake state of a moving body about to be changed; null and a fault when it is stale or fixed.

@@ -50,10 +50,11 @@ template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>();
-  if (state_.shapes.size() <= id.slot) state_.shapes.resize(id.slot + 1, ShapeRecord{0, 0});
-  state_.shapes[id.slot] = {static_cast<std::uint32_t>(state_.children.size()),
-                            static_cast<std::uint32_t>(command.children.size())};
-  for (const Child<S>& child : command.children) state_.children.push_back(normalised(child));
+  std::vector<ShapeRecord>& shapes = state_.shapes.change();
+  std::vector<Child<S>>& pool = state_.children.change();
+  if (shapes.size() <= id.slot) shapes.resize(id.slot + 1, ShapeRecord{0, 0});
+  shapes[id.slot] = {static_cast<std::uint32_t>(pool.size()), static_cast<std::uint32_t>(command.children.size())};
+  for (const Child<S>& child : command.children) pool.push_back(normalised(child));
   return id;
 }
 
@@ -65,13 +66,15 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
       return refuse(Fault::shape_in_use);
     }
   }
-  const ShapeRecord gone = state_.shapes[slot];
-  const auto first = state_.children.begin() + gone.first_child;
-  state_.children.erase(first, first + gone.child_count);
-  for (ShapeRecord& record : state_.shapes) {
+  std::vector<ShapeRecord>& shapes = state_.shapes.change();
+  std::vector<Child<S>>& pool = state_.children.change();
+  const ShapeRecord gone = shapes[slot];
+  const auto first = pool.begin() + gone.first_child;
+  pool.erase(first, first + gone.child_count);
+  for (ShapeRecord& record : shapes) {
     if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
   }
-  state_.shapes[slot] = {0, 0};
+  shapes[slot] = {0, 0};
   state_.shape_slots.give_back(slot);
   return true;
 }
@@ -148,35 +151,10 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
   state.slot = id.slot;
   draw_from_here(state);
   const bool fixed = d.type == BodyType::fixed;
-  insert_body(fixed ? state_.fixed : state_.awake, fixed ? Location::kFixed : Location::kAwake, state, body);
+  insert_body(fixed ? state_.fixed.change() : state_.awake, fixed ? Location::kFixed : Location::kAwake, state, body);
   proxies_.place(state, body, !fixed);
   if (d.type != BodyType::dynamic) wake_touching(id.slot);
   return id;
-}
-
-template <class S> bool WorldEngine<S>::execute(const DestroyBody& command) {
-  const Location at = locate(command.body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
-  const std::uint32_t slot = command.body.slot;
-  if (at.is_frozen()) thaw_body(slot);
-  wake_touching(slot);
-  for (std::uint32_t joint = 0; joint < joint_locations_.size(); ++joint) {
-    const Location j = joint_locations_[joint];
-    if (j.set == Location::kNone) continue;
-    const JointId id = state_.joint_slots.template id_of<JointId>(joint);
-    const JointProperties<S>& properties = *properties_of(id);
-    if (properties.body_a == slot || properties.body_b == slot) execute(DestroyJoint{id});
-  }
-  if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
-  forget_contacts(slot);
-  std::erase_if(state_.overlaps, [&](SensorOverlap o) { return o.sensor == slot || o.other == slot; });
-  std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return f.slot == slot; });
-  const Location now = locations_[slot];
-  if (now.set == Location::kFixed) erase_body(state_.fixed, Location::kFixed, now.index);
-  else erase_body(state_.awake, Location::kAwake, now.index);
-  proxies_.remove(slot);
-  state_.body_slots.give_back(slot);
-  return true;
 }
 
 template <class S> bool WorldEngine<S>::execute(const WakeBody& command) {
@@ -194,7 +172,7 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
   if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
   if (at.set != Location::kFixed) wake_for_change(command.body);
   const Location now = locations_[slot];
-  BodySet<S>& set = now.set == Location::kFixed ? state_.fixed : state_.awake;
+  BodySet<S>& set = now.set == Location::kFixed ? state_.fixed.change() : state_.awake;
   BodyState<S>& state = set.states[now.index];
   const BodyProperties<S>& body = set.properties[now.index];
   state.orientation = normalise(command.pose.orientation);
@@ -305,7 +283,8 @@ template <class S> bool WorldEngine<S>::execute(const SetGravity<S>& command) {
   if (!is_finite(command.gravity)) return refuse(Fault::not_finite);
   if (!detail::within(command.gravity, Limits<S>::speed())) return refuse(Fault::out_of_range);
   state_.settings.gravity = command.gravity;
-  while (!state_.frozen.empty()) thaw(static_cast<std::uint32_t>(state_.frozen.size() - 1));
+  while (!state_.frozen.empty()) unlist(static_cast<std::uint32_t>(state_.frozen.size() - 1));
+  merge_woken();
   for (BodyState<S>& state : state_.awake.states) state.sleep_clock = 0;
   return true;
 }

@@ -122,7 +122,7 @@ template <class S> void WorldEngine<S>::wake_touched_islands() {
       if (((body.flags | properties_at(a.is_frozen() ? a : b).flags) & body_flag::kSensor) != 0) continue;
       if (bodies_touch(pair_a(key), pair_b(key))) touched.push_back(a.is_frozen() ? pair_a(key) : pair_b(key));
     }
-    for (const std::uint32_t slot : touched) thaw_body(slot);
+    thaw_bodies(touched);
     if (!touched.empty()) proxies_.update();
   } while (!touched.empty());
 }

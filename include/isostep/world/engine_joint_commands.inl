@@ -46,7 +46,10 @@ template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command
 /// Thaws the joint's island and unsettles what it ties; answers where it then lies in the awake image.
 template <class S> std::uint32_t WorldEngine<S>::wake_joint(JointId joint) {
   const Location at = joint_locations_[joint.slot];
-  if (at.is_frozen()) thaw(at.set);
+  if (at.is_frozen()) {
+    unlist(at.set);
+    merge_woken();
+  }
   const std::uint32_t index = joint_locations_[joint.slot].index;
   const JointProperties<S>& properties = state_.joints.properties[index];
   restless(properties.body_a);

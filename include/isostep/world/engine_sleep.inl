@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/state/hash.hpp"
 #include "isostep/world/engine.hpp"
 
@@ -26,27 +27,9 @@ void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is
     put(to - 1, from_old, from_old ? --old : --more);
   }
 }
-/// Merges `more` into `into`, both ascending.
-template <class T, class Before>
-void merge_into(std::vector<T>& into, const std::vector<T>& more, const Before& before) {
-  const std::size_t old = into.size();
-  into.resize(old + more.size());
-  merge_from_back(
-      old, more.size(), [&](std::size_t i, std::size_t j) { return before(more[j], into[i]); },
-      [&](std::size_t to, bool from_old, std::size_t i) { into[to] = from_old ? into[i] : more[i]; });
-}
-/// The same for states and properties side by side, ascending by slot.
-template <class Set> void merge_sets(Set& into, const Set& more) {
-  const std::size_t old = into.states.size();
-  into.states.resize(old + more.states.size());
-  into.properties.resize(into.states.size());
-  merge_from_back(
-      old, more.states.size(), [&](std::size_t i, std::size_t j) { return more.states[j].slot < into.states[i].slot; },
-      [&](std::size_t to, bool from_old, std::size_t i) {
-        into.states[to] = from_old ? into.states[i] : more.states[i];
-        into.properties[to] = from_old ? into.properties[i] : more.properties[i];
-      });
-}
+struct WokenKey {
+  template <class S> ISO_INLINE std::uint64_t operator()(const WokenRecord<S>& record) const { return record.key; }
+};
 }  // namespace detail
 
 template <class S> void WorldEngine<S>::update_sleep() {
@@ -200,34 +183,107 @@ template <class S> void WorldEngine<S>::freeze_marked() {
     for (std::size_t i = 0; i < island->bodies.states.size(); ++i) {
       proxies_.place(island->bodies.states[i], island->bodies.properties[i], false);
     }
+    count_names(*island, 1);
     state_.frozen.push_back(island);
   }
 }
 
-template <class S> void WorldEngine<S>::thaw_body(std::uint32_t slot) {
-  if (locations_[slot].is_frozen()) thaw(locations_[slot].set);
+/// Counts what an island's contacts and joints name, `by` 1 or, modulo 2^32, -1.
+template <class S> void WorldEngine<S>::count_names(const FrozenIsland<S>& island, std::uint32_t by) {
+  for (const Contact<S>& contact : island.contacts) {
+    named_[contact.key.body_a] += by;
+    named_[contact.key.body_b] += by;
+  }
+  for (const JointProperties<S>& joint : island.joints.properties) {
+    if (joint.body_a != kNoBody) named_[joint.body_a] += by;
+    if (joint.body_b != kNoBody) named_[joint.body_b] += by;
+  }
 }
 
-/// Moves an island back into the awake image, in canonical order; the last island takes its place in the list.
-template <class S> void WorldEngine<S>::thaw(std::uint32_t frozen_index) {
-  const std::shared_ptr<const FrozenIsland<S>> island = state_.frozen[frozen_index];
-  state_.frozen[frozen_index] = state_.frozen.back();
-  state_.frozen.pop_back();
-  if (frozen_index < state_.frozen.size()) {
-    relabel(state_.frozen[frozen_index]->bodies, frozen_index, 0);
-    relabel_joints(state_.frozen[frozen_index]->joints, frozen_index, 0);
+template <class S> void WorldEngine<S>::thaw_body(std::uint32_t slot) { thaw_bodies({&slot, 1}); }
+
+/// Wakes the islands of those that sleep, one after another in this order, at the cost of one merge.
+template <class S> void WorldEngine<S>::thaw_bodies(std::span<const std::uint32_t> slots) {
+  for (const std::uint32_t slot : slots) {
+    if (locations_[slot].is_frozen()) unlist(locations_[slot].set);
   }
-  detail::merge_sets(state_.awake, island->bodies);
-  detail::merge_sets(state_.joints, island->joints);
-  detail::merge_into(state_.contacts, island->contacts, [](const auto& a, const auto& b) { return a.key < b.key; });
+  merge_woken();
+}
+
+/// Takes an island off the list; the last one takes its place. Its bodies count as awake but are nowhere until
+/// `merge_woken`.
+template <class S> void WorldEngine<S>::unlist(std::uint32_t frozen_index) {
+  const std::shared_ptr<const FrozenIsland<S>> island = state_.frozen[frozen_index];
+  const std::size_t last = state_.frozen.size() - 1;
+  if (frozen_index != last) {
+    const std::shared_ptr<const FrozenIsland<S>> moved = state_.frozen[last];
+    state_.frozen.change(frozen_index) = moved;
+    relabel(moved->bodies, frozen_index, 0);
+    relabel_joints(moved->joints, frozen_index, 0);
+  }
+  state_.frozen.pop_back();
+  count_names(*island, ~0u);
+  for (const BodyState<S>& body : island->bodies.states) locations_[body.slot] = {Location::kAwake, 0};
+  woken_.push_back(island);
+}
+
+/// Moves what was unlisted into the awake image, in canonical order and in one pass over each array.
+template <class S> void WorldEngine<S>::merge_woken() {
+  if (woken_.empty()) return;
+  const auto sort_in = [&](const auto& array_of, const auto& key_of) {
+    woken_records_.clear();
+    for (const auto& island : woken_) {
+      const auto& array = array_of(*island);
+      for (std::size_t i = 0; i < array.size(); ++i) woken_records_.push_back({key_of(array[i]), island.get(), i});
+    }
+    woken_scratch_.resize(woken_records_.size());
+    stable_sort(woken_records_.data(), woken_scratch_.data(), static_cast<std::uint32_t>(woken_records_.size()),
+                detail::WokenKey{});
+    return woken_records_.size();
+  };
+  const auto merge_set = [&](auto& into, const auto& set_of) {
+    const std::size_t old = into.states.size();
+    const std::size_t more = sort_in(
+        [&](const FrozenIsland<S>& island) -> const auto& { return set_of(island).states; },
+        [](const auto& state) { return std::uint64_t{state.slot}; });
+    into.states.resize(old + more);
+    into.properties.resize(old + more);
+    detail::merge_from_back(
+        old, more, [&](std::size_t i, std::size_t j) { return woken_records_[j].key < into.states[i].slot; },
+        [&](std::size_t to, bool from_old, std::size_t i) {
+          const auto& from = from_old ? into : set_of(*woken_records_[i].island);
+          const std::size_t at = from_old ? i : woken_records_[i].index;
+          into.states[to] = from.states[at];
+          into.properties[to] = from.properties[at];
+        });
+  };
+  merge_set(
+      state_.awake, [](const FrozenIsland<S>& island) -> const auto& { return island.bodies; });
+  merge_set(
+      state_.joints, [](const FrozenIsland<S>& island) -> const auto& { return island.joints; });
+  // Contacts of one pair lie in one island, ascending, and the sort keeps their order: the pair is key enough.
+  const auto pair_of = [](const Contact<S>& contact) { return pair_key(contact.key.body_a, contact.key.body_b); };
+  std::vector<Contact<S>>& contacts = state_.contacts;
+  const std::size_t old = contacts.size();
+  const std::size_t more = sort_in(
+      [](const FrozenIsland<S>& island) -> const auto& { return island.contacts; }, pair_of);
+  contacts.resize(old + more);
+  detail::merge_from_back(
+      old, more, [&](std::size_t i, std::size_t j) { return woken_records_[j].key < pair_of(contacts[i]); },
+      [&](std::size_t to, bool from_old, std::size_t i) {
+        contacts[to] = from_old ? contacts[i] : woken_records_[i].island->contacts[woken_records_[i].index];
+      });
   relabel(state_.awake, Location::kAwake, 0);
   relabel_joints(state_.joints, Location::kAwake, 0);
-  for (const BodyState<S>& frozen : island->bodies.states) {
-    const std::uint32_t index = locations_[frozen.slot].index;
-    state_.awake.states[index].sleep_clock = 0;
-    proxies_.place(state_.awake.states[index], state_.awake.properties[index], true);
-    events_.woke.push_back(state_.body_slots.template id_of<BodyId>(frozen.slot));
+  for (const auto& island : woken_) {
+    for (const BodyState<S>& frozen : island->bodies.states) {
+      const std::uint32_t index = locations_[frozen.slot].index;
+      state_.awake.states[index].sleep_clock = 0;
+      proxies_.place(state_.awake.states[index], state_.awake.properties[index], true);
+      events_.woke.push_back(state_.body_slots.template id_of<BodyId>(frozen.slot));
+    }
   }
+  woken_.clear();
 }
 
 }  // namespace isostep

@@ -12,15 +12,27 @@ namespace isostep {
 namespace detail {
 inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
 
+/// Of the free list's start and the entries one after another; the pages they lie in do not show.
 inline std::uint64_t hash_slots(const SlotMap& slots) {
-  HashCombiner root;
-  root.add(slots.first_free());
-  root.add(hash_records(slots.entries().data(), slots.entries().size()));
-  return root.value();
+  return slots.remembered_hash().get([&] {
+    const SlotMap::Entries& entries = slots.entries();
+    HashCombiner root;
+    root.add(slots.first_free());
+    if (entries.pages() <= 1) {
+      root.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
+      return root.value();
+    }
+    HashStream stream;
+    for (std::size_t p = 0; p < entries.pages(); ++p) update_records(stream, entries.page(p), entries.page_size(p));
+    root.add(stream.value());
+    return root.value();
+  });
 }
 inline void write_slots(Writer& writer, const SlotMap& slots) {
+  const SlotMap::Entries& entries = slots.entries();
   writer.write(slots.first_free());
-  writer.write_array(slots.entries());
+  writer.write_count(entries.size());
+  for (std::size_t p = 0; p < entries.pages(); ++p) writer.write_records(entries.page(p), entries.page_size(p));
 }
 inline void read_slots(Reader& reader, SlotMap& slots) {
   const auto first_free = reader.read<std::uint32_t>();
@@ -39,13 +51,27 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
   root.add(detail::hash_slots(state_.body_slots));
   root.add(detail::hash_slots(state_.shape_slots));
   root.add(detail::hash_slots(state_.joint_slots));
-  WorldState<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); },
-                          state_);
+  const auto add = [&](const Remembered& known, const auto& array) {
+    root.add(known.get([&] { return hash_records(array.data(), array.size()); }));
+  };
+  add(state_.shapes.remembered(), *state_.shapes);
+  add(state_.children.remembered(), *state_.children);
+  add(state_.fixed.remembered(0), state_.fixed->states);
+  add(state_.fixed.remembered(1), state_.fixed->properties);
+  WorldState<S>::own_sections(
+      [&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, state_);
   for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) root.add(island->hash);
   return root.value();
 }
 
+/// Takes time for what is awake in either state, for the islands that only one of them has at their place, and for what
+/// is fixed if that differs.
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
+  other_islands_.clear();
+  state_.frozen.each_difference(from.frozen,
+                                [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
+  const bool other_fixed = !state_.fixed.is_same(from.fixed);
+  forget_places(other_fixed);
   state_ = from;
   ++loads_;
   events_.clear();
@@ -53,26 +79,51 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   fault_ = Fault::none;
   woke_reported_ = 0;
   start_slots_.clear();
-  refresh_caches();
+  renew_places(other_fixed);
 }
 
-/// Locations anew; the broad phase only where a body differs from what it knew.
-template <class S> void WorldEngine<S>::refresh_caches() {
-  locations_.assign(state_.body_slots.entries().size(), Location{});
-  joint_locations_.assign(state_.joint_slots.entries().size(), Location{});
+/// Of everything but the islands, and the fixed bodies, that stay.
+template <class S> void WorldEngine<S>::forget_places(bool other_fixed) {
+  slots_.clear();
+  const auto forget = [&](const BodySet<S>& bodies, const JointSet<S>& joints) {
+    for (const BodyState<S>& body : bodies.states) {
+      locations_[body.slot] = Location{};
+      slots_.push_back(body.slot);
+    }
+    for (const JointState<S>& joint : joints.states) joint_locations_[joint.slot] = Location{};
+  };
+  if (other_fixed) forget(*state_.fixed, {});
+  forget(state_.awake, state_.joints);
+  for (const std::uint32_t i : other_islands_) {
+    if (i >= state_.frozen.size()) continue;
+    forget(state_.frozen[i]->bodies, state_.frozen[i]->joints);
+    count_names(*state_.frozen[i], ~0u);
+  }
+}
+
+/// Of the same in the new state; the broad phase changes only where a body differs from what it knew.
+template <class S> void WorldEngine<S>::renew_places(bool other_fixed) {
+  if (locations_.size() < state_.body_slots.entries().size()) {
+    locations_.resize(state_.body_slots.entries().size());
+    named_.resize(locations_.size());
+  }
+  if (joint_locations_.size() < state_.joint_slots.entries().size())
+    joint_locations_.resize(state_.joint_slots.entries().size());
   const auto take = [&](const BodySet<S>& set, std::uint32_t name, bool awake) {
     relabel(set, name, 0);
     for (std::size_t i = 0; i < set.states.size(); ++i) proxies_.place(set.states[i], set.properties[i], awake);
   };
-  take(state_.fixed, Location::kFixed, false);
+  if (other_fixed) take(*state_.fixed, Location::kFixed, false);
   take(state_.awake, Location::kAwake, true);
   relabel_joints(state_.joints, Location::kAwake, 0);
-  for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) {
+  for (const std::uint32_t i : other_islands_) {
+    if (i >= state_.frozen.size()) continue;
     take(state_.frozen[i]->bodies, i, false);
     relabel_joints(state_.frozen[i]->joints, i, 0);
+    count_names(*state_.frozen[i], 1);
   }
-  for (std::uint32_t slot = 0; slot < proxies_.slots(); ++slot) {
-    if (slot >= locations_.size() || locations_[slot].set == Location::kNone) proxies_.remove(slot);
+  for (const std::uint32_t slot : slots_) {
+    if (locations_[slot].set == Location::kNone) proxies_.remove(slot);
   }
 }
 
@@ -107,7 +158,7 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
     auto island = std::make_shared<FrozenIsland<S>>();
     FrozenIsland<S>::sections(read_section, *island);
     island->hash = detail::hash_island(*island);
-    next.frozen.push_back(island);
+    next.frozen.push_back(std::move(island));
   }
   if (reader.ok()) {
     if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);

@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "isostep/core/paged_array.hpp"
+#include "isostep/core/shared.hpp"
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/contact.hpp"
@@ -87,26 +90,41 @@ template <class S> struct FrozenIsland {
   }
 };
 
+/// Shared a page at a time, for there may be more of them than bodies awake.
+template <class S> using FrozenIslands = PagedArray<std::shared_ptr<const FrozenIsland<S>>, 256>;
+
 template <class S> struct WorldState {
   Settings<S> settings;
   std::uint64_t tick = 0;  // steps taken
   SlotMap body_slots, shape_slots, joint_slots;
-  std::vector<ShapeRecord> shapes;  // by slot
-  std::vector<Child<S>> children;   // the shapes' pool
-  BodySet<S> fixed;
+  // What only commands change: copies have it in common until one of them does.
+  Shared<std::vector<ShapeRecord>> shapes;  // by slot
+  Shared<std::vector<Child<S>>> children;   // the shapes' pool
+  Shared<BodySet<S>> fixed;
   BodySet<S> awake;
   std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
   std::vector<PendingForce<S>> forces;
   std::vector<SensorOverlap> overlaps;
-  std::vector<std::shared_ptr<const FrozenIsland<S>>> frozen;
+  FrozenIslands<S> frozen;
 
-  /// The arrays that are hashed and written whole: visit("name", array) in a fixed order.
+  /// The arrays that are hashed and written whole: visit("name", array) in a fixed order, the shared ones first.
   template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
-    visit("shapes", self.shapes);
-    visit("children", self.children);
-    visit("fixed", self.fixed.states);
-    visit("fixed_properties", self.fixed.properties);
+    if constexpr (std::is_const_v<std::remove_reference_t<Self>>) {
+      visit("shapes", *self.shapes);
+      visit("children", *self.children);
+      visit("fixed", self.fixed->states);
+      visit("fixed_properties", self.fixed->properties);
+    } else {
+      visit("shapes", self.shapes.change());
+      visit("children", self.children.change());
+      visit("fixed", self.fixed.change().states);
+      visit("fixed_properties", self.fixed.change().properties);
+    }
+    own_sections(visit, self);
+  }
+  /// Those that every copy has for itself.
+  template <class Visitor, class Self> static void own_sections(Visitor&& visit, Self&& self) {
     visit("bodies", self.awake.states);
     visit("properties", self.awake.properties);
     visit("contacts", self.contacts);

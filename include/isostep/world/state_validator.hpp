@@ -25,7 +25,7 @@ template <class S> class StateValidator {
     type_of_body_.assign(set_of_body_.size(), BodyType::fixed);
     joint_met_.assign(state_.joint_slots.entries().size(), 0);
     if (const char* rule = shapes()) return rule;
-    if (const char* rule = bodies(state_.fixed, kFixed)) return rule;
+    if (const char* rule = bodies(*state_.fixed, kFixed)) return rule;
     if (const char* rule = bodies(state_.awake, kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) {
       if (const char* rule = bodies(state_.frozen[i]->bodies, i)) return rule;
@@ -53,17 +53,17 @@ template <class S> class StateValidator {
 
   /// The taken shapes' parts fill the pool without gap or overlap.
   const char* shapes() const {
-    if (state_.shapes.size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
-    std::vector<std::uint8_t> used(state_.children.size(), 0);
+    if (state_.shapes->size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
+    std::vector<std::uint8_t> used(state_.children->size(), 0);
     std::size_t total = 0;
-    for (std::uint32_t i = 0; i < state_.shapes.size(); ++i) {
-      const ShapeRecord& shape = state_.shapes[i];
+    for (std::uint32_t i = 0; i < state_.shapes->size(); ++i) {
+      const ShapeRecord& shape = (*state_.shapes)[i];
       if (!state_.shape_slots.is_taken(i)) {
         if (shape.first_child != 0 || shape.child_count != 0) return "a free shape has no parts";
         continue;
       }
-      if (shape.first_child > state_.children.size() ||
-          shape.child_count > state_.children.size() - shape.first_child || shape.child_count > detail::kMaxChildren) {
+      if (shape.first_child > state_.children->size() ||
+          shape.child_count > state_.children->size() - shape.first_child || shape.child_count > detail::kMaxChildren) {
         return "a shape's parts lie outside the pool";
       }
       for (std::uint32_t c = 0; c < shape.child_count; ++c) {
@@ -72,10 +72,10 @@ template <class S> class StateValidator {
       total += shape.child_count;
       if (validate(parts_of(i)) != ShapeFault::none) return "a shape is not valid";
     }
-    return total == state_.children.size() ? nullptr : "a part belongs to no shape";
+    return total == state_.children->size() ? nullptr : "a part belongs to no shape";
   }
   std::span<const Child<S>> parts_of(std::uint32_t shape) const {
-    return {state_.children.data() + state_.shapes[shape].first_child, state_.shapes[shape].child_count};
+    return {state_.children->data() + (*state_.shapes)[shape].first_child, (*state_.shapes)[shape].child_count};
   }
 
   const char* bodies(const BodySet<S>& set, std::uint32_t name) {
@@ -101,7 +101,7 @@ template <class S> class StateValidator {
       return "a body's type does not fit its set";
     }
     if ((p.flags & ~kKnown) != 0) return "a body has an unknown flag";
-    if (p.shape >= state_.shapes.size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
+    if (p.shape >= state_.shapes->size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
     if (!detail::is_unit<S>(p.principal) || !is_finite(p.local_centre) ||
         !detail::within(p.local_centre, Limits<S>::extent())) {
       return "a body's centre or axes are out of range";
@@ -142,14 +142,16 @@ template <class S> class StateValidator {
 
   std::uint32_t parts_of_body(std::uint32_t slot) const {
     const std::uint32_t set = set_of_body_[slot];
-    const BodySet<S>& bodies = set == kFixed ? state_.fixed : set == kAwake ? state_.awake : state_.frozen[set]->bodies;
+    const BodySet<S>& bodies = set == kFixed   ? *state_.fixed
+                               : set == kAwake ? state_.awake
+                                               : state_.frozen[set]->bodies;
     std::size_t low = 0, high = bodies.states.size();
     while (high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       if (slot < bodies.states[middle].slot) high = middle;
       else low = middle;
     }
-    return state_.shapes[bodies.properties[low].shape].child_count;
+    return (*state_.shapes)[bodies.properties[low].shape].child_count;
   }
   /// A link of set `name` ties no body of another island, and at least one of its own.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {

@@ -93,6 +93,8 @@ template <class S> class World {
   // Bodies.
   BodyId create(const BodyDefinition<S>& definition);
   bool destroy(BodyId body);
+  /// The same as one by one, in this order, for the price of one: a pass over the awake. Answers how many there were.
+  std::size_t destroy(std::span<const BodyId> bodies);
   bool wake(BodyId body);
   bool set_pose(BodyId body, const Pose<S>& pose);
   bool set_velocity(BodyId body, Vec3<S> linear, Vec3<S> angular);
@@ -167,7 +169,8 @@ template <class S> class World {
     ~Snapshot();
     Snapshot(Snapshot&& other) noexcept;
     Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds [bytes]; frozen islands, which are shared, not counted.
+    /// Size of what it holds for itself [bytes]. Not counted: frozen islands, fixed bodies, shapes and tables of slots,
+    /// which it shares with the world and other snapshots until they change.
     std::size_t bytes() const;
 
    private:

@@ -10,6 +10,7 @@
 #include "isostep/world/engine_bodies.inl"
 #include "isostep/world/engine_commands.inl"
 #include "isostep/world/engine_contacts.inl"
+#include "isostep/world/engine_destroy.inl"
 #include "isostep/world/engine_joint_commands.inl"
 #include "isostep/world/engine_queries.inl"
 #include "isostep/world/engine_sleep.inl"
@@ -95,6 +96,15 @@ template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) 
   return detail::run(*engine_, CreateBody<S>{definition});
 }
 template <class S> bool World<S>::destroy(BodyId body) { return detail::run(*engine_, DestroyBody{body}); }
+template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies) {
+  const FloatEnvironment environment;
+  engine_->fault_ = Fault::none;
+  return engine_->destroy_all(bodies, [&](const DestroyBody& command) {
+    if (engine_->tape_ == nullptr) return;
+    Writer writer(*engine_->tape_);
+    write_command<S>(writer, command);
+  });
+}
 template <class S> bool World<S>::wake(BodyId body) { return detail::run(*engine_, WakeBody{body}); }
 template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) {
   return detail::run(*engine_, SetPose<S>{body, pose});
@@ -232,7 +242,7 @@ template <class S> std::vector<JointId> World<S>::joints() const {
 template <class S> WorldCounts World<S>::counts() const {
   const WorldState<S>& state = engine_->state_;
   WorldCounts counts = {};
-  counts.fixed = static_cast<std::uint32_t>(state.fixed.states.size());
+  counts.fixed = static_cast<std::uint32_t>(state.fixed->states.size());
   counts.awake = static_cast<std::uint32_t>(state.awake.states.size());
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   for (const Contact<S>& contact : state.contacts) counts.points += contact.count;
@@ -282,11 +292,11 @@ template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = def
 template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
 template <class S> std::size_t World<S>::Snapshot::bytes() const {
   std::size_t total = sizeof(WorldState<S>);
-  WorldState<S>::sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); }, *state_);
-  for (const SlotMap* slots : {&state_->body_slots, &state_->shape_slots, &state_->joint_slots}) {
-    total += slots->entries().size() * sizeof(SlotEntry);
-  }
-  return total + state_->frozen.size() * sizeof(state_->frozen[0]);
+  WorldState<S>::own_sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); },
+                              *state_);
+  for (const SlotMap* slots : {&state_->body_slots, &state_->shape_slots, &state_->joint_slots})
+    total += slots->entries().pages() * sizeof(void*);
+  return total + state_->frozen.pages() * sizeof(void*);
 }
 template <class S> void World<S>::save(Snapshot& to) const {
   if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();  // moved from: as good as new

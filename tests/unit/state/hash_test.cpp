@@ -41,6 +41,17 @@ TYPED_TEST(HashRecords, FieldByFieldGivesTheHashOfTheMemory) {
   }
 }
 
+TYPED_TEST(HashRecords, PiecesOneAfterAnotherGiveTheHashOfTheWhole) {
+  std::vector<toy::Thing<TypeParam>> things;
+  for (int i = 0; i < 50; ++i) things.push_back(thing<TypeParam>(i));
+  for (std::size_t cut = 0; cut <= things.size(); cut += 7) {
+    HashStream stream;
+    update_records(stream, things.data(), cut);
+    update_records(stream, things.data() + cut, things.size() - cut);
+    EXPECT_EQ(stream.value(), hash_records(things.data(), things.size()));
+  }
+}
+
 TYPED_TEST(HashRecords, EveryBitOfARecordCounts) {
   auto t = thing<TypeParam>(7);
   const std::uint64_t before = hash_records(&t, 1);

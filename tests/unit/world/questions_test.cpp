@@ -29,15 +29,15 @@ template <class S> class WorldQuestions : public ::testing::Test {
       if ((body.filter.category & filter.mask) == 0 || (!filter.sensors && (body.flags & body_flag::kSensor) != 0))
         continue;
       const Transform<S> placed = Transform<S>::of(world.pose(id));
-      const ShapeRecord& shape = world.state().shapes[body.shape];
+      const ShapeRecord& shape = (*world.state().shapes)[body.shape];
       for (std::uint32_t i = 0; i < shape.child_count; ++i) {
-        const Child<S>& child = world.state().children[shape.first_child + i];
+        const Child<S>& child = (*world.state().children)[shape.first_child + i];
         visit(id, child.primitive, compose(placed, Transform<S>::of(child.pose)));
       }
     }
   }
   const BodyProperties<S>& properties(BodyId id) const {
-    const BodySet<S>* sets[] = {&world.state().fixed, &world.state().awake};
+    const BodySet<S>* sets[] = {&*world.state().fixed, &world.state().awake};
     for (const BodySet<S>* set : sets) {
       for (std::size_t i = 0; i < set->states.size(); ++i) {
         if (set->states[i].slot == id.slot) return set->properties[i];
@@ -49,7 +49,7 @@ template <class S> class WorldQuestions : public ::testing::Test {
       }
     }
     ADD_FAILURE() << "a body in no set";
-    return world.state().fixed.properties[0];
+    return world.state().fixed->properties[0];
   }
 
   World<S> world;

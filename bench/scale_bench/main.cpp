@@ -1,0 +1,68 @@
+// isostep_scale_bench: what a body costs among 100 and among 50 000, and what sleepers cost those who are awake.
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "scale.hpp"
+
+namespace isostep::bench {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> parts = {"scale", "sleepers"};
+  std::string tsv;
+  ScaleOptions options;
+};
+
+int run(const Arguments& arguments) {
+  const auto wants = [&](const char* part) {
+    return std::count(arguments.parts.begin(), arguments.parts.end(), std::string(part)) != 0;
+  };
+  if (wants("scale")) {
+    const std::vector<ScaleRow> rows = measure_scale(arguments.options);
+    std::printf("Nanoseconds a body and step, %s:\n\n%s\n", arguments.options.scalar.c_str(), table_of(rows).c_str());
+    std::fflush(stdout);
+    if (!arguments.tsv.empty()) {
+      std::FILE* file = std::fopen(arguments.tsv.c_str(), "wb");
+      const bool written = file != nullptr && std::fputs(tsv_of(rows).c_str(), file) >= 0;
+      if (file == nullptr || std::fclose(file) != 0 || !written) {
+        std::fprintf(stderr, "cannot write %s\n", arguments.tsv.c_str());
+        return 74;
+      }
+    }
+  }
+  if (wants("sleepers")) {
+    const std::vector<SleeperRow> rows = measure_sleepers(arguments.options);
+    std::printf("Sleepers, %s:\n\n%s", arguments.options.scalar.c_str(), table_of(rows).c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace isostep::bench
+
+int main(int count, char** words) {
+  isostep::bench::Arguments arguments;
+  isostep::bench::ScaleOptions& options = arguments.options;
+  CLI::App app("What a body costs among 100 and among 50 000, and what sleepers cost those who are awake");
+  app.add_option("--parts", arguments.parts, "scale, sleepers, separated by commas")->delimiter(',');
+  app.add_option("--scalar", options.scalar, "float, double, q16.16 or q32.32");
+  app.add_option("--scenes", options.scenes, "pyramid, pile, separated by commas")->delimiter(',');
+  app.add_option("--sizes", options.sizes, "Bodies, separated by commas")->delimiter(',')->check(CLI::Range(1, 200000));
+  app.add_option("--settle", options.settle, "Frames before the first that counts")->check(CLI::Range(0, 100000));
+  app.add_option("--frames", options.frames, "Frames that count; times are medians over them")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--sleeping", options.sleeping, "Sleepers, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--column", options.column, "Sleepers an island")->check(CLI::Range(1, 20));
+  app.add_option("--tsv", arguments.tsv, "Write the stages' times to this file, for the chart");
+  CLI11_PARSE(app, count, words);
+  try {
+    return isostep::bench::run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 70;
+  }
+}
