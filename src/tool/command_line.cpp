@@ -71,7 +71,9 @@ class CommandLine {
     command->add_option("--solver", run_.solver, "how contacts are solved")
         ->check(CLI::IsMember({"soft_step"}))
         ->capture_default_str();
-    command->add_option("--threads", run_.threads, "only 1")->check(CLI::Range(1, 1))->capture_default_str();
+    command->add_option("--threads", run_.threads, "that share the work; never changes a bit")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
     command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
         ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2", "avx512"}))
         ->capture_default_str();

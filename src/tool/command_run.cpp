@@ -10,6 +10,7 @@
 #include "run_report.hpp"
 #include "scene_game.hpp"
 #include "scenes/measure.hpp"
+#include "threads/tbb_runner.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -63,6 +64,7 @@ template <class S> class Run {
               options.substeps > 0 ? options.substeps : kDefaultSubsteps) {
     if (!options.load.empty()) load_snapshot(game_.world, options);
     use_lanes(game_.world, simd_named(options.simd));
+    if (options.threads > 1) game_.world.use_threads(threads_.emplace(options.threads).runner());
   }
 
   int run() {
@@ -86,9 +88,9 @@ template <class S> class Run {
   void step(int frame, bool last_second) {
     World<S>& world = game_.world;
     scenes::before_step(game_.script, world);
-    const double before = thread_milliseconds();
+    const double before = now();
     const StepReport report = world.step();
-    ms_.push_back(thread_milliseconds() - before);
+    ms_.push_back(now() - before);
     report_.faults += std::uint64_t{report.clamped_speed} + report.clamped_position + report.stopped;
     if (report_.asleep_at < 0 && world.state().awake.states.empty()) report_.asleep_at = frame;
     observe_joints();
@@ -100,6 +102,8 @@ template <class S> class Run {
     hashes_.push_back(world.hash());
     if (recorder_) expect_written(recorder_->end_frame(hashes_.back()));
   }
+  /// [ms] Of one thread its own time; what several save shows in real time alone.
+  double now() const { return options_.threads > 1 ? real_milliseconds() : thread_milliseconds(); }
   void observe_joints() {
     if (!game_.world.state().joint_slots.entries().empty()) {
       report_.joint_error_max = std::max(report_.joint_error_max, scenes::largest_joint_error(game_.world));
@@ -133,6 +137,7 @@ template <class S> class Run {
     report_.scalar = ScalarTraits<S>::kName;
     report_.solver = solver_name(world.settings().solver);
     report_.simd = world.simd_name();
+    report_.threads = options_.threads;
     report_.substeps = world.settings().substeps;
     report_.frames = static_cast<int>(ms_.size());
     report_.hash = world.hash();
@@ -150,6 +155,7 @@ template <class S> class Run {
   }
 
   const RunOptions& options_;
+  std::optional<threads::TbbRunner> threads_;  // outlives the world
   const scenes::Scene& scene_;
   SceneGame<S> game_;
   std::optional<ReplayFile> file_;

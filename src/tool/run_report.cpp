@@ -81,6 +81,7 @@ std::string table_of(const RunReport& r) {
   std::string text;
   text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), r.solver.c_str(),
                r.substeps, r.simd.c_str(), r.frames);
+  if (r.threads > 1) text += line("threads       %d; times are real, not of one thread", r.threads);
   text += line("hash          %s", hex(r.hash).c_str());
   text += line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f",
                r.ms.median, r.ms.mean, r.ms.p99, r.ms.max, r.ms.median_settled);

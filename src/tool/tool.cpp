@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <ctime>
 
@@ -29,6 +30,11 @@ double thread_milliseconds() {
 #else
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 #endif
+}
+
+double real_milliseconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
 }
 
 std::string hex(std::uint64_t hash) { return std::string(ShortText<16>().append_hex(hash).view()); }

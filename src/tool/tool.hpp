@@ -66,6 +66,8 @@ void stop_if_interrupted();
 
 /// CPU time of this thread [ms].
 double thread_milliseconds();
+/// [ms] since some moment.
+double real_milliseconds();
 
 std::string hex(std::uint64_t hash);
 

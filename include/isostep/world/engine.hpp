@@ -112,6 +112,7 @@ template <class S> class WorldEngine {
   Fault fault_ = Fault::none;
   const ContactKernels<S>* kernels_;
   const TreeKernels<S>* tree_kernels_ = tree_kernels<S>(Simd::best);
+  TaskRunner runner_;
   std::vector<std::uint8_t>* tape_ = nullptr;
   std::vector<std::uint64_t>* trace_ = nullptr;
   std::uint64_t loads_ = 0;

@@ -86,9 +86,17 @@ template <class S> void WorldEngine<S>::prepare_joints() {
 template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
   joint_constraints_.resize(state_.joints.states.size());
   step_impulses_.resize(state_.contacts.size());
-  return {state_.awake.states, state_.awake.properties, accelerations_,     state_.contacts,
-          geometry_,           step_impulses_,          joint_constraints_, state_.settings.gravity,
-          state_.settings.hz,  state_.settings.substeps};
+  return {state_.awake.states,
+          state_.awake.properties,
+          accelerations_,
+          state_.contacts,
+          geometry_,
+          step_impulses_,
+          joint_constraints_,
+          state_.settings.gravity,
+          state_.settings.hz,
+          state_.settings.substeps,
+          runner_};
 }
 
 template <class S> void WorldEngine<S>::finalise_bodies() {

@@ -10,6 +10,7 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/task_runner.hpp"
 #include "isostep/dynamics/solvers/simd.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
@@ -77,6 +78,9 @@ template <class S> class World {
   /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
+  /// Threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the
+  /// calling thread. What `runner` points to outlives the world or the next call.
+  void use_threads(const TaskRunner& runner);
 
   // Shapes: shared by the bodies that name them.
   ShapeId add_shape(const Sphere<S>& sphere);

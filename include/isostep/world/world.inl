@@ -51,6 +51,7 @@ template <class S> bool World<S>::use_simd(Simd simd) {
   return kernels != nullptr;
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
+template <class S> void World<S>::use_threads(const TaskRunner& runner) { engine_->runner_ = runner; }
 
 namespace detail {
 /// Executes under a pinned float environment and, when accepted, records.

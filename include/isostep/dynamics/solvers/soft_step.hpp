@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/task_runner.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/colouring.hpp"
 #include "isostep/dynamics/contact.hpp"
@@ -13,6 +14,7 @@
 #include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/dynamics/solvers/pass_plan.hpp"
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {
@@ -40,6 +42,7 @@ template <class S> struct SolverInput {
   Vec3<S> gravity;                       // [m/s^2]
   std::int32_t hz;                       // [1/s] steps
   std::int32_t substeps;
+  TaskRunner runner;  // changes no bit
 };
 
 /// Source:  Catto 2024, Solver2D ("Soft Step"); Macklin et al. 2019, Small Steps in Physics Simulation.
@@ -60,19 +63,67 @@ template <class S> class SoftStep {
   /// Consecutive entries of order_ that one kernel solves.
   struct Run {
     const ContactKernels<S>* kernels;
-    std::uint32_t variant;
+    std::uint32_t variant, colour;
     std::uint32_t first, count;  // in order_
     std::uint32_t first_block, blocks;
     std::size_t offset;  // [bytes] in memory_
   };
+  /// Of order_.
+  struct Contacts {
+    std::uint32_t first;
+    std::int32_t count;
+  };
   struct alignas(64) Chunk {
     unsigned char bytes[64];
   };
+  /// What the pieces of one stage do.
+  enum class Work : std::uint32_t {
+    prepare,
+    integrate_velocities,
+    warm_start_joints,
+    warm_start,
+    solve_joints,
+    solve,
+    integrate_positions,
+    relax_joints,
+    relax,
+    store_joints,
+    restitute,
+    store,
+  };
+  struct Stage {
+    Work work;
+    std::uint32_t of_plan;  // the stage of contact_plan_ or bodies' pieces
+  };
+  /// What every piece reads.
+  struct Job {
+    SoftStep* solver;
+    const SolverInput<S>& input;
+    ContactPass<S> pass;
+    JointStep<S> joints;
+  };
 
-  BlockRun<S> blocks_of(const Run& run);
-  void add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t first, std::uint32_t count);
-  void integrate_velocities(const SolverInput<S>& input);
-  void integrate_positions(const SolverInput<S>& input);
+  // soft_step.inl
+  void add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour, std::uint32_t first,
+               std::uint32_t count);
+  void plan_passes(const TaskRunner& runner);
+  std::size_t place_of(const Run& run, std::uint32_t block) const;
+  static Contacts contacts_of(const Run& run, const PassPlan::Slice& slice);
+  BlockRun<S> blocks_of(const PassPlan::Slice& slice);
+  void prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
+  void store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
+
+  // soft_step_stages.inl
+  void begin_stages() { stages_.clear(), pieces_.clear(); }
+  void add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces);
+  void add_stages(Work work, const PassPlan& plan);
+  void run(const SolverInput<S>& input);
+  static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
+  void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
+  void do_joints(const Job& job, Work work, std::uint32_t piece);
+  void do_bodies(const Job& job, Work work, std::uint32_t piece);
+  void integrate_velocities(const SolverInput<S>& input, std::size_t first, std::size_t end);
+  void integrate_positions(const SolverInput<S>& input, std::size_t first, std::size_t end);
 
   SolverBodies<S> bodies_;
   JointTrees<S> joint_trees_;
@@ -86,6 +137,12 @@ template <class S> class SoftStep {
   std::vector<BlockBodies> block_bodies_;
   std::uint32_t block_count_ = 0;
   std::size_t memory_bytes_ = 0;
+  TaskRunner runner_;  // the input's, or none where the work is too little to share
+  PassPlan colours_;   // colour after colour
+  PassPlan all_;       // every block at once, for what touches no body
+  std::uint32_t body_pieces_ = 1;
+  std::vector<Stage> stages_;
+  std::vector<std::uint32_t> pieces_;  // of each stage
 };
 
 }  // namespace isostep

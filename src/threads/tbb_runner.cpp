@@ -1,0 +1,34 @@
+// An arena of oneTBB as a TaskRunner.
+// SPDX-License-Identifier: MIT
+#include "tbb_runner.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace isostep::threads {
+
+struct TbbRunner::Arena {
+  explicit Arena(int threads)
+      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
+
+  tbb::global_control allowed;  // by itself oneTBB makes no more threads than there are cores
+  tbb::task_arena arena;
+};
+
+TbbRunner::TbbRunner(int threads)
+    : arena_(std::make_unique<Arena>(threads > 0 ? threads : tbb::info::default_concurrency())) {}
+TbbRunner::~TbbRunner() = default;
+
+TaskRunner TbbRunner::runner() {
+  const auto run = [](void* user, std::int32_t copies, TaskRunner::Task task, void* data) {
+    static_cast<Arena*>(user)->arena.execute([=] {
+      tbb::parallel_for(
+          0, copies, 1, [=](int) { task(data); }, tbb::simple_partitioner());
+    });
+  };
+  return {run, arena_.get(), arena_->arena.max_concurrency()};
+}
+
+}  // namespace isostep::threads
