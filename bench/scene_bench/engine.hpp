@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "clock.hpp"
 #include "isostep/math/vec3.hpp"
 #include "scenes/measure.hpp"
 #include "scenes/scene.hpp"
@@ -19,8 +20,8 @@ struct Place {
   bool dynamic;
 };
 
-/// Built by a Maker, then before_step and step once a frame; only `step` is timed. Measures are in double and cheap but
-/// for `overlap`, which is asked for once, at the end.
+/// Built by a Maker, then before_step and a step once a frame; only steps are timed. Measures are in double and cheap
+/// but for `overlap`, which is asked for once, at the end.
 class Engine {
  public:
   Engine() = default;
@@ -31,6 +32,12 @@ class Engine {
   /// What happens between frames: kinematic bodies move on, and where `script` is set the scene's script acts.
   virtual void before_step(int frame, bool script) = 0;
   virtual void step() = 0;
+  /// Takes steps and says the CPU time [ms] of all of them: this thread's, or that of the process where they are taken.
+  virtual double timed_steps(int count) {
+    const double start = thread_milliseconds();
+    for (int i = 0; i < count; ++i) step();
+    return thread_milliseconds() - start;
+  }
 
   virtual bool all_asleep() const = 0;
   /// Steps so far that had to mend something, or whose numbers are no numbers.
@@ -48,14 +55,16 @@ struct EngineOptions {
 };
 
 struct Maker {
-  const char* name;  // a scalar's name, "bullet", "ode"
+  const char* name;  // a scalar's name, "bullet", "rapier-simd"
   bool ours;
   std::unique_ptr<Engine> (*make)(const scenes::Scene& scene, const EngineOptions& options);
 };
-/// Every engine of this build: our scalars, then peers.
+/// Every engine that can be run: our scalars, then peers.
 std::vector<Maker> makers();
 
 std::unique_ptr<Engine> make_bullet(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const scenes::Scene& scene, const EngineOptions& options);
+/// Of the packages that npm has brought.
+std::vector<Maker> rapier_makers();
 
 }  // namespace isostep::bench

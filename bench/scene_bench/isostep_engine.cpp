@@ -57,6 +57,9 @@ std::vector<Maker> makers() {
 #define ISO_MAKER(S) all.push_back({ScalarTraits<S>::kName, true, make_ours<S>});
   ISO_FOR_EACH_SCALAR(ISO_MAKER)
 #undef ISO_MAKER
+#if defined(ISOSTEP_BENCH_RAPIER)
+  for (const Maker& maker : rapier_makers()) all.push_back(maker);
+#endif
 #if defined(ISOSTEP_BENCH_BULLET)
   all.push_back({"bullet", false, make_bullet});
 #endif

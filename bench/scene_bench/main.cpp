@@ -1,8 +1,11 @@
-// isostep_scene_bench: the benchmark scenes in every scalar, beside Bullet and ODE where installed, in one run.
+// isostep_scene_bench: the benchmark scenes in every scalar, beside the peers that are there, in one run.
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <map>
 
 #include "report.hpp"
 #include "scenes/named.hpp"
@@ -11,69 +14,128 @@ namespace isostep::bench {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> scenes = {"S1", "S1x10", "S2", "S3", "S4", "S4s", "S5", "S6", "S6v", "S7", "S8", "S9"};
+  std::vector<std::string> scenes;   // none: all of the set
   std::vector<std::string> engines;  // none: all
-  std::string json;
-  bool no_rollback = false;
+  std::vector<std::string> memory = {"S5"};
+  std::string results;
+  bool rollback = false;
   RaceOptions race;
+
+  bool whole() const { return scenes.empty() && engines.empty() && race.engine.substeps == 0 && race.frames == 0; }
 };
 
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::count(names.begin(), names.end(), name) != 0;
+}
+
+bool holds(const std::vector<Maker>& makers, const std::string& name) {
+  return std::any_of(makers.begin(), makers.end(), [&](const Maker& maker) { return name == maker.name; });
+}
+
 std::vector<Maker> chosen_makers(const Arguments& arguments) {
+  const std::vector<Maker> all = makers();
   std::vector<Maker> chosen;
-  for (const Maker& maker : makers()) {
-    const auto& names = arguments.engines;
-    if (names.empty() || std::count(names.begin(), names.end(), std::string(maker.name)) != 0) chosen.push_back(maker);
+  for (const std::string& name : arguments.engines) {
+    if (!holds(all, name)) throw CLI::ValidationError("--engines", "no engine " + name + " here");
+  }
+  for (const Maker& maker : all) {
+    if (arguments.engines.empty() || holds(arguments.engines, maker.name)) chosen.push_back(maker);
   }
   return chosen;
 }
 
+std::vector<std::string> chosen_scenes(const Arguments& arguments) {
+  if (!arguments.scenes.empty()) return arguments.scenes;
+  return {"S1", "S1x10", "S2", "S3", "S4", "S4s", "S5", "S6", "S6v", "S7", "S8", "S9"};
+}
+void check_name(const std::string& name) {
+  const std::span<const scenes::NamedScene> all = scenes::named_scenes();
+  if (std::none_of(all.begin(), all.end(), [&](const scenes::NamedScene& scene) { return name == scene.name; })) {
+    throw CLI::ValidationError("--scenes", "no scene " + name);
+  }
+}
+scenes::Scene scene_of(const std::string& name, const Arguments& arguments) {
+  std::optional<scenes::Scene> scene = scenes::find_scene(name);
+  if (arguments.race.frames > 0) scene->frames = arguments.race.frames;
+  return std::move(*scene);
+}
+
 void say_absent_peers() {
-#if !defined(ISOSTEP_BENCH_BULLET)
-  std::puts("Bullet: not built in (libbullet-dev was not found), left out.\n");
-#endif
-#if !defined(ISOSTEP_BENCH_ODE)
-  std::puts("ODE: not built in (libode-dev was not found), left out.\n");
-#endif
-}
-
-int write_json(const Arguments& arguments, const std::string& text) {
-  if (arguments.json.empty()) return 0;
-  std::FILE* file = std::fopen(arguments.json.c_str(), "wb");
-  const bool written = file != nullptr && std::fputs(text.c_str(), file) >= 0;
-  if (file == nullptr || std::fclose(file) != 0 || !written) {
-    std::fprintf(stderr, "cannot write %s\n", arguments.json.c_str());
-    return 74;
+  constexpr std::pair<const char*, const char*> kPeers[] = {
+      {"rapier-simd", "Rapier SIMD"}, {"rapier-det", "Rapier deterministic"}, {"bullet", "Bullet"}, {"ode", "ODE"}};
+  const std::vector<Maker> all = makers();
+  for (const auto& [name, title] : kPeers) {
+    if (!holds(all, name)) std::fprintf(stderr, "%s is not there, left out\n", title);
   }
-  return 0;
 }
 
-int run(const Arguments& arguments) {
-  const std::vector<Maker> engines = chosen_makers(arguments);
-  std::vector<Row> rows;
-  say_absent_peers();
-  std::fputs(heading().c_str(), stdout);
-  for (const std::string& name : arguments.scenes) {
-    const std::optional<scenes::Scene> scene = scenes::find_scene(name);
-    if (!scene) {
-      std::fprintf(stderr, "no scene %s\n", name.c_str());
-      return 64;
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[16] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+  return text;
+}
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+}
+/// What is not finished, or of some scenes or engines, overwrites no run of all, and has no chart.
+void write_results(const Arguments& arguments, const Report& report, bool finished) {
+  if (arguments.results.empty()) return;
+  const bool whole = finished && arguments.whole();
+  const std::string scenes = arguments.results + (whole ? "/scenes" : "/scenes-part");
+  write(scenes + ".json", json_of(report));
+  write(scenes + ".md", tables_of(report));
+  if (whole) write(arguments.results + "/speed_accuracy.tsv", chart_points(report));
+}
+
+using Memories = std::map<std::pair<std::string, std::string>, Memory>;  // by scene and engine
+
+/// Before anything else, while this process is small.
+Memories measure_memories(const Arguments& arguments, const std::vector<Maker>& engines) {
+  Memories memories;
+  for (const std::string& name : chosen_scenes(arguments)) {
+    if (!holds(arguments.memory, name)) continue;
+    std::fprintf(stderr, "%s: memory\n", name.c_str());
+    const scenes::Scene scene = scene_of(name, arguments);
+    for (const Maker& maker : engines) {
+      memories[{name, maker.name}] = measure_memory(scene, maker, arguments.race.engine);
     }
-    const std::vector<Row> here = race(*scene, engines, arguments.race);
-    std::fputs(table_of(here).c_str(), stdout);
-    std::fflush(stdout);
-    rows.insert(rows.end(), here.begin(), here.end());
   }
-  std::vector<RollbackRow> rollback;
-  if (!arguments.no_rollback) {
+  return memories;
+}
+
+void run(const Arguments& arguments) {
+  const std::vector<Maker> engines = chosen_makers(arguments);
+  for (const std::string& name : chosen_scenes(arguments)) check_name(name);
+  say_absent_peers();
+  Memories memories = measure_memories(arguments, engines);
+  Report report = {today(), processor(), arguments.race, {}, {}};
+  for (const std::string& name : chosen_scenes(arguments)) {
+    for (Row& row : race(scene_of(name, arguments), engines, arguments.race)) {
+      row.memory = memories[{row.scene, row.engine}];
+      report.rows.push_back(std::move(row));
+    }
+    write_results(arguments, report, false);
+  }
+  if (arguments.rollback) {
     std::vector<std::string> scalars;
     for (const Maker& maker : engines) scalars.push_back(maker.name);
     for (const char* name : {"S4", "S9"}) {
-      const std::vector<RollbackRow> here = measure_rollback(name, scalars);
-      rollback.insert(rollback.end(), here.begin(), here.end());
+      for (RollbackRow& row : measure_rollback(name, scalars)) report.rollback.push_back(std::move(row));
     }
-    std::printf("\nRollback, S4 and S9 as they are after the frames of a run:\n\n%s", table_of(rollback).c_str());
   }
-  return write_json(arguments, json_of(rows, rollback, arguments.race));
+  write_results(arguments, report, true);
+  std::fputs(tables_of(report).c_str(), stdout);
 }
 
 }  // namespace
@@ -81,20 +143,28 @@ int run(const Arguments& arguments) {
 
 int main(int count, char** words) {
   isostep::bench::Arguments arguments;
-  CLI::App app("The benchmark scenes in every scalar, beside Bullet and ODE");
+  CLI::App app("The benchmark scenes in every scalar, beside Rapier, Bullet and ODE");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas")->delimiter(',');
-  app.add_option("--engines", arguments.engines, "Scalars, bullet, ode, separated by commas; none: all")
+  app.add_option("--engines", arguments.engines,
+                 "Scalars, rapier-simd, rapier-det, bullet, ode, separated by commas; none: all")
       ->delimiter(',');
-  app.add_option("--rounds", arguments.race.rounds, "Runs of each scene; times are medians over them")
+  app.add_option("--rounds", arguments.race.rounds, "Runs of each scene; times are the lowest of them")
       ->check(CLI::Range(1, 99));
+  app.add_option("--frames", arguments.race.frames, "Of a run; 0: as many as the scene says")
+      ->check(CLI::Range(0, 100000));
   app.add_option("--block", arguments.race.block, "Frames an engine runs before the next has its turn")
       ->check(CLI::Range(1, 1000));
   app.add_option("--substeps", arguments.race.engine.substeps, "Of ours; 0: the default")->check(CLI::Range(0, 64));
-  app.add_flag("--no-rollback", arguments.no_rollback, "Leave the rollback table out");
-  app.add_option("--json", arguments.json, "Write every figure to this file");
-  CLI11_PARSE(app, count, words);
+  app.add_option("--memory", arguments.memory, "Scenes whose peak memory is measured too")->delimiter(',');
+  app.add_flag("--rollback", arguments.rollback, "The rollback table too");
+  app.add_option("--results", arguments.results, "Directory for scenes.json, scenes.md and the points of the chart")
+      ->check(CLI::ExistingDirectory);
   try {
-    return isostep::bench::run(arguments);
+    app.parse(count, words);
+    isostep::bench::run(arguments);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 64;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 70;

@@ -29,6 +29,9 @@ struct PeerJoint {
   int a, b;             // -1: the world
   Vec3<double> anchor;  // [m] world, at the start
 };
+struct PeerAnchors {
+  Vec3<double> on_a, on_b;  // [m] in the bodies' frames
+};
 /// How a peer says where a body is.
 struct Motion {
   Vec3<double> position, velocity, spin;
@@ -52,6 +55,7 @@ class Peer : public Engine {
  protected:
   const std::vector<PeerBody>& bodies() const { return bodies_; }
   const std::vector<PeerJoint>& joints() const { return joints_; }
+  const std::vector<PeerAnchors>& anchors() const { return anchors_; }  // of the joints
   Vec3<double> gravity() const { return gravity_; }
   bool allow_sleep() const { return scene_.allow_sleep; }
 
@@ -62,15 +66,12 @@ class Peer : public Engine {
   virtual void drive(int frame) = 0;
 
  private:
-  struct Anchors {
-    Vec3<double> on_a, on_b;  // [m] in the bodies' frames
-  };
   Vec3<double> anchor_now(int body, Vec3<double> local) const;
 
   scenes::Scene scene_;  // with the bodies of now
   std::vector<PeerBody> bodies_;
   std::vector<PeerJoint> joints_;
-  std::vector<Anchors> anchors_;
+  std::vector<PeerAnchors> anchors_;
   Vec3<double> gravity_;
 };
 

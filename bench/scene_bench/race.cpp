@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "clock.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -28,9 +27,7 @@ double square_across(Vec3<double> v) { return v.x * v.x + v.z * v.z; }
 void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
   for (int frame = from; frame < to; ++frame) {
     lane.engine->before_step(frame, true);
-    const double start = thread_milliseconds();
-    lane.engine->step();
-    lane.times.push_back(thread_milliseconds() - start);
+    lane.times.push_back(lane.engine->timed_steps(1));
     if (!scene.joints.empty()) lane.joint_worst = std::max(lane.joint_worst, lane.engine->joint_error());
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
     if (frame < scene.frames - kEnergyFrames) continue;
@@ -60,12 +57,9 @@ void measure_places(const Lane& lane, const scenes::Scene& scene, Row& row) {
 /// Too short for a clock, so a thousand at once.
 double time_asleep(Engine& engine) {
   constexpr int kSteps = 1000;
-  const auto thousand = [&] {
-    for (int i = 0; i < kSteps; ++i) engine.step();
-  };
-  return median_milliseconds(
-             5, [] {}, thousand) /
-         kSteps;
+  std::vector<double> times;
+  for (int i = 0; i < 5; ++i) times.push_back(engine.timed_steps(kSteps) / kSteps);
+  return median(times);
 }
 
 /// S9 creates bodies inside others; a second without that shows what the solver leaves.
@@ -138,10 +132,10 @@ std::vector<Row> race(const scenes::Scene& scene, const std::vector<Maker>& make
     row.scene = scene.name;
     row.engine = makers[i].name;
     row.ours = makers[i].ours;
-    row.ms = median(times[i].ms);
-    row.p99 = median(times[i].p99);
-    row.max = median(times[i].max);
-    if (!times[i].asleep.empty()) row.asleep_ms = median(times[i].asleep);
+    row.ms = quantile(times[i].ms, 0);
+    row.p99 = quantile(times[i].p99, 0);
+    row.max = quantile(times[i].max, 0);
+    if (!times[i].asleep.empty()) row.asleep_ms = quantile(times[i].asleep, 0);
     judge(row);
   }
   return rows;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine.hpp"
+#include "memory.hpp"
 
 namespace isostep::bench {
 
@@ -10,9 +10,10 @@ namespace isostep::bench {
 struct Row {
   std::string scene, engine, settings;
   bool ours = false;
-  // CPU time of the step, medians over the rounds.
+  // CPU time of the step, the lowest of the rounds.
   double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9: over the whole run
   double asleep_ms = -1;            // [ms] a step with everybody asleep; less than 0: never
+  Memory memory;                    // where asked for
   // Measures, of the first round.
   int faults = 0;
   scenes::Overlap overlap;                // [m] at the end
@@ -31,8 +32,9 @@ struct Row {
 };
 
 struct RaceOptions {
-  int rounds = 3;
+  int rounds = 2;
   int block = 20;  // [frames] an engine runs before the next has its turn
+  int frames = 0;  // of a run; 0: as many as the scene says
   EngineOptions engine;
 };
 

@@ -2,33 +2,22 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
 
-#include <cstdarg>
-#include <cstdio>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+
+#include "compare.hpp"
+#include "dated.hpp"
+#include "text.hpp"
 
 namespace isostep::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string print(const char* format, ...) {
-  char text[512];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
+std::string ratio_text(const Row& row, const std::optional<Fastest>& peer) {
+  if (!peer || shown_ms(row) < 0) return "-";
+  return print("%.2f", shown_ms(row) / peer->ms);
 }
-
-/// Our time over the peer's; nothing when it did not run.
-std::optional<double> ratio(const Row& row, const std::vector<Row>& rows, const char* peer) {
-  for (const Row& other : rows) {
-    if (other.scene == row.scene && other.engine == peer && other.ms > 0) return row.ms / other.ms;
-  }
-  return std::nullopt;
-}
-std::string ratio_text(std::optional<double> value) { return value ? print("%.2f", *value) : "-"; }
 
 bool is(const Row& row, std::initializer_list<const char*> scenes) {
   for (const char* scene : scenes) {
@@ -37,10 +26,12 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
   return false;
 }
 
-std::string overlap_text(const Row& row) {
-  if (is(row, {"S6", "S6v"})) return "- | - | - | -";
-  const scenes::Overlap& o = row.overlap;
-  return print("%.2f | %.3f | %.2f | %u", 1e3 * o.worst, 1e3 * o.mean, 1e3 * o.p99, o.deep);
+/// What the chart shows of a run: the error that its scene is about [m].
+double error_of(const Row& row) {
+  if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
+  if (is(row, {"S4", "S4s", "S5"})) return row.overlap.mean;
+  if (is(row, {"S6", "S6v", "S7"})) return row.joint_worst;
+  return is(row, {"S9"}) ? row.calm.worst : row.overlap.worst;
 }
 
 /// What this scene is about.
@@ -65,79 +56,147 @@ std::string particular(const Row& row) {
   return text.empty() ? "-" : text;
 }
 
-Json json_of(const Row& row, const std::vector<Row>& rows) {
-  const auto optional = [](std::optional<double> value) { return value ? Json(*value) : Json(nullptr); };
-  Json json = {{"scene", row.scene},
-               {"engine", row.engine},
-               {"settings", row.settings},
-               {"failed", row.failed},
-               {"bar", row.bar},
-               {"ms_median", row.ms},
-               {"ms_p99", row.p99},
-               {"ms_max", row.max},
-               {"ratio_bullet", optional(ratio(row, rows, "bullet"))},
-               {"ratio_ode", optional(ratio(row, rows, "ode"))},
-               {"penetration_worst", row.overlap.worst},
-               {"penetration_mean", row.overlap.mean},
-               {"penetration_p99", row.overlap.p99},
-               {"deeper_than_5cm", row.overlap.deep},
-               {"close_pairs", row.overlap.pairs},
-               {"calm_penetration_worst", row.calm.worst},
-               {"kinetic_per_kg", row.kinetic},
-               {"energy_loss_per_kg", row.energy_loss},
-               {"moved", row.moved},
-               {"drift", row.drift},
-               {"drop", row.drop},
-               {"top_error", row.top_error},
-               {"reach_error", row.reach_error},
-               {"joint_error_worst", row.joint_worst},
-               {"joint_error_end", row.joint_end},
-               {"outside", row.outside},
-               {"faults", row.faults},
-               {"asleep_at_s", row.asleep_at >= 0 ? Json(row.asleep_at) : Json(nullptr)},
-               {"asleep_step_ms", row.asleep_ms >= 0 ? Json(row.asleep_ms) : Json(nullptr)}};
-  return json;
+Json positive(double value) { return value >= 0 ? Json(value) : Json(nullptr); }
+
+Json json_of(const Row& row, const FastestPeers& fastest) {
+  const auto ratio = [&](const std::optional<Fastest>& peer) {
+    return peer ? positive(shown_ms(row) / peer->ms) : Json(nullptr);
+  };
+  return {{"scene", row.scene},
+          {"engine", row.engine},
+          {"settings", row.settings},
+          {"failed", row.failed},
+          {"bar", row.bar},
+          {"ms_median", row.ms},
+          {"ms_p99", row.p99},
+          {"ms_max", row.max},
+          {"ratio_fastest_here", ratio(fastest.here)},
+          {"ratio_fastest_dated", ratio(fastest.dated)},
+          {"peak_rss_mb", positive(row.memory.peak)},
+          {"rss_before_mb", positive(row.memory.before)},
+          {"error", error_of(row)},
+          {"penetration_worst", row.overlap.worst},
+          {"penetration_mean", row.overlap.mean},
+          {"penetration_p99", row.overlap.p99},
+          {"deeper_than_5cm", row.overlap.deep},
+          {"close_pairs", row.overlap.pairs},
+          {"calm_penetration_worst", row.calm.worst},
+          {"kinetic_per_kg", row.kinetic},
+          {"energy_loss_per_kg", row.energy_loss},
+          {"moved", row.moved},
+          {"drift", row.drift},
+          {"drop", row.drop},
+          {"top_error", row.top_error},
+          {"reach_error", row.reach_error},
+          {"joint_error_worst", row.joint_worst},
+          {"joint_error_end", row.joint_end},
+          {"outside", row.outside},
+          {"faults", row.faults},
+          {"asleep_at_s", positive(row.asleep_at)},
+          {"asleep_step_ms", positive(row.asleep_ms)}};
 }
+
+Json json_of(const RollbackRow& row) {
+  return {{"scene", row.scene},
+          {"scalar", row.scalar},
+          {"awake", row.awake},
+          {"save_us", row.save_us},
+          {"load_us", row.load_us},
+          {"hash_us", row.hash_us},
+          {"step_ms", row.step_ms},
+          {"eight_frames_ms", row.eight_frames_ms},
+          {"snapshot_bytes", row.snapshot_bytes},
+          {"bytes_per_awake_body", row.bytes_per_awake}};
+}
+
+std::vector<std::string> figures(const Row& row, const FastestPeers& fastest) {
+  std::vector<std::string> line = {row.scene, row.engine, print("%.4f%s", row.ms, row.failed ? " x" : ""),
+                                   print("%.4f", row.p99)};
+  line.push_back(ratio_text(row, fastest.here));
+  line.push_back(ratio_text(row, fastest.dated));
+  const scenes::Overlap& o = row.overlap;
+  const bool collides = !is(row, {"S6", "S6v"});
+  for (const double overlap : {o.worst, o.mean, o.p99}) line.push_back(collides ? print("%.3g", 1e3 * overlap) : "-");
+  line.push_back(collides ? print("%u", o.deep) : "-");
+  line.push_back(print("%.1e", row.kinetic));
+  line.push_back(particular(row));
+  line.push_back(row.bar);
+  return line;
+}
+
+std::string every_figure(const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> cells = {{"scene", "engine", "ms", "p99", "/ here", "/ dated", "worst mm",
+                                                  "mean mm", "p99 mm", "> 5 cm", "J/kg", "of this scene", "bar"}};
+  for (const Row& row : rows) cells.push_back(figures(row, fastest_peers(rows, row.scene)));
+  return markdown(cells);
+}
+
+/// [MB] peak, and before the world was made.
+std::string memory_table(const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> cells = {{"scene", "engine", "peak MB", "before"}};
+  for (const Row& row : rows) {
+    if (row.memory.peak < 0) continue;
+    cells.push_back({row.scene, row.engine, print("%.1f", row.memory.peak), print("%.1f", row.memory.before)});
+  }
+  return cells.size() == 1 ? "" : markdown(cells);
+}
+
+constexpr char kLegend[] =
+    "\nCPU time of a step, median of the settled half (S9: of the run), lowest of the rounds. Bold: the fastest peer. "
+    "In "
+    "brackets: ours as a multiple of it. x: the scene was lost.\n";
+constexpr char kDatedLegend[] =
+    "\\* not run here: its ratio to Rapier SIMD in the run of bench/scene_bench/dated.cpp, times Rapier SIMD above, "
+    "which "
+    "takes, as a multiple of what it took then: ";
+constexpr char kRatioLegend[] =
+    "\n/ here, / dated: time as a multiple of the fastest peer measured here, and of the fastest of Rapier SIMD and "
+    "those "
+    "marked \\*.\n";
 
 }  // namespace
 
-std::string heading() {
-  return "| scene | engine | ms | p99 | / Bullet | / ODE | worst mm | mean mm | p99 mm | > 5 cm | J/kg | of this scene "
-         "| bar |\n"
-         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-}
-
-std::string table_of(const std::vector<Row>& rows) {
-  std::string text;
-  for (const Row& row : rows) {
-    text += print("| %s | %s | %.4f%s | %.4f | %s | %s | ", row.scene.c_str(), row.engine.c_str(), row.ms,
-                  row.failed ? " x" : "", row.p99, ratio_text(ratio(row, rows, "bullet")).c_str(),
-                  ratio_text(ratio(row, rows, "ode")).c_str());
-    text += overlap_text(row) + print(" | %.1e | ", row.kinetic) + particular(row) + " | " + row.bar + " |\n";
-  }
+std::string tables_of(const Report& report) {
+  std::string text =
+      print("%s, %s, best of %d.\n\n", report.date.c_str(), report.processor.c_str(), report.options.rounds);
+  text.append(comparison(report.rows)).append(kLegend);
+  const std::string then = anchor_since(report.rows);
+  if (!then.empty()) text.append(kDatedLegend).append(then).append(". Far from 1: this machine is busy.\n");
+  text.append("\n").append(every_figure(report.rows)).append(kRatioLegend);
+  const std::string memory = memory_table(report.rows);
+  if (!memory.empty()) text.append("\nPeak memory, and before the world was made:\n\n").append(memory);
+  if (!report.rollback.empty()) text.append("\nRollback:\n\n").append(table_of(report.rollback));
   return text;
 }
 
-std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback,
-                    const RaceOptions& options) {
-  Json json = {{"rounds", options.rounds},
-               {"block_frames", options.block},
+std::string json_of(const Report& report) {
+  Json json = {{"date", report.date},
+               {"processor", report.processor},
+               {"rounds", report.options.rounds},
+               {"block_frames", report.options.block},
                {"runs", Json::array()},
                {"rollback", Json::array()}};
-  for (const Row& row : rows) json["runs"].push_back(json_of(row, rows));
-  for (const RollbackRow& row : rollback) {
-    json["rollback"].push_back({{"scene", row.scene},
-                                {"scalar", row.scalar},
-                                {"awake", row.awake},
-                                {"save_us", row.save_us},
-                                {"load_us", row.load_us},
-                                {"hash_us", row.hash_us},
-                                {"step_ms", row.step_ms},
-                                {"eight_frames_ms", row.eight_frames_ms},
-                                {"snapshot_bytes", row.snapshot_bytes},
-                                {"bytes_per_awake_body", row.bytes_per_awake}});
-  }
+  for (const Row& row : report.rows) json["runs"].push_back(json_of(row, fastest_peers(report.rows, row.scene)));
+  for (const RollbackRow& row : report.rollback) json["rollback"].push_back(json_of(row));
   return json.dump(1) + "\n";
+}
+
+std::string chart_points(const Report& report) {
+  std::string text = "date\tscene\tengine\tms\terror_mm\tfailed\n";
+  const auto add = [&](const std::string& scene, const char* engine, double ms, double error, bool failed) {
+    text += print("%s\t%s\t%s\t%.6g\t%.6g\t%d\n", report.date.c_str(), scene.c_str(), engine, ms, 1e3 * error,
+                  failed ? 1 : 0);
+  };
+  for (const Row& row : report.rows) {
+    if (shown_ms(row) >= 0) add(row.scene, row.engine.c_str(), shown_ms(row), error_of(row), row.failed);
+    if (row.engine != kAnchor) continue;
+    for (const char* engine : kDatedEngines) {
+      const std::optional<double> ms = estimated_ms(report.rows, row.scene, engine);
+      const std::optional<Dated> then = dated(engine, row.scene);
+      if (ms && then->error >= 0) add(row.scene, engine, *ms, then->error, then->lost);
+    }
+  }
+  return text;
 }
 
 }  // namespace isostep::bench

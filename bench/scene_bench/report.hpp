@@ -1,4 +1,4 @@
-// Rows as a table for people, and as JSON.
+// A run told: tables for people, JSON, and the points of the chart.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,11 +7,17 @@
 
 namespace isostep::bench {
 
-/// Markdown, so that it can be pasted.
-std::string heading();
-/// The rows of one scene; ratios are against the peers among them.
-std::string table_of(const std::vector<Row>& rows);
+struct Report {
+  std::string date, processor;
+  RaceOptions options;
+  std::vector<Row> rows;
+  std::vector<RollbackRow> rollback;
+};
+/// Markdown: the comparison first, then every figure.
+std::string tables_of(const Report& report);
+std::string json_of(const Report& report);
 
-std::string json_of(const std::vector<Row>& rows, const std::vector<RollbackRow>& rollback, const RaceOptions& options);
+/// Tab-separated, a line an engine and scene: what bench/chart/speed_accuracy.gp draws.
+std::string chart_points(const Report& report);
 
 }  // namespace isostep::bench

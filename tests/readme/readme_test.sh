@@ -12,9 +12,9 @@ fail() {
   failures=$((failures + 1))
 }
 
-# Commands of sh blocks. demo and test build everything and are CI's own first and last word.
+# Commands of sh blocks. demo and test build everything and are CI's own first and last word; bench measures for minutes.
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
-  grep -v -e '^\./isostep demo$' -e '^\./isostep test$')
+  grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench')
 [ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || fail "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do

@@ -1,0 +1,79 @@
+# Step time against error, ours and peers, from speed_accuracy.tsv.
+# Called as: gnuplot -e "data='speed_accuracy.tsv'; out='speed_accuracy.svg'" speed_accuracy.gp
+# SPDX-License-Identifier: MIT
+if (!exists("data")) data = "speed_accuracy.tsv"
+if (!exists("out")) out = "speed_accuracy.svg"
+height = 1000
+load ARG0[1:strstrt(ARG0, "speed_accuracy.gp") - 1]."style.gp"
+set output out
+
+set datafile separator tab
+stats data skip 1 using (day = strcol(1), 1) nooutput
+scenes = "S1 S2 S3 S4 S5 S9 S6 S7"
+titles = "'S1  stack of 20: sag' 'S2  wall of 210: worst overlap' 'S3  pyramid of 1240: worst overlap' " . \
+  "'S4  pile of 1000: mean overlap' 'S5  4000 spheres: mean overlap' 'S9  drum of 600: worst overlap' " . \
+  "'S6  chain with 100 kg: worst joint' 'S7  50 ragdolls: worst joint'"
+engines = "float double q16.16 q32.32 rapier-simd rapier-det bullet ode box3d jolt"
+names = "'float' 'double' 'Q16.16' 'Q32.32' 'Rapier, SIMD' 'Rapier, deterministic' 'Bullet' 'ODE' 'Box3D, by its dated ratio' 'Jolt, by its dated ratio'"
+
+# Ours filled in the colours of style.gp; peers hollow; Box3D and Jolt are of the dated run.
+array hue[10] = [colours[1], colours[2], colours[3], colours[4], "#8250df", "#bf3989", "#7d4e00", "#57606a", "#0a7ea4", "#9a6700"]
+array mark[10] = [7, 5, 9, 13, 6, 8, 4, 10, 12, 14]
+do for [k = 1:10] {
+  set style line k linecolor rgb hue[k] pointtype mark[k] pointsize (k <= 4 ? 1.35 : 1.15) linewidth (k <= 4 ? 1 : 2)
+}
+set style line 20 linecolor rgb "#cf222e" pointtype 2 pointsize 1.0 linewidth 2
+
+# Runs that kept their scene, at their error; those that lost it, at the upper edge.
+kept(scene, engine) = strcol(2) eq scene && strcol(3) eq engine && $6 == 0
+lost(scene, engine) = strcol(2) eq scene && strcol(3) eq engine && $6 != 0
+unset mxtics
+unset mytics
+unset key
+small = font(11)
+set xtics font small
+set ytics font small
+
+set multiplot
+set label 1 "Step time against error" at screen 0.06, 0.977 left font font(18) textcolor rgb ink
+set label 2 "CPU time of a step in ms across, error in mm up, both logarithmic. Left is faster, down is more accurate. " . day . "." \
+  at screen 0.06, 0.953 left font font(12) textcolor rgb muted
+place(k) = 0.293 - 0.022 * (k - 1) - (k > 4 ? 0.01 : 0) - (k > 8 ? 0.01 : 0)
+do for [k = 1:10] {
+  set label 10 + k word(names, k) at screen 0.725, place(k) left offset 1.6, -0.25 point linestyle k font font(12) textcolor rgb ink
+}
+set label 21 "lost its scene; at the upper edge" at screen 0.725, 0.043 left offset 1.6, -0.25 \
+  point linestyle 20 font font(12) textcolor rgb ink
+do for [n = 1:8] {
+  scene = word(scenes, n)
+  left = 0.055 + 0.325 * ((n - 1) % 3)
+  bottom = 0.68 - 0.319 * ((n - 1) / 3)
+  set lmargin at screen left
+  set rmargin at screen left + 0.27
+  set bmargin at screen bottom
+  set tmargin at screen bottom + 0.225
+  set title word(titles, n) font font(12) offset 0, -0.3
+  unset logscale
+  set autoscale
+  stats data skip 1 using (strcol(2) eq scene ? $4 : NaN) name "T" nooutput
+  stats data skip 1 using (strcol(2) eq scene && $6 == 0 && $5 > 0 ? $5 : NaN) name "E" nooutput
+  set logscale xy
+  set xrange [T_min / 1.3:T_max * 1.3]
+  top = E_max * 2.2
+  set yrange [E_min / 1.6:top]
+  set xtics ()
+  set ytics ()
+  do for [decade = -4:4] {
+    do for [step in "1 2 5"] {
+      value = step * 10.0 ** decade
+      set xtics add (sprintf("%g", value) value)
+      set ytics add ((top < 100 * E_min || step == 1 ? sprintf("%g", value) : "") value)
+    }
+  }
+  plot for [k = 1:10] data skip 1 using ((k > 4 && kept(scene, word(engines, k))) ? $4 : NaN):5 with points linestyle k, \
+       for [k = 1:10] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle k, \
+       for [k = 1:10] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle 20, \
+       for [k = 1:4] data skip 1 using (kept(scene, word(engines, k)) ? $4 : NaN):5 with points linestyle k
+  unset label
+}
+unset multiplot

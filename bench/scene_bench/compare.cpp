@@ -1,0 +1,131 @@
+// The comparison.
+// SPDX-License-Identifier: MIT
+#include "compare.hpp"
+
+#include <algorithm>
+
+#include "dated.hpp"
+#include "text.hpp"
+
+namespace isostep::bench {
+namespace {
+
+const Row* find(const std::vector<Row>& rows, std::string_view scene, std::string_view engine) {
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.scene == scene && r.engine == engine; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+void keep_faster(std::optional<Fastest>& best, std::string_view engine, double ms) {
+  if (ms > 0 && (!best || ms < best->ms)) best = Fastest{std::string(engine), ms};
+}
+
+/// In the order of their first row.
+template <class Name> std::vector<std::string> names_of(const std::vector<Row>& rows, Name&& name) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) {
+    if (std::count(names.begin(), names.end(), name(row)) == 0) names.push_back(name(row));
+  }
+  return names;
+}
+
+std::string ms_text(double ms) { return print(ms < 0.01 ? "%.4f" : ms < 1 ? "%.3f" : "%.2f", ms); }
+
+std::string cell(const Row* row, const std::optional<Fastest>& fastest) {
+  if (row == nullptr) return "-";
+  const double ms = shown_ms(*row);
+  if (ms < 0) return "never";
+  std::string text = ms_text(ms);
+  if (fastest && row->engine == fastest->engine) text = print("**%s**", text.c_str());
+  if (row->failed) text += " x";
+  if (row->ours && fastest) text += print(" (%.2f)", ms / fastest->ms);
+  return text;
+}
+std::string dated_cell(const std::vector<Row>& rows, const std::string& scene, const char* engine,
+                       const std::optional<Fastest>& fastest) {
+  const std::optional<double> ms = estimated_ms(rows, scene, engine);
+  if (!ms) return "-";
+  std::string text = ms_text(*ms);
+  if (fastest && fastest->engine == engine) text = print("**%s**", text.c_str());
+  return dated(engine, scene)->lost ? text + " x" : text;
+}
+
+}  // namespace
+
+double shown_ms(const Row& row) { return row.scene == "S8" ? row.asleep_ms : row.ms; }
+
+const char* title_of(std::string_view engine) {
+  constexpr std::pair<std::string_view, const char*> kTitles[] = {{"float", "float"},
+                                                                  {"double", "double"},
+                                                                  {"q16.16", "q16.16"},
+                                                                  {"q32.32", "q32.32"},
+                                                                  {"rapier-simd", "Rapier SIMD"},
+                                                                  {"rapier-det", "Rapier det."},
+                                                                  {"bullet", "Bullet"},
+                                                                  {"ode", "ODE"},
+                                                                  {"box3d", "Box3D *"},
+                                                                  {"jolt", "Jolt *"},
+                                                                  {"physx", "PhysX *"}};
+  for (const auto& [name, title] : kTitles) {
+    if (name == engine) return title;
+  }
+  return "?";
+}
+
+std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine) {
+  const Row* anchor = find(rows, scene, kAnchor);
+  const std::optional<Dated> then = dated(kAnchor, scene), peer = dated(engine, scene);
+  if (anchor == nullptr || !then || !peer || shown_ms(*anchor) <= 0) return std::nullopt;
+  return shown_ms(*anchor) * peer->ms / then->ms;
+}
+
+std::optional<Fastest> FastestPeers::of_all() const {
+  if (!here || !dated) return here ? here : dated;
+  return here->ms <= dated->ms ? here : dated;
+}
+
+FastestPeers fastest_peers(const std::vector<Row>& rows, std::string_view scene) {
+  FastestPeers fastest;
+  for (const Row& row : rows) {
+    if (row.scene != scene || row.ours || row.failed) continue;
+    keep_faster(fastest.here, row.engine, shown_ms(row));
+    if (row.engine == kAnchor) keep_faster(fastest.dated, row.engine, estimated_ms(rows, scene, kAnchor).value_or(-1));
+  }
+  for (const char* engine : kDatedEngines) {
+    const std::optional<double> ms = estimated_ms(rows, scene, engine);
+    if (ms && !dated(engine, scene)->lost) keep_faster(fastest.dated, engine, *ms);
+  }
+  return fastest;
+}
+
+std::string anchor_since(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    const std::optional<Dated> then = dated(row.engine, row.scene);
+    if (!then || shown_ms(row) < 0) continue;
+    text += print("%s%s %.2f", text.empty() ? "" : ", ", row.scene.c_str(), shown_ms(row) / then->ms);
+  }
+  return text;
+}
+
+std::string comparison(const std::vector<Row>& rows) {
+  const std::vector<std::string> engines = names_of(rows, [](const Row& row) { return row.engine; });
+  const bool anchored = std::count(engines.begin(), engines.end(), kAnchor) != 0;
+  std::vector<std::vector<std::string>> cells(1, {"ms a step"});
+  for (const std::string& engine : engines) cells[0].push_back(title_of(engine));
+  if (anchored) {
+    for (const char* engine : kDatedEngines) cells[0].push_back(title_of(engine));
+  }
+  for (const std::string& scene : names_of(rows, [](const Row& row) { return row.scene; })) {
+    const std::optional<Fastest> fastest = fastest_peers(rows, scene).of_all();
+    std::vector<std::string> line = {scene == "S8" ? "S8 asleep" : scene};
+    for (const std::string& engine : engines) line.push_back(cell(find(rows, scene, engine), fastest));
+    if (anchored) {
+      for (const char* engine : kDatedEngines) line.push_back(dated_cell(rows, scene, engine, fastest));
+    }
+    cells.push_back(std::move(line));
+  }
+  return markdown(cells);
+}
+
+}  // namespace isostep::bench

@@ -1,0 +1,36 @@
+// Engines beside one another: who is fastest in a scene, and how far ours are from that.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "race.hpp"
+
+namespace isostep::bench {
+
+/// A time to be compared: S8's is that of a step with everybody asleep, less than 0 where that never came.
+double shown_ms(const Row& row);
+/// How a report calls an engine.
+const char* title_of(std::string_view engine);
+
+/// What a dated engine would take today: its ratio to kAnchor then, times kAnchor's time among these rows.
+std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine);
+
+struct Fastest {
+  std::string engine;
+  double ms;
+};
+/// The fastest peer that did not lose the scene, of those measured here and of those of the dated run.
+struct FastestPeers {
+  std::optional<Fastest> here, dated;
+  std::optional<Fastest> of_all() const;
+};
+FastestPeers fastest_peers(const std::vector<Row>& rows, std::string_view scene);
+
+/// kAnchor's time here over that of the dated run, scene by scene: "S1 1.03, S2 0.99".
+std::string anchor_since(const std::vector<Row>& rows);
+
+/// Markdown: a line a scene, a column an engine; ours with the ratio to the fastest of all peers.
+std::string comparison(const std::vector<Row>& rows);
+
+}  // namespace isostep::bench
