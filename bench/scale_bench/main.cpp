@@ -58,6 +58,9 @@ int main(int count, char** words) {
       ->check(CLI::Range(0, 1000000));
   app.add_option("--column", options.column, "Sleepers an island")->check(CLI::Range(1, 20));
   app.add_option("--tsv", arguments.tsv, "Write the stages' times to this file, for the chart");
+  app.add_option_function<std::string>(
+      "--results", [&](const std::string& directory) { arguments.tsv = directory + "/scale.tsv"; },
+      "The same: scale.tsv in this directory");
   CLI11_PARSE(app, count, words);
   try {
     return isostep::bench::run(arguments);

@@ -19,9 +19,9 @@ inline void relax_processor() {
 #endif
 }
 
-/// Looks at the board, some 0.2 ms in all, before a thread that finds nothing to do leaves. It takes no part in the
+/// Looks at the board, some 0.5 ms in all, before a thread that finds nothing to do leaves. It takes no part in the
 /// stages that follow; the others come to the end without it. So no more threads wait than there are cores.
-constexpr std::uint32_t kPatience = 1u << 13;
+constexpr std::uint32_t kPatience = 1u << 15;
 
 class StagedWork {
  public:

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "isostep/dynamics/solvers/simd.hpp"
+#include "isostep/core/simd.hpp"
 #include "isostep/state/verify.hpp"
 
 namespace isostep::tool {

@@ -68,7 +68,7 @@ TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_
   }
 }
 
-/// Ragdolls of one shape and a few of others, some on a wall, one on a turntable; joints go, and come back between others.
+/// Ragdolls of one shape and a few of others, some on a wall, one on a turntable; joints go, and come between others.
 template <class S> std::vector<std::uint64_t> hashes_of_trees(Simd simd, bool changing) {
   World<S> w(settings<S>(-10, 60, 4));
   w.use_simd(simd);

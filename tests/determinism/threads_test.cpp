@@ -55,7 +55,7 @@ TYPED_TEST(Threads, of_any_number_give_the_hashes_of_one) {
     ThreadPool pool(threads);
     Counted counted = {pool.runner()};
     EXPECT_EQ(hashes_of<TypeParam>("S3", counted.runner(), this->kFrames), this->expected()) << threads << " threads";
-    EXPECT_GE(counted.calls, threads > 1 ? 3 * this->kFrames : 0);
+    EXPECT_GE(counted.calls, threads > 1 ? 2 * this->kFrames : 0);
   }
 }
 

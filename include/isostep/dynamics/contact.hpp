@@ -22,10 +22,10 @@ struct ContactKey {
     return x.body_a == y.body_a && x.body_b == y.body_b && x.child_a == y.child_a && x.child_b == y.child_b;
   }
   friend ISO_INLINE constexpr bool operator<(const ContactKey& x, const ContactKey& y) {
-    if (x.body_a != y.body_a) return x.body_a < y.body_a;
-    if (x.body_b != y.body_b) return x.body_b < y.body_b;
-    if (x.child_a != y.child_a) return x.child_a < y.child_a;
-    return x.child_b < y.child_b;
+    const std::uint64_t bodies_x = std::uint64_t{x.body_a} << 32 | x.body_b;
+    const std::uint64_t bodies_y = std::uint64_t{y.body_a} << 32 | y.body_b;
+    if (bodies_x != bodies_y) return bodies_x < bodies_y;
+    return x.child_a != y.child_a ? x.child_a < y.child_a : x.child_b < y.child_b;
   }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body_a", self.body_a);

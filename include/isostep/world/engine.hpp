@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
 #include "isostep/dynamics/island.hpp"
 #include "isostep/dynamics/solvers/soft_step.hpp"
@@ -28,17 +28,6 @@ struct Location {
   std::uint32_t index = 0;
 
   bool is_frozen() const { return set < kAwake; }
-};
-
-/// What the narrow phase asks of a body.
-template <class S> struct BodyFrame {
-  Vec3<S> centre;       // [m] of mass, world
-  Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
-  const Child<S>* children;
-  std::uint32_t child_count;
-  std::uint32_t row;  // of SolverBodies: 0 unless awake
-  bool plain;         // one part, not moved
-  bool sensor, frozen;
 };
 
 /// A record of a woken island, to be sorted into the awake image.
@@ -111,7 +100,8 @@ template <class S> class WorldEngine {
   StepReport report_;
   Fault fault_ = Fault::none;
   const ContactKernels<S>* kernels_;
-  const TreeKernels<S>* tree_kernels_ = tree_kernels<S>(Simd::best);
+  const PairKernels<S>* pair_kernels_;
+  const TreeKernels<S>* tree_kernels_;
   TaskRunner runner_;
   std::vector<std::uint8_t>* tape_ = nullptr;
   std::vector<std::uint64_t>* trace_ = nullptr;
@@ -149,18 +139,57 @@ template <class S> class WorldEngine {
 
   // engine_contacts.inl
   void find_pairs();
-  void update_manifolds();
   void wake_touched_islands();
   bool bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const;
-  template <class Visit>
-  static ISO_INLINE void visit_manifolds(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit);
-  BodyFrame<S> frame_at(Location at) const;
-  void add_contact(const ContactKey& key, const Manifold<S>& manifold, const BodyFrame<S>& a, const BodyFrame<S>& b);
-  void collect_joined_pairs();
   std::uint32_t row_of(std::uint32_t slot) const;
   void update_sensors();
   void emit_contact_events();
   S pressing(std::size_t first, std::size_t end) const;
+
+  // engine_parts.inl
+  /// A body's place among the frames, and what tells how it collides: its PartKind and the bits below.
+  struct Framed {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr std::uint32_t kSensor = 1u << 8, kFrozen = 1u << 9;
+    std::uint32_t index = kNone;
+    std::uint32_t traits = 0;
+  };
+  /// Parts are collided and merged so many at a time; where each list of them stands when a group begins.
+  static constexpr std::size_t kGroup = 256;
+  struct ListEnds {
+    std::uint32_t spheres, boxes, others;
+  };
+  void collect_joined_pairs();
+  BodyFrame<S> frame_at(Location at) const;
+  static std::uint32_t traits_of(const BodyFrame<S>& frame);
+  void make_room_for_frames();
+  void frame_awake_body(std::size_t index);
+  void frame_body(std::uint32_t slot);
+  template <class Visit>
+  static ISO_INLINE void visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit);
+  static void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, S margin,
+                            Manifold<S>& out);
+  void gather_parts();
+  void gather_others(Framed at_a, Framed at_b);
+  void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
+  ListEnds list_ends() const;
+  ListEnds ends_of(std::size_t group) const;
+  std::size_t parts_of(std::size_t group) const;
+
+  // engine_manifolds.inl
+  static constexpr std::size_t kLeastSharedPairs = 4 * kGroup;  // some 60 us of float
+  void update_manifolds();
+  void make_manifolds();
+  void share_manifolds();
+  static void do_manifolds(void* engine, std::uint32_t stage, std::uint32_t piece);
+  void collide_group(std::size_t group, std::uint8_t* counts, Manifold<S>* manifolds) const;
+  static void collide_others(const PairRun<S>& run);
+  std::size_t place_group(std::size_t group, const std::uint8_t* counts);
+  void merge_group(std::size_t group, const std::uint8_t* counts, const Manifold<S>* manifolds, std::size_t next,
+                   std::size_t& old_cursor);
+  std::size_t first_old_contact(std::size_t group) const;
+  void fill_contact(const PartPair& parts, const Manifold<S>& manifold, Contact<S>& contact, ContactGeometry<S>& g,
+                    std::size_t& old_cursor) const;
 
   // engine_step.inl
   void begin_events();
@@ -195,11 +224,22 @@ template <class S> class WorldEngine {
   // One step's scratch; drawing and the next step's events read some of it.
   SoftStep<S> solver_;
   std::vector<Acceleration<S>> accelerations_;
-  std::vector<Pose<S>> start_poses_;        // of the centres of bodies awake when the step began
-  std::vector<std::uint32_t> start_slots_;  // of those bodies, ascending; drawing asks for them after the step
-  std::vector<BodyFrame<S>> frames_;        // of awake bodies
+  std::vector<Pose<S>> start_poses_;         // of the centres of bodies awake when the step began
+  std::vector<std::uint32_t> start_slots_;   // of those bodies, ascending; drawing asks for them after the step
+  std::vector<BodyFrame<S>> frames_;         // of awake bodies, then of those that they might touch
+  std::vector<Material<S>> materials_;       // by frame
+  std::vector<Framed> framed_;               // by slot
+  std::vector<std::uint32_t> framed_slots_;  // those that are not empty
+  std::vector<PartPair> parts_;              // that might touch, ascending by their contacts' keys
+  std::vector<ListEnds> groups_;
+  std::vector<std::uint32_t> sphere_pairs_, box_pairs_, other_pairs_;  // places in their groups, ascending
+  std::vector<std::uint8_t> point_counts_;                             // by place in a group
+  std::vector<Manifold<S>> manifolds_;                                 // by place, where the count is not zero
+  std::size_t placed_ = 0;                                             // contacts of this step so far
+  std::vector<std::size_t> group_firsts_;                              // contacts before each group's
+  std::uint32_t manifold_pieces_ = 0;
+  std::size_t awake_frames_ = 0;
   std::vector<Contact<S>> old_contacts_;
-  std::size_t old_cursor_ = 0;
   std::vector<ContactGeometry<S>> geometry_;
   std::vector<JointConstraint<S>> joint_constraints_;
   std::vector<std::uint64_t> joined_pairs_;  // ascending pair keys that joints keep from colliding

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/room.hpp"
 #include "isostep/dynamics/solvers/soft_step.inl"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/checks.hpp"
@@ -29,13 +30,21 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   prepare_joints();
   solver_.colour_constraints(input, *kernels_);
   after(Stage::colour_constraints);
-  solver_.prepare(input);
-  after(Stage::prepare);
+  // Where nobody looks in between, these stages are given to the threads as one: to wake them costs time.
+  const bool watched = observer.after != nullptr || trace_ != nullptr;
+  const auto after_solving = [&](Stage stage) {
+    if (!watched) return;
+    solver_.run(input);
+    after(stage);
+  };
+  solver_.prepare();
+  after_solving(Stage::prepare);
   solver_.solve_substeps(input, *tree_kernels_);
-  after(Stage::solve_substeps);
+  after_solving(Stage::solve_substeps);
   solver_.restitute(input);
-  after(Stage::restitution);
-  solver_.store_impulses(input);
+  after_solving(Stage::restitution);
+  solver_.store_impulses();
+  solver_.run(input);
   for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
     store_joint(joint_constraints_[i], state_.joints.states[i]);
   after(Stage::store_impulses);
@@ -85,7 +94,7 @@ template <class S> void WorldEngine<S>::prepare_joints() {
 
 template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
   joint_constraints_.resize(state_.joints.states.size());
-  step_impulses_.resize(state_.contacts.size());
+  resize_with_room(step_impulses_, state_.contacts.size());
   return {state_.awake.states,
           state_.awake.properties,
           accelerations_,

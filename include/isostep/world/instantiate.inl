@@ -5,6 +5,7 @@
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
 #include "isostep/collision/narrowphase/collide.inl"
+#include "isostep/collision/narrowphase/pair_scalar.inl"
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
@@ -45,6 +46,11 @@
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \
     const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
     return here ? detail::scalar_kernels<OwnScalar>() : nullptr;                                                      \
+  }                                                                                                                   \
+  ISO_DECLARE_PAIR_KERNELS(OwnScalar)                                                                                 \
+  ISO_DEFINE_SCALAR_PAIR_KERNELS(OwnScalar)                                                                           \
+  template <> const PairKernels<OwnScalar>* pair_kernels<OwnScalar>(Simd) {                                           \
+    return detail::scalar_pair_kernels<OwnScalar>();                                                                  \
   }                                                                                                                   \
   ISO_DECLARE_TREE_KERNELS(OwnScalar)                                                                                 \
   ISO_DEFINE_SCALAR_TREE_KERNELS(OwnScalar)                                                                           \

@@ -10,8 +10,8 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
 #include "isostep/core/task_runner.hpp"
-#include "isostep/dynamics/solvers/simd.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/world/command.hpp"

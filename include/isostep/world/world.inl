@@ -21,7 +21,11 @@
 namespace isostep {
 
 /// Settings out of range are brought to the nearest that is in range, and that is a fault.
-template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) : kernels_(contact_kernels<S>(Simd::best)) {
+template <class S>
+WorldEngine<S>::WorldEngine(const Settings<S>& settings)
+    : kernels_(contact_kernels<S>(Simd::best)),
+      pair_kernels_(pair_kernels<S>(Simd::best)),
+      tree_kernels_(tree_kernels<S>(Simd::best)) {
   state_.settings = settings;
   Settings<S>& s = state_.settings;
   s.hz = clamp(s.hz, 10, 1000);
@@ -44,11 +48,11 @@ template <class S> const Settings<S>& World<S>::settings() const { return engine
 template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool World<S>::use_simd(Simd simd) {
   const ContactKernels<S>* kernels = contact_kernels<S>(simd);
-  if (kernels != nullptr) {
-    engine_->kernels_ = kernels;
-    engine_->tree_kernels_ = tree_kernels<S>(simd);
-  }
-  return kernels != nullptr;
+  if (kernels == nullptr) return false;
+  engine_->kernels_ = kernels;
+  engine_->pair_kernels_ = pair_kernels<S>(simd);
+  engine_->tree_kernels_ = tree_kernels<S>(simd);
+  return true;
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) { engine_->runner_ = runner; }

@@ -45,8 +45,8 @@ template <class S> void add_creature(JointWorld<S>& world, Draw& draw, D3 at, in
     world.join(JointType::ball, upper, lower, at + side + half);
   }
 }
-/// Links along x from `from` (kNoBody: the world), a weight at the end. Returns the weight. Small links at long arms turn
-/// easily: under a weight of 20 their tension is taken implicitly.
+/// Links along x from `from` (kNoBody: the world), a weight at the end. Returns the weight. Small links at long arms
+/// turn easily: under a weight of 20 their tension is taken implicitly.
 template <class S>
 std::uint32_t add_chain(JointWorld<S>& world, Draw& draw, std::uint32_t from, D3 at, int links, double weight,
                         double half = 0.25) {

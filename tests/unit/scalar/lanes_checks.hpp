@@ -132,6 +132,11 @@ template <class L> void check_arithmetic() {
     EXPECT_LANES(same_bits, a, x.lane[i]);
     EXPECT_LANES(same_bits, L::broadcast(x.lane[0]), x.lane[0]);
     EXPECT_LANES(same_bits, L::zero(), S(0));
+    for (const L zero : {L::zero(), -L::zero()}) {
+      const auto z0 = Block<L>::of(zero);
+      EXPECT_LANES(same_value, add_zero(a, zero), x.lane[i] + z0.lane[i]);
+      EXPECT_LANES(same_value, subtract_zero(a, zero), x.lane[i] - z0.lane[i]);
+    }
     L sum = a;
     sum += b;
     sum -= c;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/box_axes.hpp"
 
 namespace isostep::detail {
 
@@ -200,6 +200,20 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius
     local[pair.axes[1]] = p.v;
     local[pair.axes[2]] = negate_if(below, level);
     out.add(to_world(frame, Vec3<S>{local[0], local[1], local[2]}), p.height - radii, name | p.before << 3 | p.after);
+  }
+}
+
+/// axis: BestAxis::axis of a face.
+template <class S>
+ISO_INLINE void touch_best_faces(const BoxPair<S>& pair, int axis, S radius_a, const Transform<S>& ta, S radius_b,
+                                 const Transform<S>& tb, S margin, Manifold<S>& out) {
+  if (axis < 3) {
+    const FacePair<S> faces = face_pair(axis, pair.half_a, pair.half_b, pair.offset, pair.turn);
+    touch_faces(faces, radius_a, radius_b, ta, margin, true, out);
+  } else {
+    const Vec3<S> offset = -transposed_times(tb.rotation, tb.position - ta.position);
+    const FacePair<S> faces = face_pair(axis - 3, pair.half_b, pair.half_a, offset, transpose(pair.turn));
+    touch_faces(faces, radius_b, radius_a, tb, margin, false, out);
   }
 }
 

@@ -33,7 +33,7 @@ namespace isostep {
 template <class S> class JointTrees {
  public:
   /// Once a step, after its joints are prepared. Null for no joint to be solved by kernels.
-  void plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies, const TreeKernels<S>* wide);
+  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide);
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (rest_.empty() ? 0u : 1u);
   }
@@ -99,13 +99,12 @@ template <class S> class JointTrees {
   void find_plain_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void add_to_tree(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j, Tree& tree);
   bool same_shape(const Tree& a, const Tree& b) const;
-  void make_batches(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
-                    const TreeKernels<S>& wide);
+  void make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
   void add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree);
   void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees,
                  const TreeKernels<S>& kernels);
   TreeShape shape_of(const Shape& shape) const;
-  TreeRun<S> run_of(const Batch& batch);
+  TreeRun<S> run_of(const Batch& batch, SolverBodies<S>* bodies);
 
   void couple(const Node& node, Link& link, std::span<const JointConstraint<S>> joints,
               const SolverBodies<S>& bodies) const;

@@ -83,7 +83,7 @@ template <class S> bool JointTrees<S>::same_shape(const Tree& a, const Tree& b) 
 }
 
 template <class S>
-void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies,
                                  const TreeKernels<S>& wide) {
   shapes_.clear();
   shape_joints_.clear();
@@ -112,7 +112,7 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, con
     }
   }
   memory_.resize(bytes / 64);
-  for (const Batch& batch : batches_) batch.kernels->prepare(run_of(batch), joints.data(), bodies);
+  for (const Batch& batch : batches_) batch.kernels->prepare(run_of(batch, &bodies), joints.data());
 }
 
 template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree) {
@@ -172,26 +172,31 @@ template <class S> TreeShape JointTrees<S>::shape_of(const Shape& shape) const {
           {shape_bodies_.data() + shape.first_body, shape.body_count},
           {shape_given_.data() + shape.first_joint, shape.joint_count}};
 }
-template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch) {
-  return {shape_of(shapes_[batch.shape]), &lane_joints_[batch.first_joint], &lane_rows_[batch.first_row], batch.lanes,
-          memory_.data()->bytes + batch.offset};
+template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBodies<S>* bodies) {
+  return {shape_of(shapes_[batch.shape]),
+          &lane_joints_[batch.first_joint],
+          &lane_rows_[batch.first_row],
+          batch.lanes,
+          memory_.data()->bytes + batch.offset,
+          bodies != nullptr ? bodies->velocity.data() : nullptr,
+          bodies != nullptr ? bodies->mass.data() : nullptr};
 }
 
 template <class S>
 void JointTrees<S>::warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
   if (batch == batches_.size()) return warm_start_rest(joints, step);
-  batches_[batch].kernels->warm_start(run_of(batches_[batch]), joints.data(), step);
+  batches_[batch].kernels->warm_start(run_of(batches_[batch], step.bodies), joints.data(), step);
 }
 template <class S>
 void JointTrees<S>::solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
                           bool relax) {
   if (batch == batches_.size()) return solve_rest(joints, step, relax);
   const TreeKernels<S>& kernels = *batches_[batch].kernels;
-  if (relax) return kernels.relax(run_of(batches_[batch]), step);
-  kernels.solve(run_of(batches_[batch]), step);
+  if (relax) return kernels.relax(run_of(batches_[batch], step.bodies), step);
+  kernels.solve(run_of(batches_[batch], step.bodies), step);
 }
 template <class S> void JointTrees<S>::store(std::uint32_t batch, std::span<JointConstraint<S>> joints) {
-  if (batch < batches_.size()) batches_[batch].kernels->store(run_of(batches_[batch]), joints.data());
+  if (batch < batches_.size()) batches_[batch].kernels->store(run_of(batches_[batch], nullptr), joints.data());
 }
 
 }  // namespace isostep

@@ -13,8 +13,7 @@ template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>
 }  // namespace detail
 
 template <class S>
-void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies,
-                         const TreeKernels<S>* wide) {
+void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide) {
   nodes_.clear();
   links_.clear();
   loose_.clear();

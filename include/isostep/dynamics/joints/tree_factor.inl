@@ -73,7 +73,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
              {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
   }
 
-  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_ball() and pull_on().
+  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_ball(), pull_on().
   static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, Step<S> h) {
     Body& a = m.bodies[of.body_a];
     Body& b = m.bodies[of.body_b];

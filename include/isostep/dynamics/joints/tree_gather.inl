@@ -70,11 +70,11 @@ template <class S, int W, class Isa> struct TreeGatherer {
 
   // ---- velocities, for the length of a pass
 
-  static ISO_INLINE void gather_velocities(const TreeRun<S>& run, Memory m, const SolverBodies<S>& bodies) {
+  static ISO_INLINE void gather_velocities(const TreeRun<S>& run, Memory m) {
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
       const Velocity<S>* rows[W];
       ISO_UNROLL for (int i = 0; i < W; ++i) {
-        rows[i] = &bodies.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
+        rows[i] = &run.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
       }
       V w[8];
       load_transposed<8>(rows, w);
@@ -82,12 +82,12 @@ template <class S, int W, class Isa> struct TreeGatherer {
       store({w[4], w[5], w[6]}, m.bodies[b].angular);
     }
   }
-  static ISO_INLINE void scatter_velocities(const TreeRun<S>& run, Memory m, SolverBodies<S>& bodies) {
+  static ISO_INLINE void scatter_velocities(const TreeRun<S>& run, Memory m) {
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
       if (!run.shape.bodies[b].moves) continue;
       Velocity<S>* rows[W];
       ISO_UNROLL for (int i = 0; i < W; ++i) {
-        rows[i] = &bodies.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
+        rows[i] = &run.velocity[run.rows[b * W + static_cast<std::size_t>(i)]].linear.x;
       }
       const Vec3<V> linear = load(m.bodies[b].linear), angular = load(m.bodies[b].angular);
       const V w[8] = {linear.x, linear.y, linear.z, V::zero(), angular.x, angular.y, angular.z, V::zero()};
@@ -97,9 +97,9 @@ template <class S, int W, class Isa> struct TreeGatherer {
 
   // ---- once a step
 
-  static void prepare(const TreeRun<S>& run, const JointConstraint<S>* joints, const SolverBodies<S>& bodies) {
+  static void prepare(const TreeRun<S>& run, const JointConstraint<S>* joints) {
     const Memory m = Memory::of(run.memory, run.shape);
-    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) prepare_body(&run.rows[b * W], bodies, m.bodies[b]);
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) prepare_body(&run.rows[b * W], run.mass, m.bodies[b]);
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) prepare_joint(&run.joints[j * W], joints, m.joints[j]);
   }
   static void store_impulses(const TreeRun<S>& run, JointConstraint<S>* joints) {
@@ -115,15 +115,15 @@ template <class S, int W, class Isa> struct TreeGatherer {
   }
 
  private:
-  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the largest
-  ///         moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k nothing can
-  ///         come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
-  static ISO_INLINE void prepare_body(const std::uint32_t* rows, const SolverBodies<S>& bodies, Body& body) {
+  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the
+  ///         largest moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k
+  ///         nothing can come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
+  static ISO_INLINE void prepare_body(const std::uint32_t* rows, const SolverMass<S>* masses, Body& body) {
     const S* mass[W];
     const S* rest[W];
     ISO_UNROLL for (int i = 0; i < W; ++i) {
-      mass[i] = &bodies.mass[rows[i]].mass;
-      rest[i] = &bodies.mass[rows[i]].kappa.rows[1].z;
+      mass[i] = &masses[rows[i]].mass;
+      rest[i] = &masses[rows[i]].kappa.rows[1].z;
     }
     L k[8], r[4];
     load_transposed<8>(mass, k);

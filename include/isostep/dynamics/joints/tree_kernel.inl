@@ -26,19 +26,19 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::factorise(run, m, joints, step);
-    Base::gather_velocities(run, m, *step.bodies);
+    Base::gather_velocities(run, m);
     for (const std::uint32_t j : run.shape.given) push(run.shape.joints[j], m, m.joints[j], load(m.joints[j].impulse));
-    Base::scatter_velocities(run, m, *step.bodies);
+    Base::scatter_velocities(run, m);
   }
 
   template <bool Relax> static void solve(const TreeRun<S>& run, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     const std::size_t count = run.shape.joints.size();
-    Base::gather_velocities(run, m, *step.bodies);
+    Base::gather_velocities(run, m);
     for (std::size_t j = 0; j < count; ++j) find_right_side<Relax>(run.shape.joints[j], m, m.joints[j], step);
     for (std::size_t j = 0; j < count; ++j) substitute_up(run.shape, j, m);
     for (std::size_t j = count; j-- > 0;) substitute_down(run.shape, j, m);
-    Base::scatter_velocities(run, m, *step.bodies);
+    Base::scatter_velocities(run, m);
   }
 
  private:

@@ -6,26 +6,28 @@
 #include <cstdint>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_shape.hpp"
-#include "isostep/dynamics/solvers/simd.hpp"
 
 namespace isostep {
 
 /// Up to W trees of one shape. Lanes without a tree repeat the first one and write nothing.
 template <class S> struct TreeRun {
   TreeShape shape;
-  const std::uint32_t* joints;  // in the step's constraints: W for every joint of the shape
-  const std::uint32_t* rows;    // of SolverBodies: W for every body of the shape
-  std::uint32_t lanes;          // which of the W have a tree, one bit each
-  void* memory;                 // TreeMemory<S, W>
+  const std::uint32_t* joints;       // in the step's constraints: W for every joint of the shape
+  const std::uint32_t* rows;         // of SolverBodies: W for every body of the shape
+  std::uint32_t lanes;               // which of the W have a tree, one bit each
+  void* memory;                      // TreeMemory<S, W>
+  MotionRow<Velocity<S>>* velocity;  // of SolverBodies
+  const SolverMass<S>* mass;         // likewise
 };
 
 template <class S> struct TreeKernels {
   const char* name;
   std::int32_t width;
   /// Once a step: from the constraints, and back.
-  void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints, const SolverBodies<S>& bodies);
+  void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints);
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
   /// Once a sub-step each, as JointTrees has them.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);

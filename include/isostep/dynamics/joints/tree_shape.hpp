@@ -2,10 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
+
+#include "isostep/scalar/platform.hpp"
 
 namespace isostep {
+
+/// A span whose functions leave no symbol: what kernels of one instruction set include must not.
+template <class T> struct KernelSpan {
+  const T* first;
+  std::size_t count;
+
+  ISO_INLINE std::size_t size() const { return count; }
+  ISO_INLINE const T& operator[](std::size_t i) const { return first[i]; }
+  ISO_INLINE const T* begin() const { return first; }
+  ISO_INLINE const T* end() const { return first + count; }
+};
 
 /// A joint of the shape, numbered in the order of elimination.
 struct TreeJoint {
@@ -26,10 +39,10 @@ struct TreeBody {
 };
 
 struct TreeShape {
-  std::span<const TreeJoint> joints;
-  std::span<const TreeLink> links;
-  std::span<const TreeBody> bodies;
-  std::span<const std::uint32_t> given;  // joints in the order in which they were made
+  KernelSpan<TreeJoint> joints;
+  KernelSpan<TreeLink> links;
+  KernelSpan<TreeBody> bodies;
+  KernelSpan<std::uint32_t> given;  // joints in the order in which they were made
 };
 
 }  // namespace isostep

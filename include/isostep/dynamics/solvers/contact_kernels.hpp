@@ -5,10 +5,10 @@
 #include <cstdint>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/contact_block.hpp"
-#include "isostep/dynamics/solvers/simd.hpp"
 #include "isostep/dynamics/solvers/softness.hpp"
 
 namespace isostep {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/core/task_runner.hpp"
+#include "isostep/scalar/platform.hpp"
 
 namespace isostep {
 

@@ -46,15 +46,17 @@ template <class S> struct SolverInput {
 };
 
 /// Source:  Catto 2024, Solver2D ("Soft Step"); Macklin et al. 2019, Small Steps in Physics Simulation.
-/// Order:   the calls below, once each a step. Nothing is kept from step to step but memory.
+/// Order:   the calls below, once each a step. Those from `prepare` on say what is to be done; `run` does it, and may
+///          be called after each of them or once in the end. Nothing is kept from step to step but memory.
 template <class S> class SoftStep {
  public:
   void gather_bodies(const SolverInput<S>& input);
   void colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide);
-  void prepare(const SolverInput<S>& input);
+  void prepare();
   void solve_substeps(const SolverInput<S>& input, const TreeKernels<S>& trees);
   void restitute(const SolverInput<S>& input);
-  void store_impulses(const SolverInput<S>& input);
+  void store_impulses();
+  void run(const SolverInput<S>& input);
 
   SolverBodies<S>& bodies() { return bodies_; }
   const SolverBodies<S>& bodies() const { return bodies_; }
@@ -90,6 +92,7 @@ template <class S> class SoftStep {
     store_joints,
     restitute,
     store,
+    store_bodies,
   };
   struct Stage {
     Work work;
@@ -114,10 +117,8 @@ template <class S> class SoftStep {
   void store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
 
   // soft_step_stages.inl
-  void begin_stages() { stages_.clear(), pieces_.clear(); }
   void add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces);
   void add_stages(Work work, const PassPlan& plan);
-  void run(const SolverInput<S>& input);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);

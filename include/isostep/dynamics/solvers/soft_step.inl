@@ -78,8 +78,8 @@ template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& in
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
   const std::size_t count = input.contacts.size();
   colouring_.begin(bodies_.mass.size());
-  bucket_.resize(count);
-  order_.resize(count);
+  resize_with_room(bucket_, count);
+  resize_with_room(order_, count);
   bucket_ends_.assign(kUncolouredBucket + 1, 0);
   runs_.clear();
   block_count_ = 0;
@@ -175,24 +175,6 @@ template <class S> void SoftStep<S>::store_slice(const SolverInput<S>& input, co
   const Contacts part = contacts_of(run, slice);
   run.kernels->store({memory_.data()->bytes + place_of(run, slice.first), part.count, shape.points, shape.rolling,
                       &order_[part.first], input.contacts.data(), input.step_impulses.data()});
-}
-
-template <class S> void SoftStep<S>::prepare(const SolverInput<S>& input) {
-  memory_.resize((memory_bytes_ + 63) / 64 + 1);
-  block_bodies_.resize(block_count_ + 1);
-  begin_stages();
-  add_stages(Work::prepare, all_);
-  run(input);
-}
-
-template <class S> void SoftStep<S>::store_impulses(const SolverInput<S>& input) {
-  begin_stages();
-  add_stages(Work::store, all_);
-  run(input);
-  for (std::size_t i = 0; i < input.states.size(); ++i) {
-    input.states[i].velocity = bodies_.velocity[i + 1].linear;
-    input.states[i].spin = bodies_.velocity[i + 1].angular;
-  }
 }
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/room.hpp"
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/soft_step.hpp"
 
@@ -113,6 +114,8 @@ template <class S> void SoftStep<S>::run(const SolverInput<S>& input) {
              detail::contact_pass(input),
              {input.states.data(), &bodies_, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate)}};
   run_stages(runner_, pieces_, &SoftStep::do_piece, &job);
+  stages_.clear();
+  pieces_.clear();
 }
 
 template <class S> void SoftStep<S>::do_piece(void* data, std::uint32_t stage, std::uint32_t piece) {
@@ -121,7 +124,8 @@ template <class S> void SoftStep<S>::do_piece(void* data, std::uint32_t stage, s
   const Stage& what = solver.stages_[stage];
   switch (what.work) {
     case Work::integrate_velocities:
-    case Work::integrate_positions: return solver.do_bodies(job, what.work, piece);
+    case Work::integrate_positions:
+    case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -150,7 +154,11 @@ template <class S> void SoftStep<S>::do_bodies(const Job& job, Work work, std::u
   const std::size_t count = job.input.states.size();
   const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
   if (work == Work::integrate_velocities) return integrate_velocities(job.input, first, end);
-  integrate_positions(job.input, first, end);
+  if (work == Work::integrate_positions) return integrate_positions(job.input, first, end);
+  for (std::size_t i = first; i < end; ++i) {
+    job.input.states[i].velocity = bodies_.velocity[i + 1].linear;
+    job.input.states[i].spin = bodies_.velocity[i + 1].angular;
+  }
 }
 
 template <class S> void SoftStep<S>::do_joints(const Job& job, Work work, std::uint32_t piece) {
@@ -162,10 +170,15 @@ template <class S> void SoftStep<S>::do_joints(const Job& job, Work work, std::u
   }
 }
 
+template <class S> void SoftStep<S>::prepare() {
+  resize_with_room(memory_, (memory_bytes_ + 63) / 64 + 1);
+  resize_with_room(block_bodies_, block_count_ + 1);
+  add_stages(Work::prepare, all_);
+}
+
 template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input, const TreeKernels<S>& trees) {
   joint_trees_.plan(input.joints, bodies_, &trees);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
-  begin_stages();
   for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
     add_stage(Work::integrate_velocities, 0, body_pieces_);
     add_stage(Work::warm_start_joints, 0, joints);
@@ -177,16 +190,17 @@ template <class S> void SoftStep<S>::solve_substeps(const SolverInput<S>& input,
     add_stages(Work::relax, colours_);
   }
   add_stage(Work::store_joints, 0, joints);
-  run(input);
 }
 
 template <class S> void SoftStep<S>::restitute(const SolverInput<S>& input) {
   bool bounces = false;
   for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
-  if (!bounces) return;
-  begin_stages();
-  add_stages(Work::restitute, colours_);
-  run(input);
+  if (bounces) add_stages(Work::restitute, colours_);
+}
+
+template <class S> void SoftStep<S>::store_impulses() {
+  add_stages(Work::store, all_);
+  add_stage(Work::store_bodies, 0, body_pieces_);
 }
 
 }  // namespace isostep

@@ -194,8 +194,8 @@ template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
 
   static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm256_mul_epu32(a, b); }
   static ISO_INLINE Type multiply_low(Type a, Type b) {
-    const __m256i cross = _mm256_add_epi64(_mm256_mul_epu32(_mm256_srli_epi64(a, 32), b),
-                                           _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
+    const __m256i cross =
+        _mm256_add_epi64(_mm256_mul_epu32(_mm256_srli_epi64(a, 32), b), _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
     return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(cross, 32));
   }
   /// An integer next to n / a, for a and it in [0, 2^52): to and from doubles by the mantissa of 2^52 plus the number.

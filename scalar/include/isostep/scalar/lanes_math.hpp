@@ -1,11 +1,22 @@
-// Roots, quotients and directions of lanes: every lane has the bits of the scalar's own function.
+// Roots, quotients, lengths and directions of lanes: every lane has the bits of the scalar's own function.
 // SPDX-License-Identifier: MIT
 #pragma once
+
+#include <bit>
 
 #include "isostep/scalar/lanes.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
+
+/// The first lane whose bit is set, for lanes != 0. std::countr_zero would be a weak symbol at -O0.
+ISO_INLINE int first_lane(std::uint32_t lanes) {
+#if defined(__GNUC__)
+  return __builtin_ctz(lanes);
+#else
+  return std::countr_zero(lanes);
+#endif
+}
 
 /// Square roots. Fixed point takes them one by one.
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> root(Lanes<S, W, Isa> a) {
@@ -34,6 +45,27 @@ ISO_INLINE Out quotient_where(Mask mask, Lanes<A, W, Isa> a, Lanes<B, W, Isa> b)
     return Out::load(q);
   } else {
     return select(mask, a / b, Out::zero());
+  }
+}
+
+/// |(x, y, z)| > length, for length >= 0. Fixed point compares exact sums one by one.
+template <class S, int W, class Isa>
+ISO_INLINE typename Lanes<S, W, Isa>::Mask is_longer(Lanes<S, W, Isa> x, Lanes<S, W, Isa> y, Lanes<S, W, Isa> z,
+                                                     Lanes<S, W, Isa> length) {
+  if constexpr (kIsFixed<S>) {
+    alignas(kLaneAlignment<S, W>) S in[4][W];
+    x.store(in[0]);
+    y.store(in[1]);
+    z.store(in[2]);
+    length.store(in[3]);
+    std::uint32_t bits = 0;
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      const auto square = product(in[0][i], in[0][i]) + product(in[1][i], in[1][i]) + product(in[2][i], in[2][i]);
+      bits |= (square > product(in[3][i], in[3][i]) ? 1u : 0u) << i;
+    }
+    return Lanes<S, W, Isa>::Mask::from_bits(bits);
+  } else {
+    return less(length * length, x * x + y * y + z * z);
   }
 }
 

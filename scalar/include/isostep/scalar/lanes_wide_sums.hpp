@@ -58,8 +58,7 @@ template <class R> struct FarSum {
 };
 
 /// The 64 bits from bit `shift` on of middle 2^32 + c0 + 2^(shift - 1), shift <= 32.
-template <int shift, class R>
-ISO_INLINE typename R::Type round_near(typename R::Type middle, typename R::Type c0) {
+template <int shift, class R> ISO_INLINE typename R::Type round_near(typename R::Type middle, typename R::Type c0) {
   const auto high = R::template shift_left<32 - shift>(middle);
   if constexpr (shift <= 0) return R::add(high, R::template shift_left<-shift>(c0));
   if constexpr (shift > 0) {
@@ -89,9 +88,8 @@ template <class R> struct FlippedSum {
     const Type ah = flipped_high(a);
     const Type bh = flipped_high(b);
     const Type ll = R::multiply_low_words(a, b);
-    return {ll, R::template shift_in_zeros<32>(ll),
-            R::add(R::multiply_low_words(a, bh), R::multiply_low_words(ah, b)), R::multiply_low_words(ah, bh),
-            R::add(a, b)};
+    return {ll, R::template shift_in_zeros<32>(ll), R::add(R::multiply_low_words(a, bh), R::multiply_low_words(ah, b)),
+            R::multiply_low_words(ah, bh), R::add(a, b)};
   }
   static ISO_INLINE FlippedSum of_words(Type high, Type low) {
     const Type z = R::broadcast(0);

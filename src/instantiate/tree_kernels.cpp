@@ -1,7 +1,6 @@
 // Which tree kernels a machine runs.
 // SPDX-License-Identifier: MIT
 #include "isostep/dynamics/joints/tree_kernels.hpp"
-#include "isostep/dynamics/solvers/contact_kernels.hpp"
 
 namespace isostep {
 namespace {
@@ -14,19 +13,11 @@ template <class S> const TreeKernels<S>* kernels_of(Simd simd) {
     default: return detail::scalar_tree_kernels<S>();
   }
 }
-/// The contact kernels know what the processor has.
-template <class S> const TreeKernels<S>* choose(Simd simd) {
-  if (simd != Simd::best) return contact_kernels<S>(simd) != nullptr ? kernels_of<S>(simd) : nullptr;
-  for (const Simd wide : {Simd::avx512, Simd::avx2, Simd::sse2}) {
-    if (const TreeKernels<S>* kernels = choose<S>(wide)) return kernels;
-  }
-  return kernels_of<S>(Simd::scalar);
-}
 
 }  // namespace
 
 #define ISO_DEFINE_CHOICE(S) \
-  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose<S>(simd); }
+  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose_kernels(simd, &kernels_of<S>); }
 ISO_FOR_EACH_SCALAR(ISO_DEFINE_CHOICE)
 
 }  // namespace isostep

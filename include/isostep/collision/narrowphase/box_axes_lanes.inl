@@ -1,0 +1,173 @@
+// The separating axes of W pairs of boxes at once: best_axis() of box_axes.hpp but for the crosses that are examined in
+// full. Part of pair_kernel.inl, with internal linkage like it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include "isostep/collision/narrowphase/box_axes.hpp"
+#include "isostep/collision/narrowphase/pair_lanes.inl"
+
+namespace isostep {
+namespace {
+
+template <class S, int W, class Isa> struct BoxAxesLanes {
+  using Pairs = PairLanes<S, W, Isa>;
+  using L = typename Pairs::L;
+  using U = typename Pairs::U;
+  using Mask = typename Pairs::Mask;
+  using Batch = typename Pairs::Batch;
+  using Bodies = typename Pairs::Bodies;
+
+  /// Both boxes in a's frame.
+  struct Boxes {
+    Vec3<L> half_a, half_b;
+    Mat3<U> turn_a, turn_b;  // to the world's axes
+    Vec3<L> offset;          // [m] b's centre
+    Mat3<U> turn;            // rows: a's axes; columns: b's
+    L tolerance;             // [m] axis_tolerance()
+  };
+  /// Which face is best, and by how much.
+  struct Best {
+    Mask apart;
+    Mask of_b, axis0, axis1;   // neither 0 nor 1: 2
+    L separation, limit;       // [m] of the face, what a cross must exceed
+    std::uint32_t crosses[9];  // a bit a lane: worth examining
+    std::uint32_t examine;     // lanes with any
+  };
+
+  static ISO_INLINE Mat3<U> gather_turn(const typename Pairs::Frame* const* frames) {
+    U w[8], rest[4];
+    Pairs::template gather<8>(
+        frames, [](const typename Pairs::Frame& f) ISO_INLINE_LAMBDA { return &f.origin.rotation.rows[0].x; }, w);
+    Pairs::template gather<4>(
+        frames, [](const typename Pairs::Frame& f) ISO_INLINE_LAMBDA { return &f.origin.rotation.rows[1].z; }, rest);
+    return {{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], rest[3]}}};
+  }
+
+  static ISO_INLINE Vec3<L> gather_half(const typename Pairs::Frame* const* frames) {
+    L w[4];
+    Pairs::template gather<4>(
+        frames, [](const typename Pairs::Frame& f) ISO_INLINE_LAMBDA { return &f.half.x; }, w);
+    return {w[0], w[1], w[2]};
+  }
+
+  static ISO_INLINE L tolerance_of(Vec3<L> half_a, Vec3<L> half_b) {
+    const Vec3<L> low = min(half_a, half_b);
+    const L smallest = min(low.x, min(low.y, low.z));
+    const L rounding = (max_abs(half_a) + max_abs(half_b)) * U::broadcast(resolution<Unit<S>>());
+    return smallest * L::broadcast(S(0.0078125)) + rounding * L::broadcast(S(8)) + L::broadcast(resolution<S>() * S(4));
+  }
+
+  /// |gap| - reach, rounded once: the larger of the two signs, for rounding keeps order.
+  template <int I, int J> static ISO_INLINE L cross_separation(const Boxes& boxes, const Mat3<U>& q) {
+    constexpr int i1 = (I + 1) % 3, i2 = (I + 2) % 3, j1 = (J + 1) % 3, j2 = (J + 2) % 3;
+    const Mat3<U>& r = boxes.turn;
+    const auto gap = product(boxes.offset[i2], r.rows[i1][J]) - product(boxes.offset[i1], r.rows[i2][J]);
+    const auto reach = product(boxes.half_a[i1], q.rows[i2][J]) + product(boxes.half_a[i2], q.rows[i1][J]) +
+                       product(boxes.half_b[j1], q.rows[I][j2]) + product(boxes.half_b[j2], q.rows[I][j1]);
+    return max(round_to<L>(gap - reach), round_to<L>(-gap - reach));
+  }
+  template <int K> static ISO_INLINE void weigh_cross(const Boxes& boxes, const Mat3<U>& q, L worth, Best& best) {
+    best.crosses[K] = to_bits(less(worth, cross_separation<K / 3, K % 3>(boxes, q)));
+    best.examine |= best.crosses[K];
+  }
+  template <int... K>
+  static ISO_INLINE void weigh_crosses(const Boxes& boxes, const Mat3<U>& q, L worth, Best& best,
+                                       std::integer_sequence<int, K...>) {
+    (weigh_cross<K>(boxes, q, worth, best), ...);
+  }
+
+  /// False when every pair is apart.
+  static ISO_INLINE bool find(const Batch& batch, const Bodies& p, S margin, Boxes& boxes, Best& best) {
+    boxes.half_a = gather_half(batch.a);
+    boxes.half_b = gather_half(batch.b);
+    boxes.turn_a = gather_turn(batch.a);
+    boxes.turn_b = gather_turn(batch.b);
+    const L reach = L::broadcast(margin) + p.radius_a + p.radius_b;
+    L a[3], b[3];
+    Mat3<U> size;
+    best.apart = Mask::from_bits(0);
+    L offset[3];
+    ISO_UNROLL for (int i = 0; i < 3; ++i) {
+      const Vec3<U> axis = boxes.turn_a.column(i);
+      offset[i] = dot(axis, p.gap);
+      boxes.turn.rows[i] = transposed_times(boxes.turn_b, axis);
+      size.rows[i] = abs(boxes.turn.rows[i]);
+      a[i] = abs(offset[i]) - boxes.half_a[i] - dot(size.rows[i], boxes.half_b);
+      best.apart = best.apart | less(reach, a[i]);
+    }
+    boxes.offset = {offset[0], offset[1], offset[2]};
+    if ((~to_bits(best.apart) & batch.real) == 0) return false;
+    ISO_UNROLL for (int j = 0; j < 3; ++j) {
+      b[j] = abs(dot(boxes.offset, boxes.turn.column(j))) - boxes.half_b[j] - dot(size.column(j), boxes.half_a);
+      best.apart = best.apart | less(reach, b[j]);
+    }
+    if ((~to_bits(best.apart) & batch.real) == 0) return false;
+
+    const L of_a = max(a[0], max(a[1], a[2])), of_b = max(b[0], max(b[1], b[2]));
+    boxes.tolerance = tolerance_of(boxes.half_a, boxes.half_b);
+    best.of_b = less(of_a + boxes.tolerance, of_b);
+    best.separation = select(best.of_b, of_b, of_a);
+    const L c[3] = {select(best.of_b, b[0], a[0]), select(best.of_b, b[1], a[1]), select(best.of_b, b[2], a[2])};
+    best.axis0 = less_equal(c[1], c[0]) & less_equal(c[2], c[0]);
+    best.axis1 = less_equal(c[2], c[1]) & ~best.axis0;
+    best.examine = 0;
+    best.limit = max(of_a, of_b) + boxes.tolerance;
+    const L worth = min(best.limit, L::zero());
+    weigh_crosses(boxes, size, worth, best, std::make_integer_sequence<int, 9>{});
+    best.examine &= ~to_bits(best.apart) & batch.real;
+    return true;
+  }
+
+  /// Out of the lanes, for what is done one by one.
+  struct Rest {
+    alignas(kLaneAlignment<S, W>) S separation[W], limit[W], offset[3][W];
+    alignas(kLaneAlignment<S, W>) Unit<S> turn[3][3][W];
+  };
+  static ISO_INLINE void store(const Boxes& boxes, const Best& best, Rest& rest) {
+    best.separation.store(rest.separation);
+    best.limit.store(rest.limit);
+    for (int i = 0; i < 3; ++i) {
+      boxes.offset[i].store(rest.offset[i]);
+      for (int j = 0; j < 3; ++j) boxes.turn.rows[i][j].store(rest.turn[i][j]);
+    }
+  }
+  static ISO_INLINE detail::BoxPair<S> pair_of(const Batch& batch, const Rest& rest, int lane) {
+    detail::BoxPair<S> pair;
+    pair.half_a = batch.a[lane]->half;
+    pair.half_b = batch.b[lane]->half;
+    for (int i = 0; i < 3; ++i) {
+      pair.offset.set(i, rest.offset[i][lane]);
+      for (int j = 0; j < 3; ++j) pair.turn.rows[i].set(j, rest.turn[i][j][lane]);
+    }
+    return pair;
+  }
+
+  /// Examines one by one the crosses that are worth it; collides the pairs of which one is the best axis or separates.
+  /// Answers which those are, a bit a lane.
+  static ISO_INLINE std::uint32_t finish_crosses(const PairRun<S>& run, const Batch& batch, const Best& best,
+                                                 const Rest& rest) {
+    std::uint32_t done = 0;
+    for (std::uint32_t lanes = best.examine; lanes != 0; lanes &= lanes - 1) {
+      const int lane = first_lane(lanes);
+      const BodyFrame<S>&a = *batch.a[lane], &b = *batch.b[lane];
+      const detail::BoxPair<S> pair = pair_of(batch, rest, lane);
+      std::uint32_t candidates = 0;
+      for (int k = 0; k < 9; ++k) candidates |= (best.crosses[k] >> lane & 1u) << k;
+      detail::BestAxis<S> axis = {0, rest.separation[lane], Vec3<Unit<S>>::zero()};
+      detail::examine_crosses(pair, candidates, run.margin + a.radius + b.radius, rest.limit[lane], axis);
+      if (axis.axis == 0) continue;  // a face, as before
+      done |= 1u << lane;
+      Manifold<S>& out = run.manifolds[batch.pair[lane]];
+      if (axis.axis < 0) continue;
+      out.clear();
+      detail::touch_edges(pair, axis, a.radius, b.radius, a.origin, out);
+      run.counts[batch.pair[lane]] = static_cast<std::uint8_t>(out.count);
+    }
+    return done;
+  }
+};
+
+}  // namespace
+}  // namespace isostep

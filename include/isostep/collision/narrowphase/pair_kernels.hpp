@@ -1,0 +1,83 @@
+// Kernels that collide runs of pairs of one kind as a table: one for each instruction set, chosen at run time, all
+// giving collide()'s own bits.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// What a pair's kernel depends on.
+enum class PartKind : std::uint32_t { sphere, box, other };
+
+/// What the narrow phase asks of a body. Lanes read the numbers in runs of four and eight.
+template <class S> struct BodyFrame {
+  Vec3<S> half;         // [m] of the core of the only part
+  S radius;             // [m] around it
+  Vec3<S> centre;       // [m] of mass, world
+  Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
+  const Child<S>* children;
+  std::uint32_t child_count;
+  std::uint32_t slot;
+  std::uint32_t row;  // of SolverBodies: 0 unless awake
+  PartKind kind;      // of the only part, if plain
+  bool plain;         // one part, not moved
+  bool sensor, frozen;
+};
+
+/// Two bodies' parts that might touch. Frames are indices.
+struct PartPair {
+  std::uint32_t frame_a, frame_b;
+  std::uint32_t child_a, child_b;
+};
+
+/// Where b's frame lies for the narrow phase: everything relative to a's centre of mass, axes as the world's, so that
+/// far from the origin costs no precision.
+template <class S> ISO_INLINE Transform<S> origin_beside(const BodyFrame<S>& a, const BodyFrame<S>& b) {
+  return {b.centre - a.centre + b.origin.position, b.origin.rotation};
+}
+
+/// Pairs of one kind, both bodies plain. Pair order[i] fills counts[order[i]] and, where that is not zero,
+/// manifolds[order[i]], begin <= i < end: runs may be cut anywhere and collided at once.
+template <class S> struct PairRun {
+  const BodyFrame<S>* frames;
+  const PartPair* pairs;
+  const std::uint32_t* order;
+  std::uint32_t begin, end;
+  S margin;              // [m] as collide() has it
+  std::uint8_t* counts;  // of points: most pairs of a heap have none, and cost no more memory than this
+  Manifold<S>* manifolds;
+};
+
+template <class S> struct PairKernels {
+  void (*spheres)(const PairRun<S>&);
+  void (*boxes)(const PairRun<S>&);
+};
+
+/// The kernels for `simd`: those of one lane where an instruction set has none of its own, is missing or does not pay.
+template <class S> const PairKernels<S>* pair_kernels(Simd simd);
+
+namespace detail {
+/// One translation unit an instruction set. Null where the build has none.
+template <class S> const PairKernels<S>* scalar_pair_kernels();
+template <class S> const PairKernels<S>* sse2_pair_kernels();
+template <class S> const PairKernels<S>* avx2_pair_kernels();
+template <class S> const PairKernels<S>* avx512_pair_kernels();
+}  // namespace detail
+
+#define ISO_DECLARE_PAIR_KERNELS(S)                             \
+  template <> const PairKernels<S>* pair_kernels<S>(Simd simd); \
+  namespace detail {                                            \
+  template <> const PairKernels<S>* scalar_pair_kernels<S>();   \
+  template <> const PairKernels<S>* sse2_pair_kernels<S>();     \
+  template <> const PairKernels<S>* avx2_pair_kernels<S>();     \
+  template <> const PairKernels<S>* avx512_pair_kernels<S>();   \
+  }
+ISO_FOR_EACH_SCALAR(ISO_DECLARE_PAIR_KERNELS)
+
+}  // namespace isostep

@@ -1,0 +1,169 @@
+// WorldEngine: the frames of bodies, and the pairs of their parts that might touch.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/collide.hpp"
+#include "isostep/core/room.hpp"
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> ISO_INLINE Transform<S> placed(const Transform<S>& origin, const Child<S>& child) {
+  return child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
+}
+}  // namespace detail
+
+template <class S> BodyFrame<S> WorldEngine<S>::frame_at(Location at) const {
+  const BodyState<S>& state = state_at(at);
+  const BodyProperties<S>& body = properties_at(at);
+  const std::span<const Child<S>> children = children_of(body.shape);
+  const Mat3<Unit<S>> turn = to_matrix(state.orientation);
+  const Primitive<S>& first = children[0].primitive;
+  const bool plain = children.size() == 1 && children[0].pose.is_identity();
+  const PartKind kind = first.type == ShapeType::sphere ? PartKind::sphere
+                        : first.type == ShapeType::box  ? PartKind::box
+                                                        : PartKind::other;
+  return {first.half,
+          first.radius,
+          state.centre,
+          {-(turn * body.local_centre), turn},
+          children.data(),
+          static_cast<std::uint32_t>(children.size()),
+          state.slot,
+          at.set == Location::kAwake ? at.index + 1 : 0,
+          plain ? kind : PartKind::other,
+          plain,
+          (body.flags & body_flag::kSensor) != 0,
+          at.is_frozen()};
+}
+
+/// visit(child_a, child_b) for every two parts whose bounds meet within the margin, in order of their indices, until it
+/// answers false.
+template <class S>
+template <class Visit>
+ISO_INLINE void WorldEngine<S>::visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit) {
+  if (a.child_count == 1 && b.child_count == 1) {
+    visit(0u, 0u);
+    return;
+  }
+  const Transform<S> origin_b = origin_beside(a, b);
+  for (std::uint32_t i = 0; i < a.child_count; ++i) {
+    const Transform<S> ta = detail::placed(a.origin, a.children[i]);
+    const Aabb<S> box_a = grow(bounds(a.children[i].primitive, ta), margin);
+    for (std::uint32_t j = 0; j < b.child_count; ++j) {
+      const Transform<S> tb = detail::placed(origin_b, b.children[j]);
+      if (overlap(box_a, bounds(b.children[j].primitive, tb)) && !visit(i, j)) return;
+    }
+  }
+}
+
+template <class S>
+void WorldEngine<S>::collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j,
+                                   S margin, Manifold<S>& out) {
+  const Child<S>&part_a = a.children[i], &part_b = b.children[j];
+  const Transform<S> origin_b = origin_beside(a, b);
+  if (a.plain && b.plain) {
+    collide(part_a.primitive, a.origin, part_b.primitive, origin_b, margin, out);
+  } else {
+    collide(part_a.primitive, detail::placed(a.origin, part_a), part_b.primitive, detail::placed(origin_b, part_b),
+            margin, out);
+  }
+}
+
+/// Pairs that a joint keeps from colliding, ascending.
+template <class S> void WorldEngine<S>::collect_joined_pairs() {
+  joined_pairs_.clear();
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    if ((joint.flags & joint_flag::kCollideConnected) != 0 || joint.body_a == kNoBody || joint.body_b == kNoBody)
+      continue;
+    joined_pairs_.push_back(pair_key(joint.body_a, joint.body_b));
+  }
+  sort_scratch_.resize(joined_pairs_.size());
+  stable_sort(joined_pairs_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(joined_pairs_.size()), OwnKey{});
+}
+
+/// Frames of awake bodies come first, in their order; what they meet is added as it is met.
+template <class S> void WorldEngine<S>::make_room_for_frames() {
+  const std::size_t count = state_.awake.states.size();
+  for (const std::uint32_t slot : framed_slots_) framed_[slot] = Framed{};
+  framed_.resize(locations_.size());
+  framed_slots_.resize(count);
+  frames_.resize(count);
+  materials_.resize(count);
+}
+template <class S> void WorldEngine<S>::frame_awake_body(std::size_t index) {
+  const auto i = static_cast<std::uint32_t>(index);
+  frames_[i] = frame_at({Location::kAwake, i});
+  materials_[i] = state_.awake.properties[i].material;
+  framed_[frames_[i].slot] = {i, traits_of(frames_[i])};
+  framed_slots_[i] = frames_[i].slot;
+}
+template <class S> void WorldEngine<S>::frame_body(std::uint32_t slot) {
+  const BodyFrame<S> frame = frame_at(locations_[slot]);
+  framed_[slot] = {static_cast<std::uint32_t>(frames_.size()), traits_of(frame)};
+  framed_slots_.push_back(slot);
+  frames_.push_back(frame);
+  materials_.push_back(properties_at(locations_[slot]).material);
+}
+template <class S> std::uint32_t WorldEngine<S>::traits_of(const BodyFrame<S>& frame) {
+  return static_cast<std::uint32_t>(frame.kind) | (frame.sensor ? Framed::kSensor : 0u) |
+         (frame.frozen ? Framed::kFrozen : 0u);
+}
+
+/// The parts that might touch, in order of their contacts' keys, and which of them are of one kind.
+template <class S> void WorldEngine<S>::gather_parts() {
+  parts_.clear();
+  groups_.clear();
+  sphere_pairs_.clear();
+  box_pairs_.clear();
+  other_pairs_.clear();
+  const std::vector<std::uint64_t>& pairs = proxies_.pairs();
+  make_room(parts_, pairs.size());
+  std::size_t joined = 0;
+  for (const std::uint64_t key : pairs) {
+    while (joined < joined_pairs_.size() && joined_pairs_[joined] < key) ++joined;
+    if (joined < joined_pairs_.size() && joined_pairs_[joined] == key) continue;
+    if (framed_[pair_a(key)].index == Framed::kNone) frame_body(pair_a(key));
+    if (framed_[pair_b(key)].index == Framed::kNone) frame_body(pair_b(key));
+    const Framed a = framed_[pair_a(key)], b = framed_[pair_b(key)];
+    if (a.traits == b.traits && a.traits < static_cast<std::uint32_t>(PartKind::other)) {  // awake and no sensors
+      const bool spheres = a.traits == static_cast<std::uint32_t>(PartKind::sphere);
+      add_part(spheres ? sphere_pairs_ : box_pairs_, {a.index, b.index, 0, 0});
+    } else {
+      gather_others(a, b);
+    }
+  }
+}
+template <class S> void WorldEngine<S>::gather_others(Framed at_a, Framed at_b) {
+  const std::uint32_t either = at_a.traits | at_b.traits;
+  const bool sensor = (either & Framed::kSensor) != 0;
+  if ((at_a.traits & at_b.traits & Framed::kSensor) != 0) return;
+  if (!sensor && (either & Framed::kFrozen) != 0) return;  // a kinematic body at rest against sleepers
+  const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
+  visit_parts(frames_[at_a.index], frames_[at_b.index], margin, [&](std::uint32_t i, std::uint32_t j) {
+    add_part(other_pairs_, {at_a.index, at_b.index, i, j});
+    return true;
+  });
+}
+template <class S> ISO_INLINE void WorldEngine<S>::add_part(std::vector<std::uint32_t>& list, const PartPair& part) {
+  const auto place = static_cast<std::uint32_t>(parts_.size() % kGroup);
+  if (place == 0) groups_.push_back(list_ends());
+  list.push_back(place);
+  parts_.push_back(part);
+}
+template <class S> typename WorldEngine<S>::ListEnds WorldEngine<S>::list_ends() const {
+  return {static_cast<std::uint32_t>(sphere_pairs_.size()), static_cast<std::uint32_t>(box_pairs_.size()),
+          static_cast<std::uint32_t>(other_pairs_.size())};
+}
+
+template <class S> typename WorldEngine<S>::ListEnds WorldEngine<S>::ends_of(std::size_t group) const {
+  return group + 1 < groups_.size() ? groups_[group + 1] : list_ends();
+}
+template <class S> ISO_INLINE std::size_t WorldEngine<S>::parts_of(std::size_t group) const {
+  return min(parts_.size() - group * kGroup, std::size_t{kGroup});
+}
+
+}  // namespace isostep
