@@ -43,7 +43,8 @@ inline void read_slots(Reader& reader, SlotMap& slots) {
 }
 }  // namespace detail
 
-/// Root: settings, tick, slot tables, arrays, then the frozen islands' own hashes, in this order.
+/// Root: settings, tick, slot tables, arrays, then the frozen islands' own hashes, in this order; of the islands every
+/// 256 that are followed by another are one word, for they rarely change.
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
   HashCombiner root;
   root.add(hash_records_by_fields(&state_.settings, 1));
@@ -60,7 +61,18 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
   add(state_.fixed.remembered(1), state_.fixed->properties);
   WorldState<S>::own_sections(
       [&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, state_);
-  for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) root.add(island->hash);
+  const FrozenIslands<S>& frozen = state_.frozen;
+  for (std::size_t p = 0; p + 1 < frozen.pages(); ++p) {
+    root.add(frozen.remembered(p).get([&] {
+      HashCombiner page;
+      for (std::size_t i = 0; i < frozen.page_size(p); ++i) page.add(frozen.page(p)[i]->hash);
+      return page.value();
+    }));
+  }
+  if (!frozen.empty()) {
+    const std::size_t last = frozen.pages() - 1;
+    for (std::size_t i = 0; i < frozen.page_size(last); ++i) root.add(frozen.page(last)[i]->hash);
+  }
   return root.value();
 }
 
