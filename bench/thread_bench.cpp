@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "scenes/build.hpp"
@@ -23,9 +24,9 @@ struct Arguments {
 
 /// One world of the scene and the threads that step it.
 template <class S> struct Lane {
-  Lane(const scenes::Scene& scene, int thread_count) : pool(thread_count), world(scenes::settings_of<S>(scene)) {
+  Lane(const scenes::Scene& scene, int thread_count) : world(scenes::settings_of<S>(scene)) {
     scenes::build(scene, world);
-    if (thread_count > 1) world.use_threads(pool.runner());
+    if (thread_count > 1) world.use_threads(pool.emplace(thread_count).runner());
   }
   void run(int frames) {
     for (int i = 0; i < frames; ++i) {
@@ -42,7 +43,7 @@ template <class S> struct Lane {
     return settled[static_cast<std::size_t>(share * static_cast<double>(settled.size() - 1))];
   }
 
-  threads::TbbRunner pool;  // outlives the world
+  std::optional<threads::TbbRunner> pool;  // outlives the world
   World<S> world;
   std::vector<double> times;  // [ms]
 };

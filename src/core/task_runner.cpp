@@ -20,7 +20,7 @@ inline void relax_processor() {
 }
 
 /// Looks at the board, some 0.5 ms in all, before a thread that finds nothing to do leaves. It takes no part in the
-/// stages that follow; the others come to the end without it. So no more threads wait than there are cores.
+/// stages that follow; the others come to the end without it. So threads beyond the cores do not keep others waiting.
 constexpr std::uint32_t kPatience = 1u << 15;
 
 class StagedWork {

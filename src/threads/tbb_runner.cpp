@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "tbb_runner.hpp"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -10,10 +9,7 @@
 namespace isostep::threads {
 
 struct TbbRunner::Arena {
-  explicit Arena(int threads)
-      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-
-  tbb::global_control allowed;  // by itself oneTBB makes no more threads than there are cores
+  explicit Arena(int threads) : arena(threads) {}
   tbb::task_arena arena;
 };
 

@@ -5,7 +5,6 @@
 
 #include <bit>
 
-#include "isostep/core/room.hpp"
 #include "isostep/world/engine_parts.inl"
 
 namespace isostep {
@@ -124,8 +123,8 @@ template <class S> std::size_t WorldEngine<S>::place_group(std::size_t group, co
     --touching;
   }
   placed_ += touching;
-  if (state_.contacts.size() < placed_) resize_with_room(state_.contacts, placed_);
-  if (geometry_.size() < placed_) resize_with_room(geometry_, placed_);
+  if (state_.contacts.size() < placed_) state_.contacts.resize(placed_);
+  if (geometry_.size() < placed_) geometry_.resize(placed_);
   return first;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
-#include "isostep/core/room.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/world/engine.hpp"
@@ -121,7 +120,6 @@ template <class S> void WorldEngine<S>::gather_parts() {
   box_pairs_.clear();
   other_pairs_.clear();
   const std::vector<std::uint64_t>& pairs = proxies_.pairs();
-  make_room(parts_, pairs.size());
   std::size_t joined = 0;
   for (const std::uint64_t key : pairs) {
     while (joined < joined_pairs_.size() && joined_pairs_[joined] < key) ++joined;

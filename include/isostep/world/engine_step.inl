@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/core/room.hpp"
 #include "isostep/dynamics/solvers/soft_step.inl"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/checks.hpp"
@@ -94,7 +93,7 @@ template <class S> void WorldEngine<S>::prepare_joints() {
 
 template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
   joint_constraints_.resize(state_.joints.states.size());
-  resize_with_room(step_impulses_, state_.contacts.size());
+  step_impulses_.resize(state_.contacts.size());
   return {state_.awake.states,
           state_.awake.properties,
           accelerations_,

@@ -78,8 +78,8 @@ template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& in
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
   const std::size_t count = input.contacts.size();
   colouring_.begin(bodies_.mass.size());
-  resize_with_room(bucket_, count);
-  resize_with_room(order_, count);
+  bucket_.resize(count);
+  order_.resize(count);
   bucket_ends_.assign(kUncolouredBucket + 1, 0);
   runs_.clear();
   block_count_ = 0;

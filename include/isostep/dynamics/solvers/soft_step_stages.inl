@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/core/room.hpp"
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/soft_step.hpp"
 
@@ -171,8 +170,8 @@ template <class S> void SoftStep<S>::do_joints(const Job& job, Work work, std::u
 }
 
 template <class S> void SoftStep<S>::prepare() {
-  resize_with_room(memory_, (memory_bytes_ + 63) / 64 + 1);
-  resize_with_room(block_bodies_, block_count_ + 1);
+  memory_.resize((memory_bytes_ + 63) / 64 + 1);
+  block_bodies_.resize(block_count_ + 1);
   add_stages(Work::prepare, all_);
 }
 
