@@ -6,6 +6,10 @@ set(isostep_exact_flags
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math;-ffp-contract=off>
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:MSVC>:/fp:precise>)
+# clang 14's SLP vectoriser changes bits of the joints in WebAssembly with SIMD, though that has no fused instruction.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "wasm" OR EMSCRIPTEN)
+  list(APPEND isostep_exact_flags -fno-vectorize -fno-slp-vectorize)
+endif()
 set(isostep_warnings
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow>)
 

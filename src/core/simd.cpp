@@ -19,8 +19,13 @@ bool processor_has(Simd simd) {
     case Simd::avx2:
     case Simd::avx512: return false;
 #endif
-    case Simd::best:
-    case Simd::scalar: break;
+#if !defined(__AARCH64EL__) || !defined(__ARM_NEON)
+    case Simd::neon: return false;  // where the target has it, so does every processor
+#endif
+#if !defined(__wasm_simd128__)
+    case Simd::wasm: return false;
+#endif
+    default: break;
   }
   return true;
 }

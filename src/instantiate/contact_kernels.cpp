@@ -17,6 +17,8 @@ template <class S> const ContactKernels<S>* kernels_of(Simd simd) {
     case Simd::avx512: return detail::avx512_kernels<S>();
     case Simd::avx2: return detail::avx2_kernels<S>();
     case Simd::sse2: return detail::sse2_kernels<S>();
+    case Simd::neon: return detail::neon_kernels<S>();
+    case Simd::wasm: return detail::wasm_kernels<S>();
     default: return detail::scalar_kernels<S>();
   }
 }

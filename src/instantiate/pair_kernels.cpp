@@ -10,6 +10,8 @@ template <class S> const PairKernels<S>* kernels_of(Simd simd) {
     case Simd::avx512: return detail::avx512_pair_kernels<S>();
     case Simd::avx2: return detail::avx2_pair_kernels<S>();
     case Simd::sse2: return detail::sse2_pair_kernels<S>();
+    case Simd::neon: return detail::neon_pair_kernels<S>();
+    case Simd::wasm: return detail::wasm_pair_kernels<S>();
     default: return detail::scalar_pair_kernels<S>();
   }
 }

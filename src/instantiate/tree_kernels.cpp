@@ -10,6 +10,8 @@ template <class S> const TreeKernels<S>* kernels_of(Simd simd) {
     case Simd::avx512: return detail::avx512_tree_kernels<S>();
     case Simd::avx2: return detail::avx2_tree_kernels<S>();
     case Simd::sse2: return detail::sse2_tree_kernels<S>();
+    case Simd::neon: return detail::neon_tree_kernels<S>();
+    case Simd::wasm: return detail::wasm_tree_kernels<S>();
     default: return detail::scalar_tree_kernels<S>();
   }
 }

@@ -75,7 +75,7 @@ class CommandLine {
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
-        ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2", "avx512"}))
+        ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2", "avx512", "neon", "wasm"}))
         ->capture_default_str();
     command->add_option("--load", run_.load, "begin with this portable snapshot");
     command->add_option("--save", run_.save, "write a portable snapshot of the end");

@@ -42,7 +42,7 @@ template <class S> bool check_scalar() {
     return false;
   }
   bool sound = true;
-  for (const char* lanes : {"scalar", "sse2", "avx2", "avx512"}) {
+  for (const char* lanes : {"scalar", "sse2", "avx2", "avx512", "neon", "wasm"}) {
     if (!World<S>().use_simd(simd_named(lanes))) continue;
     const CheckedFile checked = check_golden(name, golden->text, simd_named(lanes));
     std::printf("%-7s %-6s %s: %s\n", ScalarTraits<S>::kName, lanes, kScene, text_of(checked).c_str());

@@ -38,6 +38,8 @@ Simd simd_named(const std::string& name) {
   if (name == "sse2") return Simd::sse2;
   if (name == "avx2") return Simd::avx2;
   if (name == "avx512") return Simd::avx512;
+  if (name == "neon") return Simd::neon;
+  if (name == "wasm") return Simd::wasm;
   return Simd::best;
 }
 

@@ -26,7 +26,9 @@ Simd simd_named(const std::string& name);
 template <class S> void use_lanes(World<S>& world, Simd simd) {
   if (world.use_simd(simd)) return;
   if (simd == Simd::avx512 && world.use_simd(Simd::avx2)) return;
-  if (simd != Simd::sse2 && world.use_simd(Simd::sse2)) return;
+  for (const Simd narrow : {Simd::sse2, Simd::neon, Simd::wasm}) {
+    if (world.use_simd(narrow)) return;
+  }
   world.use_simd(Simd::scalar);
 }
 

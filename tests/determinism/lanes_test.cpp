@@ -51,7 +51,7 @@ TYPED_TEST(SameHashes, the_scene_is_busy_and_the_same_commands_give_the_same_has
 TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_way) {
   using S = TypeParam;
   int widths = 0;
-  for (const Simd simd : {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::best}) {
+  for (const Simd simd : {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm, Simd::best}) {
     World<S> w(settings<S>(-10, 60, 4));
     if (!w.use_simd(simd)) continue;
     ++widths;
@@ -63,7 +63,7 @@ TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_
   World<S> w(settings<S>(-10, 60, 4));
   build_mess(w);
   for (std::uint64_t f = 0; f < kFrames; ++f) {
-    w.use_simd(static_cast<Simd>(f % 5));
+    w.use_simd(static_cast<Simd>(f % 7));
     ASSERT_EQ(play(w, f), this->expected()[f]) << w.simd_name() << " frame " << f;
   }
 }
@@ -94,7 +94,7 @@ template <class S> std::vector<std::uint64_t> hashes_of_trees(Simd simd, bool ch
   }
   std::vector<std::uint64_t> hashes;
   for (std::uint64_t f = 0; f < 90; ++f) {
-    if (changing) w.use_simd(static_cast<Simd>(f % 5));
+    if (changing) w.use_simd(static_cast<Simd>(f % 7));
     const std::vector<JointId> joints = w.joints();
     if (f % 12 == 11) w.destroy(joints[f % joints.size()]);
     if (f % 24 == 23) {
@@ -110,7 +110,7 @@ template <class S> std::vector<std::uint64_t> hashes_of_trees(Simd simd, bool ch
 TYPED_TEST(SameHashes, of_joint_trees_with_every_width_of_lanes) {
   using S = TypeParam;
   const std::vector<std::uint64_t> one = hashes_of_trees<S>(Simd::scalar, false);
-  for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512, Simd::best}) {
+  for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm, Simd::best}) {
     if (!World<S>().use_simd(simd)) continue;
     EXPECT_EQ(hashes_of_trees<S>(simd, false), one) << static_cast<unsigned>(simd);
   }

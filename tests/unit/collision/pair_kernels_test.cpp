@@ -12,7 +12,7 @@
 namespace isostep::test {
 namespace {
 
-constexpr Simd kSets[] = {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::best};
+constexpr Simd kSets[] = {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm, Simd::best};
 
 template <class S> class PairKernelsTest : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;

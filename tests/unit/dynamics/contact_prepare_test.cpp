@@ -121,7 +121,7 @@ template <class S> Scene<S> random_scene(Random& random, std::uint32_t count, st
   return scene;
 }
 
-constexpr Simd kWide[] = {Simd::best, Simd::sse2, Simd::avx2};
+constexpr Simd kWide[] = {Simd::best, Simd::sse2, Simd::avx2, Simd::neon, Simd::wasm};
 
 template <class S> void compare_bodies(const Blocks<S>& one, const Blocks<S>& many, std::size_t i) {
   const BlockBodies& x = one.bodies[i];

@@ -153,7 +153,7 @@ TYPED_TEST_SUITE(JointTreesTest, Scalars);
 TYPED_TEST(JointTreesTest, EveryWidthGivesTheBitsOfOneTreeByItself) {
   using S = TypeParam;
   const auto expected = play<S>({});
-  for (const Simd simd : {Simd::best, Simd::sse2, Simd::avx2, Simd::avx512}) {
+  for (const Simd simd : {Simd::best, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm}) {
     if (tree_kernels<S>(simd) == nullptr) continue;
     const auto frames = play<S>({.simd = simd});
     for (std::size_t f = 0; f < frames.size(); ++f)

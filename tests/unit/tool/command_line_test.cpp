@@ -189,7 +189,7 @@ TEST_F(CommandLine, RefusesASnapshotThatIsNone) {
 
 TEST_F(CommandLine, LanesChangeNothingButTheirName) {
   for (const char* scalar : {"float", "double", "q16.16", "q32.32"}) {
-    for (const char* lanes : {"scalar", "sse2", "avx2", "avx512", "best"}) {
+    for (const char* lanes : {"scalar", "sse2", "avx2", "avx512", "neon", "wasm", "best"}) {
       ASSERT_EQ(
           run({"run", "S4s", "--frames", "60", "--scalar", scalar, "--simd", lanes, "--hashes", path(lanes)}).status,
           0);
@@ -197,6 +197,8 @@ TEST_F(CommandLine, LanesChangeNothingButTheirName) {
     EXPECT_EQ(read("scalar"), read("sse2")) << scalar;
     EXPECT_EQ(read("scalar"), read("avx2")) << scalar;
     EXPECT_EQ(read("scalar"), read("avx512")) << scalar;
+    EXPECT_EQ(read("scalar"), read("neon")) << scalar;
+    EXPECT_EQ(read("scalar"), read("wasm")) << scalar;
     EXPECT_EQ(read("scalar"), read("best")) << scalar;
   }
 }

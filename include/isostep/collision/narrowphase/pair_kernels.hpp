@@ -68,6 +68,8 @@ template <class S> const PairKernels<S>* scalar_pair_kernels();
 template <class S> const PairKernels<S>* sse2_pair_kernels();
 template <class S> const PairKernels<S>* avx2_pair_kernels();
 template <class S> const PairKernels<S>* avx512_pair_kernels();
+template <class S> const PairKernels<S>* neon_pair_kernels();
+template <class S> const PairKernels<S>* wasm_pair_kernels();
 }  // namespace detail
 
 #define ISO_DECLARE_PAIR_KERNELS(S)                             \
@@ -77,6 +79,8 @@ template <class S> const PairKernels<S>* avx512_pair_kernels();
   template <> const PairKernels<S>* sse2_pair_kernels<S>();     \
   template <> const PairKernels<S>* avx2_pair_kernels<S>();     \
   template <> const PairKernels<S>* avx512_pair_kernels<S>();   \
+  template <> const PairKernels<S>* neon_pair_kernels<S>();     \
+  template <> const PairKernels<S>* wasm_pair_kernels<S>();     \
   }
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_PAIR_KERNELS)
 

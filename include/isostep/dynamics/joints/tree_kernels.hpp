@@ -44,6 +44,8 @@ template <class S> const TreeKernels<S>* scalar_tree_kernels();
 template <class S> const TreeKernels<S>* sse2_tree_kernels();
 template <class S> const TreeKernels<S>* avx2_tree_kernels();
 template <class S> const TreeKernels<S>* avx512_tree_kernels();
+template <class S> const TreeKernels<S>* neon_tree_kernels();
+template <class S> const TreeKernels<S>* wasm_tree_kernels();
 }  // namespace detail
 
 #define ISO_DECLARE_TREE_KERNELS(S)                             \
@@ -53,6 +55,8 @@ template <class S> const TreeKernels<S>* avx512_tree_kernels();
   template <> const TreeKernels<S>* sse2_tree_kernels<S>();     \
   template <> const TreeKernels<S>* avx2_tree_kernels<S>();     \
   template <> const TreeKernels<S>* avx512_tree_kernels<S>();   \
+  template <> const TreeKernels<S>* neon_tree_kernels<S>();     \
+  template <> const TreeKernels<S>* wasm_tree_kernels<S>();     \
   }
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_TREE_KERNELS)
 

@@ -81,6 +81,8 @@ template <class S> const ContactKernels<S>* scalar_kernels();
 template <class S> const ContactKernels<S>* sse2_kernels();
 template <class S> const ContactKernels<S>* avx2_kernels();
 template <class S> const ContactKernels<S>* avx512_kernels();
+template <class S> const ContactKernels<S>* neon_kernels();
+template <class S> const ContactKernels<S>* wasm_kernels();
 }  // namespace detail
 
 #define ISO_DECLARE_CONTACT_KERNELS(S)                                \
@@ -90,6 +92,8 @@ template <class S> const ContactKernels<S>* avx512_kernels();
   template <> const ContactKernels<S>* sse2_kernels<S>();             \
   template <> const ContactKernels<S>* avx2_kernels<S>();             \
   template <> const ContactKernels<S>* avx512_kernels<S>();           \
+  template <> const ContactKernels<S>* neon_kernels<S>();             \
+  template <> const ContactKernels<S>* wasm_kernels<S>();             \
   }
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_CONTACT_KERNELS)
 

@@ -22,13 +22,15 @@
 namespace isostep {
 
 /// Instruction sets. An empty tag in every name keeps code of different sets apart for the linker. A tag is complete
-/// only where its own header (lanes_sse2.hpp, lanes_avx2.hpp, lanes_avx512.hpp) is included: no file can mix the
-/// versions up.
+/// only where its own header (lanes_sse2.hpp, lanes_avx2.hpp, lanes_avx512.hpp, lanes_neon.hpp, lanes_wasm.hpp) is
+/// included: no file can mix the versions up.
 namespace isa {
 struct Portable {};
 struct Sse2;
 struct Avx2;
 struct Avx512;
+struct Neon;
+struct WasmSimd;
 }  // namespace isa
 
 namespace detail {
@@ -39,6 +41,14 @@ template <class Rep, int F, Overflow P> struct LaneKeyOf<Fixed<Rep, F, P>> {
   using Type = std::conditional_t<P == Overflow::wrap, Rep, Fixed<Rep, 1, P>>;
 };
 template <class S> using LaneKey = typename LaneKeyOf<S>::Type;
+
+/// One answer of a comparison in memory. clang 14 for WebAssembly passes a struct of one bool as one bit, and what is
+/// folded of a true one reads 255.
+#if defined(__wasm__)
+using LaneAnswer = std::uint8_t;
+#else
+using LaneAnswer = bool;
+#endif
 
 /// The largest power of two that divides the size of W scalars, at most a 64-byte register.
 constexpr std::size_t lane_alignment(std::size_t bytes) {
@@ -65,7 +75,7 @@ template <class S, int W> inline constexpr std::size_t kLaneAlignment = detail::
 /// W answers of a comparison. Key is detail::LaneKey of the scalar.
 template <class Key, int W, class Isa> struct LaneMask {
   static_assert(W >= 1 && W <= 32, "the bits of a mask fit 32");
-  bool v[W];
+  detail::LaneAnswer v[W];
 
   static ISO_INLINE LaneMask from_bits(std::uint32_t bits) {
     LaneMask r;

@@ -1,0 +1,10 @@
+# 64-bit Arm Linux, built by g++ for it and run by qemu where the machine is another.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+find_program(ISOSTEP_QEMU NAMES qemu-aarch64 qemu-aarch64-static)
+mark_as_advanced(ISOSTEP_QEMU)
+if(ISOSTEP_QEMU)
+  set(CMAKE_CROSSCOMPILING_EMULATOR "${ISOSTEP_QEMU};-L;/usr/aarch64-linux-gnu")
+endif()
