@@ -57,7 +57,9 @@ template <class S> bool measure(const std::string& name, const scenes::Scene& sc
   std::printf("| %s | %s |", name.c_str(), ScalarTraits<S>::kName);
   bool same = true;
   for (const auto& lane : lanes) {
-    std::printf(" %.3f (%.2fx) |", lane->quantile(0.5), lanes[0]->quantile(0.5) / lane->quantile(0.5));
+    std::printf(" %.3f", lane->quantile(0.5));
+    if (lane != lanes[0]) std::printf(" (%.2fx)", lanes[0]->quantile(0.5) / lane->quantile(0.5));
+    std::printf(" |");
     same = same && lane->world.hash() == lanes[0]->world.hash();
   }
   std::printf(" %.2fx | %s |\n", lanes[0]->quantile(0.1) / lanes.back()->quantile(0.1), same ? "equal" : "DIFFER");

@@ -46,9 +46,14 @@ int main(int count, char** words) {
   isostep::bench::Arguments arguments;
   isostep::bench::ScaleOptions& options = arguments.options;
   CLI::App app("What a body costs among 100 and among 50 000, and what sleepers cost those who are awake");
-  app.add_option("--parts", arguments.parts, "scale, sleepers, separated by commas")->delimiter(',');
-  app.add_option("--scalar", options.scalar, "float, double, q16.16 or q32.32");
-  app.add_option("--scenes", options.scenes, "pyramid, pile, separated by commas")->delimiter(',');
+  app.add_option("--parts", arguments.parts, "scale, sleepers, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"scale", "sleepers"}));
+  app.add_option("--scalar", options.scalar, "float, double, q16.16 or q32.32")
+      ->check(CLI::IsMember({"float", "double", "q16.16", "q32.32"}));
+  app.add_option("--scenes", options.scenes, "pyramid, pile, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"pyramid", "pile"}));
   app.add_option("--sizes", options.sizes, "Bodies, separated by commas")->delimiter(',')->check(CLI::Range(1, 200000));
   app.add_option("--settle", options.settle, "Frames before the first that counts")->check(CLI::Range(0, 100000));
   app.add_option("--frames", options.frames, "Frames that count; times are medians over them")
@@ -58,10 +63,11 @@ int main(int count, char** words) {
       ->check(CLI::Range(0, 1000000));
   app.add_option("--column", options.column, "Sleepers an island")->check(CLI::Range(1, 20));
   app.add_option("--tsv", arguments.tsv, "Write the stages' times to this file, for the chart");
-  app.add_option_function<std::string>(
-      "--results", [&](const std::string& directory) { arguments.tsv = directory + "/scale.tsv"; },
-      "The same: scale.tsv in this directory");
+  std::string results;
+  app.add_option("--results", results, "Of a whole run, by none of the options above: scale.tsv in this directory");
   CLI11_PARSE(app, count, words);
+  const bool whole = count == 3 && !results.empty();
+  if (whole) arguments.tsv = results + "/scale.tsv";
   try {
     return isostep::bench::run(arguments);
   } catch (const std::exception& error) {

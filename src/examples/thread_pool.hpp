@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -9,7 +10,8 @@
 
 #include "isostep/core/task_runner.hpp"
 
-/// Threads that sleep until a step asks for them. One step at a time.
+/// Threads that sleep until a step asks for them. Steps of several worlds, and of worlds inside others' tasks, may ask
+/// at once.
 class ThreadPool {
  public:
   explicit ThreadPool(int threads) {
@@ -20,53 +22,57 @@ class ThreadPool {
       const std::lock_guard lock(mutex_);
       closed_ = true;
     }
-    called_.notify_all();
+    changed_.notify_all();
     for (std::thread& helper : helpers_) helper.join();
   }
 
   isostep::TaskRunner runner() {
     const auto run = [](void* pool, std::int32_t copies, isostep::TaskRunner::Task task, void* data) {
-      static_cast<ThreadPool*>(pool)->run(copies, task, data);
+      static_cast<ThreadPool*>(pool)->run({task, data, copies - 1, 0});
     };
     return {run, this, static_cast<std::int32_t>(helpers_.size()) + 1};
   }
 
  private:
-  void run(int copies, isostep::TaskRunner::Task task, void* data) {
+  struct Call {
+    isostep::TaskRunner::Task task;
+    void* data;
+    int wanted, running;
+  };
+
+  void run(Call call) {
     {
       const std::lock_guard lock(mutex_);
-      task_ = task;
-      data_ = data;
-      wanted_ = copies - 1;
+      calls_.push_back(&call);
     }
-    called_.notify_all();
-    task(data);  // comes back when all is done or claimed: who has not come by now need not
+    changed_.notify_all();
+    call.task(call.data);  // comes back when all is done or claimed: who has not come by now need not
     std::unique_lock lock(mutex_);
-    wanted_ = 0;
-    left_.wait(lock, [this] { return running_ == 0; });
+    std::erase(calls_, &call);
+    changed_.wait(lock, [&call] { return call.running == 0; });
   }
 
   void help() {
     std::unique_lock lock(mutex_);
-    for (;;) {
-      called_.wait(lock, [this] { return wanted_ > 0 || closed_; });
-      if (closed_) return;
-      --wanted_;
-      ++running_;
-      const auto task = task_;
-      void* const data = data_;
+    while (!closed_) {
+      const auto found = std::find_if(calls_.begin(), calls_.end(), [](const Call* call) { return call->wanted > 0; });
+      if (found == calls_.end()) {
+        changed_.wait(lock);
+        continue;
+      }
+      Call& call = **found;
+      --call.wanted;
+      ++call.running;
       lock.unlock();
-      task(data);
+      call.task(call.data);
       lock.lock();
-      if (--running_ == 0) left_.notify_one();
+      if (--call.running == 0) changed_.notify_all();
     }
   }
 
   std::mutex mutex_;
-  std::condition_variable called_, left_;
-  isostep::TaskRunner::Task task_ = nullptr;
-  void* data_ = nullptr;
-  int wanted_ = 0, running_ = 0;
+  std::condition_variable changed_;
+  std::vector<Call*> calls_;
   bool closed_ = false;
   std::vector<std::thread> helpers_;
 };

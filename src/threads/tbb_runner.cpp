@@ -6,6 +6,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace isostep::threads {
 
 struct TbbRunner::Arena {
@@ -14,7 +16,8 @@ struct TbbRunner::Arena {
 };
 
 TbbRunner::TbbRunner(int threads)
-    : arena_(std::make_unique<Arena>(threads > 0 ? threads : tbb::info::default_concurrency())) {}
+    : arena_(std::make_unique<Arena>(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                                                 : tbb::info::default_concurrency())) {}
 TbbRunner::~TbbRunner() = default;
 
 TaskRunner TbbRunner::runner() {

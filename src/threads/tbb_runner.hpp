@@ -13,7 +13,7 @@ namespace isostep::threads {
 ///     world.use_threads(threads.runner());    // outlives the world
 class TbbRunner {
  public:
-  /// `threads` at once, the caller's among them, 0: one a core; no more in any case than oneTBB has, one a core.
+  /// `threads` at once, the caller's among them, at most one a core, which is what oneTBB has; 0 or less: as many.
   explicit TbbRunner(int threads = 0);
   ~TbbRunner();
 

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// A value computed from something at most once between two changes, by whoever asks first; copied with it. Several
+/// A value computed from something at most once between two changes, by whoever asks first; a copy may know it. Several
 /// threads may ask at once: they come to the same value. A value of 0 is computed again every time.
 class Remembered {
  public:

@@ -7,20 +7,22 @@
 
 namespace isostep {
 
+/// Pieces of a stage, at most.
+inline constexpr std::uint32_t kMaxPieces = 32;
+
 /// A function and its data; `threads` of 1, the default, asks nobody.
 ///
 /// Contract: run(user, copies, task, data) calls task(data) up to `copies` times and returns when all of those calls
 /// have. They may run side by side, one after another, or not at all: a copy waits for no other, the caller finishes
-/// what nobody does, and results do not depend on any of it. A task does not throw and takes no lock.
+/// what nobody does, and results do not depend on any of it. It is called by whichever thread steps: worlds that step
+/// at once, or inside another's task, call it at once. Neither `run` nor a task throws, but for want of memory.
 struct TaskRunner {
   using Task = void (*)(void* data);
   void (*run)(void* user, std::int32_t copies, Task task, void* data) = nullptr;
   void* user = nullptr;
-  std::int32_t threads = 1;  // that may run at once, the caller's among them
+  std::int32_t threads = 1;  // that may run at once, the caller's among them; beyond kMaxPieces they count as that
 };
 
-/// Of a stage, at most.
-inline constexpr std::uint32_t kMaxPieces = 32;
 /// One piece of a stage. Pieces of one stage write nothing in common.
 using StagePiece = void (*)(void* data, std::uint32_t stage, std::uint32_t piece);
 

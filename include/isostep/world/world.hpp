@@ -182,7 +182,7 @@ template <class S> class World {
     std::unique_ptr<WorldState<S>> state_;
   };
   void save(Snapshot& to) const;
-  /// A snapshot that was moved from holds nothing, and loading it does nothing.
+  /// A snapshot that was moved from holds nothing, and loading it does nothing; one never saved to is an empty world.
   void load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;

@@ -55,7 +55,10 @@ template <class S> bool World<S>::use_simd(Simd simd) {
   return true;
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
-template <class S> void World<S>::use_threads(const TaskRunner& runner) { engine_->runner_ = runner; }
+template <class S> void World<S>::use_threads(const TaskRunner& runner) {
+  engine_->runner_ = runner;
+  engine_->runner_.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
+}
 
 namespace detail {
 /// Executes under a pinned float environment and, when accepted, records.

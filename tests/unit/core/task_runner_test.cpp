@@ -83,6 +83,30 @@ TEST(RunStages, comes_to_the_end_when_the_runner_calls_nobody_or_one_after_anoth
   }
 }
 
+TEST(RunStages, may_be_called_inside_a_piece_and_by_several_threads_at_once) {
+  ThreadPool pool(3);
+  struct Outer {
+    ThreadPool& pool;
+    std::atomic<int> pieces = 0;
+  } outer = {pool};
+  const auto nest = [](void* data, std::uint32_t, std::uint32_t) {
+    auto& o = *static_cast<Outer*>(data);
+    Log log({4, 1, 4});
+    run_stages(o.pool.runner(), log.pieces, &Log::piece, &log);
+    log.expect_complete();
+    ++o.pieces;
+  };
+  const std::uint32_t stages[] = {6, 2};
+  std::vector<std::thread> callers;
+  for (int i = 0; i < 4; ++i) {
+    callers.emplace_back([&] {
+      for (int round = 0; round < 25; ++round) run_stages(pool.runner(), stages, nest, &outer);
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(outer.pieces, 4 * 25 * 8);
+}
+
 TEST(RunStages, of_no_stages_or_none_with_pieces_ends_at_once) {
   ThreadPool pool(2);
   run_stages(pool.runner(), {}, &Log::piece, nullptr);

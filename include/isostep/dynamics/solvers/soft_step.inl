@@ -82,6 +82,8 @@ template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& in
   order_.resize(count);
   bucket_ends_.assign(kUncolouredBucket + 1, 0);
   runs_.clear();
+  stages_.clear();  // there are some if the last step came to no end
+  pieces_.clear();
   block_count_ = 0;
   memory_bytes_ = 0;
   const auto variant_of = [&](std::size_t i) {
