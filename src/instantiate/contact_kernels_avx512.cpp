@@ -3,25 +3,15 @@
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #include "isostep/scalar/lanes_avx512.hpp"
+#define ISO_AVX512_TABLE(S)                                \
+  ISO_DEFINE_KERNEL_TABLE(ContactKernels<S>, Simd::avx512, \
+                          make_contact_kernels<S, kRegisterLanes<S, isa::Avx512>, isa::Avx512>("avx512"))
+#else
+#define ISO_AVX512_TABLE(S) ISO_NO_KERNEL_TABLE(ContactKernels<S>, Simd::avx512)
 #endif
 
 namespace isostep {
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-#define ISO_DEFINE_AVX512_KERNELS(S, W)                                                            \
-  template <> const ContactKernels<S>* detail::avx512_kernels<S>() {                               \
-    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, W, isa::Avx512>("avx512"); \
-    return &kTable;                                                                                \
-  }
-#else
-#define ISO_DEFINE_AVX512_KERNELS(S, W) \
-  template <> const ContactKernels<S>* detail::avx512_kernels<S>() { return nullptr; }
-#endif
-#define ISO_AVX512_NARROW(S) ISO_DEFINE_AVX512_KERNELS(S, 16)
-#define ISO_AVX512_WIDE(S) ISO_DEFINE_AVX512_KERNELS(S, 8)
-ISO_IF_FLOAT(ISO_AVX512_NARROW)
-ISO_IF_DOUBLE(ISO_AVX512_WIDE)
-ISO_IF_Q16_16(ISO_AVX512_NARROW)
-ISO_IF_Q32_32(ISO_AVX512_WIDE)
+ISO_FOR_EACH_SCALAR(ISO_AVX512_TABLE)
 
 }  // namespace isostep

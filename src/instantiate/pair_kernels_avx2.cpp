@@ -3,27 +3,21 @@
 #include "isostep/collision/narrowphase/pair_kernel.inl"
 #if defined(__AVX2__)
 #include "isostep/scalar/lanes_avx2.hpp"
+#define ISO_AVX2_TABLE(S, BOXES)                      \
+  ISO_DEFINE_KERNEL_TABLE(PairKernels<S>, Simd::avx2, \
+                          make_pair_kernels<S, kRegisterLanes<S, isa::Avx2>, isa::Avx2, BoxWork::BOXES>())
+#else
+#define ISO_AVX2_TABLE(S, BOXES) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::avx2)
 #endif
+#define ISO_AVX2_POLYGONS(S) ISO_AVX2_TABLE(S, polygons)
+#define ISO_AVX2_AXES(S) ISO_AVX2_TABLE(S, axes)
+#define ISO_AVX2_ALONE(S) ISO_AVX2_TABLE(S, alone)
 
 namespace isostep {
 
-#if defined(__AVX2__)
-#define ISO_DEFINE_AVX2_PAIRS(S, W, BOXES)                                                         \
-  template <> const PairKernels<S>* detail::avx2_pair_kernels<S>() {                               \
-    static constexpr PairKernels<S> kTable = make_pair_kernels<S, W, isa::Avx2, BoxWork::BOXES>(); \
-    return &kTable;                                                                                \
-  }
-#else
-#define ISO_DEFINE_AVX2_PAIRS(S, W, BOXES) \
-  template <> const PairKernels<S>* detail::avx2_pair_kernels<S>() { return nullptr; }
-#endif
-#define ISO_AVX2_FLOAT(S) ISO_DEFINE_AVX2_PAIRS(S, 8, polygons)
-#define ISO_AVX2_DOUBLE(S) ISO_DEFINE_AVX2_PAIRS(S, 4, polygons)
-#define ISO_AVX2_Q16_16(S) ISO_DEFINE_AVX2_PAIRS(S, 8, axes)
-#define ISO_AVX2_Q32_32(S) ISO_DEFINE_AVX2_PAIRS(S, 4, alone)
-ISO_IF_FLOAT(ISO_AVX2_FLOAT)
-ISO_IF_DOUBLE(ISO_AVX2_DOUBLE)
-ISO_IF_Q16_16(ISO_AVX2_Q16_16)
-ISO_IF_Q32_32(ISO_AVX2_Q32_32)
+ISO_IF_FLOAT(ISO_AVX2_POLYGONS)
+ISO_IF_DOUBLE(ISO_AVX2_POLYGONS)
+ISO_IF_Q16_16(ISO_AVX2_AXES)
+ISO_IF_Q32_32(ISO_AVX2_ALONE)
 
 }  // namespace isostep

@@ -3,27 +3,21 @@
 #include "isostep/collision/narrowphase/pair_kernel.inl"
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #include "isostep/scalar/lanes_avx512.hpp"
+#define ISO_AVX512_TABLE(S, BOXES)                      \
+  ISO_DEFINE_KERNEL_TABLE(PairKernels<S>, Simd::avx512, \
+                          make_pair_kernels<S, kRegisterLanes<S, isa::Avx512>, isa::Avx512, BoxWork::BOXES>())
+#else
+#define ISO_AVX512_TABLE(S, BOXES) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::avx512)
 #endif
+#define ISO_AVX512_POLYGONS(S) ISO_AVX512_TABLE(S, polygons)
+#define ISO_AVX512_AXES(S) ISO_AVX512_TABLE(S, axes)
+#define ISO_AVX512_ALONE(S) ISO_AVX512_TABLE(S, alone)
 
 namespace isostep {
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-#define ISO_DEFINE_AVX512_PAIRS(S, W, BOXES)                                                         \
-  template <> const PairKernels<S>* detail::avx512_pair_kernels<S>() {                               \
-    static constexpr PairKernels<S> kTable = make_pair_kernels<S, W, isa::Avx512, BoxWork::BOXES>(); \
-    return &kTable;                                                                                  \
-  }
-#else
-#define ISO_DEFINE_AVX512_PAIRS(S, W, BOXES) \
-  template <> const PairKernels<S>* detail::avx512_pair_kernels<S>() { return nullptr; }
-#endif
-#define ISO_AVX512_FLOAT(S) ISO_DEFINE_AVX512_PAIRS(S, 16, polygons)
-#define ISO_AVX512_DOUBLE(S) ISO_DEFINE_AVX512_PAIRS(S, 8, polygons)
-#define ISO_AVX512_Q16_16(S) ISO_DEFINE_AVX512_PAIRS(S, 16, axes)
-#define ISO_AVX512_Q32_32(S) ISO_DEFINE_AVX512_PAIRS(S, 8, alone)
-ISO_IF_FLOAT(ISO_AVX512_FLOAT)
-ISO_IF_DOUBLE(ISO_AVX512_DOUBLE)
-ISO_IF_Q16_16(ISO_AVX512_Q16_16)
-ISO_IF_Q32_32(ISO_AVX512_Q32_32)
+ISO_IF_FLOAT(ISO_AVX512_POLYGONS)
+ISO_IF_DOUBLE(ISO_AVX512_POLYGONS)
+ISO_IF_Q16_16(ISO_AVX512_AXES)
+ISO_IF_Q32_32(ISO_AVX512_ALONE)
 
 }  // namespace isostep

@@ -4,26 +4,21 @@
 #include "isostep/collision/narrowphase/pair_kernel.inl"
 #if defined(__AARCH64EL__) && defined(__ARM_NEON)
 #include "isostep/scalar/lanes_neon.hpp"
+#define ISO_NEON_TABLE(S, BOXES)                      \
+  ISO_DEFINE_KERNEL_TABLE(PairKernels<S>, Simd::neon, \
+                          make_pair_kernels<S, kRegisterLanes<S, isa::Neon>, isa::Neon, BoxWork::BOXES>())
+#else
+#define ISO_NEON_TABLE(S, BOXES) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::neon)
 #endif
+#define ISO_NEON_POLYGONS(S) ISO_NEON_TABLE(S, polygons)
+#define ISO_NEON_AXES(S) ISO_NEON_TABLE(S, axes)
+#define ISO_NO_NEON_TABLE(S) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::neon)
 
 namespace isostep {
 
-#define ISO_NO_NEON_PAIRS(S) \
-  template <> const PairKernels<S>* detail::neon_pair_kernels<S>() { return nullptr; }
-#if defined(__AARCH64EL__) && defined(__ARM_NEON)
-#define ISO_DEFINE_NEON_PAIRS(S, BOXES)                                                            \
-  template <> const PairKernels<S>* detail::neon_pair_kernels<S>() {                               \
-    static constexpr PairKernels<S> kTable = make_pair_kernels<S, 4, isa::Neon, BoxWork::BOXES>(); \
-    return &kTable;                                                                                \
-  }
-#else
-#define ISO_DEFINE_NEON_PAIRS(S, BOXES) ISO_NO_NEON_PAIRS(S)
-#endif
-#define ISO_NEON_FLOAT_PAIRS(S) ISO_DEFINE_NEON_PAIRS(S, polygons)
-#define ISO_NEON_Q16_16_PAIRS(S) ISO_DEFINE_NEON_PAIRS(S, axes)
-ISO_IF_FLOAT(ISO_NEON_FLOAT_PAIRS)
-ISO_IF_DOUBLE(ISO_NO_NEON_PAIRS)
-ISO_IF_Q16_16(ISO_NEON_Q16_16_PAIRS)
-ISO_IF_Q32_32(ISO_NO_NEON_PAIRS)
+ISO_IF_FLOAT(ISO_NEON_POLYGONS)
+ISO_IF_DOUBLE(ISO_NO_NEON_TABLE)
+ISO_IF_Q16_16(ISO_NEON_AXES)
+ISO_IF_Q32_32(ISO_NO_NEON_TABLE)
 
 }  // namespace isostep

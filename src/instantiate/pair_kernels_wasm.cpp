@@ -4,26 +4,21 @@
 #include "isostep/collision/narrowphase/pair_kernel.inl"
 #if defined(__wasm_simd128__)
 #include "isostep/scalar/lanes_wasm.hpp"
+#define ISO_WASM_TABLE(S, BOXES)                      \
+  ISO_DEFINE_KERNEL_TABLE(PairKernels<S>, Simd::wasm, \
+                          make_pair_kernels<S, kRegisterLanes<S, isa::WasmSimd>, isa::WasmSimd, BoxWork::BOXES>())
+#else
+#define ISO_WASM_TABLE(S, BOXES) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::wasm)
 #endif
+#define ISO_WASM_POLYGONS(S) ISO_WASM_TABLE(S, polygons)
+#define ISO_WASM_AXES(S) ISO_WASM_TABLE(S, axes)
+#define ISO_NO_WASM_TABLE(S) ISO_NO_KERNEL_TABLE(PairKernels<S>, Simd::wasm)
 
 namespace isostep {
 
-#define ISO_NO_WASM_PAIRS(S) \
-  template <> const PairKernels<S>* detail::wasm_pair_kernels<S>() { return nullptr; }
-#if defined(__wasm_simd128__)
-#define ISO_DEFINE_WASM_PAIRS(S, BOXES)                                                                \
-  template <> const PairKernels<S>* detail::wasm_pair_kernels<S>() {                                   \
-    static constexpr PairKernels<S> kTable = make_pair_kernels<S, 4, isa::WasmSimd, BoxWork::BOXES>(); \
-    return &kTable;                                                                                    \
-  }
-#else
-#define ISO_DEFINE_WASM_PAIRS(S, BOXES) ISO_NO_WASM_PAIRS(S)
-#endif
-#define ISO_WASM_FLOAT_PAIRS(S) ISO_DEFINE_WASM_PAIRS(S, polygons)
-#define ISO_WASM_Q16_16_PAIRS(S) ISO_DEFINE_WASM_PAIRS(S, axes)
-ISO_IF_FLOAT(ISO_WASM_FLOAT_PAIRS)
-ISO_IF_DOUBLE(ISO_NO_WASM_PAIRS)
-ISO_IF_Q16_16(ISO_WASM_Q16_16_PAIRS)
-ISO_IF_Q32_32(ISO_NO_WASM_PAIRS)
+ISO_IF_FLOAT(ISO_WASM_POLYGONS)
+ISO_IF_DOUBLE(ISO_NO_WASM_TABLE)
+ISO_IF_Q16_16(ISO_WASM_AXES)
+ISO_IF_Q32_32(ISO_NO_WASM_TABLE)
 
 }  // namespace isostep

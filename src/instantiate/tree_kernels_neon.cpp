@@ -4,28 +4,19 @@
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #if defined(__AARCH64EL__) && defined(__ARM_NEON)
 #include "isostep/scalar/lanes_neon.hpp"
+#define ISO_NEON_TABLE(S)                             \
+  ISO_DEFINE_KERNEL_TABLE(TreeKernels<S>, Simd::neon, \
+                          make_tree_kernels<S, kRegisterLanes<S, isa::Neon>, isa::Neon>("neon"))
+#else
+#define ISO_NEON_TABLE(S) ISO_NO_KERNEL_TABLE(TreeKernels<S>, Simd::neon)
 #endif
+#define ISO_NO_NEON_TABLE(S) ISO_NO_KERNEL_TABLE(TreeKernels<S>, Simd::neon)
 
 namespace isostep {
 
-#if defined(__AARCH64EL__) && defined(__ARM_NEON)
-#define ISO_DEFINE_NEON_KERNELS(S, W)                                                    \
-  template <> const TreeKernels<S>* detail::neon_tree_kernels<S>() {                     \
-    static constexpr TreeKernels<S> kTable = make_tree_kernels<S, W, isa::Neon>("neon"); \
-    return &kTable;                                                                      \
-  }
-#else
-#define ISO_DEFINE_NEON_KERNELS(S, W) \
-  template <> const TreeKernels<S>* detail::neon_tree_kernels<S>() { return nullptr; }
-#endif
-#define ISO_NO_NEON_KERNELS(S) \
-  template <> const TreeKernels<S>* detail::neon_tree_kernels<S>() { return nullptr; }
-
-#define ISO_NEON_NARROW(S) ISO_DEFINE_NEON_KERNELS(S, 4)
-#define ISO_NEON_WIDE(S) ISO_DEFINE_NEON_KERNELS(S, 2)
-ISO_IF_FLOAT(ISO_NEON_NARROW)
-ISO_IF_DOUBLE(ISO_NEON_WIDE)
-ISO_IF_Q16_16(ISO_NEON_NARROW)
-ISO_IF_Q32_32(ISO_NO_NEON_KERNELS)
+ISO_IF_FLOAT(ISO_NEON_TABLE)
+ISO_IF_DOUBLE(ISO_NEON_TABLE)
+ISO_IF_Q16_16(ISO_NEON_TABLE)
+ISO_IF_Q32_32(ISO_NO_NEON_TABLE)
 
 }  // namespace isostep

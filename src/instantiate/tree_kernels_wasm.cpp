@@ -4,28 +4,19 @@
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #if defined(__wasm_simd128__)
 #include "isostep/scalar/lanes_wasm.hpp"
+#define ISO_WASM_TABLE(S)                             \
+  ISO_DEFINE_KERNEL_TABLE(TreeKernels<S>, Simd::wasm, \
+                          make_tree_kernels<S, kRegisterLanes<S, isa::WasmSimd>, isa::WasmSimd>("wasm"))
+#else
+#define ISO_WASM_TABLE(S) ISO_NO_KERNEL_TABLE(TreeKernels<S>, Simd::wasm)
 #endif
+#define ISO_NO_WASM_TABLE(S) ISO_NO_KERNEL_TABLE(TreeKernels<S>, Simd::wasm)
 
 namespace isostep {
 
-#if defined(__wasm_simd128__)
-#define ISO_DEFINE_WASM_KERNELS(S, W)                                                        \
-  template <> const TreeKernels<S>* detail::wasm_tree_kernels<S>() {                         \
-    static constexpr TreeKernels<S> kTable = make_tree_kernels<S, W, isa::WasmSimd>("wasm"); \
-    return &kTable;                                                                          \
-  }
-#else
-#define ISO_DEFINE_WASM_KERNELS(S, W) \
-  template <> const TreeKernels<S>* detail::wasm_tree_kernels<S>() { return nullptr; }
-#endif
-#define ISO_NO_WASM_KERNELS(S) \
-  template <> const TreeKernels<S>* detail::wasm_tree_kernels<S>() { return nullptr; }
-
-#define ISO_WASM_NARROW(S) ISO_DEFINE_WASM_KERNELS(S, 4)
-#define ISO_WASM_WIDE(S) ISO_DEFINE_WASM_KERNELS(S, 2)
-ISO_IF_FLOAT(ISO_WASM_NARROW)
-ISO_IF_DOUBLE(ISO_WASM_WIDE)
-ISO_IF_Q16_16(ISO_WASM_NARROW)
-ISO_IF_Q32_32(ISO_NO_WASM_KERNELS)
+ISO_IF_FLOAT(ISO_WASM_TABLE)
+ISO_IF_DOUBLE(ISO_WASM_TABLE)
+ISO_IF_Q16_16(ISO_WASM_TABLE)
+ISO_IF_Q32_32(ISO_NO_WASM_TABLE)
 
 }  // namespace isostep

@@ -42,21 +42,21 @@
   template class AabbTree<OwnScalar>;                                                                                 \
   template class PairSet<OwnScalar>;                                                                                  \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
-  ISO_DEFINE_SCALAR_KERNELS(OwnScalar)                                                                                \
+  ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                                        \
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \
     const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
-    return here ? detail::scalar_kernels<OwnScalar>() : nullptr;                                                      \
+    return here ? detail::kernel_table<ContactKernels<OwnScalar>, Simd::scalar>() : nullptr;                          \
   }                                                                                                                   \
   ISO_DECLARE_PAIR_KERNELS(OwnScalar)                                                                                 \
   ISO_DEFINE_SCALAR_PAIR_KERNELS(OwnScalar)                                                                           \
   template <> const PairKernels<OwnScalar>* pair_kernels<OwnScalar>(Simd) {                                           \
-    return detail::scalar_pair_kernels<OwnScalar>();                                                                  \
+    return detail::kernel_table<PairKernels<OwnScalar>, Simd::scalar>();                                              \
   }                                                                                                                   \
   ISO_DECLARE_TREE_KERNELS(OwnScalar)                                                                                 \
   ISO_DEFINE_SCALAR_TREE_KERNELS(OwnScalar)                                                                           \
   template <> const TreeKernels<OwnScalar>* tree_kernels<OwnScalar>(Simd simd) {                                      \
     const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
-    return here ? detail::scalar_tree_kernels<OwnScalar>() : nullptr;                                                 \
+    return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;                             \
   }                                                                                                                   \
   template class JointTrees<OwnScalar>;                                                                               \
   template class World<OwnScalar>;                                                                                    \

@@ -62,26 +62,9 @@ template <class S> struct PairKernels {
 /// The kernels for `simd`: those of one lane where an instruction set has none of its own, is missing or does not pay.
 template <class S> const PairKernels<S>* pair_kernels(Simd simd);
 
-namespace detail {
-/// One translation unit an instruction set. Null where the build has none.
-template <class S> const PairKernels<S>* scalar_pair_kernels();
-template <class S> const PairKernels<S>* sse2_pair_kernels();
-template <class S> const PairKernels<S>* avx2_pair_kernels();
-template <class S> const PairKernels<S>* avx512_pair_kernels();
-template <class S> const PairKernels<S>* neon_pair_kernels();
-template <class S> const PairKernels<S>* wasm_pair_kernels();
-}  // namespace detail
-
-#define ISO_DECLARE_PAIR_KERNELS(S)                             \
-  template <> const PairKernels<S>* pair_kernels<S>(Simd simd); \
-  namespace detail {                                            \
-  template <> const PairKernels<S>* scalar_pair_kernels<S>();   \
-  template <> const PairKernels<S>* sse2_pair_kernels<S>();     \
-  template <> const PairKernels<S>* avx2_pair_kernels<S>();     \
-  template <> const PairKernels<S>* avx512_pair_kernels<S>();   \
-  template <> const PairKernels<S>* neon_pair_kernels<S>();     \
-  template <> const PairKernels<S>* wasm_pair_kernels<S>();     \
-  }
+#define ISO_DECLARE_PAIR_KERNELS(S)         \
+  ISO_DECLARE_KERNEL_TABLES(PairKernels<S>) \
+  template <> const PairKernels<S>* pair_kernels<S>(Simd simd);
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_PAIR_KERNELS)
 
 }  // namespace isostep

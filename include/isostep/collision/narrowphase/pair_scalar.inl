@@ -25,10 +25,7 @@ template <class S> constexpr PairKernels<S> make_scalar_pair_kernels() {
 
 }  // namespace
 
-#define ISO_DEFINE_SCALAR_PAIR_KERNELS(S)                                   \
-  template <> const PairKernels<S>* detail::scalar_pair_kernels<S>() {      \
-    static constexpr PairKernels<S> kTable = make_scalar_pair_kernels<S>(); \
-    return &kTable;                                                         \
-  }
+#define ISO_DEFINE_SCALAR_PAIR_KERNELS(S) \
+  ISO_DEFINE_KERNEL_TABLE(PairKernels<S>, Simd::scalar, make_scalar_pair_kernels<S>())
 
 }  // namespace isostep

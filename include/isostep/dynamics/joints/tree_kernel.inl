@@ -133,10 +133,7 @@ template <class S, int W, class Isa> constexpr TreeKernels<S> make_tree_kernels(
 }  // namespace
 
 /// The kernels of one lane of a scalar: any machine.
-#define ISO_DEFINE_SCALAR_TREE_KERNELS(S)                                                      \
-  template <> const TreeKernels<S>* detail::scalar_tree_kernels<S>() {                         \
-    static constexpr TreeKernels<S> kTable = make_tree_kernels<S, 1, isa::Portable>("scalar"); \
-    return &kTable;                                                                            \
-  }
+#define ISO_DEFINE_SCALAR_TREE_KERNELS(S) \
+  ISO_DEFINE_KERNEL_TABLE(TreeKernels<S>, Simd::scalar, make_tree_kernels<S, 1, isa::Portable>("scalar"))
 
 }  // namespace isostep

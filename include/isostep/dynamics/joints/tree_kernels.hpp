@@ -38,26 +38,9 @@ template <class S> struct TreeKernels {
 /// The kernels for `simd`. Null when the processor or build lacks it; never for `best`.
 template <class S> const TreeKernels<S>* tree_kernels(Simd simd);
 
-namespace detail {
-/// One translation unit an instruction set. Null where the build has none.
-template <class S> const TreeKernels<S>* scalar_tree_kernels();
-template <class S> const TreeKernels<S>* sse2_tree_kernels();
-template <class S> const TreeKernels<S>* avx2_tree_kernels();
-template <class S> const TreeKernels<S>* avx512_tree_kernels();
-template <class S> const TreeKernels<S>* neon_tree_kernels();
-template <class S> const TreeKernels<S>* wasm_tree_kernels();
-}  // namespace detail
-
-#define ISO_DECLARE_TREE_KERNELS(S)                             \
-  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd); \
-  namespace detail {                                            \
-  template <> const TreeKernels<S>* scalar_tree_kernels<S>();   \
-  template <> const TreeKernels<S>* sse2_tree_kernels<S>();     \
-  template <> const TreeKernels<S>* avx2_tree_kernels<S>();     \
-  template <> const TreeKernels<S>* avx512_tree_kernels<S>();   \
-  template <> const TreeKernels<S>* neon_tree_kernels<S>();     \
-  template <> const TreeKernels<S>* wasm_tree_kernels<S>();     \
-  }
+#define ISO_DECLARE_TREE_KERNELS(S)         \
+  ISO_DECLARE_KERNEL_TABLES(TreeKernels<S>) \
+  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd);
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_TREE_KERNELS)
 
 }  // namespace isostep

@@ -267,10 +267,7 @@ template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_ke
 }  // namespace
 
 /// The kernels of one lane of a scalar: any machine.
-#define ISO_DEFINE_SCALAR_KERNELS(S)                                                                 \
-  template <> const ContactKernels<S>* detail::scalar_kernels<S>() {                                 \
-    static constexpr ContactKernels<S> kTable = make_contact_kernels<S, 1, isa::Portable>("scalar"); \
-    return &kTable;                                                                                  \
-  }
+#define ISO_DEFINE_SCALAR_CONTACT_KERNELS(S) \
+  ISO_DEFINE_KERNEL_TABLE(ContactKernels<S>, Simd::scalar, make_contact_kernels<S, 1, isa::Portable>("scalar"))
 
 }  // namespace isostep

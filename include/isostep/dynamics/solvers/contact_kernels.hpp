@@ -75,26 +75,9 @@ template <class S> struct ContactKernels {
 /// specialisation, a strong symbol.
 template <class S> const ContactKernels<S>* contact_kernels(Simd simd);
 
-namespace detail {
-/// One translation unit an instruction set. Null where the build has none.
-template <class S> const ContactKernels<S>* scalar_kernels();
-template <class S> const ContactKernels<S>* sse2_kernels();
-template <class S> const ContactKernels<S>* avx2_kernels();
-template <class S> const ContactKernels<S>* avx512_kernels();
-template <class S> const ContactKernels<S>* neon_kernels();
-template <class S> const ContactKernels<S>* wasm_kernels();
-}  // namespace detail
-
-#define ISO_DECLARE_CONTACT_KERNELS(S)                                \
-  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd); \
-  namespace detail {                                                  \
-  template <> const ContactKernels<S>* scalar_kernels<S>();           \
-  template <> const ContactKernels<S>* sse2_kernels<S>();             \
-  template <> const ContactKernels<S>* avx2_kernels<S>();             \
-  template <> const ContactKernels<S>* avx512_kernels<S>();           \
-  template <> const ContactKernels<S>* neon_kernels<S>();             \
-  template <> const ContactKernels<S>* wasm_kernels<S>();             \
-  }
+#define ISO_DECLARE_CONTACT_KERNELS(S)         \
+  ISO_DECLARE_KERNEL_TABLES(ContactKernels<S>) \
+  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd);
 ISO_FOR_EACH_SCALAR(ISO_DECLARE_CONTACT_KERNELS)
 
 }  // namespace isostep

@@ -12,6 +12,9 @@ namespace isostep {
 /// than the plain version. Of 32-bit and 64-bit integers a set has both or neither.
 template <class Key, class Isa> struct Registers;
 
+/// Scalars S that a register of Isa holds.
+template <class S, class Isa> inline constexpr int kRegisterLanes = Registers<detail::LaneKey<S>, Isa>::kWidth;
+
 /// W scalars S fill a register of Isa.
 template <class S, int W, class Isa>
 concept InRegister = Registers<detail::LaneKey<S>, Isa>::kWidth == W;
