@@ -77,6 +77,17 @@ template <class S> void asin(benchmark::State& s) {
 template <class S> void acos(benchmark::State& s) {
   measure<S>(s, -1, 1, [](const S* x) { return iso::acos(x[0]); });
 }
+template <class S> void exp(benchmark::State& s) {
+  measure<S>(s, -9, 9, [](const S* x) { return iso::exp(x[0]); });
+}
+template <class S> void log(benchmark::State& s) {
+  measure<S>(s, 0, 5000, [](const S* x) { return iso::log(x[0]); });
+}
+/// What a damping between 0 and 1 per second leaves after a step.
+template <class S> void power_to(benchmark::State& s) {
+  const auto h = iso::divide_to<iso::Step<S>>(S(1), S(60));
+  measure<S>(s, 0, 1, [h](const S* x) { return iso::power_to<iso::Step<S>>(x[0], h); });
+}
 template <class S> void direction_of(benchmark::State& s) {
   measure<S>(s, -50, 50, [](const S* x) { return iso::direction_of(x[0], x[1], x[2]); });
 }
@@ -108,6 +119,9 @@ ISO_BENCH(sin_cos)
 ISO_BENCH(atan2)
 ISO_BENCH(asin)
 ISO_BENCH(acos)
+ISO_BENCH(exp)
+ISO_BENCH(log)
+ISO_BENCH(power_to)
 
 }  // namespace
 

@@ -122,6 +122,8 @@ TYPED_TEST(ExactNumber, CircularFunctionsAreThoseOfTheLibrary) {
   EXPECT_EQ(to_bits(cos(E(0.7)).value()), to_bits(isostep::cos(T(0.7))));
   EXPECT_EQ(to_bits(asin(E(0.7)).value()), to_bits(isostep::asin(T(0.7))));
   EXPECT_EQ(to_bits(acos(E(0.7)).value()), to_bits(isostep::acos(T(0.7))));
+  EXPECT_EQ(to_bits(exp(E(0.7)).value()), to_bits(isostep::exp(T(0.7))));
+  EXPECT_EQ(to_bits(log(E(0.7)).value()), to_bits(isostep::log(T(0.7))));
   EXPECT_EQ(to_bits(atan2(E(0.7), E(-2)).value()), to_bits(isostep::atan2(T(0.7), T(-2))));
 }
 

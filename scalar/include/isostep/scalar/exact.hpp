@@ -85,6 +85,8 @@ template <class T> ISO_INLINE Exact<T> cos(Exact<T> a) { return isostep::cos(a.v
 template <class T> ISO_INLINE Exact<T> asin(Exact<T> a) { return isostep::asin(a.value()); }
 template <class T> ISO_INLINE Exact<T> acos(Exact<T> a) { return isostep::acos(a.value()); }
 template <class T> ISO_INLINE Exact<T> atan2(Exact<T> y, Exact<T> x) { return isostep::atan2(y.value(), x.value()); }
+template <class T> ISO_INLINE Exact<T> exp(Exact<T> a) { return isostep::exp(a.value()); }
+template <class T> ISO_INLINE Exact<T> log(Exact<T> a) { return isostep::log(a.value()); }
 template <class T> ISO_INLINE constexpr bool is_finite(Exact<T> a) { return is_finite(a.value()); }
 template <class T> ISO_INLINE constexpr double to_double(Exact<T> a) { return static_cast<double>(a.value()); }
 

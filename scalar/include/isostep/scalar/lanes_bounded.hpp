@@ -34,11 +34,21 @@ template <class Out, class S, int W, class Isa> ISO_INLINE Out bounded_sum(Lanes
   const Out limit = Out::broadcast(most);
   return clamp(sum, -limit, limit);
 }
+
+/// The largest whole number of a format.
+template <class S> ISO_INLINE constexpr S highest_whole() {
+  return S::from_raw(static_cast<typename S::Raw>(highest<S>().raw() >> S::kFracBits << S::kFracBits));
+}
 }  // namespace detail
 
 /// round_to<Out>(clamp(sum, -most, most)), lane by lane. Out is a Lanes type; `most` > 0 is a whole number.
 template <class Out, class SumL> ISO_INLINE Out round_within(SumL sum, typename Out::Scalar most) {
   return detail::bounded_sum<Out>(sum, most);
 }
+/// round_to<Out>(sum), where what is beyond the largest whole number of a fixed-point format ends there.
+template <class Out, class SumS, int W, class Isa> ISO_INLINE Out round_saturated(LaneSum<SumS, W, Isa> sum) {
+  return detail::bounded_sum<Out>(sum, detail::highest_whole<typename Out::Scalar>());
+}
+template <class Out, class S, int W, class Isa> ISO_INLINE Out round_saturated(Lanes<S, W, Isa> sum) { return sum; }
 
 }  // namespace isostep

@@ -215,7 +215,7 @@ template <std::floating_point U> ISO_INLINE void normalise4(U& x, U& y, U& z, U&
   w = w * inverse;
 }
 
-// ---- circular functions, compiled once in src/instantiate/scalar_math.cpp
+// ---- circular functions, exponential and logarithm, compiled once in src/instantiate/scalar_math.cpp
 //
 // Integer arithmetic for every scalar, float and double included: no contraction, rounding mode or compiler option can
 // reach a result. Angles in radians. Errors per scalar: scalar/README.md.
@@ -259,6 +259,38 @@ float acos(float x);
 double acos(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> acos(Fixed<Rep, F, P> x);
 
+/// e^x. Beyond the format: fixed point ends at highest() and 0, float and double at infinity and 0, by way of the
+/// subnormal numbers. The `_to` form chooses the answer's format: exp_to<Step<S>>(x) for x <= 0 is a factor of decay
+/// with all of Step's digits; 1, which Step cannot hold, becomes highest().
+float exp(float x);
+double exp(double x);
+template <class Out, class Rep, int F, Overflow P> Out exp_to(Fixed<Rep, F, P> x);
+template <class Out, std::floating_point S> ISO_INLINE Out exp_to(S x) { return exp(x); }
+template <class Rep, int F, Overflow P> ISO_INLINE Fixed<Rep, F, P> exp(Fixed<Rep, F, P> x) {
+  return exp_to<Fixed<Rep, F, P>>(x);
+}
+
+/// Natural logarithm. Fixed point: zero and negative give lowest(), what is below the format -highest(). float, double:
+/// zero gives minus infinity, negative NaN.
+float log(float x);
+double log(double x);
+template <class Out, class Rep, int F, Overflow P> Out log_to(Fixed<Rep, F, P> x);
+template <class Out, std::floating_point S> ISO_INLINE Out log_to(S x) { return log(x); }
+template <class Rep, int F, Overflow P> ISO_INLINE Fixed<Rep, F, P> log(Fixed<Rep, F, P> x) {
+  return log_to<Fixed<Rep, F, P>>(x);
+}
+
+/// base^exponent, rounded once: power_to<Step<S>>(damping, h) is what damping per second leaves after h [s].
+/// Zero to the power of zero is 1. Fixed point: a negative base counts as zero; ends as exp_to does.
+/// float, double: any exponent; a negative base or a NaN gives NaN, zero and infinity their limits.
+float power(float base, float exponent);
+double power(double base, double exponent);
+template <class Out, class Rep, int F, int G, Overflow P>
+Out power_to(Fixed<Rep, F, P> base, Fixed<Rep, G, P> exponent);
+template <class Out, std::floating_point S> ISO_INLINE Out power_to(S base, S exponent) {
+  return power(base, exponent);
+}
+
 /// The formats that the library holds; for a format of your own include math.inl as well.
 #define ISO_SCALAR_MATH_OF(KEYWORD, S)         \
   KEYWORD template S sin(S);                   \
@@ -266,12 +298,22 @@ template <class Rep, int F, Overflow P> Fixed<Rep, F, P> acos(Fixed<Rep, F, P> x
   KEYWORD template SinCos<S> sin_cos_to<S>(S); \
   KEYWORD template S atan2_to<S>(S, S);        \
   KEYWORD template S asin(S);                  \
-  KEYWORD template S acos(S);
-#define ISO_SCALAR_MATH(KEYWORD, S)                        \
-  ISO_SCALAR_MATH_OF(KEYWORD, S)                           \
-  ISO_SCALAR_MATH_OF(KEYWORD, Unit<S>)                     \
+  KEYWORD template S acos(S);                  \
+  KEYWORD template S exp_to<S>(S);             \
+  KEYWORD template S log_to<S>(S);
+/// From one format to another.
+#define ISO_SCALAR_MATH_BETWEEN(KEYWORD, S)                \
   KEYWORD template SinCos<Unit<S>> sin_cos_to<Unit<S>>(S); \
-  KEYWORD template S atan2_to<S>(Unit<S>, Unit<S>);
+  KEYWORD template S atan2_to<S>(Unit<S>, Unit<S>);        \
+  KEYWORD template Unit<S> exp_to<Unit<S>>(S);             \
+  KEYWORD template Step<S> exp_to<Step<S>>(S);             \
+  KEYWORD template S log_to<S>(Unit<S>);                   \
+  KEYWORD template S log_to<S>(Step<S>);                   \
+  KEYWORD template Step<S> power_to<Step<S>>(S, Step<S>);
+#define ISO_SCALAR_MATH(KEYWORD, S)    \
+  ISO_SCALAR_MATH_OF(KEYWORD, S)       \
+  ISO_SCALAR_MATH_OF(KEYWORD, Unit<S>) \
+  ISO_SCALAR_MATH_BETWEEN(KEYWORD, S)
 ISO_SCALAR_MATH(extern, Q16_16)
 ISO_SCALAR_MATH(extern, Q32_32)
 

@@ -1,7 +1,8 @@
-// Bodies of sin, cos, atan2, asin, acos: one integer algorithm for every scalar, out of reach of compiler flags.
+// Bodies of sin, cos, atan2, asin, acos, and in exp_log.inl of exp and log: integers for every scalar, whatever flags.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/scalar/exp_log.inl"
 #include "isostep/scalar/math.hpp"
 #include "isostep/scalar/math_tables.hpp"
 #include "isostep/scalar/soft.hpp"
@@ -79,8 +80,6 @@ template <class Out> ISO_INLINE constexpr Out sine_fixed(QuarterTurns turns, uns
   const bool below = ((quadrant & 2u) != 0) != negative;
   return Out::from_raw(below ? static_cast<typename Out::Raw>(-raw) : raw);
 }
-
-template <class S> constexpr S kQuietNan = std::numeric_limits<S>::quiet_NaN();
 
 /// Below 2^-27 sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
 template <class S> ISO_INLINE constexpr bool is_tiny(S x) {
@@ -183,9 +182,6 @@ ISO_INLINE constexpr Soft soft_acos(Soft x) {
   return soft_atan2(other_leg(x), x);
 }
 
-template <class S> ISO_INLINE constexpr bool is_nan(S a) {
-  return !is_finite(a) && (to_bits(a) << (sizeof(S) * 8 - FloatFormat<S>::kMantissa)) != 0;
-}
 template <class S> ISO_INLINE constexpr S atan2_float(S y, S x) {
   if (is_nan(y) || is_nan(x)) return kQuietNan<S>;
   return from_soft<S>(soft_atan2(to_soft(y), to_soft(x)));

@@ -116,6 +116,38 @@ template <class Out, class S> ISO_INLINE constexpr Out convert(S a) {
   }
 }
 
+/// An exact sum as an Out: round_to, but what lies beyond the format ends at its end. float and double go to infinity.
+template <class Out, class Total> ISO_INLINE constexpr Out saturate_to(Total sum) {
+  if constexpr (kIsFixed<Out>) {
+    const Total most = widen<Total>(Out::highest());
+    return most < sum ? Out::highest() : sum < -most ? -Out::highest() : round_to<Out>(sum);
+  } else {
+    return sum;
+  }
+}
+/// a + b, held at the ends of a fixed-point format instead of wrapping.
+template <class S> ISO_INLINE constexpr S saturating_add(S a, S b) {
+  if constexpr (kIsFixed<S>) {
+    using Unsigned = RawBits<S>;
+    const auto sum = static_cast<typename S::Raw>(static_cast<Unsigned>(a.raw()) + static_cast<Unsigned>(b.raw()));
+    if (((a.raw() ^ sum) & (b.raw() ^ sum)) >= 0) return S::from_raw(sum);
+    return a.raw() < 0 ? S::lowest() : S::highest();
+  } else {
+    return a + b;
+  }
+}
+/// a - b in the same way, for any b: the lowest number has no negative.
+template <class S> ISO_INLINE constexpr S saturating_subtract(S a, S b) {
+  if constexpr (kIsFixed<S>) {
+    using Unsigned = RawBits<S>;
+    const auto rest = static_cast<typename S::Raw>(static_cast<Unsigned>(a.raw()) - static_cast<Unsigned>(b.raw()));
+    if (((a.raw() ^ b.raw()) & (a.raw() ^ rest)) >= 0) return S::from_raw(rest);
+    return a.raw() < 0 ? S::lowest() : S::highest();
+  } else {
+    return a - b;
+  }
+}
+
 /// The bits of a, for hashes, files and exact comparison.
 template <class S> ISO_INLINE constexpr RawBits<S> to_bits(S a) {
   if constexpr (kIsFixed<S>) return static_cast<RawBits<S>>(a.raw());
@@ -176,6 +208,12 @@ template <class S> ISO_INLINE constexpr S resolution() {
     constexpr S kEpsilon = std::numeric_limits<S>::epsilon();
     return kEpsilon;
   }
+}
+
+/// How far apart numbers of this size lie, at most; of sizes below one as of one.
+template <class S> ISO_INLINE constexpr S spacing_at(S size) {
+  if constexpr (kIsFixed<S>) return resolution<S>();
+  if constexpr (!kIsFixed<S>) return resolution<S>() * max(size, S(1));
 }
 
 }  // namespace isostep

@@ -53,6 +53,12 @@ template <class S> ISO_INLINE constexpr Soft to_soft(S a) {
   }
 }
 
+template <class S> constexpr S kQuietNan = std::numeric_limits<S>::quiet_NaN();
+template <class S> constexpr S kInfinity = std::numeric_limits<S>::infinity();
+template <class S> ISO_INLINE constexpr bool is_nan(S a) {
+  return !is_finite(a) && (to_bits(a) << (sizeof(S) * 8 - FloatFormat<S>::kMantissa)) != 0;
+}
+
 /// Nearest S, ties to even for float and double; outside the range infinity, or the format's end for fixed point.
 template <class S> ISO_INLINE constexpr S from_soft(Soft a) {
   if constexpr (kIsFixed<S>) {
@@ -80,6 +86,25 @@ template <class S> ISO_INLINE constexpr S from_soft(Soft a) {
     }
     return from_bits<S>(static_cast<RawBits<S>>(bits | sign));
   }
+}
+
+/// A Soft whose mantissa has 128 bits: what a function computes that is rounded only once, at the last bit of a format.
+struct WideSoft {
+  UInt128Parts mantissa;
+  int exponent;
+  bool negative;
+};
+ISO_INLINE constexpr WideSoft normalised(WideSoft a) {
+  if ((a.mantissa.high | a.mantissa.low) == 0) return a;
+  const int zeros = leading_zeros(a.mantissa);
+  return {shift_left(a.mantissa, zeros), a.exponent - zeros, a.negative};
+}
+/// As from_soft. Fixed point rounds on one bit, and a format's largest magnitude leaves it within the upper 64; float
+/// and double must also know whether anything stands below.
+template <class S> ISO_INLINE constexpr S from_wide(WideSoft a) {
+  const WideSoft n = normalised(a);
+  const std::uint64_t rest = !kIsFixed<S> && n.mantissa.low != 0 ? 1 : 0;
+  return from_soft<S>({n.mantissa.high | rest, n.exponent + 64, n.negative});
 }
 
 /// Square root, relative error below 2^-60.
