@@ -1,8 +1,8 @@
 # The engine for a scalar that the library does not hold.
 
 # isostep_add_scalar(target "isostep::Fixed<std::int64_t, 40>" [header]): `target` gets one more source, which
-# instantiates World<S> and everything beneath. `header` is what the scalar's name needs beyond isostep's own: a path
-# from the calling folder, or anything that `target` can include.
+# instantiates World<S>, ParticleWorld<S> and everything beneath. `header` is what the scalar's name needs beyond
+# isostep's own: a path from the calling folder, or anything that `target` can include.
 function(isostep_add_scalar target scalar)
   string(MD5 digest "${scalar}")
   string(SUBSTRING ${digest} 0 8 digest)

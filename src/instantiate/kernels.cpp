@@ -3,6 +3,7 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/particles/flight.hpp"
 
 namespace isostep {
 
@@ -13,14 +14,15 @@ namespace isostep {
 //   S5   4.58  4.87     7.2   8.1      6.4   7.5     14.8  21.0
 // A stack of five boxes is 0.2 to 1.6 us slower in all but Q32.32. Narrower blocks for what is left over of a colour
 // gain nothing anywhere.
-#define ISO_DEFINE_CHOICE(S)                                                                                    \
-  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd) {                                          \
-    return choose_kernels<ContactKernels<S>>(simd);                                                             \
-  }                                                                                                             \
-  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose_kernels<TreeKernels<S>>(simd); } \
-  template <> const PairKernels<S>* pair_kernels<S>(Simd simd) {                                                \
-    const PairKernels<S>* const kernels = choose_kernels<PairKernels<S>>(simd);                                 \
-    return kernels != nullptr ? kernels : detail::kernel_table<PairKernels<S>, Simd::scalar>();                 \
+#define ISO_DEFINE_CHOICE(S)                                                                                          \
+  template <> const ContactKernels<S>* contact_kernels<S>(Simd simd) {                                                \
+    return choose_kernels<ContactKernels<S>>(simd);                                                                   \
+  }                                                                                                                   \
+  template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose_kernels<TreeKernels<S>>(simd); }       \
+  template <> const FlightKernels<S>* flight_kernels<S>(Simd simd) { return choose_kernels<FlightKernels<S>>(simd); } \
+  template <> const PairKernels<S>* pair_kernels<S>(Simd simd) {                                                      \
+    const PairKernels<S>* const kernels = choose_kernels<PairKernels<S>>(simd);                                       \
+    return kernels != nullptr ? kernels : detail::kernel_table<PairKernels<S>, Simd::scalar>();                       \
   }
 ISO_FOR_EACH_SCALAR(ISO_DEFINE_CHOICE)
 

@@ -10,7 +10,7 @@ ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules), token_(config.token) {}
 
 void ClientCore::connected(PeerId host, Time now) {
-  host_ = Link{};
+  host_ = PeerLink{};
   host_.peer = host;
   host_.connect(now);
   must_greet_ = true;

@@ -122,7 +122,7 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
 
 Frame HostCore::horizon() const { return config_.local_players > 0 ? streams_[0].end() : current() + 1; }
 
-bool HostCore::sends(int player, const Link& link) const {
+bool HostCore::sends(int player, const PeerLink& link) const {
   const Guest& guest = static_cast<const Guest&>(link);
   return player != guest.player || !seats_[player].is_open;
 }

@@ -217,7 +217,7 @@ void PeerCore::note_arrival(int player, Time now) {
   slack_[player].add(slack < -127 ? -127 : slack);
 }
 
-bool PeerCore::accept_datagram(Link& link, Bytes bytes, Time now, Packet& packet) {
+bool PeerCore::accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet) {
   ++stats_.datagrams_in;
   stats_.bytes_in += bytes.size();
   if (!link.datagrams.spend(config_.most_packets, now)) {
@@ -233,7 +233,7 @@ bool PeerCore::accept_datagram(Link& link, Bytes bytes, Time now, Packet& packet
   return true;
 }
 
-bool PeerCore::accept_message(Link& link, Bytes bytes, Time now) {
+bool PeerCore::accept_message(PeerLink& link, Bytes bytes, Time now) {
   stats_.bytes_in += bytes.size();
   if (!link.messages.spend(config_.most_packets, now)) {
     ++stats_.flooded;
@@ -246,7 +246,7 @@ bool PeerCore::accept_message(Link& link, Bytes bytes, Time now) {
   return true;
 }
 
-void PeerCore::take_acks(Link& link, const PacketHeader& header) {
+void PeerCore::take_acks(PeerLink& link, const PacketHeader& header) {
   for (int p = 0; p < players(); ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     // Nobody has what was never sent; and what was had once stays had.
@@ -257,7 +257,7 @@ void PeerCore::take_acks(Link& link, const PacketHeader& header) {
   }
 }
 
-Bytes PeerCore::compose(Link& link, PacketHeader header, Time now) {
+Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
   header.time = static_cast<std::uint16_t>(now / 1000);
   header.has_echo = link.has_clock;
   header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);

@@ -99,11 +99,13 @@ Result<ReplayHeader> make_replay_header(const ReplayIdentity& identity) {
       {"settings", settings.view(), true},
       {"hash", identity.hash_algorithm, true},
       {"scene", identity.scene, true},
+      {kWorldKey, identity.world, true},
       {"compiler", std::string_view(compiler_name()).substr(0, kReplayValueCap), false},
       {"architecture", architecture_name(), false},
   };
   ReplayHeader header;
   for (const auto& row : rows) {
+    if (row.key == kWorldKey && row.value.empty()) continue;
     if (!header.set(row.key, row.value, row.required)) return bad_field(row.key, "empty, too long or not ASCII");
   }
   return header;
@@ -124,6 +126,7 @@ Result<ReplayIdentity> identity_of(const ReplayHeader& header) {
     if (field == nullptr) return bad_field(text.key, "the field is missing");
     *text.to = field->value.view();
   }
+  if (const ReplayField* world = header.find(kWorldKey)) identity.world = world->value.view();
   const struct {
     std::string_view key;
     std::uint32_t* to;

@@ -7,11 +7,10 @@
 #include "commands.hpp"
 #include "demo_match.hpp"
 #include "files.hpp"
+#include "games.hpp"
 #include "isostep/core/version.hpp"
 #include "replay_check.hpp"
 #include "run_report.hpp"
-#include "scene_game.hpp"
-#include "scenes/named.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -20,7 +19,7 @@ struct DemoScene {
   const char* name;
   int frames;
 };
-constexpr DemoScene kDemoScenes[] = {{"S1x5", 120}, {"S6", 120}, {"S4s", 180}, {"mixed", 240}};
+constexpr DemoScene kDemoScenes[] = {{"S1x5", 120}, {"S6", 120}, {"S4s", 180}, {"mixed", 240}, {"bridge", 240}};
 
 constexpr int kMatchFrames = 300;
 
@@ -31,18 +30,19 @@ struct Recording {
   const char* simd = "";
 };
 
-template <class S> Recording record(const DemoScene& demo) {
+template <class Game> Recording record(const DemoScene& demo, const typename Game::Scene& scene) {
   Recording recording;
-  SceneGame<S> game(*scenes::find_scene(demo.name));
-  WorldRecorder<S> recorder(game.world, sink_to(recording.bytes));
+  Game game(scene);
+  TapeRecorder<typename Game::World> recorder(game.world, sink_to(recording.bytes));
   expect_written(recorder.begin(demo.name));
   std::vector<double> ms;
   for (int i = 0; i < demo.frames; ++i) {
     stop_if_interrupted();
-    scenes::before_step(game.script, game.world);
+    game.before_step(game.world);
     const double before = thread_milliseconds();
     game.world.step();
     ms.push_back(thread_milliseconds() - before);
+    game.after_step(game.world);
     recording.hash = game.world.hash();
     expect_written(recorder.end_frame(recording.hash));
   }
@@ -52,11 +52,13 @@ template <class S> Recording record(const DemoScene& demo) {
   return recording;
 }
 
-template <class S> bool show(const DemoScene& demo, const std::string& out) {
-  std::printf("%-6s %-7s %6d  ", demo.name, ScalarTraits<S>::kName, demo.frames);
+bool show(const DemoScene& demo, const std::string& scalar, const std::string& out) {
+  std::printf("%-6s %-7s %6d  ", demo.name, scalar.c_str(), demo.frames);
   std::fflush(stdout);
-  Recording recording = record<S>(demo);
-  const std::string path = out + "/" + demo.name + "." + ScalarTraits<S>::kName + ".replay";
+  Recording recording;
+  with_named_game(demo.name, scalar,
+                  [&](auto tag, const auto& scene) { recording = record<typename decltype(tag)::Type>(demo, scene); });
+  const std::string path = out + "/" + demo.name + "." + scalar + ".replay";
   write_file(path, Bytes(recording.bytes));
   recording.bytes = read_file(path);
   const CheckedFile checked = check_replay(recording.bytes, Simd::scalar);
@@ -89,7 +91,7 @@ int command_demo(const DemoOptions& options) {
   for (const DemoScene& demo : kDemoScenes) {
     any_scalar([&](auto tag) {
       ++shown;
-      good += show<typename decltype(tag)::Type>(demo, out) ? 1 : 0;
+      good += show(demo, ScalarTraits<typename decltype(tag)::Type>::kName, out) ? 1 : 0;
       return false;
     });
   }

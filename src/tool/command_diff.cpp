@@ -4,14 +4,13 @@
 
 #include "commands.hpp"
 #include "diff_bundles.hpp"
-#include "scene_game.hpp"
 #include "stage_trace.hpp"
 
 namespace isostep::tool {
 namespace {
 
 /// One of the two replays, played here.
-template <class S> class Player {
+template <class W> class Player {
  public:
   explicit Player(const Input& input) : input_(input), replay_(input.bytes) {
     Reader reader(replay_.state());
@@ -20,7 +19,7 @@ template <class S> class Player {
   }
   std::uint64_t frames() const { return replay_.frame_count(); }
   ReplayFrame frame(std::uint64_t i) const { return replay_.frame(i); }
-  World<S>& world() { return world_; }
+  W& world() { return world_; }
 
   /// Keeps the state before, then plays.
   void step(std::uint64_t i) {
@@ -29,7 +28,7 @@ template <class S> class Player {
     if (!stepped) refuse(input_.path, VerifyOutcome::corrupt, stepped.error());
   }
   /// The world is gone then.
-  PlayedFrame<S> play_again(std::uint64_t i) {
+  PlayedFrame<W> play_again(std::uint64_t i) {
     world_.load(before_);
     return {std::move(world_), frame(i).input};
   }
@@ -37,13 +36,13 @@ template <class S> class Player {
  private:
   const Input& input_;
   ReplayReader replay_;
-  World<S> world_;
-  typename World<S>::Snapshot before_;
+  W world_;
+  typename W::Snapshot before_;
 };
 
-template <class S> int report_frame(Player<S>& a, Player<S>& b, std::uint64_t frame) {
-  PlayedFrame<S> of_a = a.play_again(frame), of_b = b.play_again(frame);
-  const StagePlace place(of_a.trace(), of_b.trace());
+template <class W> int report_frame(Player<W>& a, Player<W>& b, std::uint64_t frame) {
+  PlayedFrame<W> of_a = a.play_again(frame), of_b = b.play_again(frame);
+  const StagePlace place = place_of<W>(of_a.trace(), of_b.trace());
   std::printf("frame %llu, %s\n", static_cast<unsigned long long>(frame), place.text().c_str());
   if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("%s", kTapesDiffer);
   print_differences(of_a.state_at(place), of_b.state_at(place));
@@ -60,8 +59,8 @@ int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::
   return exit_status::kDifferent;
 }
 
-template <class S> int diff_as(const Input& input_a, const Input& input_b) {
-  Player<S> a(input_a), b(input_b);
+template <class W> int diff_as(const Input& input_a, const Input& input_b) {
+  Player<W> a(input_a), b(input_b);
   DiffReport start(kShown);
   diff_states(a.world().state(), b.world().state(), start);
   if (start.any()) {
@@ -86,8 +85,12 @@ template <class S> int diff_as(const Input& input_a, const Input& input_b) {
   return exit_status::kOk;
 }
 
-/// The scalar's number in HEAD, once the file is known to be whole blocks with a start.
-std::uint64_t scalar_of(const Input& input) {
+/// Of HEAD, once the file is known to be whole blocks with a start.
+struct Kind {
+  std::string world;
+  std::uint64_t scalar;  // its number
+};
+Kind kind_of(const Input& input) {
   const ReplayReader replay(input.bytes);
   if (replay.status() == ReplayStatus::corrupt) refuse(input.path, VerifyOutcome::corrupt, replay.error());
   if (replay.status() == ReplayStatus::incompatible) refuse(input.path, VerifyOutcome::incompatible, replay.error());
@@ -97,26 +100,27 @@ std::uint64_t scalar_of(const Input& input) {
   }
   const Result<std::uint64_t> id = replay.header().number("scalar_id");
   if (!id) refuse(input.path, VerifyOutcome::incompatible, id.error());
-  return id.value();
+  const ReplayField* world = replay.header().find(kWorldKey);
+  return {world == nullptr ? "" : std::string(world->value.view()), id.value()};
 }
 
 int diff_replays(const Input& a, const Input& b) {
-  const std::uint64_t scalar = scalar_of(a);
-  if (scalar != scalar_of(b)) {
-    std::printf("the scalars differ\n");
+  const Kind kind = kind_of(a), other = kind_of(b);
+  if (kind.world != other.world || kind.scalar != other.scalar) {
+    std::printf("the %s differ\n", kind.world != other.world ? "kinds of world" : "scalars");
     return exit_status::kDifferent;
   }
   int status = exit_code(VerifyOutcome::incompatible);
   const bool bundles = is_bundle(a) || is_bundle(b);
-  const bool found = with_scalar_id(static_cast<std::uint32_t>(scalar), [&](auto tag) {
-    using S = typename decltype(tag)::Type;
-    status = bundles ? diff_bundles<S>(a, b) : diff_as<S>(a, b);
+  const std::string_view missing = with_world(kind.world, kind.scalar, [&](auto tag) {
+    using W = typename decltype(tag)::Type;
+    status = bundles ? diff_bundles<W>(a, b) : diff_as<W>(a, b);
   });
-  if (!found) throw ToolError(status, a.path + ": of a scalar that this build lacks");
+  if (!missing.empty()) throw ToolError(status, a.path + ": of a " + std::string(missing) + " that this build lacks");
   return status;
 }
 
-template <class S> void load(World<S>& world, const Input& input) {
+template <class W> void load(W& world, const Input& input) {
   Reader reader(input.bytes);
   Result<void> read = world.read_portable(reader);
   if (read) {
@@ -127,12 +131,11 @@ template <class S> void load(World<S>& world, const Input& input) {
 }
 
 int diff_snapshots(const Input& a, const Input& b) {
-  std::uint32_t scalar = 0;
-  Reader(a.bytes).read(scalar);
+  std::uint32_t id = 0;
+  Reader(a.bytes).read(id);
   int status = exit_status::kOk;
-  const bool found = with_scalar_id(scalar, [&](auto tag) {
-    using S = typename decltype(tag)::Type;
-    World<S> world_a, world_b;
+  const bool found = with_portable_world(id, [&](auto tag) {
+    typename decltype(tag)::Type world_a, world_b;
     load(world_a, a);
     load(world_b, b);
     const bool differ = print_differences(world_a.state(), world_b.state());

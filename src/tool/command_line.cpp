@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "isostep/core/version.hpp"
+#include "isostep/particles/settings.hpp"
 #include "scene_game.hpp"
 #include "tool.hpp"
 
@@ -33,6 +34,7 @@ class CommandLine {
     add_peer();
     add_relay();
     add_demo();
+    add_lab();
     add("selfcheck", "is this build and machine sound", [] { return tool::command_selfcheck(); });
   }
   int execute() const {
@@ -64,13 +66,16 @@ class CommandLine {
     command->add_option("scene", run_.scene, "a named scene, or a scene file")->required();
     add_scalar(command, run_.scalar);
     add_frames(command, run_.frames);
-    command->add_option("--hz", run_.hz, "steps per second [" + std::to_string(tool::kDefaultHz) + "]")
-        ->check(CLI::Range(10, 1000));
-    command->add_option("--substeps", run_.substeps, "per step [" + std::to_string(tool::kDefaultSubsteps) + "]")
-        ->check(CLI::Range(1, 64));
-    command->add_option("--solver", run_.solver, "how contacts are solved")
-        ->check(CLI::IsMember({"soft_step"}))
-        ->capture_default_str();
+    command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(10, 1000));
+    command->add_option("--substeps", run_.game.substeps, "per step [the scene's]")->check(CLI::Range(1, 64));
+    command->add_option("--solver", run_.game.solver, "how contacts are solved [the scene's]")
+        ->check(CLI::IsMember(std::vector<std::string>{"soft_step", "worst_first"}));
+    command->add_option("--integrator", run_.game.integrator, "how particles are integrated [the scene's]")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(std::begin(isostep::kIntegratorNames), std::end(isostep::kIntegratorNames))));
+    command->add_option("--stepping", run_.game.stepping, "how particles' sub-steps end [the scene's]")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(std::begin(isostep::kSteppingNames), std::end(isostep::kSteppingNames))));
     command->add_option("--threads", run_.threads, "that share the work; never changes a bit")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
@@ -173,6 +178,16 @@ class CommandLine {
                             [this] { return tool::command_demo(demo_); });
     command->add_option("--out", demo_.out, "keep the recordings in this directory");
   }
+  void add_lab() {
+    CLI::App* lab = app_.add_subcommand("lab", "experiments: where methods and numbers fail, and what they cost");
+    lab->require_subcommand(1);
+    CLI::App* springs = lab->add_subcommand(
+        "springs", "stiffness against integrator and scalar: stable, bounded or exploded, energy after 10 s, time");
+    springs->callback([this] { chosen_ = [this] { return tool::command_lab_springs(lab_springs_); }; });
+    springs->add_flag("--quick", lab_springs_.quick, "fewer stiffnesses, and steps timed once");
+    springs->add_option("--out", lab_springs_.out, "write springs.tsv and, by gnuplot, springs.svg here");
+    springs->add_flag("--json", lab_springs_.json, "one JSON object");
+  }
 
   CLI::App& app_;
   std::function<int()> chosen_;
@@ -185,6 +200,7 @@ class CommandLine {
   tool::PeerOptions peer_;
   tool::RelayOptions relay_;
   tool::DemoOptions demo_;
+  tool::LabSpringsOptions lab_springs_;
 };
 
 int fail(int status, std::string message) {

@@ -1,5 +1,6 @@
 // isostep scenes: lists the named scenes, or writes them as files.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -7,13 +8,13 @@
 
 #include "commands.hpp"
 #include "files.hpp"
-#include "scenes/named.hpp"
+#include "games.hpp"
 #include "scenes/scene_file.hpp"
-#include "tool.hpp"
 
 namespace isostep::tool {
 namespace {
 
+/// Those that a file can hold: the rigid ones.
 void write_all(const std::string& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
@@ -25,23 +26,28 @@ void write_all(const std::string& directory) {
 }
 
 void print_table() {
-  std::printf("%-6s %6s %7s %7s  %s\n", "scene", "frames", "bodies", "joints", "what");
-  for (const scenes::NamedScene& entry : scenes::named_scenes()) {
-    const scenes::Scene scene = *scenes::find_scene(entry.name);
-    std::printf("%-6s %6d %7zu %7zu  %s\n", entry.name, scene.frames, scene.bodies.size(), scene.joints.size(),
-                entry.description);
+  const std::vector<SceneRow> rows = scene_rows();
+  std::size_t width = 0;
+  for (const SceneRow& row : rows) width = std::max(width, row.name.size());
+  const char* counted = "";
+  for (const SceneRow& row : rows) {
+    if (std::string_view(counted) != row.counted[0]) {
+      std::printf("%-*s %6s %9s %7s  %s\n", static_cast<int>(width), "scene", "frames", row.counted[0], row.counted[1],
+                  "what");
+    }
+    counted = row.counted[0];
+    std::printf("%-*s %6d %9zu %7zu  %s\n", static_cast<int>(width), row.name.c_str(), row.frames, row.counts[0],
+                row.counts[1], row.description.c_str());
   }
 }
 
 void print_json() {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const scenes::NamedScene& entry : scenes::named_scenes()) {
-    const scenes::Scene scene = *scenes::find_scene(entry.name);
-    list.push_back({{"name", entry.name},
-                    {"frames", scene.frames},
-                    {"bodies", scene.bodies.size()},
-                    {"joints", scene.joints.size()},
-                    {"description", entry.description}});
+  for (const SceneRow& row : scene_rows()) {
+    nlohmann::ordered_json json = {{"name", row.name}, {"frames", row.frames}};
+    for (int i = 0; i < 2; ++i) json[row.counted[i]] = row.counts[i];
+    json["description"] = row.description;
+    list.push_back(json);
   }
   std::cout << nlohmann::ordered_json{{"scenes", list}}.dump(1) << "\n";
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "goldens.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/scalar/environment.hpp"
 #include "replay_check.hpp"

@@ -4,22 +4,24 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "scene_game.hpp"
-#include "state_diff.hpp"
+#include "games.hpp"
+#include "worlds.hpp"
 
 namespace isostep::tool {
 namespace {
 
 constexpr std::size_t kShown = 8;
 
-template <class S> class Selftest {
+template <class Game> class Selftest {
  public:
-  Selftest(const SelftestOptions& options, const scenes::Scene& scene)
-      : options_(options), scene_(scene), game_(scene) {}
+  using World = typename Game::World;
+  using Scene = typename Game::Scene;
+
+  Selftest(const SelftestOptions& options, const Scene& scene) : options_(options), scene_(scene), game_(scene) {}
 
   int run() {
     const int frames = options_.frames >= 0 ? options_.frames : scene_.frames;
-    SceneGame<S> straight(scene_);
+    Game straight(scene_);
     truth_.push_back(straight.world.hash());
     const std::vector<std::uint64_t> hashes = hashes_of(straight, frames + options_.rollback);
     truth_.insert(truth_.end(), hashes.begin(), hashes.end());
@@ -32,19 +34,19 @@ template <class S> class Selftest {
     std::printf(
         "%s in %s: %d frames, %d times saved, run %d frames ahead, loaded and run again, and rebuilt: all the same, "
         "%s\n",
-        scene_.name.c_str(), ScalarTraits<S>::kName, frames, restores_, options_.rollback,
-        hex(game_.world.hash()).c_str());
+        std::string(scene_.name).c_str(), ScalarTraits<typename World::Scalar>::kName, frames, restores_,
+        options_.rollback, hex(game_.world.hash()).c_str());
     return exit_status::kOk;
   }
 
  private:
   /// `frame` steps were taken.
-  bool is_true(const World<S>& world, int frame, const char* who) {
+  bool is_true(const World& world, int frame, const char* who) {
     const std::uint64_t expected = truth_[static_cast<std::size_t>(frame)];
     if (world.hash() == expected) return true;
     std::printf("DIFFERENT after %d frames: %s has %s, a world that never saved has %s\n", frame, who,
                 hex(world.hash()).c_str(), hex(expected).c_str());
-    SceneGame<S> straight(scene_);
+    Game straight(scene_);
     for (int i = 0; i < frame; ++i) straight.advance();
     DiffReport report(kShown);
     diff_states(straight.world.state(), world.state(), report);
@@ -52,10 +54,11 @@ template <class S> class Selftest {
     return false;
   }
 
-  bool ahead(World<S>& world, int frame, const char* who) {
+  bool ahead(World& world, int frame, const char* who) {
     for (int i = 1; i <= options_.rollback; ++i) {
-      scenes::before_step(scene_.script, world);
+      game_.before_step(world);
       world.step();
+      game_.after_step(world);
       if (!is_true(world, frame + i, who)) return false;
     }
     return true;
@@ -63,7 +66,7 @@ template <class S> class Selftest {
 
   bool restore(int frame) {
     ++restores_;
-    World<S>& world = game_.world;
+    World& world = game_.world;
     world.save(snapshot_);
     if (!ahead(world, frame, "a world that saved and runs ahead")) return false;
     world.load(snapshot_);
@@ -75,7 +78,7 @@ template <class S> class Selftest {
     Writer writer(bytes_);
     world.write_portable(writer);
     Reader reader(bytes_);
-    World<S> rebuilt;
+    World rebuilt;
     if (const Result<void> read = rebuilt.read_portable(reader); !read) {
       std::printf("DIFFERENT after %d frames: the portable form is refused: %.*s\n", frame,
                   static_cast<int>(read.error().message.view().size()), read.error().message.view().data());
@@ -85,10 +88,10 @@ template <class S> class Selftest {
   }
 
   const SelftestOptions& options_;
-  const scenes::Scene& scene_;
-  SceneGame<S> game_;
+  const Scene& scene_;
+  Game game_;
   std::vector<std::uint64_t> truth_;  // after 0, 1, ... frames
-  typename World<S>::Snapshot snapshot_;
+  typename World::Snapshot snapshot_;
   std::vector<std::uint8_t> bytes_;
   int restores_ = 0;
 };
@@ -96,17 +99,14 @@ template <class S> class Selftest {
 }  // namespace
 
 int command_selftest(const SelftestOptions& options) {
-  const scenes::Scene scene = load_scene(options.scene);
   int status = exit_status::kSoftware;
-  const bool found = with_scalar(options.scalar, [&](auto tag) {
-    using S = typename decltype(tag)::Type;
+  with_game(options.scene, options.scalar, [&](auto tag, const auto& scene) {
     try {
-      status = Selftest<S>(options, scene).run();
+      status = Selftest<typename decltype(tag)::Type>(options, scene).run();
     } catch (const scenes::SceneError& error) {
       fail_scene(options.scene, error);
     }
   });
-  if (!found) throw ToolError(exit_status::kUsage, "this build has no scalar " + options.scalar);
   return status;
 }
 

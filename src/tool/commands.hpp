@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "game_options.hpp"
+
 namespace isostep::tool {
 
 struct ScenesOptions {
@@ -17,8 +19,7 @@ struct RunOptions {
   std::string scene;
   std::string scalar = "float";
   int frames = -1;  // -1: the scene's
-  int hz = -1, substeps = -1;
-  std::string solver = "soft_step";
+  GameOptions game;
   int threads = 1;
   std::string simd = "best";
   std::string load, save, record, hashes, dump;  // files, or empty
@@ -88,6 +89,13 @@ struct RelayOptions {
   std::string port_file;
 };
 int command_relay(const RelayOptions& options);
+
+struct LabSpringsOptions {
+  bool quick = false;  // fewer stiffnesses, steps timed once
+  bool json = false;
+  std::string out;  // directory for the table and its chart, or empty
+};
+int command_lab_springs(const LabSpringsOptions& options);
 
 int command_selfcheck();
 

@@ -13,7 +13,7 @@ namespace isostep::tool {
 
 inline bool is_bundle(const Input& input) { return facts_chunk(ReplayReader(input.bytes)) != nullptr; }
 
-template <class S> void print_peer(const char* name, const RecordedPeer<S>& peer) {
+template <class W> void print_peer(const char* name, const RecordedPeer<W>& peer) {
   std::printf("%s: ", name);
   if (peer.facts()) {
     const BundleFacts& facts = *peer.facts();
@@ -44,8 +44,8 @@ inline void print_headers(const ReplayHeader& a, const ReplayHeader& b) {
 }
 
 /// States as the peers had them before a frame.
-template <class S> void print_states(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
-  const std::optional<World<S>> of_a = a.state_before(frame), of_b = b.state_before(frame);
+template <class W> void print_states(const RecordedPeer<W>& a, const RecordedPeer<W>& b, Frame frame) {
+  const std::optional<W> of_a = a.state_before(frame), of_b = b.state_before(frame);
   for (const auto& [name, state] : {std::pair{"A", &of_a}, std::pair{"B", &of_b}}) {
     if (!*state) std::printf("  the state that %s had is not in its file and does not come out here\n", name);
   }
@@ -60,11 +60,11 @@ inline const char* verdict(bool a, bool b) {
 }
 
 /// What the peers' own traces say.
-template <class S>
-std::optional<StagePlace> traced_place(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
+template <class W>
+std::optional<StagePlace> traced_place(const RecordedPeer<W>& a, const RecordedPeer<W>& b, Frame frame) {
   const std::optional<Trace> of_a = a.stages(frame), of_b = b.stages(frame);
   if (!of_a || !of_b) return std::nullopt;
-  return StagePlace(*of_a, *of_b);
+  return place_of<W>(*of_a, *of_b);
 }
 
 inline void print_place(Frame frame, const std::optional<StagePlace>& place, bool same_tapes) {
@@ -79,11 +79,11 @@ inline void print_place(Frame frame, const std::optional<StagePlace>& place, boo
   }
 }
 
-template <class S> void report_bundles(const RecordedPeer<S>& a, const RecordedPeer<S>& b, Frame frame) {
-  std::optional<PlayedFrame<S>> again_a = a.play_again(frame), again_b = b.play_again(frame);
+template <class W> void report_bundles(const RecordedPeer<W>& a, const RecordedPeer<W>& b, Frame frame) {
+  std::optional<PlayedFrame<W>> again_a = a.play_again(frame), again_b = b.play_again(frame);
   const bool same_tapes = isostep::detail::same_bytes(a.tape(frame), b.tape(frame));
   if (again_a && again_b) {
-    const StagePlace place(again_a->trace(), again_b->trace());
+    const StagePlace place = place_of<W>(again_a->trace(), again_b->trace());
     print_place(frame, place, same_tapes);
     print_differences(again_a->state_at(place), again_b->state_at(place));
   } else {
@@ -94,8 +94,8 @@ template <class S> void report_bundles(const RecordedPeer<S>& a, const RecordedP
 }
 
 /// By what was recorded; played again is only the frame that differs, and what leads to it where no state is stored.
-template <class S> int diff_bundles(const Input& input_a, const Input& input_b) {
-  const RecordedPeer<S> a(input_a), b(input_b);
+template <class W> int diff_bundles(const Input& input_a, const Input& input_b) {
+  const RecordedPeer<W> a(input_a), b(input_b);
   print_headers(a.header(), b.header());
   print_peer("A", a);
   print_peer("B", b);

@@ -9,15 +9,15 @@
 
 #include "files.hpp"
 #include "isostep/state/verify.hpp"
-#include "state_diff.hpp"
 #include "tool.hpp"
+#include "worlds.hpp"
 
 namespace isostep::tool {
 
 inline constexpr std::size_t kShown = 8;  // differences printed
 
 /// `a`: the first of the two states, for the owners' slots.
-template <class S> void print(const DiffReport& report, const WorldState<S>& a) {
+template <class State> void print(const DiffReport& report, const State& a) {
   for (const Difference& difference : report.kept()) {
     const std::string owner = owner_of(a, difference.path.view());
     std::printf("  %s%s\n", describe(difference).c_str(), owner.empty() ? "" : (" [" + owner + "]").c_str());
@@ -28,7 +28,7 @@ template <class S> void print(const DiffReport& report, const WorldState<S>& a) 
 }
 
 /// Of all of two states; whether there are any.
-template <class S> bool print_differences(const WorldState<S>& a, const WorldState<S>& b) {
+template <class State> bool print_differences(const State& a, const State& b) {
   DiffReport report(kShown);
   diff_states(a, b, report);
   print(report, a);

@@ -1,4 +1,4 @@
-// RecordedPeer<S>: one side of a desync: what its file recorded, and what its frames come out as when played here.
+// RecordedPeer<W>: one side of a desync: what its file recorded, and what its frames come out as when played here.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,11 +21,11 @@ inline const ReplayAncillary* facts_chunk(const ReplayReader& replay) {
 }
 
 /// Frames are counted as the session counted them.
-template <class S> class RecordedPeer {
+template <class W> class RecordedPeer {
  public:
   explicit RecordedPeer(const Input& input) : path_(input.path), replay_(input.bytes) {
     if (const ReplayAncillary* chunk = facts_chunk(replay_)) {
-      Result<BundleFacts> facts = read_facts(chunk->payload, replay_.frame_count());
+      Result<BundleFacts> facts = read_facts(chunk->payload, replay_.frame_count(), kHashes);
       if (!facts) refuse(path_, VerifyOutcome::corrupt, facts.error());
       facts_ = std::move(facts.value());
     }
@@ -52,23 +52,23 @@ template <class S> class RecordedPeer {
     if (!facts_) return std::nullopt;
     return facts_->roots[index(frame)];
   }
-  /// kTraceHashes a step; nothing when they were not traced.
+  /// As many hashes for each step as the world has; nothing when they were not traced.
   std::optional<Trace> stages(Frame frame) const {
     if (!facts_ || facts_->steps.empty()) return std::nullopt;
     const auto steps = facts_->steps.begin() + static_cast<std::ptrdiff_t>(index(frame));
     const std::size_t before = std::accumulate(facts_->steps.begin(), steps, std::size_t{0});
-    return Trace(facts_->stages).subspan(before * kTraceHashes, *steps * kTraceHashes);
+    return Trace(facts_->stages).subspan(before * kHashes, *steps * kHashes);
   }
 
   /// The state before a frame or after the last, as the peer had it: stored, or played; nothing when neither has the
   /// recorded hash.
-  std::optional<World<S>> state_before(Frame frame) const {
+  std::optional<W> state_before(Frame frame) const {
     for (const ReplayKeyframe& key : replay_.keyframes()) {
       if (key.frames != index(frame)) continue;
-      World<S> stored = decode(key.state);
+      W stored = decode(key.state);
       if (stored.hash() == hash_before(frame)) return stored;
     }
-    World<S> world = decode(replay_.state());
+    W world = decode(replay_.state());
     for (Frame f = first_; f < frame; ++f) {
       stop_if_interrupted();
       if (!world.step_recorded(tape(f))) return std::nullopt;
@@ -78,19 +78,21 @@ template <class S> class RecordedPeer {
   }
 
   /// One frame, played here from the state that the peer had before it; nothing when it does not come out as recorded.
-  std::optional<PlayedFrame<S>> play_again(Frame frame) const {
-    std::optional<World<S>> world = state_before(frame);
+  std::optional<PlayedFrame<W>> play_again(Frame frame) const {
+    std::optional<W> world = state_before(frame);
     if (!world) return std::nullopt;
-    PlayedFrame<S> played(std::move(*world), tape(frame));
+    PlayedFrame<W> played(std::move(*world), tape(frame));
     if (!played.playable() || played.hash() != hash_after(frame)) return std::nullopt;
     return played;
   }
 
  private:
+  static constexpr std::uint32_t kHashes = 1 + WorldTraits<W>::kStages.size();
+
   std::size_t index(Frame frame) const { return static_cast<std::size_t>(frame - first_); }
   ReplayFrame at(Frame frame) const { return replay_.frame(index(frame)); }
-  World<S> decode(Bytes state) const {
-    World<S> world;
+  W decode(Bytes state) const {
+    W world;
     Reader reader(state);
     const Result<void> read = world.read_portable(reader);
     if (!read) refuse(path_, VerifyOutcome::corrupt, read.error());

@@ -19,7 +19,7 @@ struct CheckedFile {
 int status_of(const CheckedFile& file);
 std::string text_of(const CheckedFile& file);
 
-/// By the scalar that its header names; needs none of the game's code.
+/// By the world and the scalar that its header names; needs none of the game's code.
 CheckedFile check_replay(Bytes bytes, Simd simd = Simd::best);
 /// The named scene again, as many frames as there are lines.
 CheckedFile check_golden(const std::string& name, std::string_view text, Simd simd = Simd::best);

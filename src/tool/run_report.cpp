@@ -33,6 +33,18 @@ std::string line(const char* format, ...) {
   return std::string(text) + "\n";
 }
 
+nlohmann::ordered_json json_of_times(const StepTimes& ms) {
+  return {{"ms_median", rounded(ms.median)},
+          {"ms_mean", rounded(ms.mean)},
+          {"ms_p99", rounded(ms.p99)},
+          {"ms_max", rounded(ms.max)},
+          {"ms_median_settled", rounded(ms.median_settled)}};
+}
+std::string line_of_times(const StepTimes& ms) {
+  return line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f", ms.median,
+              ms.mean, ms.p99, ms.max, ms.median_settled);
+}
+
 }  // namespace
 
 StepTimes summarise(std::vector<double> ms) {
@@ -50,29 +62,20 @@ StepTimes summarise(std::vector<double> ms) {
 }
 
 std::string json_of(const RunReport& r) {
-  nlohmann::ordered_json json = {{"scene", r.scene},
-                                 {"scalar", r.scalar},
-                                 {"solver", r.solver},
-                                 {"substeps", r.substeps},
-                                 {"threads", r.threads},
-                                 {"simd", r.simd},
-                                 {"frames", r.frames},
-                                 {"hash", hex(r.hash)},
-                                 {"ms_median", rounded(r.ms.median)},
-                                 {"ms_mean", rounded(r.ms.mean)},
-                                 {"ms_p99", rounded(r.ms.p99)},
-                                 {"ms_max", rounded(r.ms.max)},
-                                 {"ms_median_settled", rounded(r.ms.median_settled)},
-                                 {"contacts", r.contacts},
-                                 {"points", r.points},
-                                 {"bodies", r.bodies},
-                                 {"awake", r.awake},
-                                 {"penetration_max", r.penetration_max},
-                                 {"joint_error_max", r.joint_error_max},
-                                 {"energy_start", r.energy_start},
-                                 {"energy_end", r.energy_end},
-                                 {"asleep_at", nullptr},
-                                 {"faults", r.faults}};
+  nlohmann::ordered_json json = {{"scene", r.scene},       {"scalar", r.scalar},   {"solver", r.solver},
+                                 {"substeps", r.substeps}, {"threads", r.threads}, {"simd", r.simd},
+                                 {"frames", r.frames},     {"hash", hex(r.hash)}};
+  json.update(json_of_times(r.ms));
+  json.update(nlohmann::ordered_json{{"contacts", r.contacts},
+                                     {"points", r.points},
+                                     {"bodies", r.bodies},
+                                     {"awake", r.awake},
+                                     {"penetration_max", r.penetration_max},
+                                     {"joint_error_max", r.joint_error_max},
+                                     {"energy_start", r.energy_start},
+                                     {"energy_end", r.energy_end},
+                                     {"asleep_at", nullptr},
+                                     {"faults", r.faults}});
   if (r.asleep_at >= 0) json["asleep_at"] = r.asleep_at;
   return json.dump() + "\n";
 }
@@ -83,8 +86,7 @@ std::string table_of(const RunReport& r) {
                r.substeps, r.simd.c_str(), r.frames);
   if (r.threads > 1) text += line("threads       %d; times are real, not of one thread", r.threads);
   text += line("hash          %s", hex(r.hash).c_str());
-  text += line("step          median %.4f ms, mean %.4f, p99 %.4f, max %.4f; median of the second half %.4f",
-               r.ms.median, r.ms.mean, r.ms.p99, r.ms.max, r.ms.median_settled);
+  text += line_of_times(r.ms);
   text +=
       line("at the end    %u bodies, %u awake, %u contacts with %u points", r.bodies, r.awake, r.contacts, r.points);
   text += line("penetration   %.3f mm worst, %.3f mm mean of pairs closer than 1 cm", 1e3 * r.penetration_max,
@@ -93,6 +95,47 @@ std::string table_of(const RunReport& r) {
   text += line("energy        %.6g J at the start, %.6g J at the end; unrest %.3g J/kg", r.energy_start, r.energy_end,
                r.unrest);
   text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);
+  text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
+  return text;
+}
+
+std::string json_of(const ParticleRunReport& r) {
+  nlohmann::ordered_json json = {{"scene", r.scene},           {"scalar", r.scalar},     {"solver", r.solver},
+                                 {"integrator", r.integrator}, {"stepping", r.stepping}, {"substeps", r.substeps},
+                                 {"threads", r.threads},       {"simd", r.simd},         {"frames", r.frames},
+                                 {"hash", hex(r.hash)}};
+  json.update(json_of_times(r.ms));
+  json.update(nlohmann::ordered_json{{"particles", r.counts.particles},
+                                     {"pinned", r.counts.pinned},
+                                     {"springs", r.counts.springs},
+                                     {"forces", r.counts.forces},
+                                     {"links", r.counts.links},
+                                     {"colliders", r.counts.colliders},
+                                     {"contacts", r.counts.contacts},
+                                     {"penetration_max", r.penetration_max},
+                                     {"speed_max", r.speed_max},
+                                     {"link_error_max", r.link_error_max},
+                                     {"energy_start", r.energy_start},
+                                     {"energy_end", r.energy_end},
+                                     {"unresolved", r.unresolved},
+                                     {"faults", r.faults}});
+  return json.dump() + "\n";
+}
+
+std::string table_of(const ParticleRunReport& r) {
+  std::string text;
+  text += line("%s in %s, %s, %s, %s steps (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(),
+               r.solver.c_str(), r.integrator.c_str(), r.stepping.c_str(), r.substeps, r.simd.c_str(), r.frames);
+  text += line("hash          %s", hex(r.hash).c_str());
+  text += line_of_times(r.ms);
+  text +=
+      line("at the end    %u particles, %u of them pinned, %u contacts, %u springs, %u links, %u forces",
+           r.counts.particles, r.counts.pinned, r.counts.contacts, r.counts.springs, r.counts.links, r.counts.forces);
+  text += line("penetration   %.3f mm worst", 1e3 * r.penetration_max);
+  text += line("link error    %.4f mm worst over the run", 1e3 * r.link_error_max);
+  text += line("energy        %.6g J at the start, %.6g J at the end; fastest %.3g m/s", r.energy_start, r.energy_end,
+               r.speed_max);
+  if (r.unresolved > 0) text += line("unresolved    %llu", static_cast<unsigned long long>(r.unresolved));
   text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
   return text;
 }

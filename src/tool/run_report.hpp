@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "isostep/particles/particle_world.hpp"
+
 namespace isostep::tool {
 
 /// CPU time of the step calls alone [ms].
@@ -33,8 +35,25 @@ struct RunReport {
   double unrest = 0;            // [J/kg] kinetic energy, mean of the last 60 frames
 };
 
+/// The same of a world of particles.
+struct ParticleRunReport {
+  std::string scene, scalar, solver, integrator, stepping, simd;
+  int substeps = 0, threads = 1, frames = 0;
+  std::uint64_t hash = 0;
+  StepTimes ms;
+  ParticleCounts counts = {};               // at the end
+  double penetration_max = 0;               // [m] at the end
+  double speed_max = 0;                     // [m/s] at the end
+  double link_error_max = 0;                // [m] over the run
+  double energy_start = 0, energy_end = 0;  // [J] kinetic, of gravity, of springs
+  std::uint64_t unresolved = 0;             // rows that worst_first left over, of all steps
+  std::uint64_t faults = 0;                 // all else that the step reports named
+};
+
 /// One JSON object, exactly the members that README lists.
 std::string json_of(const RunReport& report);
 std::string table_of(const RunReport& report);
+std::string json_of(const ParticleRunReport& report);
+std::string table_of(const ParticleRunReport& report);
 
 }  // namespace isostep::tool

@@ -1,9 +1,8 @@
-// Scenes by name or by file.
+// Scenes from files, and lanes by name.
 // SPDX-License-Identifier: MIT
 #include "scene_game.hpp"
 
 #include "files.hpp"
-#include "scenes/named.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace isostep::tool {
@@ -19,8 +18,7 @@ void fail_scene(const std::string& name_or_file, const scenes::SceneError& error
   throw ToolError(exit_status::kUsage, name_or_file + ":" + (error.place().empty() ? " " : "") + error.what());
 }
 
-scenes::Scene load_scene(const std::string& name_or_file) {
-  if (std::optional<scenes::Scene> scene = scenes::find_scene(name_or_file)) return *scene;
+scenes::Scene load_scene_file(const std::string& name_or_file) {
   if (!looks_like_file(name_or_file)) {
     throw ToolError(exit_status::kUsage,
                     "no scene is named \"" + name_or_file + "\": `isostep scenes` lists them, a file ends in .json");
@@ -31,6 +29,13 @@ scenes::Scene load_scene(const std::string& name_or_file) {
   } catch (const scenes::SceneError& error) {
     fail_scene(name_or_file, error);
   }
+}
+
+void require_rigid_methods(const GameOptions& options) {
+  if (!options.solver.empty() && options.solver != "soft_step")
+    throw ToolError(exit_status::kUsage, "rigid bodies have no solver " + options.solver + ": only soft_step");
+  if (!options.integrator.empty() || !options.stepping.empty())
+    throw ToolError(exit_status::kUsage, "--integrator and --stepping are for scenes of particles");
 }
 
 Simd simd_named(const std::string& name) {

@@ -50,13 +50,6 @@ template <class Visit> bool with_scalar(std::string_view name, Visit&& visit) {
     return true;
   });
 }
-template <class Visit> bool with_scalar_id(std::uint32_t id, Visit&& visit) {
-  return any_scalar([&](auto tag) {
-    if (id != ScalarTraits<typename decltype(tag)::Type>::kId) return false;
-    visit(tag);
-    return true;
-  });
-}
 
 /// From now on Ctrl-C only sets the flag; loops look at it between frames, so that files end well.
 void catch_interrupt();

@@ -49,7 +49,7 @@ void check_facts(Bytes payload, std::uint64_t frames) {
 
 template <class S> void check_tape(Bytes tape) {
   std::uint32_t commands = 0, steps = 0;
-  const Result<void> played = play_tape<S>(
+  const Result<void> played = play_tape<Command<S>>(
       tape, [&](const Command<S>&) { return ++commands != 1000; }, [&] { ++steps; });
   require(steps <= kFrameStepCap && commands <= 1000 && commands + steps <= tape.size());
   if (played) require(tape.empty() == (commands + steps == 0));

@@ -38,6 +38,8 @@ template <class S> void use_numbers() {
   keep(from_literal<S>(Literal(0.5)));
   keep(sqrt(a)), keep(rsqrt(a)), keep(sin(a)), keep(cos(a)), keep(sin_cos(a)), keep(sin_cos_to<Unit<S>>(a));
   keep(atan2(a, b)), keep(atan2_to<S>(u, u)), keep(asin(S(u * a))), keep(acos(S(u * a)));
+  keep(exp(b)), keep(exp_to<Step<S>>(-b)), keep(log(a)), keep(log_to<S>(u));
+  keep(power_to<Step<S>>(S(u * b), unknown(Step<S>(0.25))));
   keep(direction_of(a, b, a));
   Unit<S> x = u, y = u, z = u, w = u;
   normalise4(x, y, z, w);
@@ -136,6 +138,16 @@ template <class S> void use_state(World<S>& world) {
     const ReplayReader replay(file);
     keep(verify(replay, world, SameHeader{header.value()}).outcome);
   }
+  WorldRecorder<S> commands(world, sink_to(file));
+  keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.finish());
+  std::vector<std::uint8_t> tape;
+  Writer tape_writer(tape);
+  using Few = std::variant<SetPose<S>, AddShape<S>>;  // names of the whole list fill pages
+  write_command<Few>(tape_writer, SetPose<S>{BodyId{}, Pose<S>::identity()});
+  write_command<Few>(tape_writer, AddShape<S>{});
+  keep(play_tape<Few>(
+           tape, [&](const Few&) { return true; }, [&] { world.step(); })
+           .ok());
 }
 
 template <class S> void use_world() {
@@ -175,6 +187,64 @@ template <class S> void use_world() {
   use_state(moved);
 }
 
+template <class S> void use_particle_records(ParticleWorld<S>& world, ParticleId a, ParticleId b) {
+  Spring<S> spring;
+  spring.a = a;
+  spring.b = b;
+  spring.stiffness = unknown(S(3));
+  const SpringId spring_id = world.add(spring);
+  ParticleForce<S> force;
+  force.particle = a;
+  const ForceId force_id = world.add(force);
+  Cohesion<S> cohesion;
+  cohesion.material = world.default_material();
+  const CohesionId cohesion_id = world.add(cohesion);
+  const LinkId link_id = world.add(Link<S>{LinkType::rod, a, b, {S(0), S(0), S(0)}, S(1), S(0)});
+  Collider<S> plane;
+  const ColliderId collider_id = world.add(plane);
+  const ParticleMaterialId material_id = world.add(ParticleMaterial<S>{});
+  keep(world.set(spring_id, spring)), keep(world.set(force_id, force)), keep(world.set(cohesion_id, cohesion));
+  keep(world.set(collider_id, plane)), keep(world.set(material_id, ParticleMaterial<S>{}));
+  if (const Link<S>* link = world.find(link_id)) keep(world.set(link_id, *link));
+  keep(world.find(spring_id)), keep(world.find(force_id)), keep(world.find(cohesion_id));
+  ParticleTouch<S> touch = {};
+  touch.particle = a;
+  keep(world.touch(touch)), keep(world.apply(ParticleCommand<S>(DestroyParticle{ParticleId{}})));
+  keep(ParticleLimits<S>::position()), keep(ParticleLimits<S>::speed()), keep(ParticleLimits<S>::acceleration());
+  keep(ParticleLimits<S>::least_mass()), keep(ParticleLimits<S>::mass());
+  keep(distance_to(plane, {S(1), S(2), S(3)}));
+  keep(oscillator_step(S(3), S(1), InverseMass<S>(1), S(60)));
+  keep(world.remove(spring_id)), keep(world.remove(force_id)), keep(world.remove(cohesion_id));
+  keep(world.remove(link_id)), keep(world.remove(collider_id)), keep(world.remove(material_id));
+}
+
+template <class S> void use_particles() {
+  ParticleSettings<S> settings;
+  settings.integrator = Integrator::rk4;
+  ParticleWorld<S> world(settings);
+  ParticleDefinition<S> definition;
+  definition.velocity = {S(0), S(3), S(0)};
+  const ParticleId a = world.create(definition), b = world.create({.position = {0, 4, 0}, .pinned = true});
+  use_particle_records(world, a, b);
+  keep(world.set_motion(a, {S(0), S(2), S(0)}, {S(0), S(0), S(0)})), keep(world.set_mass(a, S(2)));
+  keep(world.apply_force(a, {S(0), S(3), S(0)})), keep(world.apply_impulse(a, {S(0), S(3), S(0)}));
+  keep(world.position(a)), keep(world.velocity(a)), keep(world.mass(a)), keep(world.particles().size());
+  std::vector<std::uint8_t> file;
+  ParticleRecorder<S> recorder(world, sink_to(file));
+  keep(recorder.begin("none")), keep(world.step().clean()), keep(recorder.end_frame()), keep(recorder.finish());
+  for (const ParticleContactBegin<S>& met : world.events().contact_begin) keep(met.speed);
+  for (const ParticleExpired<S>& gone : world.events().expired) keep(gone.position);
+  keep(world.events().touch_impulses.size()), keep(world.counts().contacts);
+  typename ParticleWorld<S>::Snapshot frame;
+  world.save(frame);
+  world.load(frame);
+  keep(world.hash()), keep(frame.bytes()), keep(world.state().position[0]);
+  ParticleWorld<S> moved = std::move(world);
+  const ReplayReader replay(file);
+  const Result<ReplayHeader> header = header_of_world(moved.settings(), "none", 0);
+  if (header) keep(verify(replay, moved, SameHeader{header.value()}).outcome);
+}
+
 template <class S> void use_all_of() {
   use_numbers<S>();
   use_mathematics<S>();
@@ -182,6 +252,7 @@ template <class S> void use_all_of() {
   use_lanes<S, 1, isa::Portable>();
   use_lanes<S, 4, isa::Portable>();
   use_world<S>();
+  use_particles<S>();
 }
 
 template <class T> void use_exact() {

@@ -31,6 +31,18 @@ class SlotMap {
   static constexpr std::uint32_t kPageSize = 512;
   using Entries = PagedArray<SlotEntry, kPageSize>;
 
+  // In words, for what a compiler writes for itself is a symbol that two object files may share.
+  ISO_INLINE SlotMap() : first_free_(SlotEntry::kEnd) {}
+  ISO_INLINE SlotMap(const SlotMap& other)
+      : hash_(other.hash_), entries_(other.entries_), first_free_(other.first_free_) {}
+  ISO_INLINE ~SlotMap() {}
+  ISO_INLINE SlotMap& operator=(const SlotMap& other) {
+    hash_ = other.hash_;
+    entries_ = other.entries_;
+    first_free_ = other.first_free_;
+    return *this;
+  }
+
   template <class AnyId> ISO_INLINE AnyId take() {
     hash_.forget();
     if (first_free_ == SlotEntry::kEnd) {
@@ -81,7 +93,7 @@ class SlotMap {
  private:
   Remembered hash_;
   Entries entries_;
-  std::uint32_t first_free_ = SlotEntry::kEnd;
+  std::uint32_t first_free_;
 };
 
 }  // namespace isostep

@@ -22,7 +22,7 @@ class ClientCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return is_open_ && player == player_; }
-  bool sends(int player, const Link&) const override { return is_local(player); }
+  bool sends(int player, const PeerLink&) const override { return is_local(player); }
   bool running() const override { return runs_; }
   Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
   Frame final_limit() const override;
@@ -50,7 +50,7 @@ class ClientCore : public PeerCore {
   std::int64_t host_position(Time now) const;
   Frame frames_behind(Time now) const;
 
-  Link host_;
+  PeerLink host_;
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false, must_close_ = false;
   bool asked_ready_ = false;
   int player_ = -1;

@@ -5,13 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace isostep {
+#include "isostep/state/frame.hpp"
 
-/// State f is what `step` of frame f starts from; state 0 is the start of the match.
-using Frame = std::int32_t;
-inline constexpr Frame kNoFrame = -1;
-/// Larger ones are refused wherever they come from: 200 days at 60 Hz, and sums of a few frames cannot overflow.
-inline constexpr Frame kLastFrame = 1 << 30;
+namespace isostep {
 
 /// Since any moment of the caller's choice [us]; never runs backwards. Sessions have no clock of their own.
 using Time = std::uint64_t;

@@ -21,7 +21,7 @@ class HostCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return player < config_.local_players; }
-  bool sends(int player, const Link& link) const override;
+  bool sends(int player, const PeerLink& link) const override;
   bool running() const override { return started_; }
   void before_steps(Time now) override;
   void before_frame(Time now) override;
@@ -39,7 +39,7 @@ class HostCore : public PeerCore {
     Time owed = 0;         // [us] see charge()
   };
   /// A client, on its way in.
-  struct Guest : Link {
+  struct Guest : PeerLink {
     enum class Stage : std::uint8_t { connected, needs_snapshot, receives_snapshot, live, refused };
     Stage stage = Stage::connected;
     int player = -1;  // -1: a spectator

@@ -5,7 +5,7 @@
 #include "isostep/session/core.hpp"
 #include "isostep/session/frame_clock.hpp"
 #include "isostep/session/input_delay.hpp"
-#include "isostep/session/link.hpp"
+#include "isostep/session/peer_link.hpp"
 #include "isostep/session/root_log.hpp"
 
 namespace isostep {
@@ -22,7 +22,7 @@ class PeerCore : public SessionCore {
   /// Is it a player of ours, in the match?
   virtual bool is_local(int player) const = 0;
   /// Inputs of this player travel to that peer.
-  virtual bool sends(int player, const Link& link) const = 0;
+  virtual bool sends(int player, const PeerLink& link) const = 0;
   virtual bool running() const = 0;
   /// How many frames may be stepped on guesses.
   virtual Frame window() const { return config_.mode == SessionMode::rollback ? config_.window : 0; }
@@ -47,11 +47,11 @@ class PeerCore : public SessionCore {
   void go_back(Frame state);
 
   /// The datagram for this peer, in buffer_.
-  Bytes compose(Link& link, PacketHeader header, Time now);
+  Bytes compose(PeerLink& link, PacketHeader header, Time now);
   /// Counts, guards against floods, reads; false: to be ignored.
-  bool accept_datagram(Link& link, Bytes bytes, Time now, Packet& packet);
-  bool accept_message(Link& link, Bytes bytes, Time now);
-  void take_acks(Link& link, const PacketHeader& header);
+  bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
+  bool accept_message(PeerLink& link, Bytes bytes, Time now);
+  void take_acks(PeerLink& link, const PacketHeader& header);
   /// How early `player`'s next input came.
   void note_arrival(int player, Time now);
 

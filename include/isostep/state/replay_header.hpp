@@ -49,6 +49,9 @@ class ReplayHeader {
   ReplayField fields_[kReplayFieldCap];
 };
 
+/// In a header: the kind of world. Files of rigid bodies, which came first, are without it.
+inline constexpr std::string_view kWorldKey = "world";
+
 /// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.
 struct ReplayIdentity {
   std::uint64_t behaviour;  // digest of the golden hashes: the version of the results
@@ -59,6 +62,7 @@ struct ReplayIdentity {
   std::string_view solver;
   std::uint64_t settings_digest;  // hash of every other setting
   std::string_view scene;
+  std::string_view world;  // its kind, as "particles"; empty: rigid bodies
   std::string_view hash_algorithm = kHashName;
   std::string_view engine = kVersionText;  // informative: two releases of one behaviour replay each other's files
 };

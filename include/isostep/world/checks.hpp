@@ -11,7 +11,6 @@
 
 namespace isostep::detail {
 
-inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
 /// [1] and [1] of critical: far beyond any pair of materials and any useful spring; products with them still fit.
 template <class S> inline constexpr S kMaxFriction = S(16);
 template <class S> inline constexpr S kMaxDampingRatio = S(64);

@@ -9,32 +9,40 @@
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/geometry/shape.hpp"
+#include "isostep/state/archive.hpp"
 #include "isostep/world/definitions.hpp"
 
 namespace isostep {
 
-template <class S> struct AddShape { std::vector<Child<S>> children; };
+inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
+
+template <class S> struct AddShape {
+  std::vector<Child<S>> children;
+
+  ISO_INLINE void write(Writer& writer) const { writer.write_array(children); }
+  ISO_INLINE void read(Reader& reader) { reader.read_array(children, kMaxChildren); }
+};
 struct RemoveShape {
   ShapeId shape;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("shape", self.shape);
   }
 };
 template <class S> struct CreateBody {
   BodyDefinition<S> definition;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("definition", self.definition);
   }
 };
 struct DestroyBody {
   BodyId body;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
   }
 };
 struct WakeBody {
   BodyId body;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
   }
 };
@@ -42,7 +50,7 @@ struct WakeBody {
 template <class S> struct SetPose {
   BodyId body;
   Pose<S> pose;  // of the body's origin
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("pose", self.pose);
   }
@@ -51,7 +59,7 @@ template <class S> struct SetVelocity {
   BodyId body;
   Vec3<S> linear;   // [m/s] of the centre of mass
   Vec3<S> angular;  // [rad/s] world
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("linear", self.linear);
     visit("angular", self.angular);
@@ -62,7 +70,7 @@ template <class S> struct ApplyForce {
   BodyId body;
   Vec3<S> force;   // [N] at the centre of mass
   Vec3<S> torque;  // [N m]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("force", self.force);
     visit("torque", self.torque);
@@ -73,7 +81,7 @@ template <class S> struct ApplyImpulse {
   BodyId body;
   Vec3<S> linear;   // [kg m/s] at the centre of mass
   Vec3<S> angular;  // [kg m^2/s]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("linear", self.linear);
     visit("angular", self.angular);
@@ -82,7 +90,7 @@ template <class S> struct ApplyImpulse {
 template <class S> struct SetMaterial {
   BodyId body;
   Material<S> material;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("material", self.material);
   }
@@ -90,7 +98,7 @@ template <class S> struct SetMaterial {
 struct SetFilter {
   BodyId body;
   Filter filter;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("filter", self.filter);
   }
@@ -102,7 +110,7 @@ template <class S> struct SetMotion {
   S linear_damping;     // [1/s]
   S angular_damping;    // [1/s]
   std::uint32_t locks;  // body_flag::kLockX ...
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("gravity_scale", self.gravity_scale);
     visit("linear_damping", self.linear_damping);
@@ -113,26 +121,26 @@ template <class S> struct SetMotion {
 struct SetUserData {
   BodyId body;
   std::uint64_t user_data;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("user_data", self.user_data);
   }
 };
 template <class S> struct SetGravity {
   Vec3<S> gravity;  // [m/s^2]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("gravity", self.gravity);
   }
 };
 template <class S> struct CreateJoint {
   JointProperties<S> joint;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("joint", self.joint);
   }
 };
 struct DestroyJoint {
   JointId joint;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("joint", self.joint);
   }
 };
@@ -140,7 +148,7 @@ struct DestroyJoint {
 template <class S> struct SetJoint {
   JointId joint;
   JointProperties<S> properties;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("joint", self.joint);
     visit("properties", self.properties);
   }

@@ -32,8 +32,9 @@ ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
   writer.write_array(facts.steps);
   writer.write_array(facts.stages);
 }
-/// `frames`: as many as the replay has.
-ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames) {
+/// `frames`: as many as the replay has; `trace_hashes`: of a step, by the kind of world.
+ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
+                                          std::uint32_t trace_hashes = kTraceHashes) {
   BundleFacts facts;
   Reader reader(payload);
   reader.read(facts.player);
@@ -49,7 +50,7 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames) {
   if (facts.roots.size() != frames || (!facts.steps.empty() && facts.steps.size() != frames)) {
     reader.fail(ErrorCode::corrupt, "not as many roots or step counts as frames");
   }
-  if (facts.stages.size() != steps * kTraceHashes) {
+  if (facts.stages.size() != steps * trace_hashes) {
     reader.fail(ErrorCode::corrupt, "not as many stage hashes as the steps have");
   }
   if (const Result<void> read = reader.result("pEER"); !read) return read.error();

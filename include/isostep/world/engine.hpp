@@ -81,6 +81,7 @@ template <class S> class WorldEngine {
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
+  void bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const;
   void fill_render_poses(float alpha);
 
   // engine_state.inl

@@ -40,7 +40,7 @@ template <class S> Vec3<Velocity<S>> bounded_velocity(Vec3<Velocity<S>> a, Vec3<
 }  // namespace detail
 
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
-  if (command.children.size() > detail::kMaxChildren) {
+  if (command.children.size() > kMaxChildren) {
     refuse(Fault::bad_shape);
     return {};
   }

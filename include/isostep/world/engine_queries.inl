@@ -95,6 +95,29 @@ void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose,
     out.push_back(state_.body_slots.template id_of<BodyId>(static_cast<std::uint32_t>(slot)));
 }
 
+namespace detail {
+struct BySlot {
+  ISO_INLINE std::uint64_t operator()(BodyId body) const { return body.slot; }
+};
+}  // namespace detail
+
+template <class S>
+void WorldEngine<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
+  const S edge = Limits<S>::position() + Limits<S>::position();
+  if (!is_finite(box.low) || !is_finite(box.high) || !detail::within(box.low, edge) || !detail::within(box.high, edge))
+    return;
+  const std::size_t first = out.size();
+  proxies_.tree().query(box, [&](std::uint32_t slot) {
+    if (detail::sees(filter, properties_at(locations_[slot])))
+      out.push_back(state_.body_slots.template id_of<BodyId>(slot));
+    return true;
+  });
+  const auto count = static_cast<std::uint32_t>(out.size() - first);
+  if (count <= kInsertionSortLimit) return insertion_sort(out.data() + first, count, detail::BySlot{});
+  std::vector<BodyId> scratch(count);
+  stable_sort(out.data() + first, scratch.data(), count, detail::BySlot{});
+}
+
 /// Positions by straight line, orientations by normalised straight line between the start and the end of the last step.
 template <class S> void WorldEngine<S>::fill_render_poses(float alpha) {
   render_poses_.clear();

@@ -2,46 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/state/hash.hpp"
+#include "isostep/state/slots.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_sleep.inl"
 #include "isostep/world/state_validator.hpp"
 
 namespace isostep {
-
-namespace detail {
-inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
-
-/// Of the free list's start and the entries one after another; the pages they lie in do not show.
-inline std::uint64_t hash_slots(const SlotMap& slots) {
-  return slots.remembered_hash().get([&] {
-    const SlotMap::Entries& entries = slots.entries();
-    HashCombiner root;
-    root.add(slots.first_free());
-    if (entries.pages() <= 1) {
-      root.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
-      return root.value();
-    }
-    HashStream stream;
-    for (std::size_t p = 0; p < entries.pages(); ++p) update_records(stream, entries.page(p), entries.page_size(p));
-    root.add(stream.value());
-    return root.value();
-  });
-}
-inline void write_slots(Writer& writer, const SlotMap& slots) {
-  const SlotMap::Entries& entries = slots.entries();
-  writer.write(slots.first_free());
-  writer.write_count(entries.size());
-  for (std::size_t p = 0; p < entries.pages(); ++p) writer.write_records(entries.page(p), entries.page_size(p));
-}
-inline void read_slots(Reader& reader, SlotMap& slots) {
-  const auto first_free = reader.read<std::uint32_t>();
-  std::vector<SlotEntry> entries;
-  reader.read_array(entries, kMaxRecords);
-  if (reader.ok() && !slots.restore(entries, first_free))
-    reader.fail(ErrorCode::corrupt, "a slot table's free list is broken");
-}
-}  // namespace detail
 
 /// Root: settings, tick, slot tables, arrays, then the frozen islands' own hashes, in this order; of the islands every
 /// 256 that are followed by another are one word, for they rarely change.
@@ -156,7 +122,7 @@ template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S> next;
   if (reader.read<std::uint32_t>() != ScalarTraits<S>::kId && reader.ok()) {
-    reader.fail(ErrorCode::incompatible, "written by a world of another scalar");
+    reader.fail(ErrorCode::incompatible, "not written by a rigid world of this scalar");
   }
   reader.read(next.settings);
   reader.read(next.tick);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fault.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -44,20 +45,7 @@ template <class S> struct Events {
   }
 };
 
-/// Why something was refused, or what a step had to mend. Identical on every peer.
-enum class Fault : std::uint32_t {
-  none,
-  stale_id,      // the id names nothing any more
-  not_finite,    // NaN or infinity where a number is expected
-  out_of_range,  // beyond Limits<S>
-  bad_shape,     // sizes, normals or parts that make no shape
-  bad_mass,      // mass or inertia that no body can have
-  bad_argument,  // a flag, count or enumerator that is not one
-  shape_in_use,  // bodies still name the shape
-  not_dynamic,   // forces on a body that no force moves
-};
-const char* fault_text(Fault fault);
-
+/// What a step had to mend. Identical on every peer.
 struct StepReport {
   std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world

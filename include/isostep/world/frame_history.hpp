@@ -52,7 +52,7 @@ template <class S> class FrameHistory {
       if (settings_.states) world_.save(start_);
     }
     tape_ = &kept.tape;
-    began_ = TapeStart<S>(world_);
+    began_ = TapeStart<World<S>>(world_);
     world_.record_to(tape_);
     if (settings_.stages) world_.trace_to(&kept.stages);
   }
@@ -116,7 +116,7 @@ template <class S> class FrameHistory {
   Frame confirmed_ = kNoFrame;
   typename World<S>::Snapshot start_;          // before it
   std::vector<std::uint8_t>* tape_ = nullptr;  // of the frame being stepped
-  TapeStart<S> began_;                         // it
+  TapeStart<World<S>> began_;                         // it
 };
 
 }  // namespace isostep

@@ -13,10 +13,12 @@
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
+#include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
 #include "isostep/world/world.inl"
 
-/// World<S> and what the public headers beneath it declare, for an S = Fixed<Rep, FracBits> that is not a shipped one.
+/// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is
+/// not a shipped one.
 /// One file a scalar; isostep_add_scalar in CMake writes such a file and gives it the flags that exactness needs.
 /// Contacts are solved by the kernels of one lane: wider ones need files with flags of their own. Functions of Unit<S>
 /// are in the library.
@@ -25,8 +27,7 @@
   using OwnScalar = __VA_ARGS__;                                                                                      \
   static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");                   \
   ISO_SCALAR_MATH_OF(, OwnScalar)                                                                                     \
-  template SinCos<Unit<OwnScalar>> sin_cos_to<Unit<OwnScalar>>(OwnScalar);                                            \
-  template OwnScalar atan2_to<OwnScalar>(Unit<OwnScalar>, Unit<OwnScalar>);                                           \
+  ISO_SCALAR_MATH_BETWEEN(, OwnScalar)                                                                                \
   template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar);        \
   template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
@@ -59,5 +60,6 @@
     return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;                             \
   }                                                                                                                   \
   template class JointTrees<OwnScalar>;                                                                               \
+  ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
   template class World<OwnScalar>;                                                                                    \
   }

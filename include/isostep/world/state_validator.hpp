@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/world/checks.hpp"
+#include "isostep/world/command.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -63,7 +64,7 @@ template <class S> class StateValidator {
         continue;
       }
       if (shape.first_child > state_.children->size() ||
-          shape.child_count > state_.children->size() - shape.first_child || shape.child_count > detail::kMaxChildren) {
+          shape.child_count > state_.children->size() - shape.first_child || shape.child_count > kMaxChildren) {
         return "a shape's parts lie outside the pool";
       }
       for (std::uint32_t c = 0; c < shape.child_count; ++c) {

@@ -12,6 +12,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/simd.hpp"
 #include "isostep/core/task_runner.hpp"
+#include "isostep/dynamics/body.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/world/command.hpp"
@@ -38,6 +39,13 @@ template <class S> struct ClosestBody {
   Vec3<S> point;         // [m] on its surface
   Vec3<Unit<S>> normal;  // [1] outward
   S distance;            // [m] negative: inside
+};
+/// What the world keeps of a body, for effects that meet shapes themselves. Holds until the next command, step or load.
+template <class S> struct BodyView {
+  const BodyState<S>* state = nullptr;  // null: a stale id
+  const BodyProperties<S>* properties = nullptr;
+  std::span<const Child<S>> children;  // in the body's frame
+  Pose<S> pose = Pose<S>::identity();  // of the body's origin
 };
 /// A query sees bodies whose category meets the mask, sensors only when asked.
 struct QueryFilter {
@@ -67,6 +75,7 @@ struct WorldCounts {
 template <class S> class World {
  public:
   using Scalar = S;
+  using Command = isostep::Command<S>;
 
   explicit World(const Settings<S>& settings = {});
   ~World();
@@ -124,7 +133,7 @@ template <class S> class World {
   S joint_error(JointId joint) const;
 
   /// Any command, as recorded ones are.
-  bool apply(const Command<S>& command);
+  bool apply(const Command& command);
   Fault fault() const;
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
@@ -159,6 +168,10 @@ template <class S> class World {
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                    QueryFilter filter = {}) const;
+  /// Bodies whose bounds, with the broad phase's margin of 0.1 m at most, meet the box, ascending by slot, appended to
+  /// `out`. A cheap first question: allocates nothing but room in `out`, and where more than 32 answer.
+  void bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter = {}) const;
+  BodyView<S> view(BodyId body) const;
 
   // Time.
   StepReport step(const StageObserver& observer = {});

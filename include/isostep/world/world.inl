@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "isostep/world/command_codec.hpp"
+#include "isostep/state/tape.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_bodies.inl"
 #include "isostep/world/engine_commands.inl"
@@ -68,7 +68,7 @@ template <class S, class C> auto run(WorldEngine<S>& engine, const C& command) {
   const auto result = engine.execute(command);
   if (static_cast<bool>(result) && engine.tape_ != nullptr) {
     Writer writer(*engine.tape_);
-    write_command<S>(writer, command);
+    write_command<Command<S>>(writer, command);
   }
   return result;
 }
@@ -110,7 +110,7 @@ template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies)
   return engine_->destroy_all(bodies, [&](const DestroyBody& command) {
     if (engine_->tape_ == nullptr) return;
     Writer writer(*engine_->tape_);
-    write_command<S>(writer, command);
+    write_command<Command>(writer, command);
   });
 }
 template <class S> bool World<S>::wake(BodyId body) { return detail::run(*engine_, WakeBody{body}); }
@@ -185,7 +185,7 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
   return joint;
 }
 
-template <class S> bool World<S>::apply(const Command<S>& command) {
+template <class S> bool World<S>::apply(const Command& command) {
   return std::visit([&](const auto& c) { return static_cast<bool>(detail::run(*engine_, c)); }, command);
 }
 template <class S> Fault World<S>::fault() const { return engine_->fault_; }
@@ -284,6 +284,18 @@ void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::
   engine_->overlapping(shape, pose, out, filter);
 }
 
+template <class S> void World<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
+  const FloatEnvironment environment;
+  engine_->bodies_near(box, out, filter);
+}
+template <class S> BodyView<S> World<S>::view(BodyId body) const {
+  if (!contains(body)) return {};
+  const FloatEnvironment environment;
+  const BodyState<S>* state = engine_->state_of(body);
+  const BodyProperties<S>* properties = engine_->properties_of(body);
+  return {state, properties, engine_->children_of(properties->shape), engine_->origin_pose(*state, *properties)};
+}
+
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
   if (engine_->tape_ != nullptr) engine_->tape_->push_back(kStepMarker);
   return engine_->step(observer);
@@ -299,6 +311,7 @@ template <class S> World<S>::Snapshot::~Snapshot() = default;
 template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = default;
 template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
 template <class S> std::size_t World<S>::Snapshot::bytes() const {
+  if (state_ == nullptr) return 0;  // moved from
   std::size_t total = sizeof(WorldState<S>);
   WorldState<S>::own_sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); },
                               *state_);
@@ -322,8 +335,8 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
 }
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
-  return play_tape<S>(
-      input, [&](const Command<S>& command) { return apply(command); }, [&] { step(); });
+  return play_tape<Command>(
+      input, [&](const Command& command) { return apply(command); }, [&] { step(); });
 }
 
 template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }

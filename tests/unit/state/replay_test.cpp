@@ -146,6 +146,45 @@ TEST(Replay, TheIdentityComesBack) {
   EXPECT_EQ(read.value().engine, kVersionText);
 }
 
+TEST(Replay, TheKindOfWorldIsNamedAndRequiredWhereItIsNotRigidBodies) {
+  EXPECT_EQ(toy::header().find("world"), nullptr);
+  EXPECT_TRUE(identity_of(toy::header()).value().world.empty());
+  ReplayIdentity identity = toy::identity();
+  identity.world = "particles";
+  const ReplayHeader particles = make_replay_header(identity).value();
+  ASSERT_NE(particles.find("world"), nullptr);
+  EXPECT_TRUE(particles.find("world")->required);
+  EXPECT_EQ(identity_of(particles).value().world, "particles");
+  EXPECT_EQ(compare_headers(particles, toy::header()).key.view(), "world");
+  EXPECT_EQ(compare_headers(toy::header(), particles).key.view(), "world");
+}
+
+TEST(Replay, AHeaderWithoutAKindOfWorldIsByteForByteWhatItWasBeforeThereWereKinds) {
+  Buffer expected;
+  Writer writer(expected);
+  writer.write(std::uint32_t{12});
+  const auto field = [&](std::uint8_t required, std::string_view key, std::string_view value) {
+    writer.write(required);
+    writer.write_text(key);
+    writer.write_text(value);
+  };
+  field(0, "engine", kVersionText);
+  field(1, "behaviour", "1122334455667788");
+  field(1, "scalar", "q32.32");
+  field(1, "scalar_id", std::to_string(2u << 16 | 64u << 8 | 32u));
+  field(1, "hz", "60");
+  field(1, "substeps", "4");
+  field(1, "solver", "soft_step");
+  field(1, "settings", "0000000000abcdef");
+  field(1, "hash", "xxh3-64");
+  field(1, "scene", "toy");
+  field(0, "compiler", compiler_name());
+  field(0, "architecture", architecture_name());
+  Buffer written;
+  write_replay_header(toy::header(), written);
+  EXPECT_EQ(written, expected);
+}
+
 TEST(Replay, AnIdentityThatIsNotOneNamesTheField) {
   for (const char* value : {"sixty", "-1", "60.0", "4294967296", "99999999999999999999", "0x10"}) {
     ReplayHeader header = toy::header();

@@ -311,6 +311,30 @@ TYPED_TEST(WorldQuestions, a_tape_that_is_damaged_is_refused) {
   EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 10, 10}).ok()) << "the body is gone: a refused command";
 }
 
+TYPED_TEST(WorldQuestions, a_tape_is_numbers_of_commands_their_fields_and_markers) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> tape, expected;
+  w.record_to(&tape);
+  const Child<S> parts[] = {{primitive_of(Sphere<S>{S(0.5)}), Pose<S>::identity()},
+                            {primitive_of(Box<S>{{S(1), S(2), S(3)}}), Pose<S>::identity()}};
+  const ShapeId shape = w.add_shape(parts);
+  w.step();
+  w.set_gravity(vec<S>(1, 2, 3));
+  w.remove_shape(shape);
+  Writer writer(expected);
+  writer.write(std::uint8_t{0});
+  writer.write(std::uint32_t{2});
+  for (const Child<S>& part : parts) writer.write(part);
+  writer.write(std::uint8_t{0xff});
+  writer.write(std::uint8_t{13});
+  for (const int i : {1, 2, 3}) writer.write(S(i));
+  writer.write(std::uint8_t{1});
+  writer.write(shape.slot);
+  writer.write(shape.generation);
+  EXPECT_EQ(tape, expected);
+}
+
 TYPED_TEST(WorldQuestions, a_tape_keeps_the_place_of_the_step_among_the_commands) {
   using S = TypeParam;
   World<S> w(settings<S>()), other(settings<S>());
@@ -443,6 +467,45 @@ TYPED_TEST(WorldQuestions, a_portable_form_with_a_force_on_a_sleeper_is_refused)
   Reader reader(bytes);
   EXPECT_FALSE(other.read_portable(reader).ok());
   EXPECT_EQ(other.counts().bodies, 0u);
+}
+
+TYPED_TEST(WorldQuestions, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_and_a_view_shows_them) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  const ShapeId ball = add_ball(w, 0.5);
+  std::vector<BodyId> line;
+  for (int i = 0; i < 60; ++i) {
+    BodyDefinition<S> d = moving<S>(ball, {2.0 * (59 - i), 0, 0}, {0, 0, 1});
+    d.type = i % 2 == 0 ? BodyType::fixed : BodyType::dynamic;
+    d.filter.category = i % 3 == 0 ? 2u : 1u;
+    d.sensor = i % 5 == 0;
+    line.push_back(w.create(d));
+  }
+  const auto near = [&](double from, double to, QueryFilter filter) {
+    std::vector<BodyId> found = {line[7]};  // appended to
+    w.bodies_near({vec<S>(from, -0.25, -0.25), vec<S>(to, 0.25, 0.25)}, found, filter);
+    return found;
+  };
+  for (const auto& [from, to] : {std::pair{0.0, 118.0}, std::pair{9.3, 20.7}, std::pair{10.7, 11.3}}) {
+    for (const QueryFilter filter : {QueryFilter{}, QueryFilter{2, false}, QueryFilter{3, true}}) {
+      std::vector<BodyId> expected = {line[7]};
+      for (int i = 0; i < 60; ++i) {
+        const double x = 2.0 * (59 - i);
+        const bool seen = (filter.mask & (i % 3 == 0 ? 2u : 1u)) != 0 && (filter.sensors || i % 5 != 0);
+        if (seen && from <= x + 0.6 && x - 0.6 <= to) expected.push_back(line[static_cast<std::size_t>(i)]);
+      }
+      EXPECT_EQ(near(from, to, filter), expected) << from << " " << filter.mask;
+    }
+  }
+  const BodyView<S> view = w.view(line[5]);
+  ASSERT_NE(view.state, nullptr);
+  EXPECT_EQ(view.state->slot, line[5].slot);
+  EXPECT_EQ(view.properties->type, BodyType::dynamic);
+  ASSERT_EQ(view.children.size(), 1u);
+  EXPECT_EQ(view.children[0].primitive.radius, num<S>(0.5));
+  EXPECT_EQ(view.pose.position, vec<S>(108, 0, 0));
+  w.destroy(line[5]);
+  EXPECT_EQ(w.view(line[5]).state, nullptr);
 }
 
 }  // namespace

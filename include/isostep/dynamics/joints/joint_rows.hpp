@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/solver_body.hpp"
-#include "isostep/dynamics/solvers/softness.hpp"
+#include "isostep/math/softness.hpp"
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {

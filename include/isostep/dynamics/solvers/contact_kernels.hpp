@@ -9,7 +9,7 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/contact_block.hpp"
-#include "isostep/dynamics/solvers/softness.hpp"
+#include "isostep/math/softness.hpp"
 
 namespace isostep {
 

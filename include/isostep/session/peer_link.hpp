@@ -1,4 +1,4 @@
-// Link: what is known of one peer across the network: when it was heard, what it has, how far away it is.
+// PeerLink: what is known of one peer across the network: when it was heard, what it has, how far away it is.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -30,7 +30,7 @@ struct Allowance {
   static constexpr std::int64_t kFirst = 16 * static_cast<std::int64_t>(kSecond);
 };
 
-struct Link {
+struct PeerLink {
   PeerId peer = 0;
   bool is_connected = false;
   Time heard = 0;      // [us] when a valid word came last

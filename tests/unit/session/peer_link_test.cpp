@@ -1,6 +1,6 @@
-// Link: how much a peer may say, and how far away it is.
+// PeerLink: how much a peer may say, and how far away it is.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/link.hpp"
+#include "isostep/session/peer_link.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,8 +47,8 @@ PacketHeader echo(std::uint16_t echo_ms) {
   return header;
 }
 
-TEST(Link, TheRoundTripIsWhatTheEchoIsOldAndIsSmoothed) {
-  Link link;
+TEST(PeerLink, TheRoundTripIsWhatTheEchoIsOldAndIsSmoothed) {
+  PeerLink link;
   link.set_clock(PacketHeader{}, 5000000);
   EXPECT_TRUE(link.has_clock);
   EXPECT_EQ(link.round_trip, 0u);
@@ -58,14 +58,14 @@ TEST(Link, TheRoundTripIsWhatTheEchoIsOldAndIsSmoothed) {
   EXPECT_EQ(link.round_trip, 55000u);
 }
 
-TEST(Link, ClocksThatWrapAreFollowed) {
-  Link link;
+TEST(PeerLink, ClocksThatWrapAreFollowed) {
+  PeerLink link;
   link.set_clock(echo(65500), Time{65536 + 14} * 1000);
   EXPECT_EQ(link.round_trip, 50000u);
 }
 
-TEST(Link, AnEchoFromTheFutureIsIgnored) {
-  Link link;
+TEST(PeerLink, AnEchoFromTheFutureIsIgnored) {
+  PeerLink link;
   link.set_clock(echo(5001), 5000000);
   EXPECT_EQ(link.round_trip, 0u);
   for (std::uint32_t any = 0; any < 65536; ++any) {

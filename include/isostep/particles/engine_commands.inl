@@ -1,0 +1,241 @@
+// ParticleEngine: what each command does, and what it refuses.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/particles/particle_engine.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class Record> struct RecordId;
+template <class S> struct RecordId<ParticleMaterial<S>> { using Type = ParticleMaterialId; };
+template <class S> struct RecordId<Spring<S>> { using Type = SpringId; };
+template <class S> struct RecordId<ParticleForce<S>> { using Type = ForceId; };
+template <class S> struct RecordId<Cohesion<S>> { using Type = CohesionId; };
+template <class S> struct RecordId<Link<S>> { using Type = LinkId; };
+template <class S> struct RecordId<Collider<S>> { using Type = ColliderId; };
+
+/// Where a slot's record belongs in an array that ascends by slot.
+template <class Record> std::size_t place_of(const std::vector<Record>& records, std::uint32_t slot) {
+  std::size_t low = 0, high = records.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (records[middle].slot < slot) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+}  // namespace detail
+
+// ---- particles
+
+template <class S> ParticleId ParticleEngine<S>::execute(const CreateParticle<S>& command) {
+  const ParticleDefinition<S>& d = command.definition;
+  const ParticleMaterialId material = d.material ? d.material : first_material();
+  const bool good = accept(detail::fault_of_position(d.position)) && accept(detail::fault_of_velocity(d.velocity)) &&
+                    accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
+                    accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
+  if (!good) return {};
+  const auto id = state_.particles.template take<ParticleId>();
+  if (id.slot == state_.material.size()) {
+    state_.position.push_back(Vec3<S>::zero());
+    state_.velocity.push_back(Vec3<V>::zero());
+    state_.inverse_mass.push_back(InverseMass<S>(0));
+    state_.material.push_back(0);
+  }
+  state_.position.set(id.slot, d.position);
+  state_.velocity.set(id.slot, convert<V>(d.velocity));
+  state_.inverse_mass[id.slot] = d.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), d.mass);
+  state_.material[id.slot] = material.slot;
+  if (d.lifetime > 0) {
+    const std::size_t at = detail::place_of(state_.lifetimes, id.slot);
+    state_.lifetimes.insert(state_.lifetimes.begin() + static_cast<std::ptrdiff_t>(at),
+                            ParticleLifetime{state_.tick + d.lifetime, id.slot, 0});
+  }
+  return id;
+}
+
+template <class S> bool ParticleEngine<S>::execute(const DestroyParticle& command) {
+  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  doomed_.assign(1, command.particle.slot);
+  bury_doomed();
+  return true;
+}
+
+/// All at once, for a crowd may expire in one step: a pass over each list. A free slot looks the same whatever lay
+/// there.
+template <class S> void ParticleEngine<S>::bury_doomed() {
+  is_doomed_.resize(state_.material.size(), 0);
+  for (const std::uint32_t slot : doomed_) is_doomed_[slot] = 1;
+  const auto dies = [this](ParticleId id) { return static_cast<bool>(id) && is_doomed_[id.slot] != 0; };
+  remove_naming(state_.springs, [&](const Spring<S>& spring) { return dies(spring.a) || dies(spring.b); });
+  remove_naming(state_.forces, [&](const ParticleForce<S>& force) { return dies(force.particle); });
+  remove_naming(state_.links, [&](const Link<S>& link) { return dies(link.a) || dies(link.b); });
+  const auto is_gone = [this](std::uint32_t slot) { return slot < is_doomed_.size() && is_doomed_[slot] != 0; };
+  std::erase_if(state_.lifetimes, [&](const ParticleLifetime& life) { return is_gone(life.slot); });
+  std::erase_if(state_.pushes, [&](const ParticlePush<S>& push) { return is_gone(push.slot); });
+  std::erase_if(state_.contacts, [&](const ParticleContact<S>& c) { return is_gone(c.a) || is_gone(c.b); });
+  std::erase_if(state_.touches, [&](const ParticleTouch<S>& touch) { return is_gone(touch.particle.slot); });
+  for (const std::uint32_t slot : doomed_) {
+    is_doomed_[slot] = 0;
+    state_.position.set(slot, Vec3<S>::zero());
+    state_.velocity.set(slot, Vec3<V>::zero());
+    state_.inverse_mass[slot] = InverseMass<S>(0);
+    state_.material[slot] = 0;
+    state_.particles.give_back(slot);
+  }
+}
+
+template <class S>
+template <class Records, class Names>
+void ParticleEngine<S>::remove_naming(Records& records, const Names& names) {
+  for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
+    if (!records.is_taken(slot) || !names(records.all()[slot])) continue;
+    using Record = std::decay_t<decltype(records.all()[slot])>;
+    execute(RemoveRecord<typename detail::RecordId<Record>::Type>{
+        records.slots().template id_of<typename detail::RecordId<Record>::Type>(slot)});
+  }
+}
+
+template <class S> bool ParticleEngine<S>::execute(const SetParticleMotion<S>& command) {
+  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  if (!accept(detail::fault_of_position(command.position)) || !accept(detail::fault_of_velocity(command.velocity)))
+    return false;
+  state_.position.set(command.particle.slot, command.position);
+  state_.velocity.set(command.particle.slot, convert<V>(command.velocity));
+  return true;
+}
+template <class S> bool ParticleEngine<S>::execute(const SetParticleMass<S>& command) {
+  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  if (!command.pinned && !accept(detail::fault_of_particle_mass(command.mass))) return false;
+  state_.inverse_mass[command.particle.slot] =
+      command.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), command.mass);
+  if (command.pinned) {
+    const std::uint32_t slot = command.particle.slot;
+    std::erase_if(state_.pushes, [slot](const ParticlePush<S>& push) { return push.slot == slot; });
+  }
+  return true;
+}
+template <class S> bool ParticleEngine<S>::execute(const SetParticleMaterial& command) {
+  if (!holds(command.particle) || !state_.materials.holds(command.material)) return refuse(Fault::stale_id);
+  state_.material[command.particle.slot] = command.material.slot;
+  return true;
+}
+
+template <class S> bool ParticleEngine<S>::execute(const PushParticle<S>& command) {
+  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  if (!is_finite(command.force)) return refuse(Fault::not_finite);
+  const std::uint32_t slot = command.particle.slot;
+  const InverseMass<S> w = state_.inverse_mass[slot];
+  if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
+  const S most = ParticleLimits<S>::acceleration();
+  const auto part = [&](S old, S force) {
+    return clamp(saturating_add(old, saturate_to<S>(product(force, w))), -most, most);
+  };
+  const std::size_t at = detail::place_of(state_.pushes, slot);
+  if (at == state_.pushes.size() || state_.pushes[at].slot != slot) {
+    state_.pushes.insert(state_.pushes.begin() + static_cast<std::ptrdiff_t>(at),
+                         ParticlePush<S>{slot, 0, Vec3<S>::zero()});
+  }
+  Vec3<S>& a = state_.pushes[at].acceleration;
+  a = {part(a.x, command.force.x), part(a.y, command.force.y), part(a.z, command.force.z)};
+  return true;
+}
+template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& command) {
+  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  if (!is_finite(command.impulse)) return refuse(Fault::not_finite);
+  const std::uint32_t slot = command.particle.slot;
+  const InverseMass<S> w = state_.inverse_mass[slot];
+  if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
+  const V speed = convert<V>(ParticleLimits<S>::speed());
+  const auto part = [&](V old, S impulse) {
+    return clamp(saturating_add(old, saturate_to<V>(product(impulse, w))), -speed, speed);
+  };
+  const Vec3<V> v = state_.velocity[slot];
+  state_.velocity.set(slot, {part(v.x, command.impulse.x), part(v.y, command.impulse.y), part(v.z, command.impulse.z)});
+  return true;
+}
+template <class S> bool ParticleEngine<S>::execute(const TouchParticle<S>& command) {
+  if (!accept(detail::fault_of(command.touch))) return false;
+  if (!holds(command.touch.particle)) return refuse(Fault::stale_id);
+  state_.touches.push_back(command.touch);
+  return true;
+}
+template <class S> bool ParticleEngine<S>::execute(const SetParticleGravity<S>& command) {
+  if (!accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
+  state_.settings.gravity = command.gravity;
+  return true;
+}
+
+// ---- records
+
+template <class S> Fault ParticleEngine<S>::fault_of_ends(ParticleId a, ParticleId b) const {
+  return holds(a) && (!b || holds(b)) ? Fault::none : Fault::stale_id;
+}
+template <class S> Fault ParticleEngine<S>::fault_of_record(const Spring<S>& spring) const {
+  const Fault fault = detail::fault_of(spring);
+  return fault == Fault::none ? fault_of_ends(spring.a, spring.b) : fault;
+}
+template <class S> Fault ParticleEngine<S>::fault_of_record(const ParticleForce<S>& force) const {
+  const Fault fault = detail::fault_of(force);
+  return fault == Fault::none ? fault_of_ends(force.particle, {}) : fault;
+}
+template <class S> Fault ParticleEngine<S>::fault_of_record(const Cohesion<S>& cohesion) const {
+  const Fault fault = detail::fault_of(cohesion);
+  return fault != Fault::none || state_.materials.holds(cohesion.material) ? fault : Fault::stale_id;
+}
+template <class S> Fault ParticleEngine<S>::fault_of_record(const Link<S>& link) const {
+  const Fault fault = detail::fault_of(link);
+  return fault == Fault::none ? fault_of_ends(link.a, link.b) : fault;
+}
+
+template <class S> template <class Record> auto ParticleEngine<S>::execute(const AddRecord<Record>& command) {
+  using IdType = typename detail::RecordId<Record>::Type;
+  if (!accept(fault_of_record(command.record))) return IdType{};
+  const IdType id = registry_of(IdType{}).add(command.record);
+  if constexpr (std::is_same_v<IdType, LinkId>) {
+    if (state_.link_impulses.size() <= id.slot) state_.link_impulses.push_back(V(0));
+    state_.link_impulses[id.slot] = V(0);
+  }
+  return id;
+}
+template <class S>
+template <class Record, class IdType>
+bool ParticleEngine<S>::execute(const SetRecord<Record, IdType>& command) {
+  auto& registry = registry_of(command.id);
+  if (!registry.holds(command.id)) return refuse(Fault::stale_id);
+  if (!accept(fault_of_record(command.record))) return false;
+  if constexpr (std::is_same_v<IdType, LinkId>) {
+    const Link<S>& old = *registry.find(command.id);
+    const bool same = old.type == command.record.type && old.a == command.record.a && old.b == command.record.b;
+    if (!same) state_.link_impulses[command.id.slot] = V(0);  // what it bore says nothing of what it will
+  }
+  registry.change(command.id) = command.record;
+  return true;
+}
+template <class S> template <class IdType> bool ParticleEngine<S>::execute(const RemoveRecord<IdType>& command) {
+  auto& registry = registry_of(command.id);
+  if (!registry.holds(command.id)) return refuse(Fault::stale_id);
+  if constexpr (std::is_same_v<IdType, ParticleMaterialId>) {
+    if (is_in_use(command.id)) return refuse(Fault::shape_in_use);
+  }
+  if constexpr (std::is_same_v<IdType, LinkId>) state_.link_impulses[command.id.slot] = V(0);
+  if constexpr (std::is_same_v<IdType, ColliderId>) {
+    const std::uint32_t b = ParticleContact<S>::kCollider | command.id.slot;
+    std::erase_if(state_.contacts, [b](const ParticleContact<S>& contact) { return contact.b == b; });
+  }
+  return registry.remove(command.id);
+}
+/// The first material belongs to the world.
+template <class S> bool ParticleEngine<S>::is_in_use(ParticleMaterialId material) const {
+  if (material.slot == 0) return true;
+  for (std::uint32_t slot = 0; slot < state_.material.size(); ++slot) {
+    if (state_.material[slot] == material.slot && state_.particles.is_taken(slot)) return true;
+  }
+  for (const Cohesion<S>& cohesion : state_.cohesions.all()) {
+    if (cohesion.material == material) return true;
+  }
+  return false;
+}
+
+}  // namespace isostep

@@ -1,0 +1,218 @@
+// ParticleEngine<S>: what stands behind ParticleWorld<S>: the state, one step's scratch, and the stages.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/math/softness.hpp"
+#include "isostep/particles/checks.hpp"
+#include "isostep/particles/constraint.hpp"
+#include "isostep/particles/flight.hpp"
+#include "isostep/particles/grid.hpp"
+#include "isostep/particles/implicit_springs.hpp"
+#include "isostep/particles/particle_state.hpp"
+#include "isostep/particles/particle_world.hpp"
+#include "isostep/particles/scenery.hpp"
+#include "isostep/particles/solvers/worst_first.hpp"
+#include "isostep/particles/stiff_spring.hpp"
+
+namespace isostep {
+
+/// Pairs of particles that one step may find [1]: 64 a particle, no fewer than 2^21 and no more than 2^24. With rows
+/// and contacts a pair takes up to 250 bytes. Beyond, a crowd is one point.
+inline constexpr std::uint32_t kCrowdPairs = 1u << 21, kMostPairs = 1u << 24;
+ISO_INLINE constexpr std::uint32_t most_pairs(std::uint32_t particles) {
+  return particles < kMostPairs / 64 ? max(64 * particles, kCrowdPairs) : kMostPairs;
+}
+
+template <class S> class ParticleEngine {
+ public:
+  using V = Velocity<S>;
+  using U = Unit<S>;
+
+  explicit ParticleEngine(const ParticleSettings<S>& settings);
+
+  // engine_commands.inl: one function a command; each answers what it made or whether it was accepted.
+  ParticleId execute(const CreateParticle<S>& command);
+  bool execute(const DestroyParticle& command);
+  bool execute(const SetParticleMotion<S>& command);
+  bool execute(const SetParticleMass<S>& command);
+  bool execute(const SetParticleMaterial& command);
+  bool execute(const PushParticle<S>& command);
+  bool execute(const KickParticle<S>& command);
+  bool execute(const TouchParticle<S>& command);
+  bool execute(const SetParticleGravity<S>& command);
+  template <class Record> auto execute(const AddRecord<Record>& command);
+  template <class Record, class IdType> bool execute(const SetRecord<Record, IdType>& command);
+  template <class IdType> bool execute(const RemoveRecord<IdType>& command);
+
+  // engine_step.inl
+  ParticleReport step(const ParticleStageObserver& observer);
+
+  // engine_state.inl
+  void load(const ParticleState<S>& from);
+  std::uint64_t hash() const;
+  void write_portable(Writer& writer) const;
+  Result<void> read_portable(Reader& reader);
+
+  bool refuse(Fault fault) {
+    fault_ = fault;
+    return false;
+  }
+  bool accept(Fault fault) { return fault == Fault::none || refuse(fault); }
+  ParticleMaterialId first_material() const { return state_.materials.slots().template id_of<ParticleMaterialId>(0); }
+  bool holds(ParticleId particle) const { return state_.particles.holds(particle); }
+
+  ParticleState<S> state_;
+  ParticleEvents<S> events_;
+  ParticleReport report_;
+  Fault fault_ = Fault::none;
+  const FlightKernels<S>* kernels_;
+  std::vector<std::uint8_t>* tape_ = nullptr;
+  std::vector<std::uint64_t>* trace_ = nullptr;
+  std::uint64_t loads_ = 0;
+
+ private:
+  /// What a step draws on, by slot.
+  struct Scratch {
+    Axes<V> displacement;               // [m] since the step began: finer than positions where S is narrow
+    Axes<S> now;                        // [m] position + displacement
+    Axes<S> acceleration;               // [m/s^2]
+    Axes<V> before;                     // [m/s] velocity before constraints, or before forces
+    Axes<V> start, first_displacement;  // where a sub-step began
+    Axes<S> first;                      // [m/s^2] acceleration there
+    Axes<S> sum;                        // [m/s^2] weighted mean of the stages' accelerations
+    Axes<V> gained;                     // [m/s] what forces added in the sub-step
+    Axes<V> way;                        // [m] of the sub-step, if nothing is met
+    Axes<V> velocity_sum;               // [m] weighted mean of their velocities, times h
+  };
+
+  // engine_commands.inl
+  auto& registry_of(ParticleMaterialId) { return state_.materials; }
+  auto& registry_of(SpringId) { return state_.springs; }
+  auto& registry_of(ForceId) { return state_.forces; }
+  auto& registry_of(CohesionId) { return state_.cohesions; }
+  auto& registry_of(LinkId) { return state_.links; }
+  auto& registry_of(ColliderId) { return state_.colliders; }
+  Fault fault_of_record(const ParticleMaterial<S>& material) const { return detail::fault_of(material); }
+  Fault fault_of_record(const Spring<S>& spring) const;
+  Fault fault_of_record(const ParticleForce<S>& force) const;
+  Fault fault_of_record(const Cohesion<S>& cohesion) const;
+  Fault fault_of_record(const Link<S>& link) const;
+  Fault fault_of_record(const Collider<S>& collider) const { return detail::fault_of(collider); }
+  Fault fault_of_ends(ParticleId a, ParticleId b) const;
+  bool is_in_use(ParticleMaterialId material) const;
+  void bury_doomed();
+  template <class Records, class Names> void remove_naming(Records& records, const Names& names);
+
+  // engine_forces.inl
+  void add_acceleration(std::uint32_t slot, Vec3<S> a);
+  void push(std::uint32_t slot, InverseMass<S> inverse_mass, Vec3<U> direction, S force);
+  bool has_forces() const;
+  SpringRun<S> spring_run();
+  void add_forces();
+  void add_force(const ParticleForce<S>& force);
+  void find_cohering();
+  void add_cohesion(const Cohesion<S>& cohesion, std::uint32_t i, std::uint32_t k);
+
+  // engine_integrate.inl
+  void prepare_flight();
+  FlightRun<S> flight(std::uint32_t first = 0);
+  void accelerate();
+  void fly_free();
+  void integrate();
+  void integrate_verlet();
+  void integrate_rk4();
+  void integrate_implicit();
+  void prepare_springs();
+  void swing_stiff_springs();
+  void swing(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
+  void move_on(std::uint32_t slot, Vec3<V> way);
+  void keep_velocity(std::uint32_t slot, Vec3<V> velocity);
+  void renew_positions();
+
+  // engine_contacts.inl
+  void find_contacts();
+  S reach_of(std::uint32_t slot) const;
+  void find_pairs();
+  void find_pair(std::uint32_t a, std::uint32_t b, std::size_t& old);
+  void find_scenery(std::uint32_t slot, std::size_t& old);
+  void add_contact(std::uint32_t a, std::uint32_t b, S radius, const ParticleMaterial<S>& material, std::size_t& old);
+  void add_touches();
+  void add_links();
+  void look();
+  void look_at_link(ParticleConstraint<S>& row);
+  void look_at_contact(ParticleConstraint<S>& row);
+  void look_at_touch(ParticleConstraint<S>& row);
+  const ParticleMaterial<S>& material_of(std::uint32_t slot) const {
+    return state_.materials.all()[state_.material[slot]];
+  }
+
+  // engine_soft_step.inl
+  V separating_speed(const ParticleConstraint<S>& row) const;
+  V unheld_speed(const ParticleConstraint<S>& row) const;
+  void give(ParticleConstraint<S>& row, Vec3<V> impulse);
+  void warm_start();
+  void solve(bool biased);
+  void solve_normal(ParticleConstraint<S>& row, const Softness<S>& softness, bool biased);
+  void solve_friction(ParticleConstraint<S>& row);
+  void note_work(ParticleConstraint<S>& row, V before, V after);
+  V most_bounce(const ParticleConstraint<S>& row, V speed, V wanted) const;
+  void restitute();
+  void move_by_constraints();
+
+  // engine_worst_first.inl
+  void integrate_velocities();
+  void resolve_substep();
+  bool is_touching(const ParticleConstraint<S>& row) const;
+  void turn_ways(Unit<S> left);
+  void place_rows();
+  void resolve_rows();
+  void divide_substep();
+  std::uint32_t next_contact(Unit<S>& when) const;
+  Unit<S> time_to(const ParticleConstraint<S>& row) const;
+  void travel(Unit<S> share);
+
+  // engine_step.inl
+  void begin_step();
+  /// Impulses over sub-steps; else the book's ways, which time division always takes.
+  bool is_soft() const {
+    return state_.settings.solver == ParticleSolver::soft_step && state_.settings.stepping == Stepping::fixed;
+  }
+  void solve_substeps();
+  void hurry_surfaces();
+  void move_surfaces();
+  void soften_substep();
+  void store_impulses();
+  void tell_contact(const ParticleContact<S>& contact, const ParticleConstraint<S>& row);
+  void finalise_particles();
+  void finish_particle(std::uint32_t slot);
+  void yield_springs();
+  void expire_particles();
+
+  Scratch scratch_;
+  std::vector<FlightRow<S>> flight_rows_;  // by material
+  Step<S> h_ = Step<S>(0);                 // [s] a sub-step
+  S rate_ = S(0);                          // [1/s] 1/h
+  Softness<S> contact_softness_ = Softness<S>::rigid(), link_softness_ = contact_softness_;
+  static constexpr Softness<S> rigid_softness_ = Softness<S>::rigid();
+  WorstFirst<S> worst_first_;
+  ImplicitSprings<S> implicit_springs_;
+  SpringRows<S> spring_rows_;
+  bool springs_yield_ = false;
+  std::vector<OscillatorStep<S>> oscillators_;  // of the stiff springs, ascending by slot
+  ParticleGrid<S> grid_;
+  std::vector<std::uint32_t> slots_;         // of what collides
+  std::vector<S> reaches_;                   // [m] of those
+  std::vector<std::uint64_t> cohering_;      // pairs as below, of one cohesion after the other
+  std::vector<std::size_t> cohering_ends_;   // in cohering_, one a cohesion
+  std::vector<std::uint64_t> pairs_;         // a << 32 | b, ascending
+  std::vector<ParticleConstraint<S>> rows_;  // links by slot, then contacts by key, then touches
+  std::uint32_t first_contact_ = 0, first_touch_ = 0;
+  std::vector<ParticleContact<S>> old_contacts_;
+  std::vector<std::uint32_t> doomed_;    // slots of particles that go
+  std::vector<std::uint8_t> is_doomed_;  // by slot: 1 while they are being buried
+};
+
+}  // namespace isostep

@@ -1,0 +1,29 @@
+// The step of a particle world as a list of named stages: the divergence finder and the README speak of these.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace isostep {
+
+enum class ParticleStage : std::uint32_t {
+  find_contacts,
+  solve_substeps,
+  restitution,
+  store_impulses,
+  finalise_particles,
+  yield_springs,
+  expire_particles,
+};
+inline constexpr std::uint32_t kParticleStages = 7;
+inline constexpr const char* kParticleStageNames[kParticleStages] = {
+    "find_contacts",      "solve_substeps", "restitution",     "store_impulses",
+    "finalise_particles", "yield_springs",  "expire_particles"};
+
+/// Called after each stage of a step; sees the world, changes nothing.
+struct ParticleStageObserver {
+  void (*after)(void* user, ParticleStage stage) = nullptr;
+  void* user = nullptr;
+};
+
+}  // namespace isostep

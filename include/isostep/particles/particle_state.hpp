@@ -1,0 +1,118 @@
+// Everything that shapes a particle world's future, in flat arrays: what is saved, hashed, written and compared.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/particles/axes.hpp"
+#include "isostep/particles/cohesion.hpp"
+#include "isostep/particles/collider.hpp"
+#include "isostep/particles/force.hpp"
+#include "isostep/particles/link.hpp"
+#include "isostep/particles/registry.hpp"
+#include "isostep/particles/settings.hpp"
+#include "isostep/particles/spring.hpp"
+#include "isostep/particles/touch.hpp"
+
+namespace isostep {
+
+/// In the first word of a portable particle world, beside the scalar's id: a rigid world's has not got it.
+inline constexpr std::uint32_t kParticleWorldBit = 0x80000000u;
+
+/// What a contact remembers from step to step. Ascending by (a, b).
+template <class S> struct ParticleContact {
+  static constexpr std::uint32_t kCollider = 0x80000000u;  // in b: the rest is a collider's slot, not a particle's
+
+  std::uint32_t a, b;                  // slots, a < b
+  Velocity<S> impulse;                 // [m/s] along the normal
+  Vec3<Velocity<S>> friction_impulse;  // [m/s] across it
+
+  ISO_INLINE std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("impulse", self.impulse);
+    visit("friction_impulse", self.friction_impulse);
+  }
+};
+static_assert(kHasNoPadding<ParticleContact<float>> && kHasNoPadding<ParticleContact<double>>);
+
+/// Forces asked for since the last step, as acceleration. Ascending by slot, one a particle.
+template <class S> struct ParticlePush {
+  std::uint32_t slot;
+  std::uint32_t reserved;  // 0
+  Vec3<S> acceleration;    // [m/s^2]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("reserved", self.reserved);
+    visit("acceleration", self.acceleration);
+  }
+};
+static_assert(kHasNoPadding<ParticlePush<float>> && kHasNoPadding<ParticlePush<double>>);
+
+/// When a particle expires. Ascending by slot; those that live for ever have none.
+struct ParticleLifetime {
+  std::uint64_t last_tick;  // the particle is gone after this step
+  std::uint32_t slot;
+  std::uint32_t reserved;  // 0
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("last_tick", self.last_tick);
+    visit("slot", self.slot);
+    visit("reserved", self.reserved);
+  }
+};
+static_assert(kHasNoPadding<ParticleLifetime>);
+
+template <class S> struct ParticleState {
+  ParticleSettings<S> settings;
+  std::uint64_t tick = 0;  // steps taken
+  // Particles by slot. A free slot has no inverse mass and no velocity, and lies at the origin.
+  SlotMap particles;
+  Axes<S> position;                          // [m]
+  Axes<Velocity<S>> velocity;                // [m/s]
+  std::vector<InverseMass<S>> inverse_mass;  // [1/kg] 0: pinned
+  std::vector<std::uint32_t> material;       // slot
+  // What commands alone change, but for springs that yield.
+  Registry<ParticleMaterial<S>, ParticleMaterialId> materials;
+  Registry<Spring<S>, SpringId> springs;
+  Registry<ParticleForce<S>, ForceId> forces;
+  Registry<Cohesion<S>, CohesionId> cohesions;
+  Registry<Link<S>, LinkId> links;
+  Registry<Collider<S>, ColliderId> colliders;
+  std::vector<Velocity<S>> link_impulses;  // [m/s] by slot of links
+  std::vector<ParticleContact<S>> contacts;
+  std::vector<ParticlePush<S>> pushes;
+  std::vector<ParticleTouch<S>> touches;  // in the order in which they came
+  std::vector<ParticleLifetime> lifetimes;
+
+  /// visit("name", registry) in a fixed order.
+  template <class Visitor, class Self> static void registries(Visitor&& visit, Self&& self) {
+    visit("materials", self.materials);
+    visit("springs", self.springs);
+    visit("forces", self.forces);
+    visit("cohesions", self.cohesions);
+    visit("links", self.links);
+    visit("colliders", self.colliders);
+  }
+  /// visit("name", array) in a fixed order: those that every copy has for itself.
+  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
+    visit("position.x", self.position.x);
+    visit("position.y", self.position.y);
+    visit("position.z", self.position.z);
+    visit("velocity.x", self.velocity.x);
+    visit("velocity.y", self.velocity.y);
+    visit("velocity.z", self.velocity.z);
+    visit("inverse_mass", self.inverse_mass);
+    visit("material", self.material);
+    visit("link_impulses", self.link_impulses);
+    visit("contacts", self.contacts);
+    visit("pushes", self.pushes);
+    visit("touches", self.touches);
+    visit("lifetimes", self.lifetimes);
+  }
+};
+
+}  // namespace isostep

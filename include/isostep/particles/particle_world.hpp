@@ -1,0 +1,155 @@
+// ParticleWorld<S>: points with mass, their forces, springs, cables, rods and contacts, stepped at a fixed rate; saved,
+// loaded and hashed exactly. For scenes in which nothing turns: what does not rotate does not pay for rotation.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/core/fault.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
+#include "isostep/particles/particle_command.hpp"
+#include "isostep/particles/particle_events.hpp"
+#include "isostep/particles/particle_stages.hpp"
+#include "isostep/particles/settings.hpp"
+#include "isostep/state/archive.hpp"
+
+namespace isostep {
+
+template <class S> struct ParticleState;
+template <class S> class ParticleEngine;
+
+/// Counts of the moment, for reports.
+struct ParticleCounts {
+  std::uint32_t particles, pinned, springs, forces, links, colliders, contacts;  // forces: cohesions too
+};
+
+/// A world of particles over any scalar, beside World<S>.
+///
+/// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
+/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every
+/// tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
+///
+/// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
+template <class S> class ParticleWorld {
+ public:
+  using Scalar = S;
+  using Command = ParticleCommand<S>;
+  using State = ParticleState<S>;
+
+  explicit ParticleWorld(const ParticleSettings<S>& settings = {});
+  ~ParticleWorld();
+  ParticleWorld(ParticleWorld&& other) noexcept;
+  ParticleWorld& operator=(ParticleWorld&& other) noexcept;
+
+  const ParticleSettings<S>& settings() const;
+  std::uint64_t tick() const;
+  /// Lanes for this world. Never changes a bit; false and no change where this processor or build lacks them.
+  bool use_simd(Simd simd);
+  const char* simd_name() const;
+
+  // Materials: shared by the particles that name them. Every world has one from birth, which a null id names.
+  ParticleMaterialId default_material() const;
+  ParticleMaterialId add(const ParticleMaterial<S>& material);
+  bool set(ParticleMaterialId id, const ParticleMaterial<S>& material);
+  bool remove(ParticleMaterialId id);
+
+  // Particles.
+  ParticleId create(const ParticleDefinition<S>& definition);
+  /// With it go the springs, forces and links that name it.
+  bool destroy(ParticleId particle);
+  bool set_motion(ParticleId particle, Vec3<S> position, Vec3<S> velocity);
+  /// A pinned particle goes on at the velocity that it has, whatever acts on it, until `set_motion` gives it another.
+  bool set_mass(ParticleId particle, S mass, bool pinned = false);
+  bool set_material(ParticleId particle, ParticleMaterialId material);
+  bool set_gravity(Vec3<S> gravity);
+  bool apply_force(ParticleId particle, Vec3<S> force);
+  bool apply_impulse(ParticleId particle, Vec3<S> impulse);
+  bool touch(const ParticleTouch<S>& touch);
+
+  // What acts on them, each by its id.
+  SpringId add(const Spring<S>& spring);
+  bool set(SpringId id, const Spring<S>& spring);
+  bool remove(SpringId id);
+  ForceId add(const ParticleForce<S>& force);
+  bool set(ForceId id, const ParticleForce<S>& force);
+  bool remove(ForceId id);
+  CohesionId add(const Cohesion<S>& cohesion);
+  bool set(CohesionId id, const Cohesion<S>& cohesion);
+  bool remove(CohesionId id);
+  LinkId add(const Link<S>& link);
+  bool set(LinkId id, const Link<S>& link);
+  bool remove(LinkId id);
+  ColliderId add(const Collider<S>& collider);
+  bool set(ColliderId id, const Collider<S>& collider);
+  bool remove(ColliderId id);
+
+  /// Any command, as recorded ones are.
+  bool apply(const ParticleCommand<S>& command);
+  Fault fault() const;
+  /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
+  /// every frame. Loading keeps it.
+  void record_to(std::vector<std::uint8_t>* tape);
+  bool records_to(const std::vector<std::uint8_t>* tape) const;
+  /// From now on every step appends the state's hash as it begins and after each stage (null: to nothing).
+  void trace_to(std::vector<std::uint64_t>* hashes);
+  /// How often the world was loaded or read.
+  std::uint64_t loads() const;
+
+  // What particles are like. A stale id gives the zero of the answer's type.
+  bool contains(ParticleId particle) const;
+  Vec3<S> position(ParticleId particle) const;
+  Vec3<S> velocity(ParticleId particle) const;
+  /// 0 where pinned.
+  S mass(ParticleId particle) const;
+  ParticleMaterialId material(ParticleId particle) const;
+  std::vector<ParticleId> particles() const;
+  const ParticleMaterial<S>* find(ParticleMaterialId id) const;
+  const Spring<S>* find(SpringId id) const;
+  const ParticleForce<S>* find(ForceId id) const;
+  const Cohesion<S>* find(CohesionId id) const;
+  const Link<S>* find(LinkId id) const;
+  const Collider<S>* find(ColliderId id) const;
+  ParticleCounts counts() const;
+
+  // Time.
+  ParticleReport step(const ParticleStageObserver& observer = {});
+  const ParticleEvents<S>& events() const;
+
+  // State.
+  class Snapshot {
+   public:
+    Snapshot();
+    ~Snapshot();
+    Snapshot(Snapshot&& other) noexcept;
+    Snapshot& operator=(Snapshot&& other) noexcept;
+    /// Size of what it holds for itself [bytes]; records that only commands change are shared until one of them does.
+    std::size_t bytes() const;
+
+   private:
+    friend class ParticleWorld;
+    std::unique_ptr<ParticleState<S>> state_;
+  };
+  void save(Snapshot& to) const;
+  /// A snapshot that was moved from holds nothing, and loading it does nothing; one never saved to is an empty world.
+  void load(const Snapshot& from);
+  std::uint64_t hash() const;
+  void write_portable(Writer& writer) const;
+  Result<void> read_portable(Reader& reader);
+  /// A frame's commands and steps as `record_to` wrote them.
+  Result<void> step_recorded(Bytes input);
+
+  /// The arrays behind the world, for tools that compare, describe and measure: see particle_state.hpp.
+  const ParticleState<S>& state() const;
+
+ private:
+  std::unique_ptr<ParticleEngine<S>> engine_;
+};
+
+#define ISO_EXTERN(S) extern template class ParticleWorld<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,48 @@
+// ParticleRecorder: a recording of a particle world's commands; and what such a world says of itself in a replay's
+// header.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "isostep/core/version.hpp"
+#include "isostep/particles/particle_world.hpp"
+#include "isostep/state/tape_recorder.hpp"
+
+namespace isostep {
+
+/// What particle worlds are called in a replay's header.
+inline constexpr char kParticleWorldName[] = "particles";
+
+/// Of everything in the settings that a replay's header does not name by itself.
+template <class S> ISO_INLINE std::uint64_t settings_digest(const ParticleSettings<S>& settings) {
+  std::vector<std::uint8_t> bytes;
+  Writer writer(bytes);
+  writer.write(settings.gravity);
+  writer.write(settings.integrator);
+  writer.write(settings.stepping);
+  writer.write(settings.iterations);
+  return hash_bytes(bytes.data(), bytes.size());
+}
+
+/// What must be equal where a recording of such a world is replayed. `scene` is kept by reference.
+template <class S>
+ISO_INLINE ReplayIdentity identity_of_world(const ParticleSettings<S>& settings, std::string_view scene) {
+  ReplayIdentity identity{};
+  identity.world = kParticleWorldName;
+  identity.behaviour = behaviour_version();
+  identity.scalar = ScalarTraits<S>::kName;
+  identity.scalar_id = ScalarTraits<S>::kId;
+  identity.hz = static_cast<std::uint32_t>(settings.hz);
+  identity.substeps = static_cast<std::uint32_t>(settings.substeps);
+  identity.solver = kParticleSolverNames[static_cast<std::uint32_t>(settings.solver)];
+  identity.settings_digest = settings_digest(settings);
+  identity.scene = scene;
+  return identity;
+}
+
+template <class S> using ParticleRecorder = TapeRecorder<ParticleWorld<S>>;
+
+}  // namespace isostep

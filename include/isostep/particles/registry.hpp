@@ -1,0 +1,48 @@
+// Registry: records that come and go by id, in an array by slot; copies share the array until one of them changes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/shared.hpp"
+#include "isostep/core/slot_map.hpp"
+
+namespace isostep {
+
+/// A free slot holds Record{}, whose meaning is that nothing is there.
+template <class Record, class IdType> class Registry {
+ public:
+  ISO_INLINE IdType add(const Record& record) {
+    const IdType id = slots_.template take<IdType>();
+    std::vector<Record>& all = records_.change();
+    if (id.slot < all.size()) all[id.slot] = record;
+    else all.push_back(record);
+    return id;
+  }
+  ISO_INLINE bool remove(IdType id) {
+    if (!slots_.holds(id)) return false;
+    records_.change()[id.slot] = Record{};
+    slots_.give_back(id.slot);
+    return true;
+  }
+  ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
+  /// Null for a stale id.
+  ISO_INLINE const Record* find(IdType id) const { return slots_.holds(id) ? &(*records_)[id.slot] : nullptr; }
+  /// Of an id that is held.
+  ISO_INLINE Record& change(IdType id) { return records_.change()[id.slot]; }
+
+  ISO_INLINE const SlotMap& slots() const { return slots_; }
+  ISO_INLINE SlotMap& slots() { return slots_; }
+  /// By slot.
+  ISO_INLINE const std::vector<Record>& all() const { return *records_; }
+  ISO_INLINE std::vector<Record>& change_all() { return records_.change(); }
+  ISO_INLINE const Remembered& remembered() const { return records_.remembered(); }
+  ISO_INLINE bool is_taken(std::uint32_t slot) const { return slots_.is_taken(slot); }
+
+ private:
+  SlotMap slots_;
+  Shared<std::vector<Record>> records_;
+};
+
+}  // namespace isostep

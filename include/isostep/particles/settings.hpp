@@ -1,0 +1,60 @@
+// What a particle world is told at birth, and the names of its methods.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/fields.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+/// How velocities and positions follow from forces. One order of updates everywhere: forces, then velocities, then
+/// positions, then constraints; explicit Euler alone moves first and then accelerates (the book's order).
+/// A warm step asks for no memory but with implicit_euler, where a large network makes Eigen ask for its working rows
+/// in every sub-step, and where a spring yields or a particle expires while a snapshot shares its list: that is copied
+/// first.
+enum class Integrator : std::uint32_t { explicit_euler, semi_implicit_euler, velocity_verlet, rk4, implicit_euler };
+inline constexpr const char* kIntegratorNames[] = {"explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4",
+                                                   "implicit_euler"};
+inline constexpr std::uint32_t kIntegrators = 5;
+
+/// How contacts, cables and rods are held.
+///   soft_step    impulses over sub-steps as damped springs, then relaxed (the rigid world's method)
+///   worst_first  after the integration, the fastest closing first (Millington, ch. 7)
+enum class ParticleSolver : std::uint32_t { soft_step, worst_first };
+inline constexpr const char* kParticleSolverNames[] = {"soft_step", "worst_first"};
+inline constexpr std::uint32_t kParticleSolvers = 2;
+
+/// fixed          every sub-step has one length
+/// time_division  a sub-step ends at the first contact within it, which is resolved before the rest goes on, so that
+///                nothing tunnels (Millington, ch. 7.4.2)
+enum class Stepping : std::uint32_t { fixed, time_division };
+inline constexpr const char* kSteppingNames[] = {"fixed", "time_division"};
+inline constexpr std::uint32_t kSteppings = 2;
+
+/// Sub-steps a second that every scalar can count and divide by.
+inline constexpr std::int32_t kMaxParticleRate = 16384;
+
+/// Rates are whole numbers, so that the time step is exact and the same everywhere.
+template <class S> struct ParticleSettings {
+  std::int32_t hz = 60;                    // [1/s] steps, 10..1000
+  std::int32_t substeps = 4;               // per step, 1..64, hz * substeps <= kMaxParticleRate
+  Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
+  Integrator integrator = Integrator::semi_implicit_euler;
+  ParticleSolver solver = ParticleSolver::soft_step;
+  Stepping stepping = Stepping::fixed;
+  std::uint32_t iterations = 0;  // of worst_first a sub-step; 0: twice the number of constraints
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("hz", self.hz);
+    visit("substeps", self.substeps);
+    visit("gravity", self.gravity);
+    visit("integrator", self.integrator);
+    visit("solver", self.solver);
+    visit("stepping", self.stepping);
+    visit("iterations", self.iterations);
+  }
+};
+
+}  // namespace isostep

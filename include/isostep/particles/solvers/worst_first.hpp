@@ -1,0 +1,115 @@
+// The book's resolver: contacts and links one at a time, the fastest closing first.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/particles/axes.hpp"
+#include "isostep/particles/constraint.hpp"
+#include "isostep/particles/limits.hpp"
+
+namespace isostep {
+
+/// Source:  Millington 2007, ch. 7.1-7.2 (impulses, linear projection, resting contacts, order), p. 140 (friction).
+/// Symbols: v_s = n.(v_b - v_a) [m/s] separating speed; C [m] = separation + n.(d_b - d_a); e = restitution;
+///          g = n.(gained_b - gained_a), the part of v_s that this sub-step's forces made; N = impulse of this call.
+///          Bounce: v_s' = max(0, -e (v_s - min(g, 0))), so that one sub-step's gravity does not bounce.
+/// Order:   first what moves wrongly, by speed: contacts and cables that touch and close, rods that change length,
+///          friction that has to change. Then what only overlaps, by depth: projection changes no speed, so it cannot
+///          undo what came first. Ties go to the lowest index.
+/// Differs: the deepest overlap first, where the book takes the lowest v_s: two slow contacts that push each other to
+///          and fro would keep a deep one waiting. What an impulse takes from g it takes from both sides' share of g,
+///          so gravity that comes through a stack is known as gravity by its upper contacts. Friction has a total
+///          within the cone mu N, is a vector, and is looked at whenever a neighbour moves, not only when its contact
+///          is the worst. A contact or cable with C above 0 waits; once it has touched it counts till the call ends.
+/// Cost:    O(log rows) for each row that shares a movable particle with the resolved one; where hundreds share one, a
+///          call ends after most_looks(). No allocation once warm.
+/// Limits:  relative speeds and C beyond the ends of Velocity<S> count as those ends; velocities and displacements are
+///          held within passing_speed() and passing_distance().
+template <class S> class WorstFirst {
+  using V = Velocity<S>;
+
+ public:
+  /// [m/s] What closes slower than this, gravity of the sub-step apart, does not bounce (p. 358).
+  static constexpr V kMicroBounce = V(0.25);
+
+  /// As many as the book allows.
+  static ISO_INLINE std::uint32_t default_iterations(std::uint32_t count) {
+    return count > 0x7fffffffu ? 0xffffffffu : 2u * count;
+  }
+
+  /// Looks at rows in one call: half a second of them, and 64 a row. A pile takes 50; a crowd in one place would take
+  /// the cube of its number.
+  static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
+
+  /// After the integration of a sub-step, or between its velocity and its position. Answers how many rows are still
+  /// unsettled when the iterations have run out. `displacement` [m] is the way since the rows' separation was measured,
+  /// the integration's part too; it is moved, separation stays. `gained` [m/s] is what forces have added to velocity in
+  /// this sub-step, 0 of pinned particles. Rows' impulses are those of this call, approach is lowered.
+  /// Where positions are integrated first, gravity's way along a slope, g h^2 a sub-step, is not friction's to undo.
+  std::uint32_t resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity, Axes<V>& displacement,
+                        const Axes<V>& gained, std::uint32_t max_iterations);
+
+  /// Of the last call: rows resolved, and looks at rows for their urgency.
+  ISO_INLINE std::uint32_t iterations() const { return iterations_; }
+  ISO_INLINE std::uint64_t looks() const { return looks_; }
+
+ private:
+  using Row = ParticleConstraint<S>;
+  struct Point {
+    Vec3<V> velocity, displacement, gained;
+  };
+  /// A row's particles in points_, kNoParticle for none.
+  struct Sides {
+    std::uint32_t a, b;
+  };
+  enum class Need : std::uint32_t { motion, projection, nothing };
+  struct Urgency {
+    Need need;
+    V amount;  // [m/s] or [m], the lower the sooner
+  };
+
+  void gather(const Row* rows, std::uint32_t count, const Axes<V>& velocity, const Axes<V>& displacement,
+              const Axes<V>& gained);
+  void list_neighbours(const Row* rows, std::uint32_t count);
+  void scatter(Axes<V>& velocity, Axes<V>& displacement);
+  std::uint32_t point_of(std::uint32_t slot, const Axes<V>& velocity, const Axes<V>& displacement,
+                         const Axes<V>& gained);
+
+  void look(const Row& row, std::uint32_t index);
+  void look_at_neighbours(const Row* rows, std::uint32_t index, std::uint32_t point);
+  void apply(Row& row, std::uint32_t index);
+
+  ISO_INLINE Vec3<V> velocity_of_b(const Row& row, Sides sides) const;
+  ISO_INLINE V separating_speed(const Row& row, Sides sides) const;
+  ISO_INLINE V gained_speed(const Row& row, Sides sides) const;
+  ISO_INLINE V gap(const Row& row, Sides sides) const;
+  ISO_INLINE V speed_tolerance(const Row& row, Sides sides) const;
+  ISO_INLINE Vec3<V> friction_change(const Row& row, Sides sides, V speed) const;
+  ISO_INLINE void push(const Row& row, Sides sides, Vec3<V> change, Vec3<V> Point::*of, V most);
+  ISO_INLINE void hit(Row& row, Sides sides, Vec3<V> change);
+
+  ISO_INLINE bool before(std::uint32_t i, std::uint32_t j) const;
+  void plant(std::uint32_t count);
+  void replay(std::uint32_t index);
+
+  std::vector<Point> points_;              // the particles of the rows, in order of first mention
+  std::vector<std::uint32_t> slots_;       // of points_
+  std::vector<std::uint32_t> point_of_;    // by slot; kNoParticle between calls
+  std::vector<Sides> sides_;               // by row
+  std::vector<std::uint32_t> first_;       // by point, and one more: its rows in neighbours_
+  std::vector<std::uint32_t> neighbours_;  // rows that can move a point, ascending
+  std::vector<std::uint8_t> touched_;      // by row
+  std::vector<Urgency> urgency_;           // by row
+  std::vector<std::uint32_t> winner_;      // a knock-out tree: leaves from count on, the most urgent row at 1
+  std::uint32_t rows_ = 0, iterations_ = 0;
+  std::uint64_t looks_ = 0;
+};
+
+#define ISO_EXTERN_WORST_FIRST(S) extern template class WorstFirst<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN_WORST_FIRST)
+#undef ISO_EXTERN_WORST_FIRST
+
+}  // namespace isostep

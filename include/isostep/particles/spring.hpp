@@ -1,0 +1,42 @@
+// Springs between two particles, or a particle and a fixed point: one record, three types.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/particles/particle.hpp"
+
+namespace isostep {
+
+using SpringId = Id<struct SpringTag>;
+
+/// spring  pulls and pushes
+/// bungee  pulls only
+/// stiff   is taken along its exact motion (a damped oscillator of rest length 0), stable at any stiffness; meant to be
+///         the only force beside gravity on its particles (Millington, ch. 6.3)
+enum class SpringType : std::uint32_t { spring, bungee, stiff };
+
+/// f = -(stiffness (|d| - rest_length) + damping d|d|/dt) d/|d| on a, the opposite on b, where d goes from b to a. Ends
+/// that meet push nowhere.
+template <class S> struct Spring {
+  SpringType type = SpringType::spring;
+  ParticleId a = {}, b = {};            // b null: the anchor
+  Vec3<S> anchor = {S(0), S(0), S(0)};  // [m] world; used where b is null
+  S stiffness = S(0);                   // [N/m]
+  S damping = S(0);                     // [N s/m]
+  S rest_length = S(0);                 // [m]
+  S elastic_limit = S(0);               // [m] extension beyond which it stays deformed; 0: none
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("type", self.type);
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("anchor", self.anchor);
+    visit("stiffness", self.stiffness);
+    visit("damping", self.damping);
+    visit("rest_length", self.rest_length);
+    visit("elastic_limit", self.elastic_limit);
+  }
+};
+
+}  // namespace isostep

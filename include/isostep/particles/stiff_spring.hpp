@@ -1,0 +1,31 @@
+// The exact motion of a damped harmonic oscillator over one step, in all three regimes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/particles/particle.hpp"
+
+namespace isostep {
+
+/// What h seconds make of the distance d between a stiff spring's ends and of its rate v:
+/// d' = dd d + dv v h,  v' = vd d + vv v.
+template <class S> struct OscillatorStep {
+  Unit<S> dd, dv, vv;  // [1]
+  S vd;                // [1/s]
+};
+
+/// Of d'' = -k w d - c w d', where w [1/kg] is the sum of both ends' 1/m.
+/// Symbols: kappa = k w h^2, delta = c w h / 2, theta = sqrt(|kappa - delta^2|), all [1].
+///          Below critical damping C = e^-delta cos theta and Q = e^-delta sin(theta) / theta; above it the hyperbolic
+///          functions, as sums of falling exponentials, so that nothing grows; near it their series.
+///          dd = C + delta Q, dv = Q, vv = C - delta Q, vd = -kappa Q / h.
+/// Source:  Millington, ch. 6.3 gives the case below critical damping.
+/// Error:   the coefficients are those of the next wider format, rounded; tests/unit/particles/stiff_spring_test.cpp.
+/// Limits:  delta counts up to 1024: beyond, the ends only creep.
+template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate);
+
+#define ISO_EXTERN(S) extern template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

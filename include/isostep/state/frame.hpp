@@ -1,0 +1,15 @@
+// What a game's frames are counted in.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace isostep {
+
+/// State f is what `step` of frame f starts from; state 0 is the start of the match.
+using Frame = std::int32_t;
+inline constexpr Frame kNoFrame = -1;
+/// Larger ones are refused wherever they come from: 200 days at 60 Hz, and sums of a few frames cannot overflow.
+inline constexpr Frame kLastFrame = 1 << 30;
+
+}  // namespace isostep

@@ -1,0 +1,46 @@
+// Slot tables as state: hashed, written and read like the records they number.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/slot_map.hpp"
+#include "isostep/state/archive.hpp"
+#include "isostep/state/hash.hpp"
+
+namespace isostep::detail {
+
+inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
+
+/// Of the free list's start and the entries one after another; the pages they lie in do not show.
+ISO_INLINE std::uint64_t hash_slots(const SlotMap& slots) {
+  return slots.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
+    const SlotMap::Entries& entries = slots.entries();
+    HashCombiner root;
+    root.add(slots.first_free());
+    if (entries.pages() <= 1) {
+      root.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
+      return root.value();
+    }
+    HashStream stream;
+    for (std::size_t p = 0; p < entries.pages(); ++p) update_records(stream, entries.page(p), entries.page_size(p));
+    root.add(stream.value());
+    return root.value();
+  });
+}
+ISO_INLINE void write_slots(Writer& writer, const SlotMap& slots) {
+  const SlotMap::Entries& entries = slots.entries();
+  writer.write(slots.first_free());
+  writer.write_count(entries.size());
+  for (std::size_t p = 0; p < entries.pages(); ++p) writer.write_records(entries.page(p), entries.page_size(p));
+}
+ISO_INLINE void read_slots(Reader& reader, SlotMap& slots) {
+  const auto first_free = reader.read<std::uint32_t>();
+  std::vector<SlotEntry> entries;
+  reader.read_array(entries, kMaxRecords);
+  if (reader.ok() && !slots.restore(entries, first_free))
+    reader.fail(ErrorCode::corrupt, "a slot table's free list is broken");
+}
+
+}  // namespace isostep::detail

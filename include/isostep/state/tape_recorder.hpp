@@ -1,0 +1,100 @@
+// TapeRecorder: records every command that a world accepts, so that the stock tool replays any game without its code.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "isostep/core/short_text.hpp"
+#include "isostep/state/concepts.hpp"
+#include "isostep/state/frame.hpp"
+#include "isostep/state/record.hpp"
+#include "isostep/state/tape.hpp"
+
+namespace isostep {
+
+/// In a header, where it is not 0: the number that the game gives to the file's frame 0.
+inline constexpr char kFirstFrameKey[] = "first_frame";
+
+/// The header of a recording from frame `first` on. `identity_of_world(settings, scene)` stands beside the settings and
+/// says what must be equal where a recording of such a world is replayed.
+template <class Settings>
+ISO_INLINE Result<ReplayHeader> header_of_world(const Settings& settings, std::string_view scene, Frame first) {
+  Result<ReplayHeader> header = make_replay_header(identity_of_world(settings, scene));
+  if (header && first > 0) {
+    header.value().set(kFirstFrameKey, ShortText<20>().append_number(static_cast<std::uint64_t>(first)).view(), false);
+  }
+  return header;
+}
+
+/// A world whose mutators and steps append themselves to the tape that it was given, as `play_tape` reads it:
+/// write_command for what it accepts, kStepMarker for a step.
+template <class W>
+concept TapedWorld = ReplayableSimulation<W> && requires(W& world, const W& same, std::vector<std::uint8_t>* tape) {
+  typename W::Command;
+  world.record_to(tape);
+  { same.records_to(tape) } -> std::same_as<bool>;
+  { same.tick() } -> std::convertible_to<std::uint64_t>;   // steps taken
+  { same.loads() } -> std::convertible_to<std::uint64_t>;  // how often its state was replaced
+  { identity_of_world(same.settings(), std::string_view{}) } -> std::same_as<ReplayIdentity>;
+};
+
+/// Where a frame's tape began.
+template <TapedWorld W> struct TapeStart {
+  std::uint64_t loads = 0, tick = 0;
+
+  TapeStart() = default;
+  ISO_INLINE explicit TapeStart(const W& world) : loads(world.loads()), tick(world.tick()) {}
+  /// Why the tape does not lead from the state then to the state now; null: it does.
+  ISO_INLINE const char* flaw(const W& world, const std::vector<std::uint8_t>& tape) const {
+    if (!world.records_to(&tape) || world.loads() != loads) {
+      return "the world was loaded or replaced while it was recorded";
+    }
+    return world.tick() - tick > kFrameStepCap ? kTooManySteps : nullptr;
+  }
+};
+
+/// `begin`; then for every frame commands and steps, in any number and order, and `end_frame`; then `finish`. A frame
+/// without a step is a pause; one has at most kFrameStepCap. The world must outlive it and records to nothing else
+/// meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there. Without `finish` the file is
+/// truncated, its whole blocks still play.
+template <TapedWorld W> class TapeRecorder {
+ public:
+  ISO_INLINE TapeRecorder(W& world, ReplaySink sink) : world_(world), recorder_(sink) {}
+  ISO_INLINE ~TapeRecorder() { world_.record_to(nullptr); }
+  TapeRecorder(const TapeRecorder&) = delete;
+  TapeRecorder& operator=(const TapeRecorder&) = delete;
+
+  /// The world as it is now, whatever it holds, is the recording's first state, before the game's frame `first`.
+  ISO_INLINE Result<void> begin(std::string_view scene, Frame first = 0) {
+    const Result<ReplayHeader> header = header_of_world(world_.settings(), scene, first);
+    if (!header) return header.error();
+    start_frame();
+    world_.record_to(&tape_);
+    return recorder_.begin(world_, header.value());
+  }
+  /// `hash` is the world's now: callers that have it need not compute it twice.
+  ISO_INLINE Result<void> end_frame(std::uint64_t hash) {
+    if (const char* flaw = start_.flaw(world_, tape_)) return Error{ErrorCode::invalid, flaw, "recorder"};
+    const Result<void> result = recorder_.frame(tape_, hash);
+    start_frame();
+    return result;
+  }
+  ISO_INLINE Result<void> end_frame() { return end_frame(world_.hash()); }
+  ISO_INLINE Result<void> finish() { return recorder_.finish(); }
+
+ private:
+  ISO_INLINE void start_frame() {
+    tape_.clear();
+    start_ = TapeStart<W>(world_);
+  }
+
+  W& world_;
+  Recorder<W> recorder_;
+  std::vector<std::uint8_t> tape_;
+  TapeStart<W> start_;
+};
+
+}  // namespace isostep

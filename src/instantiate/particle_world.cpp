@@ -1,0 +1,15 @@
+// ParticleWorld<S> and what it draws on, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/particles/particle_world.inl"
+
+#include "isostep/particles/stiff_spring.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S)                                                \
+  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S); \
+  template class ParticleWorld<S>;
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep

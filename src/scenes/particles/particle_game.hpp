@@ -1,0 +1,36 @@
+// ParticleGame: a particle scene as a game without players: its world, and a frame of its script.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "particle_scene.hpp"
+
+namespace isostep::scenes {
+
+/// All that it remembers is in `world`: saving and loading that between frames is enough.
+template <class S> struct ParticleGame {
+  explicit ParticleGame(const ParticleScene& scene) : ParticleGame(scene, script_of<S>(scene.id).settings) {}
+  /// With another rate or method than the scene's.
+  ParticleGame(const ParticleScene& scene, const ParticleSettings<S>& settings)
+      : script(script_of<S>(scene.id)), world(settings) {
+    script.build(world);
+  }
+
+  ParticleReport advance() {
+    before_step(world);
+    const ParticleReport report = world.step();
+    after_step(world);
+    return report;
+  }
+  /// For any world of this scene.
+  void before_step(ParticleWorld<S>& any) const {
+    if (script.before_step != nullptr) script.before_step(any);
+  }
+  void after_step(ParticleWorld<S>& any) const {
+    if (script.after_step != nullptr) script.after_step(any);
+  }
+
+  ParticleScript<S> script;
+  ParticleWorld<S> world;
+};
+
+}  // namespace isostep::scenes

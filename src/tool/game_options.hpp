@@ -1,0 +1,14 @@
+// What a run may ask for instead of the scene's own rate and methods.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace isostep::tool {
+
+struct GameOptions {
+  int hz = -1, substeps = -1;                // -1: the scene's
+  std::string solver, integrator, stepping;  // names; empty: the scene's
+};
+
+}  // namespace isostep::tool

@@ -1,0 +1,53 @@
+// ParticleSceneGame<S>: a scene of particles as the tool runs, verifies and restores it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "game_options.hpp"
+#include "isostep/particles/recorder.hpp"
+#include "scenes/particles/particle_game.hpp"
+#include "tool.hpp"
+
+namespace isostep::tool {
+
+/// The place of a name in its list; empty leaves `value` as it is. The command line has let through no other.
+template <class Enum> void choose(Enum& value, std::string_view name, std::span<const char* const> names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (name == names[i]) value = static_cast<Enum>(i);
+  }
+}
+
+/// The settings with what the options ask for.
+template <class S> ParticleSettings<S> asked_of(ParticleSettings<S> settings, const GameOptions& options) {
+  if (options.hz > 0) settings.hz = options.hz;
+  if (options.substeps > 0) settings.substeps = options.substeps;
+  choose(settings.solver, options.solver, kParticleSolverNames);
+  choose(settings.integrator, options.integrator, kIntegratorNames);
+  choose(settings.stepping, options.stepping, kSteppingNames);
+  return settings;
+}
+/// Whether a world is already as the options ask.
+template <class S> bool is_as_asked(const ParticleSettings<S>& own, const GameOptions& options) {
+  const ParticleSettings<S> asked = asked_of(own, options);
+  return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver &&
+         asked.integrator == own.integrator && asked.stepping == own.stepping;
+}
+
+template <class S> struct ParticleSceneGame : scenes::ParticleGame<S> {
+  using World = ParticleWorld<S>;
+  using Scene = scenes::ParticleScene;
+
+  explicit ParticleSceneGame(const Scene& scene, const GameOptions& options = {})
+      : scenes::ParticleGame<S>(scene, settings_of(scene, options)) {}
+
+  static ParticleSettings<S> settings_of(const Scene& scene, const GameOptions& options) {
+    const ParticleSettings<S> settings = asked_of(scenes::script_of<S>(scene.id).settings, options);
+    if (settings.hz * settings.substeps > kMaxParticleRate)
+      throw ToolError(exit_status::kUsage, "hz times sub-steps is more than " + std::to_string(kMaxParticleRate));
+    return settings;
+  }
+};
+
+}  // namespace isostep::tool

@@ -1,0 +1,107 @@
+// Sparse systems: against elimination in double, at the condition where fixed point has to refine, and in any order.
+// SPDX-License-Identifier: MIT
+#include "isostep/math/sparse_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isostep {
+namespace {
+
+template <class S> class SparseCholeskyOf : public testing::Test {
+ public:
+  using Number = typename LinearSystem<S>::Number;
+
+ protected:
+  using Pair = typename SparseCholesky<Number>::Pair;
+
+  static Number number(double x) {
+    if constexpr (kIsFixed<S>) return from_double<Number>(x);
+    if constexpr (!kIsFixed<S>) return Number(x);
+  }
+  static SymmetricBlock<Number> diagonal(double x) {
+    return {number(x), number(0), number(0), number(x), number(0), number(x)};
+  }
+  /// A loop of n vectors, each tied to the next with weight 1/4; `ground` keeps it from being singular.
+  void loop(std::uint32_t n, double ground, bool backwards = false) {
+    n_ = n;
+    ground_ = ground;
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < n; ++i) pairs.push_back({i, (i + 1) % n});
+    if (backwards) std::reverse(pairs.begin(), pairs.end());
+    cholesky_.analyse(n, pairs);
+    for (std::uint32_t i = 0; i < n; ++i) cholesky_.add_diagonal(i, diagonal(0.5 + ground));
+    for (std::uint32_t i = 0; i < n; ++i) cholesky_.add_pair(i, diagonal(-0.25));
+  }
+  /// Of the loop: a wave along it is an eigenvector, with eigenvalue ground + (1 - cos) / 2.
+  void expect_wave(int waves) {
+    std::vector<Vec3<Number>> b, x;
+    const double turn = 2 * std::acos(-1.0) * waves / n_;
+    for (std::uint32_t i = 0; i < n_; ++i) {
+      b.push_back({number(std::cos(turn * i)), number(0), number(-0.5 * std::sin(turn * i))});
+    }
+    int exponent = 0;
+    const int loss = static_cast<int>(std::ceil(-std::log2(ground_)));
+    ASSERT_TRUE(cholesky_.solve(b, 3, loss, x, exponent));
+    const double eigenvalue = ground_ + (1 - std::cos(turn)) / 2;
+    for (std::uint32_t i = 0; i < n_; ++i) {
+      const double scale = kIsFixed<S> ? std::ldexp(1, exponent - 3) : 1;
+      EXPECT_NEAR(scale * eigenvalue * to_double(x[i].x), to_double(b[i].x), 2e-13 / ground_ + 1e-12) << i;
+      EXPECT_NEAR(scale * eigenvalue * to_double(x[i].z), to_double(b[i].z), 2e-13 / ground_ + 1e-12) << i;
+      EXPECT_EQ(to_double(x[i].y), 0);
+    }
+  }
+
+  std::uint32_t n_ = 0;
+  double ground_ = 0;
+  SparseCholesky<Number> cholesky_;
+};
+using Scalars = testing::Types<double, Q32_32>;
+TYPED_TEST_SUITE(SparseCholeskyOf, Scalars);
+
+TYPED_TEST(SparseCholeskyOf, WavesAreDividedByTheirEigenvalues) {
+  for (const double ground : {0.25, 0x1p-10, 0x1p-20}) {
+    this->loop(60, ground);
+    ASSERT_TRUE(this->cholesky_.factorise());
+    for (const int waves : {0, 1, 7, 30}) this->expect_wave(waves);
+  }
+}
+
+TYPED_TEST(SparseCholeskyOf, TheOrderInWhichPairsAreGivenDoesNotMatter) {
+  std::vector<Vec3<typename TestFixture::Number>> b(40, {this->number(0.25), this->number(0.5), this->number(-1)}), x,
+      y;
+  b[3].x = this->number(1);
+  b[17].y = this->number(-0.125);
+  int first = 0, second = 0;
+  this->loop(40, 0.125);
+  ASSERT_TRUE(this->cholesky_.factorise());
+  ASSERT_TRUE(this->cholesky_.solve(b, 0, 3, x, first));
+  this->loop(40, 0.125, true);
+  ASSERT_TRUE(this->cholesky_.factorise());
+  ASSERT_TRUE(this->cholesky_.solve(b, 0, 3, y, second));
+  EXPECT_EQ(first, second);
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(x[i], y[i]) << i;
+}
+
+TYPED_TEST(SparseCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsRefused) {
+  this->loop(10, 0.25);
+  this->cholesky_.add_diagonal(4, this->diagonal(-0.75));
+  EXPECT_FALSE(this->cholesky_.factorise());
+  this->cholesky_.clear();
+  EXPECT_FALSE(this->cholesky_.factorise());
+}
+
+TYPED_TEST(SparseCholeskyOf, ACopyHasYetToBeAnalysed) {
+  this->loop(10, 0.25);
+  EXPECT_TRUE(this->cholesky_.is_analysed());
+  SparseCholesky<typename TestFixture::Number> copy(this->cholesky_);
+  EXPECT_FALSE(copy.is_analysed());
+  copy = std::move(this->cholesky_);
+  EXPECT_TRUE(copy.is_analysed());
+  EXPECT_FALSE(this->cholesky_.is_analysed());
+}
+
+}  // namespace
+}  // namespace isostep

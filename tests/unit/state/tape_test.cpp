@@ -1,0 +1,172 @@
+// Tapes over a toy's own list of commands: their bytes, playing them, and the recorder of any world that writes them.
+// SPDX-License-Identifier: MIT
+#include "isostep/state/tape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <variant>
+
+#include "isostep/state/tape_recorder.hpp"
+#include "toy_world.hpp"
+
+namespace {
+
+using namespace isostep;
+using namespace toy;
+
+/// What playing a tape was told, and how far it came.
+struct Heard {
+  std::vector<ToyCommand> commands;
+  std::vector<std::size_t> steps;  // after so many commands
+  Result<void> result;
+
+  explicit Heard(Bytes tape, std::size_t accepted = 1000)
+      : result(play_tape<ToyCommand>(
+            tape,
+            [&](const ToyCommand& command) {
+              commands.push_back(command);
+              return commands.size() <= accepted;
+            },
+            [&] { steps.push_back(commands.size()); })) {}
+};
+
+TEST(Tape, ACommandIsItsPlaceInTheListAndItsFields) {
+  Buffer tape;
+  Writer writer(tape);
+  write_command<ToyCommand>(writer, Clear{});
+  EXPECT_EQ(tape, (Buffer{1}));
+  write_command<ToyCommand>(writer, Push{0x01020304, Q32_32(1.5)});
+  EXPECT_EQ(tape, (Buffer{1, 0, 4, 3, 2, 1, 0, 0, 0, 0x80, 1, 0, 0, 0}));
+}
+
+TEST(Tape, ACommandOfVaryingLengthWritesItself) {
+  Buffer tape;
+  Writer writer(tape);
+  write_command<ToyCommand>(writer, Fill{{7, 0x0102}});
+  EXPECT_EQ(tape, (Buffer{2, 2, 0, 0, 0, 7, 0, 2, 1}));
+}
+
+TEST(Tape, IsPlayedFromFrontToBackWithTheStepsInTheirPlaces) {
+  Buffer tape;
+  Writer writer(tape);
+  tape.push_back(kStepMarker);
+  write_command<ToyCommand>(writer, Push{3, Q32_32(-0.25)});
+  write_command<ToyCommand>(writer, Fill{{5, 6, 7}});
+  tape.push_back(kStepMarker);
+  tape.push_back(kStepMarker);
+  write_command<ToyCommand>(writer, Clear{});
+  const Heard heard{tape};
+  ASSERT_TRUE(heard.result.ok());
+  EXPECT_EQ(heard.steps, (std::vector<std::size_t>{0, 2, 2}));
+  ASSERT_EQ(heard.commands.size(), 3u);
+  EXPECT_EQ(std::get<Push>(heard.commands[0]).to, 3u);
+  EXPECT_EQ(std::get<Push>(heard.commands[0]).by, Q32_32(-0.25));
+  EXPECT_EQ(std::get<Fill>(heard.commands[1]).numbers, (std::vector<std::uint16_t>{5, 6, 7}));
+  EXPECT_TRUE(std::holds_alternative<Clear>(heard.commands[2]));
+  EXPECT_TRUE(Heard{Bytes{}}.result.ok());
+}
+
+TEST(Tape, ANumberThatNoCommandHasIsInvalid) {
+  for (const std::uint8_t number : {3, 4, 0x7f, 0xfe}) {
+    const Heard heard{Buffer{1, number, 1}};
+    ASSERT_FALSE(heard.result.ok());
+    EXPECT_EQ(heard.result.error().code, ErrorCode::invalid);
+    EXPECT_EQ(heard.commands.size(), 1u) << "what comes before the error was done";
+  }
+}
+
+TEST(Tape, ACommandThatIsCutOffIsNotCarriedOut) {
+  Buffer whole;
+  Writer writer(whole);
+  write_command<ToyCommand>(writer, Push{1, 2});
+  const std::size_t push = whole.size();
+  write_command<ToyCommand>(writer, Fill{{1, 2, 3}});
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    const Heard heard{Bytes(whole).first(size)};
+    EXPECT_EQ(heard.result.ok(), size == push) << size;
+    EXPECT_EQ(heard.commands.size(), size < push ? 0u : 1u) << size;
+  }
+}
+
+TEST(Tape, ACountAboveTheCommandsOwnCapIsRefused) {
+  Buffer tape;
+  Writer writer(tape);
+  write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap, 9)});
+  EXPECT_TRUE(Heard{tape}.result.ok());
+  tape.clear();
+  write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap + 1, 9)});
+  const Heard heard{tape};
+  EXPECT_FALSE(heard.result.ok());
+  EXPECT_TRUE(heard.commands.empty());
+}
+
+TEST(Tape, EndsAtACommandThatIsRefused) {
+  const Heard heard(Buffer{1, kStepMarker, 1, kStepMarker, 1}, 1);
+  EXPECT_EQ(heard.result.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(heard.commands.size(), 2u);
+  EXPECT_EQ(heard.steps, (std::vector<std::size_t>{1}));
+}
+
+TEST(Tape, MayHaveSoManyStepsAndNotOneMore) {
+  EXPECT_TRUE(Heard{Buffer(kFrameStepCap, kStepMarker)}.result.ok());
+  const Heard heard{Buffer(kFrameStepCap + 1, kStepMarker)};
+  EXPECT_EQ(heard.result.error().code, ErrorCode::limit);
+  EXPECT_EQ(heard.result.error().message.view(), kTooManySteps);
+  EXPECT_EQ(heard.steps.size(), kFrameStepCap);
+}
+
+// The recorder, over a world that is none of ours.
+
+TEST(TapeRecorder, WhatItWritesIsPlayedAndVerified) {
+  ToyWorld world;
+  world.apply(Push{1, 2});
+  Buffer file;
+  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a toy").ok());
+  for (std::uint32_t frame = 0; frame < 100; ++frame) {
+    world.apply(Push{frame, Q32_32(0.5)});
+    if (frame % 7 == 0) world.apply(Fill{{1, static_cast<std::uint16_t>(frame)}});
+    for (std::uint32_t i = 0; i < frame % 3; ++i) world.step();
+    if (frame == 50) world.apply(Clear{});
+    ASSERT_TRUE(recorder.end_frame().ok()) << frame;
+  }
+  ASSERT_TRUE(recorder.finish().ok());
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.frame_count(), 100u);
+  EXPECT_EQ(replay.header().find(kFirstFrameKey), nullptr);
+  EXPECT_EQ(identity_of(replay.header()).value().world, "toys");
+  const ReplayHeader here = header_of_world(world.settings(), "a toy", 0).value();
+  ToyWorld again;
+  const VerifyResult result = verify(replay, again, SameHeader{here});
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  EXPECT_EQ(again.tick(), world.tick());
+}
+
+TEST(TapeRecorder, TheGamesFirstFrameIsInTheHeader) {
+  ToyWorld world;
+  Buffer file;
+  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a toy", 120).ok() && recorder.finish().ok());
+  EXPECT_EQ(ReplayReader(file).header().number(kFirstFrameKey).value(), 120u);
+  EXPECT_FALSE(ReplayReader(file).header().find(kFirstFrameKey)->required);
+}
+
+TEST(TapeRecorder, EndsWhereTheWorldWasLoadedOrSteppedTooOften) {
+  ToyWorld loaded, hasty, silent;
+  Buffer files[3];
+  TapeRecorder<ToyWorld> of_loaded(loaded, sink_to(files[0])), of_hasty(hasty, sink_to(files[1])),
+      of_silent(silent, sink_to(files[2]));
+  ASSERT_TRUE(of_loaded.begin("a").ok() && of_hasty.begin("b").ok() && of_silent.begin("c").ok());
+  Buffer bytes;
+  Writer writer(bytes);
+  loaded.write_portable(writer);
+  Reader reader(bytes);
+  ASSERT_TRUE(loaded.read_portable(reader).ok());
+  EXPECT_FALSE(of_loaded.end_frame().ok());
+  for (std::uint32_t i = 0; i <= kFrameStepCap; ++i) hasty.step();
+  EXPECT_EQ(of_hasty.end_frame().error().message.view(), kTooManySteps);
+  silent.record_to(nullptr);
+  EXPECT_FALSE(of_silent.end_frame().ok());
+}
+
+}  // namespace

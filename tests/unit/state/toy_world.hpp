@@ -1,0 +1,133 @@
+// A toy world with a closed list of commands, for the tests of tapes and of what records them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "isostep/state/tape_recorder.hpp"
+#include "recording.hpp"
+
+namespace toy {
+
+struct Push {
+  std::uint32_t to;
+  Q32_32 by;
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("to", self.to);
+    visit("by", self.by);
+  }
+};
+struct Clear {
+  template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
+};
+inline constexpr std::uint32_t kFillCap = 5;
+struct Fill {
+  std::vector<std::uint16_t> numbers;
+
+  void write(Writer& writer) const { writer.write_array(numbers); }
+  void read(Reader& reader) { reader.read_array(numbers, kFillCap); }
+};
+using ToyCommand = std::variant<Push, Clear, Fill>;
+
+struct ToySettings {
+  std::uint32_t hz = 30;
+};
+inline ReplayIdentity identity_of_world(const ToySettings& settings, std::string_view scene) {
+  ReplayIdentity here = identity();
+  here.hz = settings.hz;
+  here.scene = scene;
+  here.world = "toys";
+  return here;
+}
+
+enum class ToyStage : std::uint32_t { count, fold };
+inline constexpr const char* kToyStages[] = {"count", "fold"};
+struct ToyObserver {
+  void (*after)(void* user, ToyStage stage) = nullptr;
+  void* user = nullptr;
+};
+
+/// A sum that every command and step changes.
+class ToyWorld {
+ public:
+  using Scalar = Q32_32;
+  using Command = ToyCommand;
+  struct State {
+    std::uint64_t tick = 0, sum = 0;
+    template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+      visit("tick", self.tick);
+      visit("sum", self.sum);
+    }
+  };
+  using Snapshot = State;
+
+  const ToySettings& settings() const { return settings_; }
+  const State& state() const { return state_; }
+  std::uint64_t tick() const { return state_.tick; }
+  std::uint64_t loads() const { return loads_; }
+  void record_to(Buffer* tape) { tape_ = tape; }
+  bool records_to(const Buffer* tape) const { return tape_ == tape; }
+  void trace_to(std::vector<std::uint64_t>* hashes) { trace_ = hashes; }
+
+  bool apply(const Command& command) {
+    return std::visit(
+        [&](const auto& one) {
+          run(one);
+          if (tape_ == nullptr) return true;
+          Writer writer(*tape_);
+          write_command<Command>(writer, one);
+          return true;
+        },
+        command);
+  }
+  void step(const ToyObserver& observer = {}) {
+    if (tape_ != nullptr) tape_->push_back(kStepMarker);
+    trace();
+    ++state_.tick;
+    after(observer, ToyStage::count);
+    state_.sum = state_.sum * 31 + state_.tick;
+    after(observer, ToyStage::fold);
+  }
+  std::uint64_t hash() const { return state_.sum ^ state_.tick << 32; }
+  void save(Snapshot& to) const { to = state_; }
+  void load(const Snapshot& from) {
+    state_ = from;
+    ++loads_;
+  }
+  void write_portable(Writer& writer) const { writer.write(state_); }
+  Result<void> read_portable(Reader& reader) {
+    const auto state = reader.read<State>();
+    if (reader.ok()) load(state);
+    return reader.result("toy world");
+  }
+  Result<void> step_recorded(Bytes tape) {
+    return play_tape<Command>(
+        tape, [&](const Command& command) { return apply(command); }, [&] { step(); });
+  }
+
+ private:
+  void run(const Push& push) { state_.sum += push.to ^ to_bits(push.by); }
+  void run(const Clear&) { state_.sum = 0; }
+  void run(const Fill& fill) {
+    for (const std::uint16_t number : fill.numbers) state_.sum = 3 * state_.sum + number;
+  }
+  void trace() {
+    if (trace_ != nullptr) trace_->push_back(hash());
+  }
+  void after(const ToyObserver& observer, ToyStage stage) {
+    trace();
+    if (observer.after != nullptr) observer.after(observer.user, stage);
+  }
+
+  ToySettings settings_;
+  State state_;
+  std::uint64_t loads_ = 0;
+  Buffer* tape_ = nullptr;
+  std::vector<std::uint64_t>* trace_ = nullptr;
+};
+static_assert(TapedWorld<ToyWorld> && !TapedWorld<Game>);
+
+}  // namespace toy
