@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "determinism/hostile_environment.hpp"
 #include "determinism/mess.hpp"
-#include "isostep/scalar/environment.hpp"
 
 namespace isostep::test {
 namespace {
@@ -170,24 +170,7 @@ TYPED_TEST(SameHashes, whatever_is_asked_of_the_world_on_the_way) {
   EXPECT_GT(found.size(), kFrames / 2);
 }
 
-#if defined(__SSE2__) && defined(__GNUC__)
-/// Sets the control bits of this thread and puts back what was there.
-class Hostile {
- public:
-  explicit Hostile(std::uint32_t control) : before_(static_cast<std::uint32_t>(isostep::detail::FloatState::read())) {
-    set(control);
-  }
-  ~Hostile() { isostep::detail::FloatState::write(before_); }
-  static void set(std::uint32_t control) { isostep::detail::FloatState::write(control); }
-  static std::uint32_t control() { return static_cast<std::uint32_t>(isostep::detail::FloatState::read()) & 0xffc0u; }
-
- private:
-  std::uint32_t before_;
-};
-
-constexpr std::uint32_t kMasks = 0x1f80, kDown = 0x2000, kUp = 0x4000, kTowardsZero = 0x6000, kFlush = 0x8000,
-                        kDenormalsAreZero = 0x40;
-
+#if defined(ISOSTEP_HOSTILE_ENVIRONMENTS)
 /// Numbers enter before the environment turns hostile: what a caller computes in it is the caller's.
 template <class S> struct Script {
   Vec3<S> impulse, point, force, speed;

@@ -37,8 +37,8 @@ done
 # The C++ blocks are the parts of the examples between their marks, less the indentation.
 quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
 shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' hello.cpp \
-  lockstep_game.cpp | sed 's/^  //')
-[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp and lockstep_game.cpp"
+  lockstep_game.cpp cloth.cpp | sed 's/^  //')
+[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp and cloth.cpp"
 
 for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
   [ -e "$repository/$link" ] || fail "links to $link, which does not exist"
