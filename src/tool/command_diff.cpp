@@ -121,12 +121,7 @@ int diff_replays(const Input& a, const Input& b) {
 }
 
 template <class W> void load(W& world, const Input& input) {
-  Reader reader(input.bytes);
-  Result<void> read = world.read_portable(reader);
-  if (read) {
-    reader.expect_end();
-    read = reader.result("snapshot");
-  }
+  const Result<void> read = read_whole(world, input.bytes);
   if (!read) refuse(input.path, VerifyOutcome::corrupt, read.error());
 }
 

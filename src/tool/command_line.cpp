@@ -19,6 +19,10 @@ namespace tool = isostep::tool;
 const std::vector<std::string> kScalars = {"float", "double", "q16.16", "q32.32"};
 constexpr int kMostFrames = 1'000'000'000;
 
+template <std::size_t N> std::vector<std::string> names_in(const char* const (&names)[N]) {
+  return {std::begin(names), std::end(names)};
+}
+
 /// Every command's options, and what to do when it is chosen.
 class CommandLine {
  public:
@@ -69,13 +73,11 @@ class CommandLine {
     command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(10, 1000));
     command->add_option("--substeps", run_.game.substeps, "per step [the scene's]")->check(CLI::Range(1, 64));
     command->add_option("--solver", run_.game.solver, "how contacts are solved [the scene's]")
-        ->check(CLI::IsMember(std::vector<std::string>{"soft_step", "worst_first"}));
+        ->check(CLI::IsMember(names_in(isostep::kParticleSolverNames)));
     command->add_option("--integrator", run_.game.integrator, "how particles are integrated [the scene's]")
-        ->check(CLI::IsMember(
-            std::vector<std::string>(std::begin(isostep::kIntegratorNames), std::end(isostep::kIntegratorNames))));
+        ->check(CLI::IsMember(names_in(isostep::kIntegratorNames)));
     command->add_option("--stepping", run_.game.stepping, "how particles' sub-steps end [the scene's]")
-        ->check(CLI::IsMember(
-            std::vector<std::string>(std::begin(isostep::kSteppingNames), std::end(isostep::kSteppingNames))));
+        ->check(CLI::IsMember(names_in(isostep::kSteppingNames)));
     command->add_option("--threads", run_.threads, "that share the work; never changes a bit")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();

@@ -11,19 +11,14 @@
 #include "particle_watch.hpp"
 #include "run_watch.hpp"
 #include "threads/tbb_runner.hpp"
+#include "worlds.hpp"
 
 namespace isostep::tool {
 namespace {
 
 template <class W> void load_snapshot(W& world, const RunOptions& options) {
   const std::vector<std::uint8_t> bytes = read_file(options.load);
-  Reader reader(bytes);
-  Result<void> read = world.read_portable(reader);
-  if (read) {
-    reader.expect_end();
-    read = reader.result("snapshot");
-  }
-  if (!read) {
+  if (const Result<void> read = read_whole(world, bytes); !read) {
     throw ToolError(exit_status::kUsage, options.load + ": " + std::string(read.error().message.view()) + " (" +
                                              std::string(read.error().place.view()) + ")");
   }

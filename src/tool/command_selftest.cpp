@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "diff_input.hpp"
 #include "games.hpp"
-#include "worlds.hpp"
 
 namespace isostep::tool {
 namespace {
-
-constexpr std::size_t kShown = 8;
 
 template <class Game> class Selftest {
  public:
@@ -48,9 +46,7 @@ template <class Game> class Selftest {
                 hex(world.hash()).c_str(), hex(expected).c_str());
     Game straight(scene_);
     for (int i = 0; i < frame; ++i) straight.advance();
-    DiffReport report(kShown);
-    diff_states(straight.world.state(), world.state(), report);
-    for (const Difference& difference : report.kept()) std::printf("  %s\n", describe(difference).c_str());
+    print_differences(straight.world.state(), world.state());
     return false;
   }
 

@@ -18,39 +18,37 @@ struct StepTimes {
 /// Percentiles by nearest rank; of an even count the median is the lower middle.
 StepTimes summarise(std::vector<double> milliseconds);
 
-struct RunReport {
+/// Of a run of any kind of world.
+struct AnyRunReport {
   std::string scene, scalar, solver, simd;
   int substeps = 0, threads = 1, frames = 0;
   std::uint64_t hash = 0;
   StepTimes ms;
+  double penetration_max = 0;               // [m] at the end
+  double energy_start = 0, energy_end = 0;  // [J] kinetic, of gravity, of springs; of all that forces move
+  std::uint64_t faults = 0;                 // all that the step reports named
+};
+
+struct RunReport : AnyRunReport {
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
-  double penetration_max = 0;                                     // [m] at the end
   double joint_error_max = 0;                                     // [m] over the run
-  double energy_start = 0, energy_end = 0;                        // [J] kinetic and potential, of all dynamic bodies
-  int asleep_at = -1;        // first frame, from 0, that ends with nobody awake; -1: none
-  std::uint64_t faults = 0;  // all that the step reports named
+  int asleep_at = -1;  // first frame, from 0, that ends with nobody awake; -1: none
 
   // For people alone.
   double penetration_mean = 0;  // [m] over pairs closer than 1 cm
   double unrest = 0;            // [J/kg] kinetic energy, mean of the last 60 frames
 };
 
-/// The same of a world of particles.
-struct ParticleRunReport {
-  std::string scene, scalar, solver, integrator, stepping, simd;
-  int substeps = 0, threads = 1, frames = 0;
-  std::uint64_t hash = 0;
-  StepTimes ms;
-  ParticleCounts counts = {};               // at the end
-  double penetration_max = 0;               // [m] at the end
-  double speed_max = 0;                     // [m/s] at the end
-  double link_error_max = 0;                // [m] over the run
-  double energy_start = 0, energy_end = 0;  // [J] kinetic, of gravity, of springs
-  std::uint64_t unresolved = 0;             // rows that worst_first left over, of all steps
-  std::uint64_t faults = 0;                 // all else that the step reports named
+/// Of a world of particles; `faults` is without what is unresolved.
+struct ParticleRunReport : AnyRunReport {
+  std::string integrator, stepping;
+  ParticleCounts counts = {};    // at the end
+  double speed_max = 0;          // [m/s] at the end
+  double link_error_max = 0;     // [m] over the run
+  std::uint64_t unresolved = 0;  // rows that worst_first left over, of all steps
 };
 
-/// One JSON object, exactly the members that README lists.
+/// One JSON object each, its members in a fixed order.
 std::string json_of(const RunReport& report);
 std::string table_of(const RunReport& report);
 std::string json_of(const ParticleRunReport& report);

@@ -35,6 +35,15 @@ template <class S> struct WorldTraits<ParticleWorld<S>> {
 
 template <class W> using StateOf = std::remove_cvref_t<decltype(std::declval<const W&>().state())>;
 
+/// The whole of a portable form, nothing after it.
+template <class W> Result<void> read_whole(W& world, Bytes bytes) {
+  Reader reader(bytes);
+  const Result<void> read = world.read_portable(reader);
+  if (!read) return read;
+  reader.expect_end();
+  return reader.result("snapshot");
+}
+
 template <class W> struct WorldTag { using Type = W; };
 
 /// Calls visit(WorldTag<W>{}) for each world of this build until one call returns true; whether one did.

@@ -17,8 +17,6 @@ template <class S> inline constexpr S kLinkAngle = S(1.5707963267948966);
 template <class S> inline constexpr S kLinkDamping = S(2);
 /// [m/s] at most, with which overlaps are pushed apart.
 template <class V> inline constexpr V kParticlePushSpeed = V(4);
-/// [m/s] slower than this nothing bounces: rest would be a rain of small bounces.
-template <class V> inline constexpr V kLeastBounce = V(0.25);
 }  // namespace detail
 
 /// n.(v_b - v_a) [m/s], below 0 while they close
@@ -126,8 +124,7 @@ template <class S> ISO_INLINE void ParticleEngine<S>::note_work(ParticleConstrai
 template <class S>
 ISO_INLINE Velocity<S> ParticleEngine<S>::most_bounce(const ParticleConstraint<S>& row, V speed, V wanted) const {
   const auto paid = product(speed, speed) - row.work;
-  const V slack = V(16) * (resolution<V>() + round_to<V>(product(resolution<U>(), wanted)));
-  const V least = max(wanted - slack, V(0));
+  const V least = max(wanted - speed_tolerance<S>(wanted), V(0));
   if (product(least, least) <= paid) return wanted;
   V low = V(0), part = wanted * V(0.5);
   for (int i = 0; i < 12; ++i, part = part * V(0.5)) {
@@ -140,7 +137,7 @@ ISO_INLINE Velocity<S> ParticleEngine<S>::most_bounce(const ParticleConstraint<S
 /// What came fast goes back as its restitution says, once, after the step.
 template <class S> void ParticleEngine<S>::restitute() {
   for (ParticleConstraint<S>& row : rows_) {
-    if (!(S(0) < row.restitution) || !(V(0) < row.impulse_seen) || !(row.approach < -detail::kLeastBounce<V>)) continue;
+    if (!(S(0) < row.restitution) || !(V(0) < row.impulse_seen) || !(row.approach < -kLeastBounce<S>)) continue;
     const V speed = separating_speed(row);
     const V wanted = most_bounce(row, speed, -round_to<V>(product(row.approach, row.restitution)));
     const V change = max(saturating_subtract(wanted, speed), -row.impulse);

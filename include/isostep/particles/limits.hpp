@@ -58,6 +58,16 @@ template <> struct ParticleLimits<double> {
   static ISO_INLINE constexpr double mass() { return 0x1p60; }
 };
 
+/// [m/s] Slower than this nothing bounces (Millington, p. 358): rest would be a rain of small bounces.
+template <class S> inline constexpr Velocity<S> kLeastBounce = Velocity<S>(0.25);
+
+/// What rounding alone may leave of a speed [m/s]: a resolved row is within 4 units of Velocity<S> of its aim by the
+/// roundings of two particles, three axes and the normal; for float, units of what was added.
+template <class S> ISO_INLINE constexpr Velocity<S> speed_tolerance(Velocity<S> fastest) {
+  using V = Velocity<S>;
+  return V(16) * (resolution<V>() + round_to<V>(product(resolution<Unit<S>>(), fastest)));
+}
+
 /// [m/s] and [m], of a component: beyond these nothing goes while a step lasts, whatever forces and impulses ask for.
 template <class S> ISO_INLINE constexpr Velocity<S> passing_speed() {
   const Velocity<S> speed = convert<Velocity<S>>(ParticleLimits<S>::speed());

@@ -3,33 +3,12 @@
 #pragma once
 
 #include "isostep/particles/stiff_spring.hpp"
+#include "isostep/scalar/finer.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
 
 namespace detail {
-/// A scalar with room for both a stiffness and the angle of a step. 32-bit formats borrow Q32.32.
-template <class S> struct FinerOf { using Type = S; };
-template <int F, Overflow P> struct FinerOf<Fixed<std::int32_t, F, P>> { using Type = Fixed<std::int64_t, 32, P>; };
-template <class S> using Finer = typename FinerOf<S>::Type;
-
-/// Exact.
-template <class S> ISO_INLINE Finer<S> finer(S a) { return a; }
-template <int F, Overflow P> ISO_INLINE Fixed<std::int64_t, 32, P> finer(Fixed<std::int32_t, F, P> a) {
-  return Fixed<std::int64_t, 32, P>::from_raw(std::int64_t{a.raw()} << (32 - F));
-}
-/// To nearest, in a format of half the width whose numbers have as many whole bits.
-template <class Out, class In> ISO_INLINE Out coarser(In a) {
-  if constexpr (std::same_as<Out, In>) {
-    return a;
-  } else {
-    constexpr int kDrop = In::kFracBits - Out::kFracBits;
-    const std::int64_t raw = (a.raw() + (std::int64_t{1} << (kDrop - 1))) >> kDrop;
-    constexpr std::int64_t kMost = Out::highest().raw();
-    return Out::from_raw(static_cast<typename Out::Raw>(raw > kMost ? kMost : raw < -kMost ? -kMost : raw));
-  }
-}
-
 /// sin(theta) / theta and cos(theta) for theta^2 = q, |q| <= 1/64; hyperbolic for q < 0. What is left out is below
 /// 2^-60.
 template <class S> struct NearZero { S sinc, cos; };
@@ -76,18 +55,13 @@ template <class S> ISO_INLINE OscillatorStep<S> oscillator_of(S kappa, S delta) 
 }  // namespace detail
 
 template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate) {
-  using F = detail::Finer<S>;
-  F mass_inverse;
-  if constexpr (std::same_as<S, InverseMass<S>>) mass_inverse = w;
-  else if constexpr (sizeof(typename S::Raw) == 8) mass_inverse = convert<S>(w);
-  else mass_inverse = detail::finer(w);
-  const F fine_rate = detail::finer(rate);
-  const F kappa = saturate_to<F>(product(detail::finer(stiffness), mass_inverse)) / fine_rate / fine_rate;
-  const F delta = saturate_to<F>(product(detail::finer(damping), mass_inverse)) / (fine_rate + fine_rate);
+  using F = Finer<S>;
+  const F mass_inverse = finer<F>(w), fine_rate = finer<F>(rate);
+  const F kappa = saturate_to<F>(product(finer<F>(stiffness), mass_inverse)) / fine_rate / fine_rate;
+  const F delta = saturate_to<F>(product(finer<F>(damping), mass_inverse)) / (fine_rate + fine_rate);
   const OscillatorStep<F> step = detail::oscillator_of(kappa, min(delta, F(1024)));
   const F vd = saturate_to<F>(product(step.vd, fine_rate));
-  return {detail::coarser<Unit<S>>(step.dd), detail::coarser<Unit<S>>(step.dv), detail::coarser<Unit<S>>(step.vv),
-          detail::coarser<S>(vd)};
+  return {coarser<Unit<S>>(step.dd), coarser<Unit<S>>(step.dv), coarser<Unit<S>>(step.vv), coarser<S>(vd)};
 }
 
 }  // namespace isostep

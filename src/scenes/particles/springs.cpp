@@ -98,6 +98,12 @@ template <class IdType, class Slots> IdType any(const Slots& slots, std::uint32_
   return slots.template id_of<IdType>(slot);
 }
 
+template <class S, class IdType, class Change> void edit(ParticleWorld<S>& world, IdType id, const Change& change) {
+  auto record = *world.find(id);
+  change(record);
+  world.set(id, record);
+}
+
 /// One change every twelve steps.
 template <class S> void change_springs(ParticleWorld<S>& world) {
   if (world.tick() % 12 != 6) return;
@@ -106,34 +112,20 @@ template <class S> void change_springs(ParticleWorld<S>& world) {
   const auto spring = any<SpringId>(state.springs.slots(), 3);
   const auto force = any<ForceId>(state.forces.slots(), 1);
   const auto cohesion = any<CohesionId>(state.cohesions.slots(), 0);
+  const auto link = [&] { return any<LinkId>(state.links.slots(), 0); };  // there is none at first
   const auto ground = any<ColliderId>(state.colliders.slots(), 0);
   switch (world.tick() / 12) {
     case 1: world.apply_impulse(particle(10), {S(0), S(1), S(-2)}); break;
     case 2: world.apply_force(particle(11), {S(20), S(0), S(0)}); break;
-    case 3: {
-      Spring<S> stronger = *world.find(spring);
-      stronger.stiffness = S(60);
-      world.set(spring, stronger);
-      break;
-    }
+    case 3: edit(world, spring, [](Spring<S>& stronger) { stronger.stiffness = S(60); }); break;
     case 4: world.remove(any<SpringId>(state.springs.slots(), 1)); break;
     case 5: world.set_gravity({S(1), S(-9), S(0)}); break;
     case 6: world.set_mass(particle(0), S(3)); break;
     case 7: world.set_mass(particle(1), S(2), true); break;
-    case 8: {
-      ParticleForce<S> thinner = *world.find(force);
-      thinner.quadratic_drag = S(0);
-      world.set(force, thinner);
-      break;
-    }
+    case 8: edit(world, force, [](ParticleForce<S>& thinner) { thinner.quadratic_drag = S(0); }); break;
     case 9: world.remove(force); break;
     case 10: world.destroy(particle(7)); break;  // and its spring
-    case 11: {
-      Cohesion<S> weaker = *world.find(cohesion);
-      weaker.attract_force = S(5);
-      world.set(cohesion, weaker);
-      break;
-    }
+    case 11: edit(world, cohesion, [](Cohesion<S>& weaker) { weaker.attract_force = S(5); }); break;
     case 12: {
       ParticleTouch<S> touch{};
       touch.particle = particle(12);
@@ -158,13 +150,7 @@ template <class S> void change_springs(ParticleWorld<S>& world) {
       world.create(guest);
       break;
     }
-    case 15: {
-      const auto id = any<LinkId>(state.links.slots(), 0);
-      Link<S> cable = *world.find(id);
-      cable.type = LinkType::cable;
-      world.set(id, cable);
-      break;
-    }
+    case 15: edit(world, link(), [](Link<S>& rod) { rod.type = LinkType::cable; }); break;
     case 16: world.remove(cohesion); break;
     case 17: {
       const ParticleMaterialId sticky = world.material(particle(13));
@@ -172,13 +158,8 @@ template <class S> void change_springs(ParticleWorld<S>& world) {
       world.remove(sticky);
       break;
     }
-    case 18: {
-      Collider<S> higher = *world.find(ground);
-      higher.offset = S(0.25);
-      world.set(ground, higher);
-      break;
-    }
-    case 19: world.remove(any<LinkId>(state.links.slots(), 0)); break;
+    case 18: edit(world, ground, [](Collider<S>& higher) { higher.offset = S(0.25); }); break;
+    case 19: world.remove(link()); break;
     case 20: world.remove(ground); break;
     default: break;
   }

@@ -32,9 +32,6 @@ template <class S> class WorstFirst {
   using V = Velocity<S>;
 
  public:
-  /// [m/s] What closes slower than this, gravity of the sub-step apart, does not bounce (p. 358).
-  static constexpr V kMicroBounce = V(0.25);
-
   /// As many as the book allows.
   static ISO_INLINE std::uint32_t default_iterations(std::uint32_t count) {
     return count > 0x7fffffffu ? 0xffffffffu : 2u * count;
@@ -86,7 +83,7 @@ template <class S> class WorstFirst {
   ISO_INLINE V separating_speed(const Row& row, Sides sides) const;
   ISO_INLINE V gained_speed(const Row& row, Sides sides) const;
   ISO_INLINE V gap(const Row& row, Sides sides) const;
-  ISO_INLINE V speed_tolerance(const Row& row, Sides sides) const;
+  ISO_INLINE V fastest_of(const Row& row, Sides sides) const;
   ISO_INLINE Vec3<V> friction_change(const Row& row, Sides sides, V speed) const;
   ISO_INLINE void push(const Row& row, Sides sides, Vec3<V> change, Vec3<V> Point::*of, V most);
   ISO_INLINE void hit(Row& row, Sides sides, Vec3<V> change);

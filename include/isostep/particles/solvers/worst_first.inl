@@ -34,11 +34,8 @@ template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::gap(const Row& row, Sid
                         dot_sum(row.normal, points_[sides.a].displacement));
 }
 
-/// What rounding alone may leave of v_s: a resolved row is within 4 units of Velocity<S> of its aim by the roundings of
-/// two particles, three axes and the normal; for float, units of what was added.
-template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::speed_tolerance(const Row& row, Sides sides) const {
-  const V fastest = max(max_abs(points_[sides.a].velocity), max_abs(velocity_of_b(row, sides)));
-  return V(16) * (resolution<V>() + round_to<V>(product(resolution<Unit<S>>(), fastest)));
+template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::fastest_of(const Row& row, Sides sides) const {
+  return max(max_abs(points_[sides.a].velocity), max_abs(velocity_of_b(row, sides)));
 }
 
 /// Friction that would stop what slides, kept within the cone, less the friction that there already is.
@@ -70,7 +67,7 @@ template <class S> void WorstFirst<S>::look(const Row& row, std::uint32_t index)
   if (row.kind == ConstraintKind::contact && row.friction > S(0) && row.impulse > V(0)) {
     motion = min(motion, -max_abs(friction_change(row, sides, speed)));
   }
-  if (motion < -speed_tolerance(row, sides)) {
+  if (motion < -speed_tolerance<S>(fastest_of(row, sides))) {
     urgency = {Need::motion, motion};
   } else if (separation < -tolerance) {
     urgency = {Need::projection, separation};
@@ -106,7 +103,7 @@ template <class S> void WorstFirst<S>::apply(Row& row, std::uint32_t index) {
   if (rod || speed < V(0)) {
     const V gained = rod ? gained_speed(row, sides) : min(gained_speed(row, sides), V(0));
     const V former = max(saturating_subtract(speed, gained), -highest<V>());
-    const V bounce = rod || former >= -kMicroBounce ? V(0) : -round_to<V>(product(row.restitution, former));
+    const V bounce = rod || former >= -kLeastBounce<S> ? V(0) : -round_to<V>(product(row.restitution, former));
     const V impulse = saturating_subtract(bounce, speed);
     hit(row, sides, row.normal * impulse);
     push(row, sides, row.normal * (rod ? -gained : -max(gained, speed)), &Point::gained, highest<V>());
