@@ -1,0 +1,205 @@
+// Commands as data: what a tape holds, how it plays, and where a recording of it ends.
+// SPDX-License-Identifier: MIT
+
+#include "determinism/mess.hpp"
+#include "isostep/state/verify.hpp"
+#include "isostep/world/recorder.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class WorldTapes : public ::testing::Test {};
+TYPED_TEST_SUITE(WorldTapes, AllScalars);
+
+TYPED_TEST(WorldTapes, commands_given_as_data_do_what_the_calls_do) {
+  using S = TypeParam;
+  World<S> called(settings<S>()), told(settings<S>());
+  const auto both = [&](const Command<S>& command, auto&& call) {
+    const bool a = static_cast<bool>(call(called)), b = told.apply(command);
+    EXPECT_EQ(a, b) << command.index();
+    EXPECT_EQ(called.fault(), told.fault());
+    EXPECT_EQ(called.hash(), told.hash()) << command.index();
+    return a;
+  };
+  const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
+  EXPECT_TRUE(both(AddShape<S>{{ball}}, [&](auto& w) { return w.add_shape(std::span<const Child<S>>(&ball, 1)); }));
+  EXPECT_TRUE(both(AddShape<S>{{ball, ball}}, [&](auto& w) {
+    const Child<S> two[] = {ball, ball};
+    return w.add_shape(std::span<const Child<S>>(two));
+  }));
+  const ShapeId shape = {0, 1};
+  const BodyDefinition<S> d = moving<S>(shape, {0, 2, 0}, {1, 0, 0}), e = moving<S>(shape, {0, 4, 0});
+  EXPECT_TRUE(both(CreateBody<S>{d}, [&](auto& w) { return w.create(d); }));
+  EXPECT_TRUE(both(CreateBody<S>{e}, [&](auto& w) { return w.create(e); }));
+  const BodyId a = called.bodies()[0], b = called.bodies()[1];
+  EXPECT_TRUE(both(RemoveShape{{1, 1}}, [](auto& w) { return w.remove_shape({1, 1}); }));
+  EXPECT_FALSE(both(RemoveShape{shape}, [&](auto& w) { return w.remove_shape(shape); }));
+  EXPECT_TRUE(both(WakeBody{a}, [&](auto& w) { return w.wake(a); }));
+  const Pose<S> pose = {vec<S>(1, 2, 3), turn<S>({0, 1, 0}, 1)};
+  EXPECT_TRUE(both(SetPose<S>{a, pose}, [&](auto& w) { return w.set_pose(a, pose); }));
+  const Vec3<S> v = vec<S>(1, -2, 3), u = vec<S>(0.5, 0.25, -1);
+  EXPECT_TRUE(both(SetVelocity<S>{a, v, u}, [&](auto& w) { return w.set_velocity(a, v, u); }));
+  EXPECT_TRUE(both(ApplyForce<S>{a, v, u}, [&](auto& w) { return w.apply_force(a, v, u); }));
+  EXPECT_TRUE(both(ApplyImpulse<S>{a, v, u}, [&](auto& w) { return w.apply_impulse(a, v, u); }));
+  Material<S> material;
+  material.friction = num<S>(0.25);
+  EXPECT_TRUE(both(SetMaterial<S>{a, material}, [&](auto& w) { return w.set_material(a, material); }));
+  EXPECT_TRUE(both(SetFilter{a, {2, 3, 4}}, [&](auto& w) { return w.set_filter(a, {2, 3, 4}); }));
+  EXPECT_TRUE(both(SetMotion<S>{a, S(1), S(1), S(2), body_flag::kLockX},
+                   [&](auto& w) { return w.set_motion(a, S(1), S(1), S(2), body_flag::kLockX); }));
+  EXPECT_TRUE(both(SetUserData{a, 9}, [&](auto& w) { return w.set_user_data(a, 9); }));
+  EXPECT_TRUE(both(SetGravity<S>{u}, [&](auto& w) { return w.set_gravity(u); }));
+  JointProperties<S> joint = called.joint_at(JointType::ball, a, b, pose);
+  EXPECT_TRUE(both(CreateJoint<S>{joint}, [&](auto& w) { return w.create(joint); }));
+  joint.user_data = 3;
+  EXPECT_TRUE(both(SetJoint<S>{{0, 1}, joint}, [&](auto& w) { return w.set_joint({0, 1}, joint); }));
+  called.step();
+  told.step();
+  EXPECT_TRUE(both(DestroyJoint{{0, 1}}, [](auto& w) { return w.destroy(JointId{0, 1}); }));
+  EXPECT_TRUE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
+  EXPECT_FALSE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
+  static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
+}
+
+TYPED_TEST(WorldTapes, a_recording_ends_where_the_world_is_loaded) {
+  using S = TypeParam;
+  World<S> w;
+  add_ground(w);
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  typename World<S>::Snapshot snapshot;
+  w.save(snapshot);
+  w.step();
+  EXPECT_TRUE(recorder.end_frame().ok());
+  w.load(snapshot);
+  w.step();
+  EXPECT_FALSE(recorder.end_frame().ok());
+}
+
+TYPED_TEST(WorldTapes, a_tape_that_is_damaged_is_refused) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> tape;
+  w.record_to(&tape);
+  const ShapeId ball = add_ball(w, 0.5);
+  const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
+  w.destroy(id);
+  w.step();
+  for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 2}) {
+    World<S> other(settings<S>());
+    EXPECT_FALSE(other.step_recorded({tape.data(), cut}).ok()) << cut;
+    EXPECT_EQ(other.tick(), 0u);
+  }
+  World<S> other(settings<S>());
+  const std::uint8_t unknown[] = {200};
+  EXPECT_FALSE(other.step_recorded(unknown).ok());
+  EXPECT_TRUE(other.step_recorded(tape).ok());
+  EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 10, 10}).ok()) << "the body is gone: a refused command";
+}
+
+TYPED_TEST(WorldTapes, a_tape_is_numbers_of_commands_their_fields_and_markers) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> tape, expected;
+  w.record_to(&tape);
+  const Child<S> parts[] = {{primitive_of(Sphere<S>{S(0.5)}), Pose<S>::identity()},
+                            {primitive_of(Box<S>{{S(1), S(2), S(3)}}), Pose<S>::identity()}};
+  const ShapeId shape = w.add_shape(parts);
+  w.step();
+  w.set_gravity(vec<S>(1, 2, 3));
+  w.remove_shape(shape);
+  Writer writer(expected);
+  writer.write(std::uint8_t{0});
+  writer.write(std::uint32_t{2});
+  for (const Child<S>& part : parts) writer.write(part);
+  writer.write(std::uint8_t{0xff});
+  writer.write(std::uint8_t{13});
+  for (const int i : {1, 2, 3}) writer.write(S(i));
+  writer.write(std::uint8_t{1});
+  writer.write(shape.slot);
+  writer.write(shape.generation);
+  EXPECT_EQ(tape, expected);
+}
+
+TYPED_TEST(WorldTapes, a_tape_keeps_the_place_of_the_step_among_the_commands) {
+  using S = TypeParam;
+  World<S> w(settings<S>()), other(settings<S>());
+  std::vector<std::uint8_t> tape;
+  w.record_to(&tape);
+  const ShapeId ball = add_ball(w, 0.5);
+  const BodyId a = w.create(moving<S>(ball, {0, 5, 0}));
+  w.step();
+  w.set_velocity(a, vec<S>(0, 3, 0), vec<S>(0, 0, 0));
+  w.create(moving<S>(ball, {4, 5, 0}));
+  ASSERT_TRUE(other.step_recorded(tape).ok());
+  EXPECT_EQ(other.hash(), w.hash());
+  EXPECT_EQ(to_double(other.velocity(a).y), 3);
+  EXPECT_EQ(other.tick(), 1u);
+}
+
+TYPED_TEST(WorldTapes, a_tape_plays_any_number_of_steps_up_to_the_cap) {
+  using S = TypeParam;
+  for (const std::uint32_t steps : {0u, 1u, 2u, kFrameStepCap, kFrameStepCap + 1}) {
+    World<S> w(settings<S>()), other(settings<S>());
+    std::vector<std::uint8_t> tape;
+    w.record_to(&tape);
+    const BodyId ball = w.create(moving<S>(add_ball(w, 0.5), {0, 5, 0}));
+    for (std::uint32_t i = 0; i < steps; ++i) {
+      w.step();
+      w.apply_impulse(ball, vec<S>(0.5, 0, 0));
+    }
+    const Result<void> played = other.step_recorded(tape);
+    EXPECT_EQ(other.tick(), std::min(steps, kFrameStepCap));
+    if (steps <= kFrameStepCap) {
+      EXPECT_TRUE(played.ok()) << steps;
+      EXPECT_EQ(other.hash(), w.hash()) << steps;
+    } else {
+      EXPECT_EQ(played.error().code, ErrorCode::limit);
+      EXPECT_EQ(played.error().message.view(), kTooManySteps);
+    }
+  }
+  World<S> still(settings<S>());
+  const std::uint64_t before = still.hash();
+  EXPECT_TRUE(still.step_recorded({}).ok());
+  EXPECT_EQ(still.hash(), before);
+}
+
+TYPED_TEST(WorldTapes, a_recording_takes_pauses_and_several_steps_and_verifies) {
+  using S = TypeParam;
+  World<S> w;
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  const BodyId ball = w.create(moving<S>(add_ball(w, 0.5), {0, 5, 0}));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  for (const std::uint32_t steps : {0u, 1u, 2u, 0u, kFrameStepCap}) {
+    w.apply_impulse(ball, vec<S>(0.25, 0, 0));
+    for (std::uint32_t i = 0; i < steps; ++i) w.step();
+    ASSERT_TRUE(recorder.end_frame().ok()) << steps;
+  }
+  ASSERT_TRUE(recorder.finish().ok());
+  const ReplayReader replay(file);
+  World<S> again;
+  const VerifyResult result = verify(replay, again, SameHeader{replay.header()});
+  EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
+  EXPECT_EQ(result.frames, 5u);
+  EXPECT_EQ(again.tick(), 3u + kFrameStepCap);
+}
+
+TYPED_TEST(WorldTapes, a_recording_ends_before_a_frame_of_more_steps_than_the_cap) {
+  using S = TypeParam;
+  World<S> w;
+  std::vector<std::uint8_t> file;
+  WorldRecorder<S> recorder(w, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a test").ok());
+  w.step();
+  ASSERT_TRUE(recorder.end_frame().ok());
+  for (std::uint32_t i = 0; i <= kFrameStepCap; ++i) w.step();
+  EXPECT_EQ(recorder.end_frame().error().message.view(), kTooManySteps);
+  EXPECT_FALSE(recorder.end_frame().ok());
+  ASSERT_TRUE(recorder.finish().ok());
+  EXPECT_EQ(ReplayReader(file).frame_count(), 1u);
+}
+
+}  // namespace
+}  // namespace isostep::test
