@@ -78,6 +78,7 @@ Index nth_of(const Pattern& blocks, Index column, Index row) {
 /// Where the three columns of a block begin among the matrix's values.
 struct Place {
   Index column[3];
+  bool turned = false;  // a pair's block (second, first) is there
 };
 
 }  // namespace
@@ -89,6 +90,9 @@ template <class N> struct SparseCholesky<N>::Parts {
   bool analysed = false;
   std::vector<Index> place;                                                           // of each vector
   Matrix matrix;                                                                      // A's upper half
+  Matrix reduced;                                                                     // A with unknowns held
+  bool has_reduced = false, is_reduced = false;                                       // has A's pattern; is factorised
+  std::vector<std::uint8_t> held;                                                     // of each of its rows
   std::vector<Place> diagonal, pairs;                                                 // in it
   Eigen::SimplicialLLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<Index>> factors;  // we have put it in order
   Column right, answer, given, sum;
@@ -113,7 +117,26 @@ template <class N> struct SparseCholesky<N>::Parts {
       }
     }
     matrix.outerIndexPtr()[3 * size] = filled;
+    has_reduced = is_reduced = false;
   }
+  /// matrix, but for the unknowns that are held.
+  void reduce(const std::vector<std::uint8_t>& which) {
+    if (!has_reduced) reduced = matrix;
+    has_reduced = true;
+    held.resize(3 * place.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      for (Index c = 0; c < 3; ++c) held[static_cast<std::size_t>(3 * place[i] + c)] = which[i] >> c & 1;
+    }
+    for (Index j = 0; j < static_cast<Index>(matrix.cols()); ++j) {
+      const bool column = held[static_cast<std::size_t>(j)] != 0;
+      for (Index k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k) {
+        const Index i = matrix.innerIndexPtr()[k];
+        const bool out = column || held[static_cast<std::size_t>(i)] != 0;
+        reduced.valuePtr()[k] = !out ? matrix.valuePtr()[k] : i == j ? N(1) : N(0);
+      }
+    }
+  }
+  const Matrix& factorised() const { return is_reduced ? reduced : matrix; }
   ISO_INLINE void to_column(const std::vector<Vec3<N>>& vectors) {
     right.resize(static_cast<Index>(3 * vectors.size()));
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -218,7 +241,7 @@ bool solve_with(Parts& parts, const std::vector<Vec3<Entry>>& b, int b_exponent,
     for (Index i = 0; i < n; ++i) sum[i] += entry(shifted(Int128(parts.answer[i].raw()), exponent - e));
     if (pass > 0 && size - exponent <= kDone) break;
     if (pass == kPasses - 1 && size - exponent > kBad) return false;
-    residual(parts.matrix, exact, sum, rest);
+    residual(parts.factorised(), exact, sum, rest);
     int most = 0;
     for (const Int128 r : rest) most = bits(r) > most ? bits(r) : most;
     if (most == 0) break;
@@ -259,6 +282,7 @@ template <class N> void SparseCholesky<N>::analyse(std::uint32_t size, const std
   for (const Pair& pair : pairs) {
     const Index i = parts.place[pair.first], j = parts.place[pair.second];
     parts.pairs.push_back(parts.place_of(blocks, i < j ? i : j, i < j ? j : i));
+    parts.pairs.back().turned = j < i;
   }
   clear();
   parts.factors.analyzePattern(parts.matrix);
@@ -289,7 +313,23 @@ template <class N> void SparseCholesky<N>::add_pair(std::uint32_t pair, const Sy
   }
 }
 
+template <class N> void SparseCholesky<N>::add_pair(std::uint32_t pair, const GeneralBlock<N>& block) {
+  N* const values = parts_->matrix.valuePtr();
+  const Place& place = parts_->pairs[pair];
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) values[place.column[c] + r] += place.turned ? block.rows[c][r] : block.rows[r][c];
+  }
+}
+
+template <class N> bool SparseCholesky<N>::factorise(const std::vector<std::uint8_t>& held) {
+  parts_->reduce(held);
+  parts_->is_reduced = true;
+  parts_->factors.factorize(parts_->reduced);
+  return parts_->factors.info() == Eigen::Success;
+}
+
 template <class N> bool SparseCholesky<N>::factorise() {
+  parts_->is_reduced = false;
   parts_->factors.factorize(parts_->matrix);
   return parts_->factors.info() == Eigen::Success;
 }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "determinism/solver_scene.hpp"
 #include "isostep/particles/particle_world.hpp"
 #include "isostep/world/session_recorder.hpp"
 
@@ -88,6 +89,20 @@ TYPED_TEST(Allocation, ASettledPileStepsWithoutAny) {
   const Count count;
   for (int frame = 0; frame < 60; ++frame) this->world_.step();
   EXPECT_EQ(count.so_far(), 0u);
+}
+
+TYPED_TEST(Allocation, AWarmSceneStepsWithoutAnyWhateverItsSolver) {
+  using S = TypeParam;
+  for (std::uint32_t name = 0; name < kSolvers; ++name) {
+    World<S> world(test::solver_settings<S>(static_cast<SolverName>(name)));
+    const test::SolverScene<S> scene(world);
+    for (std::uint64_t frame = 0; frame < 240; ++frame) scene.play(world, frame);
+    EXPECT_GT(world.counts().contacts, 9u);
+    EXPECT_EQ(world.counts().joints, 6u);
+    const Count count;
+    for (std::uint64_t frame = 240; frame < 270; ++frame) scene.play(world, frame);
+    EXPECT_EQ(count.so_far(), 0u) << kSolverNames[name];
+  }
 }
 
 TYPED_TEST(Allocation, AWarmSnapshotIsSavedLoadedAndHashedWithoutAny) {

@@ -14,6 +14,8 @@ namespace isostep {
 
 /// A symmetric block: what springs, and all that acts alike on both ends, add.
 template <class N> struct SymmetricBlock { N xx, xy, xz, yy, yz, zz; };
+/// Any block: what constraints add that share a body.
+template <class N> struct GeneralBlock { N rows[3][3]; };
 
 /// A x = b, of n unknown vectors, for N = LinearSystem<S>::Number.
 /// Source:  the up-looking L L^T of Eigen's SimplicialLLT, vectors ordered by Eigen's approximate minimum degree
@@ -48,8 +50,13 @@ template <class N> class SparseCholesky {
   void add_diagonal(std::uint32_t i, const SymmetricBlock<N>& block);
   /// Adds to both blocks of a pair, numbered as in `analyse`.
   void add_pair(std::uint32_t pair, const SymmetricBlock<N>& block);
+  /// Adds to block (first, second) of a pair, and its transpose to (second, first).
+  void add_pair(std::uint32_t pair, const GeneralBlock<N>& block);
   /// False: A is not positive definite.
   bool factorise();
+  /// Of A with some unknowns held at zero: their rows and columns become the identity's, until A is factorised again.
+  /// Bit c of held[i]: component c of vector i. Where one is held, b has to be zero.
+  bool factorise(const std::vector<std::uint8_t>& held);
   /// x 2^exponent = A^-1 b 2^b_exponent. `loss`: A's eigenvalues are at least 2^-loss.
   /// False: no convergence, or (floating point) an answer that is not finite.
   bool solve(const std::vector<Vec3<N>>& b, int b_exponent, int loss, std::vector<Vec3<N>>& x, int& exponent);

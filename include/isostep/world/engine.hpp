@@ -11,7 +11,7 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
 #include "isostep/dynamics/island.hpp"
-#include "isostep/dynamics/solvers/soft_step.hpp"
+#include "isostep/dynamics/solvers/solvers.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/state.hpp"
@@ -195,7 +195,8 @@ template <class S> class WorldEngine {
   // engine_step.inl
   void begin_events();
   void apply_forces();
-  void prepare_joints();
+  template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
+  void prepare_joints(const SolverBodies<S>& bodies);
   SolverInput<S> solver_input();
   void finalise_bodies();
   void finish_body(std::size_t index);
@@ -223,7 +224,8 @@ template <class S> class WorldEngine {
   Proxies<S> proxies_;
 
   // One step's scratch; drawing and the next step's events read some of it.
-  SoftStep<S> solver_;
+  Solvers<S> solvers_;
+  const SolverBodies<S>* solved_ = nullptr;  // of this step's solver
   std::vector<Acceleration<S>> accelerations_;
   std::vector<Pose<S>> start_poses_;         // of the centres of bodies awake when the step began
   std::vector<std::uint32_t> start_slots_;   // of those bodies, ascending; drawing asks for them after the step

@@ -200,6 +200,9 @@ template <class S> S WorldEngine<S>::joint_error(JointId joint) const {
   const Vec3<S> apart = b.position - a.position;
   const S length = direction_of(apart.x, apart.y, apart.z).length;
   if (properties->type != JointType::distance) return length;
+  const bool springs_alone =
+      (properties->flags & joint_flag::kSpring) != 0 && (properties->flags & joint_flag::kLimit) == 0;
+  if (springs_alone) return S(0);
   return max(S(0), max(length - properties->upper, properties->lower - length));
 }
 

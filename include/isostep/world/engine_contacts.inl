@@ -112,7 +112,7 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
 
 /// What contacts first..end-1 gave over the step along their normals [kg m/s].
 template <class S> S WorldEngine<S>::pressing(std::size_t first, std::size_t end) const {
-  const SolverBodies<S>& bodies = solver_.bodies();
+  const SolverBodies<S>& bodies = *solved_;
   auto total = SumOf<S, Velocity<S>>{};
   for (std::size_t i = first; i < end; ++i) {
     const S mass_a = bodies.mass[geometry_[i].row_a].mass, mass_b = bodies.mass[geometry_[i].row_b].mass;

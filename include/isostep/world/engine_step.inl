@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/solvers/soft_step.inl"
+#include "isostep/dynamics/solvers/solvers.inl"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
@@ -24,29 +24,8 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::apply_forces);
   update_manifolds();
   after(Stage::update_manifolds);
-  const SolverInput<S> input = solver_input();
-  solver_.gather_bodies(input);
-  prepare_joints();
-  solver_.colour_constraints(input, *kernels_);
-  after(Stage::colour_constraints);
-  // Where nobody looks in between, these stages are given to the threads as one: to wake them costs time.
   const bool watched = observer.after != nullptr || trace_ != nullptr;
-  const auto after_solving = [&](Stage stage) {
-    if (!watched) return;
-    solver_.run(input);
-    after(stage);
-  };
-  solver_.prepare();
-  after_solving(Stage::prepare);
-  solver_.solve_substeps(input, *tree_kernels_);
-  after_solving(Stage::solve_substeps);
-  solver_.restitute(input);
-  after_solving(Stage::restitution);
-  solver_.store_impulses();
-  solver_.run(input);
-  for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
-    store_joint(joint_constraints_[i], state_.joints.states[i]);
-  after(Stage::store_impulses);
+  with_solver(solvers_, state_.settings.solver, [&](auto& solver) { solve(solver, after, watched); });
   finalise_bodies();
   after(Stage::finalise_bodies);
   update_sensors();
@@ -58,6 +37,35 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   ++state_.tick;
   woke_reported_ = events_.woke.size();
   return report_;
+}
+
+/// From colour_constraints to store_impulses. Where nobody looks in between, stages are given to the threads as one: to
+/// wake them costs time.
+template <class S>
+template <class Solver, class After>
+void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
+  const SolverInput<S> input = solver_input();
+  solver.gather_bodies(input);
+  solved_ = &solver.bodies();
+  prepare_joints(*solved_);
+  solver.colour_constraints(input);
+  after(Stage::colour_constraints);
+  const auto after_solving = [&](Stage stage) {
+    if (!watched) return;
+    solver.run(input);
+    after(stage);
+  };
+  solver.prepare(input);
+  after_solving(Stage::prepare);
+  solver.solve_substeps(input);
+  after_solving(Stage::solve_substeps);
+  solver.restitute(input);
+  after_solving(Stage::restitution);
+  solver.store_impulses(input);
+  solver.run(input);
+  for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
+    store_joint(joint_constraints_[i], state_.joints.states[i]);
+  after(Stage::store_impulses);
 }
 
 /// What commands woke since the last step belongs to this one.
@@ -82,12 +90,12 @@ template <class S> void WorldEngine<S>::apply_forces() {
   state_.forces.clear();
 }
 
-template <class S> void WorldEngine<S>::prepare_joints() {
+template <class S> void WorldEngine<S>::prepare_joints(const SolverBodies<S>& bodies) {
   for (std::size_t i = 0; i < joint_constraints_.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
     const JointEnd<S> a = {row_of(joint.body_a), centre_pose_at(joint.body_a)};
     const JointEnd<S> b = {row_of(joint.body_b), centre_pose_at(joint.body_b)};
-    prepare_joint(joint, state_.joints.states[i], a, b, solver_.bodies(), joint_constraints_[i]);
+    prepare_joint(joint, state_.joints.states[i], a, b, bodies, joint_constraints_[i]);
   }
 }
 
@@ -104,7 +112,9 @@ template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
           state_.settings.gravity,
           state_.settings.hz,
           state_.settings.substeps,
-          runner_};
+          runner_,
+          kernels_,
+          tree_kernels_};
 }
 
 template <class S> void WorldEngine<S>::finalise_bodies() {
@@ -149,7 +159,7 @@ template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
     ++report_.stopped;
   }
   const V speed = convert<V>(Limits<S>::speed());
-  const V spin = spin_limit<S>(state_.settings.hz * state_.settings.substeps);
+  const V spin = spin_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
   const auto bounded = [](Vec3<V> v, V limit) {
     return Vec3<V>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
   };

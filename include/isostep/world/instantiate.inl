@@ -11,6 +11,8 @@
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
+#include "isostep/dynamics/solvers/direct.inl"
+#include "isostep/dynamics/solvers/worst_first.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/particles/instantiate.inl"
@@ -60,6 +62,8 @@
     return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;                             \
   }                                                                                                                   \
   template class JointTrees<OwnScalar>;                                                                               \
+  template class WorstFirstResolver<OwnScalar>;                                                                       \
+  template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
   template class World<OwnScalar>;                                                                                    \
   }

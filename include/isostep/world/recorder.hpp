@@ -22,7 +22,8 @@ template <class S> ISO_INLINE std::uint64_t settings_digest(const Settings<S>& s
 }
 
 ISO_INLINE const char* solver_name(SolverName solver) {
-  return solver == SolverName::soft_step ? "soft_step" : "unknown";
+  const auto index = static_cast<std::uint32_t>(solver);
+  return index < kSolvers ? kSolverNames[index] : "unknown";
 }
 
 /// What must be equal where a recording of such a world is replayed. `scene` is kept by reference.

@@ -5,11 +5,10 @@
 #include <cstdint>
 
 #include "isostep/core/fields.hpp"
+#include "isostep/dynamics/solvers/solver_name.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
-
-enum class SolverName : std::uint32_t { soft_step };
 
 /// Sub-steps a second that every scalar can count and divide by: Q16.16 ends at 32767, and solvers multiply the rate by
 /// angles below two.
@@ -18,7 +17,7 @@ inline constexpr std::int32_t kMaxRate = 16384;
 /// Rates are whole numbers, so that the time step is exact and the same everywhere.
 template <class S> struct Settings {
   std::int32_t hz = 60;                    // [1/s] steps, 10..1000
-  std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate
+  std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate; of pgs: passes
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
   bool allow_sleep = true;
   SolverName solver = SolverName::soft_step;

@@ -19,7 +19,8 @@ template <class S> class StateValidator {
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
     if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
-        !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) || s.solver != SolverName::soft_step) {
+        !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
+        static_cast<std::uint32_t>(s.solver) >= kSolvers) {
       return "settings out of range";
     }
     set_of_body_.assign(state_.body_slots.entries().size(), kNowhere);

@@ -30,12 +30,14 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
   Settings<S>& s = state_.settings;
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
+  if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
   const S limit = Limits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];
     s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
   }
-  if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity))
+  if (s.hz != settings.hz || s.substeps != settings.substeps || s.solver != settings.solver ||
+      !(s.gravity == settings.gravity))
     fault_ = Fault::out_of_range;
 }
 

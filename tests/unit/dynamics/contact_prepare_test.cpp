@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -58,6 +59,8 @@ template <class S> struct Blocks {
   }
 };
 
+constexpr double kLift = 0.25, kMostLift = 1.0 / 64;  // [1], [m]
+
 /// Bodies, contacts and the geometry between them.
 template <class S> struct Scene {
   using V = Velocity<S>;
@@ -75,7 +78,7 @@ template <class S> struct Scene {
     Blocks<S> blocks(kernels, contacts.size(), points, rolling);
     kernels.prepare({blocks.memory.data(), blocks.bodies.data(), static_cast<std::int32_t>(contacts.size()), points,
                      rolling, order.data(), contacts.data(), geometry.data(), bodies.velocity.data(),
-                     bodies.mass.data()});
+                     bodies.mass.data(), S(kLift), S(kMostLift)});
     return blocks;
   }
 };
@@ -300,6 +303,19 @@ TYPED_TEST(ContactPrepare, ABallsMassesAgreeWithClosedForms) {
     expect(block.rolling.rows[0].jacobian_b[0][0], 0);
     expect(block.rolling.rows[0].jacobian_b[1][0], 0);
     expect(block.rolling.rows[0].jacobian_b[2][0], -1);
+  }
+}
+
+TYPED_TEST(ContactPrepare, AnOverlapCountsAsDeeperByItsLiftWithinTheBoundAndAGapAsItIs) {
+  using S = TypeParam;
+  const double near = sizeof(S) == 4 ? 2e-5 : 1e-8;
+  Scene<S> scene = ball_scene<S>(false);
+  for (const double separation : {0.25, 0.0, -1.0 / 32, -1.0 / 16, -0.5}) {
+    scene.geometry[0].points[0].separation = from_double<S>(separation);
+    const Blocks<S> blocks = scene.prepare(*contact_kernels<S>(Simd::scalar), 1, true);
+    const auto& block = *reinterpret_cast<const RollingBlock<S, 1, 1>*>(blocks.memory.data());
+    const double lift = separation < 0 ? std::min(-kLift * separation, kMostLift) : 0;
+    EXPECT_NEAR(to_double(block.contact.normals[0].separation[0]), separation - lift, near);
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace isostep {
 namespace {
@@ -91,6 +93,55 @@ TYPED_TEST(SparseCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   EXPECT_FALSE(this->cholesky_.factorise());
   this->cholesky_.clear();
   EXPECT_FALSE(this->cholesky_.factorise());
+}
+
+/// Three vectors in a ring with blocks that are not symmetric, and some components held; against dense elimination.
+TYPED_TEST(SparseCholeskyOf, GeneralBlocksAndHeldUnknownsAgreeWithEigen) {
+  using Number = typename TestFixture::Number;
+  std::mt19937 random(5);
+  const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+  for (int trial = 0; trial < 50; ++trial) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(9, 9);
+    this->cholesky_.analyse(3, {{0, 1}, {2, 1}, {2, 0}});
+    const int pairs[3][2] = {{0, 1}, {2, 1}, {2, 0}};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      this->cholesky_.add_diagonal(i, this->diagonal(0.875));
+      for (int c = 0; c < 3; ++c) a(static_cast<int>(3 * i) + c, static_cast<int>(3 * i) + c) = 0.875;
+      GeneralBlock<Number> block;
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+          const double entry = 0.125 * draw();
+          block.rows[r][c] = this->number(entry);
+          a(3 * pairs[i][0] + r, 3 * pairs[i][1] + c) = a(3 * pairs[i][1] + c, 3 * pairs[i][0] + r) = entry;
+        }
+      }
+      this->cholesky_.add_pair(i, block);
+    }
+    std::vector<std::uint8_t> held(3);
+    std::vector<Vec3<Number>> b(3), x;
+    Eigen::VectorXd right(9);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      held[i] = trial == 0 ? 0 : static_cast<std::uint8_t>(random() % 8);
+      for (int c = 0; c < 3; ++c) {
+        const int row = static_cast<int>(3 * i) + c;
+        const bool out = (held[i] >> c & 1) != 0;
+        right[row] = out ? 0 : draw();
+        b[i].set(c, this->number(right[row]));
+        if (!out) continue;
+        a.row(row).setZero();
+        a.col(row).setZero();
+        a(row, row) = 1;
+      }
+    }
+    ASSERT_TRUE(this->cholesky_.factorise(held));
+    int exponent = 0;
+    ASSERT_TRUE(this->cholesky_.solve(b, 0, 4, x, exponent));
+    const Eigen::VectorXd wanted = a.ldlt().solve(right);
+    for (int row = 0; row < 9; ++row) {
+      const double scale = kIsFixed<TypeParam> ? std::ldexp(1, exponent) : 1;
+      EXPECT_NEAR(scale * to_double(x[static_cast<std::size_t>(row / 3)][row % 3]), wanted[row], 1e-12) << trial;
+    }
+  }
 }
 
 TYPED_TEST(SparseCholeskyOf, ACopyHasYetToBeAnalysed) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 #include "isostep/dynamics/solver_body.hpp"
@@ -157,5 +158,22 @@ template <class S> void store_joint(const JointConstraint<S>& joint, JointState<
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+
+#define ISO_JOINTS_OF(KEYWORD, S)                                                                             \
+  KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&, \
+                                         const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);    \
+  KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                         \
+  KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                  \
+  KEYWORD template void weigh_drives<S>(JointConstraint<S>&);                                                 \
+  KEYWORD template void apply_impulses<S>(const JointConstraint<S>&, SolverBodies<S>&);                       \
+  KEYWORD template void solve_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
+  KEYWORD template void solve_blocks<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
+  KEYWORD template void solve_joint<S>(JointConstraint<S>&, const JointStep<S>&, bool);                       \
+  KEYWORD template void store_joint<S>(const JointConstraint<S>&, JointState<S>&);                            \
+  KEYWORD template void warm_start_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&);             \
+  KEYWORD template void solve_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&, bool);
+#define ISO_EXTERN_JOINTS(S) ISO_JOINTS_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN_JOINTS)
+#undef ISO_EXTERN_JOINTS
 
 }  // namespace isostep

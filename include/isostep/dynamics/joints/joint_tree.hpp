@@ -13,6 +13,9 @@
 
 namespace isostep {
 
+/// Which joints are solved at once.
+enum class JointOrder : std::uint32_t { trees, one_by_one };
+
 /// Source:  Baraff 1996, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH: a sparse factorisation ordered from
 ///          the leaves of a tree inwards fills nothing. Differs: joints are the unknowns, bodies the couplings.
 /// Why:     one joint after another, fifty links need thousands of passes to feel a weight at their end; here one pass
@@ -33,7 +36,8 @@ namespace isostep {
 template <class S> class JointTrees {
  public:
   /// Once a step, after its joints are prepared. Null for no joint to be solved by kernels.
-  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide);
+  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
+            JointOrder order = JointOrder::trees);
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (rest_.empty() ? 0u : 1u);
   }
@@ -88,7 +92,7 @@ template <class S> class JointTrees {
     unsigned char bytes[64];
   };
 
-  void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint.inl"
+#include "isostep/dynamics/joints/joint_tension.hpp"
 #include "isostep/dynamics/joints/joint_tree_batches.inl"
 
 namespace isostep {
@@ -29,27 +30,6 @@ ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const Joi
     k.rows[r] = {with(j.rows[0]), with(j.rows[1]), with(j.rows[2])};
   }
   return k;
-}
-template <class S> struct Pull {
-  Vec3<Unit<S>> axis;  // along the arm
-  S stiffness;         // [m^2] h^2 f.r / mass
-};
-/// Impulse share_b lambda = f h / mass pulls b's arm outwards.
-template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, bool on_a, Step<S> h) {
-  const JointBlock<S>& block = joint.blocks[0];
-  const Vec3<S> arm = on_a ? joint.arm_a : joint.arm_b;
-  const Vec3<Velocity<S>> f =
-      joint.properties.type == JointType::distance ? scaled(block.rows[0].linear, block.impulse.x) : block.impulse;
-  const S share = on_a ? -joint.share.a : joint.share.b;
-  const S along = share * round_to<S>(dot_sum(arm, f));  // [m^2/s]
-  if (!(along > S(0))) return {Vec3<Unit<S>>::zero(), S(0)};
-  const Direction<S> axis = direction_of(arm.x, arm.y, arm.z);
-  return {{axis.x, axis.y, axis.z}, along * h};
-}
-/// s (1 - n n^T)
-template <class S> ISO_INLINE Mat3<S> across(Vec3<Unit<S>> n, S s) {
-  const S xy = -(s * (n.x * n.y)), xz = -(s * (n.x * n.z)), yz = -(s * (n.y * n.z));
-  return {{{s - s * (n.x * n.x), xy, xz}, {xy, s - s * (n.y * n.y), yz}, {xz, yz, s - s * (n.z * n.z)}}};
 }
 }  // namespace detail
 
@@ -124,24 +104,10 @@ template <class S> void JointTrees<S>::find_taut(std::span<const JointConstraint
   }
 }
 
-/// Source:  Andrews, Teichmann, Kovecses 2017, Geometric Stiffness for Real-time Constrained Multibody Dynamics,
-///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link enters its inertia as an
-///          implicit integrator would have it, and only as far as the sub-step is too long for it.
-/// Symbols: kappa tension = (angular frequency h)^2; explicit steps follow it below 4.
 template <class S> void JointTrees<S>::stiffen(const SolverBodies<S>& bodies) {
   for (const std::uint32_t row : taut_) {
-    const Mat3<S>& kappa = bodies.mass[row].kappa;
-    const Mat3<S> tension = tension_[row];
+    kappa_[row] = detail::stiffened(bodies.mass[row].kappa, tension_[row]);
     tension_[row] = Mat3<S>::diagonal(Vec3<S>::zero());
-    const auto square = [&](int i) { return round_to<S>(dot_sum(kappa.rows[i], tension.rows[i])); };
-    const S stiffness = square(0) + square(1) + square(2);  // twice, for two axes turn
-    if (!(stiffness > S(2) * detail::kTautLimit<S>)) continue;
-    const S largest = max(kappa.rows[0].x, max(kappa.rows[1].y, kappa.rows[2].z));
-    const S unit = S(1) / largest;  // [m^2] brings both inverses near one
-    const S excess = S(1) - S(2) * detail::kTautLimit<S> / stiffness;
-    Mat3<S> inertia = invert_symmetric(scaled_by(kappa, unit), S(0x1p-12));
-    inertia = inertia + scaled_by(scaled_by(tension, largest), excess);
-    kappa_[row] = scaled_by(invert_symmetric(inertia, S(0)), largest);
   }
 }
 

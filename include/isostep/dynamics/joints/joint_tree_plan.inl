@@ -13,14 +13,15 @@ template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>
 }  // namespace detail
 
 template <class S>
-void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide) {
+void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
+                         JointOrder order) {
   nodes_.clear();
   links_.clear();
   loose_.clear();
   rest_.clear();
   batches_.clear();
   if (joints.empty()) return;
-  find_trees(joints, bodies);
+  find_trees(joints, bodies, order);
   if (wide != nullptr) find_plain_trees(joints, bodies);
   list_joints_of_bodies(joints);
   if (wide != nullptr) make_batches(joints, bodies, *wide);
@@ -35,7 +36,8 @@ void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& 
 }
 
 template <class S>
-void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+                               JointOrder order) {
   const std::size_t rows = bodies.mass.size();
   sets_.begin(rows);
   role_.assign(joints.size(), detail::kIdle);
@@ -46,7 +48,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
     const JointConstraint<S>& joint = joints[j];
     if (!joint.holds) continue;
     const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
-    bool fits = joint.block_count > 0;
+    bool fits = joint.block_count > 0 && order == JointOrder::trees;
     for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
       if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
     }

@@ -155,7 +155,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {
     for (NormalRow<S, W>& n : c.normals) {
-      const V separation = V::load(n.separation) + along(c.normal, n.row, da, db);
+      // No deeper than what pushes at full speed anyway: times a high rate it fits.
+      const V separation = max(V::load(n.separation) + along(c.normal, n.row, da, db), V::zero() - pass.max_separation);
       const V gap = times(pass.rate, min(separation, pass.max_separation));
       const V old = V::load(n.row.impulse);
       V change;

@@ -44,6 +44,8 @@ template <class S> struct PrepareRun {
   const ContactGeometry<S>* geometry;
   const MotionRow<Velocity<S>>* velocity;
   const SolverMass<S>* mass;
+  S lift;       // [1] an overlap counts as deeper by this much of itself
+  S most_lift;  // [m] but by no more than this
 };
 
 /// Blocks of one shape whose impulses go back to their contacts.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/knockout_tree.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/constraint.hpp"
 #include "isostep/particles/limits.hpp"
@@ -88,9 +89,16 @@ template <class S> class WorstFirst {
   ISO_INLINE void push(const Row& row, Sides sides, Vec3<V> change, Vec3<V> Point::*of, V most);
   ISO_INLINE void hit(Row& row, Sides sides, Vec3<V> change);
 
-  ISO_INLINE bool before(std::uint32_t i, std::uint32_t j) const;
-  void plant(std::uint32_t count);
-  void replay(std::uint32_t index);
+  /// The more urgent, then the lower index.
+  ISO_INLINE auto before() const {
+    return [this](std::uint32_t i, std::uint32_t j) ISO_INLINE_LAMBDA {
+      const Urgency& a = urgency_[i];
+      const Urgency& b = urgency_[j];
+      if (a.need != b.need) return a.need < b.need;
+      if (a.amount != b.amount) return a.amount < b.amount;
+      return i < j;
+    };
+  }
 
   std::vector<Point> points_;              // the particles of the rows, in order of first mention
   std::vector<std::uint32_t> slots_;       // of points_
@@ -100,8 +108,8 @@ template <class S> class WorstFirst {
   std::vector<std::uint32_t> neighbours_;  // rows that can move a point, ascending
   std::vector<std::uint8_t> touched_;      // by row
   std::vector<Urgency> urgency_;           // by row
-  std::vector<std::uint32_t> winner_;      // a knock-out tree: leaves from count on, the most urgent row at 1
-  std::uint32_t rows_ = 0, iterations_ = 0;
+  KnockoutTree worst_;                     // of urgency_
+  std::uint32_t iterations_ = 0;
   std::uint64_t looks_ = 0;
 };
 

@@ -123,42 +123,13 @@ template <class S> void WorstFirst<S>::apply(Row& row, std::uint32_t index) {
 
 // ---- the most urgent row
 
-template <class S> ISO_INLINE bool WorstFirst<S>::before(std::uint32_t i, std::uint32_t j) const {
-  const Urgency& a = urgency_[i];
-  const Urgency& b = urgency_[j];
-  if (a.need != b.need) return a.need < b.need;
-  if (a.amount != b.amount) return a.amount < b.amount;
-  return i < j;
-}
-
-/// winner_[n] is the more urgent of winner_[2 n] and winner_[2 n + 1]. The answer at 1 depends on the urgencies alone,
-/// not on the order in which they came.
-template <class S> void WorstFirst<S>::plant(std::uint32_t count) {
-  rows_ = count;
-  if (winner_.size() < 2 * std::size_t{count}) winner_.resize(2 * std::size_t{count});
-  for (std::uint32_t i = 0; i < count; ++i) winner_[std::size_t{count} + i] = i;
-  for (std::size_t n = count; --n > 0;) {
-    const std::uint32_t left = winner_[2 * n], right = winner_[2 * n + 1];
-    winner_[n] = before(left, right) ? left : right;
-  }
-}
-
-template <class S> void WorstFirst<S>::replay(std::uint32_t index) {
-  for (std::size_t n = (std::size_t{rows_} + index) / 2; n > 0; n /= 2) {
-    const std::uint32_t left = winner_[2 * n], right = winner_[2 * n + 1];
-    const std::uint32_t best = before(left, right) ? left : right;
-    if (best == winner_[n] && best != index) return;  // it lost here before and loses again
-    winner_[n] = best;
-  }
-}
-
 template <class S> void WorstFirst<S>::look_at_neighbours(const Row* rows, std::uint32_t index, std::uint32_t point) {
   if (point == kNoParticle) return;
   for (std::uint32_t k = first_[point]; k < first_[point + 1]; ++k) {
     const std::uint32_t other = neighbours_[k];
     if (other == index) continue;
     look(rows[other], other);
-    replay(other);
+    worst_.replay(other, before());
   }
 }
 
@@ -176,15 +147,15 @@ std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t 
     touched_[i] = 0;
     look(rows[i], i);
   }
-  plant(count);
+  worst_.plant(count, before());
   const std::uint64_t most = most_looks(count);
   while (iterations_ < max_iterations && looks_ < most) {
-    const std::uint32_t worst = winner_[1];
+    const std::uint32_t worst = worst_.first();
     if (urgency_[worst].need == Need::nothing) break;
     ++iterations_;
     apply(rows[worst], worst);
     look(rows[worst], worst);
-    replay(worst);
+    worst_.replay(worst, before());
     look_at_neighbours(rows, worst, sides_[worst].a);
     look_at_neighbours(rows, worst, sides_[worst].b);
   }

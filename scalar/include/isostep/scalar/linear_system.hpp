@@ -26,6 +26,7 @@ template <std::floating_point S> struct LinearSystem<S> {
   static ISO_INLINE Value value(S x) { return Value(x); }
   static ISO_INLINE Value value(std::int32_t x) { return Value(x); }
   static ISO_INLINE Value value(Number x, int) { return x; }
+  static ISO_INLINE Value product(Value a, Value b) { return a * b; }
   static ISO_INLINE Value quotient(Value a, Value b) { return a / b; }
   static ISO_INLINE Value sum(Value a, Value b) { return a + b; }
   static ISO_INLINE int exponent(Value) { return 0; }
@@ -43,6 +44,10 @@ template <class Rep, int F, Overflow P> struct LinearSystem<Fixed<Rep, F, P>> {
   /// x 2^exponent
   static ISO_INLINE Value value(Number x, int exponent) {
     return detail::normalised(Value{detail::magnitude(x.raw()), exponent - Number::kFracBits, x.raw() < 0});
+  }
+  static ISO_INLINE Value product(Value a, Value b) {
+    const std::uint64_t mantissa = detail::multiply_high(a.mantissa, b.mantissa);
+    return detail::normalised(Value{mantissa, a.exponent + b.exponent + 64, a.negative != b.negative});
   }
   /// For b other than 0.
   static ISO_INLINE Value quotient(Value a, Value b) {

@@ -1,4 +1,4 @@
-// Soft step, the default solver: contacts found once a step, solved over sub-steps as soft constraints, then relaxed.
+// Sequential impulses on SIMD lanes: soft step, the default solver, and projected Gauss-Seidel by another schedule.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,60 +6,31 @@
 #include <span>
 #include <vector>
 
-#include "isostep/core/task_runner.hpp"
-#include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/colouring.hpp"
-#include "isostep/dynamics/contact.hpp"
-#include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/joint_tree.hpp"
-#include "isostep/dynamics/solver_body.hpp"
-#include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/pass_plan.hpp"
-#include "isostep/geometry/limits.hpp"
+#include "isostep/dynamics/solvers/schedule.hpp"
+#include "isostep/dynamics/solvers/solver_input.hpp"
 
 namespace isostep {
 
-/// Acceleration asked for by forces, for this step alone.
-template <class S> struct Acceleration {
-  Vec3<S> linear;   // [m/s^2]
-  Vec3<S> angular;  // [rad/s^2]
-};
-
-/// No body turns by more than a radian about an axis in a sub-step [rad/s]: beyond, a turn is no longer small.
-template <class S> ISO_INLINE constexpr Velocity<S> spin_limit(std::int32_t rate) {
-  return convert<Velocity<S>>(min(Limits<S>::spin(), S(rate)));
-}
-
-/// What the solver is given: awake bodies in order, the contacts between them and their joints in canonical order.
-template <class S> struct SolverInput {
-  std::span<BodyState<S>> states;
-  std::span<const BodyProperties<S>> properties;
-  std::span<const Acceleration<S>> accelerations;  // per body, or empty
-  std::span<Contact<S>> contacts;
-  std::span<const ContactGeometry<S>> geometry;
-  std::span<Velocity<S>> step_impulses;  // [m/s] per contact, of the whole step: filled by store_impulses
-  std::span<JointConstraint<S>> joints;  // prepared
-  Vec3<S> gravity;                       // [m/s^2]
-  std::int32_t hz;                       // [1/s] steps
-  std::int32_t substeps;
-  TaskRunner runner;  // changes no bit
-};
-
-/// Source:  Catto 2024, Solver2D ("Soft Step"); Macklin et al. 2019, Small Steps in Physics Simulation.
-/// Order:   the calls below, once each a step. Those from `prepare` on say what is to be done; `run` does it, and may
-///          be called after each of them or once in the end. Nothing is kept from step to step but memory.
-template <class S> class SoftStep {
+/// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
+/// are solved before them, in trees or one by one. Schedule says the rest.
+/// Order:   that of solver_input.hpp. The calls from `prepare` on say what is to be done; `run` does it.
+template <class S> class Sequential {
  public:
-  void gather_bodies(const SolverInput<S>& input);
-  void colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide);
-  void prepare();
-  void solve_substeps(const SolverInput<S>& input, const TreeKernels<S>& trees);
-  void restitute(const SolverInput<S>& input);
-  void store_impulses();
-  void run(const SolverInput<S>& input);
+  using ScheduleOf = Schedule<S> (*)(const SolverInput<S>&);
+  explicit Sequential(ScheduleOf schedule_of) : schedule_of_(schedule_of) {}
 
-  SolverBodies<S>& bodies() { return bodies_; }
-  const SolverBodies<S>& bodies() const { return bodies_; }
+  void gather_bodies(const SolverInput<S>& input);
+  SolverBodies<S>& bodies() { return bodies_.rows(); }
+  void colour_constraints(const SolverInput<S>& input);
+  void prepare(const SolverInput<S>& input);
+  void solve_substeps(const SolverInput<S>& input);
+  void restitute(const SolverInput<S>& input);
+  void store_impulses(const SolverInput<S>& input);
+  void run(const SolverInput<S>& input);
 
  private:
   /// Consecutive entries of order_ that one kernel solves.
@@ -100,13 +71,13 @@ template <class S> class SoftStep {
   };
   /// What every piece reads.
   struct Job {
-    SoftStep* solver;
+    Sequential* solver;
     const SolverInput<S>& input;
     ContactPass<S> pass;
     JointStep<S> joints;
   };
 
-  // soft_step.inl
+  // sequential.inl
   void add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour, std::uint32_t first,
                std::uint32_t count);
   void plan_passes(const TaskRunner& runner);
@@ -116,19 +87,18 @@ template <class S> class SoftStep {
   void prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
   void store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
 
-  // soft_step_stages.inl
+  // sequential_stages.inl
   void add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces);
   void add_stages(Work work, const PassPlan& plan);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);
   void do_bodies(const Job& job, Work work, std::uint32_t piece);
-  void integrate_velocities(const SolverInput<S>& input, std::size_t first, std::size_t end);
-  void integrate_positions(const SolverInput<S>& input, std::size_t first, std::size_t end);
 
-  SolverBodies<S> bodies_;
+  ScheduleOf schedule_of_;
+  Schedule<S> schedule_ = {};
+  BodyRows<S> bodies_;
   JointTrees<S> joint_trees_;
-  std::vector<Vec3<S>> inertia_;  // [1] principal moments over the largest, where the gyroscopic term acts
   Colouring colouring_;
   std::vector<std::uint32_t> bucket_;  // of each contact: colour * variants + variant
   std::vector<std::uint32_t> bucket_ends_;

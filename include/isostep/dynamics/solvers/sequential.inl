@@ -1,11 +1,11 @@
-// Bodies of soft_step.hpp.
+// Bodies of sequential.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
 
-#include "isostep/dynamics/solvers/soft_step.hpp"
-#include "isostep/dynamics/solvers/soft_step_stages.inl"
+#include "isostep/dynamics/solvers/sequential.hpp"
+#include "isostep/dynamics/solvers/sequential_stages.inl"
 
 namespace isostep {
 namespace detail {
@@ -24,47 +24,14 @@ inline constexpr std::uint32_t kLeastShared = 512;
 
 }  // namespace detail
 
-template <class S> void SoftStep<S>::gather_bodies(const SolverInput<S>& input) {
-  const std::size_t count = input.states.size();
-  bodies_.velocity.resize(count + 1);
-  bodies_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
-  bodies_.mass.resize(count + 1);
-  inertia_.resize(count);
-  bodies_.velocity[0] = MotionRow<Velocity<S>>::zero();
-  bodies_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
-  for (std::size_t i = 0; i < count; ++i) {
-    const BodyState<S>& state = input.states[i];
-    const BodyProperties<S>& body = input.properties[i];
-    bodies_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.spin, Velocity<S>(0)};
-    SolverMass<S>& mass = bodies_.mass[i + 1];
-    if (body.type != BodyType::dynamic) {
-      mass = bodies_.mass[0];
-      continue;
-    }
-    mass.mass = body.mass;
-    if (body.kappa.x == body.kappa.y && body.kappa.y == body.kappa.z) {
-      mass.kappa = Mat3<S>::diagonal(body.kappa);
-    } else {
-      mass.kappa = rotate_diagonal(to_matrix(state.orientation * body.principal), body.kappa);
-      const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
-      const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
-      inertia_[i] = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
-    }
-    if ((body.flags & (7u * body_flag::kLockAngularX)) != 0) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
-        for (int k = 0; k < 3; ++k) {
-          mass.kappa.rows[axis].set(k, S(0));
-          mass.kappa.rows[k].set(axis, S(0));
-        }
-      }
-    }
-  }
+template <class S> void Sequential<S>::gather_bodies(const SolverInput<S>& input) {
+  schedule_ = schedule_of_(input);
+  bodies_.gather(input);
 }
 
 template <class S>
-void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour,
-                          std::uint32_t first, std::uint32_t count) {
+void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour,
+                            std::uint32_t first, std::uint32_t count) {
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const std::uint32_t blocks = (count + width - 1) / width;
   runs_.push_back({&kernels, variant, colour, first, count, block_count_, blocks, memory_bytes_});
@@ -74,10 +41,11 @@ void SoftStep<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t varian
   memory_bytes_ = (memory_bytes_ + 63) / 64 * 64;
 }
 
-template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& input, const ContactKernels<S>& wide) {
+template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& input) {
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
   const std::size_t count = input.contacts.size();
-  colouring_.begin(bodies_.mass.size());
+  const SolverBodies<S>& bodies = bodies_.rows();
+  colouring_.begin(bodies.mass.size());
   bucket_.resize(count);
   order_.resize(count);
   bucket_ends_.assign(kUncolouredBucket + 1, 0);
@@ -92,13 +60,14 @@ template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& in
   };
   for (std::size_t i = 0; i < count; ++i) {
     const ContactGeometry<S>& g = input.geometry[i];
-    const std::uint32_t colour = colouring_.colour(g.row_a, bodies_.moves(g.row_a), g.row_b, bodies_.moves(g.row_b));
+    const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
     bucket_[i] = colour == Colouring::kUncoloured ? kUncolouredBucket : colour * kContactVariants + variant_of(i);
     ++bucket_ends_[bucket_[i]];
   }
   std::uint32_t total = 0;
   for (std::uint32_t b = 0; b < kUncolouredBucket; ++b) {
-    if (bucket_ends_[b] != 0) add_run(wide, b % kContactVariants, b / kContactVariants, total, bucket_ends_[b]);
+    if (bucket_ends_[b] != 0)
+      add_run(*input.contact_kernels, b % kContactVariants, b / kContactVariants, total, bucket_ends_[b]);
     total += bucket_ends_[b];
     bucket_ends_[b] = total - bucket_ends_[b];
   }
@@ -118,12 +87,12 @@ template <class S> void SoftStep<S>::colour_constraints(const SolverInput<S>& in
 
 /// What found no colour is one piece by itself, however much it is: its order counts. A body counts as a row: to
 /// integrate it costs as much.
-template <class S> void SoftStep<S>::plan_passes(const TaskRunner& runner) {
+template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   const auto rows_of = [](const Run& run) {
     const detail::Variant shape = detail::Variant::of(run.variant);
     return static_cast<std::uint32_t>(shape.points) + 3u + (shape.rolling ? 2u : 0u);
   };
-  const auto bodies = static_cast<std::uint32_t>(bodies_.mass.size() - 1);
+  const auto bodies = static_cast<std::uint32_t>(bodies_.count());
   std::uint32_t work = bodies;
   for (const Run& run : runs_) work += run.blocks * rows_of(run);
   runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
@@ -141,7 +110,7 @@ template <class S> void SoftStep<S>::plan_passes(const TaskRunner& runner) {
   all_.end();
 }
 
-template <class S> std::size_t SoftStep<S>::place_of(const Run& run, std::uint32_t block) const {
+template <class S> std::size_t Sequential<S>::place_of(const Run& run, std::uint32_t block) const {
   const detail::Variant shape = detail::Variant::of(run.variant);
   const auto width = static_cast<std::size_t>(run.kernels->width);
   return run.offset + block * width * block_bytes<S, 1>(shape.points, shape.rolling);
@@ -149,29 +118,30 @@ template <class S> std::size_t SoftStep<S>::place_of(const Run& run, std::uint32
 
 /// The last block may have lanes left over.
 template <class S>
-typename SoftStep<S>::Contacts SoftStep<S>::contacts_of(const Run& run, const PassPlan::Slice& slice) {
+typename Sequential<S>::Contacts Sequential<S>::contacts_of(const Run& run, const PassPlan::Slice& slice) {
   const auto width = static_cast<std::uint32_t>(run.kernels->width);
   const std::uint32_t first = slice.first * width, end = (slice.first + slice.count) * width;
   return {run.first + first, static_cast<std::int32_t>(min(end, run.count) - first)};
 }
 
-template <class S> BlockRun<S> SoftStep<S>::blocks_of(const PassPlan::Slice& slice) {
+template <class S> BlockRun<S> Sequential<S>::blocks_of(const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   return {memory_.data()->bytes + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
-          static_cast<std::int32_t>(slice.count), bodies_.velocity.data(), bodies_.displacement.data()};
+          static_cast<std::int32_t>(slice.count), bodies_.rows().velocity.data(), bodies_.rows().displacement.data()};
 }
 
-template <class S> void SoftStep<S>::prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
+template <class S> void Sequential<S>::prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);
+  const SolverBodies<S>& bodies = bodies_.rows();
   run.kernels->prepare({memory_.data()->bytes + place_of(run, slice.first),
                         &block_bodies_[run.first_block + slice.first], part.count, shape.points, shape.rolling,
-                        &order_[part.first], input.contacts.data(), input.geometry.data(), bodies_.velocity.data(),
-                        bodies_.mass.data()});
+                        &order_[part.first], input.contacts.data(), input.geometry.data(), bodies.velocity.data(),
+                        bodies.mass.data(), schedule_.lift, detail::kMostLift<S>});
 }
 
-template <class S> void SoftStep<S>::store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
+template <class S> void Sequential<S>::store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);

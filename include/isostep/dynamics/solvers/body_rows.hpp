@@ -1,0 +1,43 @@
+// BodyRows<S>: the awake bodies as every solver moves them: rows gathered from the state, integrated, written back.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/dynamics/solvers/solver_input.hpp"
+
+namespace isostep {
+
+/// Order:   velocity before position (semi-implicit Euler), gyroscopic term implicit, damping implicit.
+/// Threads: ranges of bodies that do not meet may be integrated side by side.
+template <class S> class BodyRows {
+ public:
+  /// Once a step: velocities and masses of input.states, no displacement.
+  void gather(const SolverInput<S>& input);
+
+  // Bodies first..end-1, by 1 / rate seconds.
+  void integrate_velocities(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
+  void integrate_positions(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
+
+  /// Velocities back into input.states.
+  void store(const SolverInput<S>& input, std::size_t first, std::size_t end) const;
+
+  ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }
+  ISO_INLINE SolverBodies<S>& rows() { return rows_; }
+  ISO_INLINE const SolverBodies<S>& rows() const { return rows_; }
+
+ private:
+  SolverBodies<S> rows_;
+  std::vector<Vec3<S>> start_;    // [m] centres when the step began
+  std::vector<Vec3<S>> inertia_;  // [1] principal moments over the largest, where the gyroscopic term acts
+};
+
+#define ISO_EXTERN_BODY_ROWS(S) extern template class BodyRows<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN_BODY_ROWS)
+#undef ISO_EXTERN_BODY_ROWS
+
+}  // namespace isostep

@@ -1,0 +1,127 @@
+// Bodies of body_rows.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/gyroscopic.hpp"
+#include "isostep/dynamics/solvers/body_rows.hpp"
+
+namespace isostep {
+
+namespace detail {
+
+/// No motion along and about locked axes, whatever pushed.
+template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
+  if ((flags & body_flag::kAllLocks) == 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
+    if ((flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
+  }
+}
+
+}  // namespace detail
+
+template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
+  const std::size_t count = input.states.size();
+  rows_.velocity.resize(count + 1);
+  rows_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
+  rows_.mass.resize(count + 1);
+  start_.resize(count);
+  inertia_.resize(count);
+  rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
+  rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
+  for (std::size_t i = 0; i < count; ++i) {
+    const BodyState<S>& state = input.states[i];
+    const BodyProperties<S>& body = input.properties[i];
+    start_[i] = state.centre;
+    rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.spin, Velocity<S>(0)};
+    SolverMass<S>& mass = rows_.mass[i + 1];
+    if (body.type != BodyType::dynamic) {
+      mass = rows_.mass[0];
+      continue;
+    }
+    mass.mass = body.mass;
+    if (body.kappa.x == body.kappa.y && body.kappa.y == body.kappa.z) {
+      mass.kappa = Mat3<S>::diagonal(body.kappa);
+    } else {
+      mass.kappa = rotate_diagonal(to_matrix(state.orientation * body.principal), body.kappa);
+      const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
+      const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
+      inertia_[i] = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
+    }
+    if ((body.flags & (7u * body_flag::kLockAngularX)) != 0) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
+        for (int k = 0; k < 3; ++k) {
+          mass.kappa.rows[axis].set(k, S(0));
+          mass.kappa.rows[k].set(axis, S(0));
+        }
+      }
+    }
+  }
+}
+
+template <class S>
+void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t rate, std::size_t first,
+                                       std::size_t end) {
+  using V = Velocity<S>;
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
+  for (std::size_t i = first; i < end; ++i) {
+    const BodyProperties<S>& body = input.properties[i];
+    if (body.type != BodyType::dynamic) continue;
+    MotionRow<V>& row = rows_.velocity[i + 1];
+    Vec3<S> acceleration = body.gravity_scale == S(1) ? input.gravity : input.gravity * body.gravity_scale;
+    if (!input.accelerations.empty()) {
+      acceleration += input.accelerations[i].linear;
+      const Vec3<S> turning = input.accelerations[i].angular;
+      row.angular += {times(turning.x, h), times(turning.y, h), times(turning.z, h)};
+    }
+    row.linear += {times(acceleration.x, h), times(acceleration.y, h), times(acceleration.z, h)};
+    // Implicit: v' = v / (1 + h c), stable at any damping.
+    if (body.linear_damping > S(0)) {
+      const S keep = S(1) / (S(1) + body.linear_damping * h);
+      row.linear = {times(keep, row.linear.x), times(keep, row.linear.y), times(keep, row.linear.z)};
+    }
+    if (body.angular_damping > S(0)) {
+      const S keep = S(1) / (S(1) + body.angular_damping * h);
+      row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
+    }
+    if ((body.flags & body_flag::kSpins) != 0) {
+      row.angular =
+          turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
+    }
+    detail::hold_locks(body.flags, row);
+  }
+}
+
+template <class S>
+void BodyRows<S>::integrate_positions(const SolverInput<S>& input, std::int32_t rate, std::size_t first,
+                                      std::size_t end) {
+  using V = Velocity<S>;
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const V fastest = spin_limit<S>(rate);
+  const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
+  for (std::size_t i = first; i < end; ++i) {
+    MotionRow<V>& v = rows_.velocity[i + 1];
+    detail::hold_locks(input.properties[i].flags, v);
+    MotionRow<V>& d = rows_.displacement[i + 1];
+    BodyState<S>& state = input.states[i];
+    const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
+    const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
+    // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
+    d.linear += move;
+    d.angular += {times(v.angular.x, h), times(v.angular.y, h), times(v.angular.z, h)};
+    state.centre = start_[i] + convert<S>(d.linear);
+    state.orientation =
+        integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
+  }
+}
+
+template <class S> void BodyRows<S>::store(const SolverInput<S>& input, std::size_t first, std::size_t end) const {
+  for (std::size_t i = first; i < end; ++i) {
+    input.states[i].velocity = rows_.velocity[i + 1].linear;
+    input.states[i].spin = rows_.velocity[i + 1].angular;
+  }
+}
+
+}  // namespace isostep

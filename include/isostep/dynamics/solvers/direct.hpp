@@ -1,0 +1,158 @@
+// DirectSolver<S>: every island's joints and contacts solved simultaneously, by pivoting over sparse factorisations.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/island.hpp"
+#include "isostep/dynamics/solvers/body_rows.hpp"
+#include "isostep/dynamics/solvers/direct_system.hpp"
+#include "isostep/dynamics/solvers/solver_input.hpp"
+
+namespace isostep {
+
+/// Source:  Millington 2010, Game Physics Engine Development, ch. 18; Baraff 1994, Fast contact force computation for
+///          nonpenetrating rigid bodies, SIGGRAPH. Differs: velocities and impulses, not accelerations and forces.
+/// Method:  each sub-step every island is one DirectSystem: joints are equations, contacts may only push, friction is
+///          bounded by the load. Solved twice: with errors closed at a bounded speed, for positions, and without, so
+///          that none of that speed stays. Each time from the velocities that forces alone would give: impulses are a
+///          whole sub-step's, and those of the step before are no more than a guess at who pushes.
+/// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
+/// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
+///          their bound, what is bounded stays as it was swept and joints are solved for the rest. Friction is an
+///          octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the nearer counts.
+///          Impulses that are stored are held within the speed limit. Restitution: one solve more without friction.
+///          While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not angular momentum.
+/// Order:   blocks stand in the order of joints, then contacts, of an island; islands touch nothing in common. One
+///          thread.
+/// Memory:  warm, what SparseCholesky allocates; islands whose contacts or joints are others are analysed anew.
+template <class S> class DirectSolver {
+ public:
+  void gather_bodies(const SolverInput<S>& input);
+  ISO_INLINE SolverBodies<S>& bodies() { return bodies_.rows(); }
+  void colour_constraints(const SolverInput<S>& input);
+  void prepare(const SolverInput<S>& input);
+  void solve_substeps(const SolverInput<S>& input);
+  void restitute(const SolverInput<S>& input);
+  void store_impulses(const SolverInput<S>& input);
+  ISO_INLINE void run(const SolverInput<S>&) {}
+
+ private:
+  using System = LinearSystem<S>;
+  using N = typename System::Number;
+  using D = DirectNumber<N>;
+  using Value = typename System::Value;
+  using V = Velocity<S>;
+  using Block = ContactBlock<S, 1, kMaxContactPoints>;
+
+  /// Blocks of three rows that an island may have: with twice as many (a wall of 210 boxes, 1200) a factorisation takes
+  /// 8 ms and a wall that falls needs hundreds.
+  static constexpr std::uint32_t kMostBlocks = 600;
+
+  /// biased: errors are closed; relaxed: they are left; bounced: what is left of an approach is returned.
+  enum class Pass : std::uint32_t { biased, relaxed, bounced };
+
+  /// M^-1/2 of a body: root 2^root_exponent for what moves; times turn 2^turn_exponent, lower triangular, for turning.
+  struct BodyRoot {
+    N root;
+    int root_exponent, turn_exponent;
+    Mat3<N> turn;
+  };
+  /// A row's Jacobian: its speed is linear . (v_b - v_a) + angular_b . w_b - angular_a . w_a  [m/s].
+  struct Shape {
+    Vec3<S> linear, angular_a, angular_b;
+  };
+  /// One end of a row, its halves with exponents of their own.
+  struct End {
+    DirectMotion<N> part;
+    int linear_exponent, angular_exponent;
+  };
+  /// What lies behind a block of the system.
+  struct Ends {
+    std::uint32_t a, b;  // rows of SolverBodies
+    Value reduced;       // [kg] reduced mass: what impulses are counted in
+  };
+  struct Island {
+    DirectSystem<N> system;
+    std::vector<std::uint32_t> joints, contacts, bodies;      // bodies: their rows; numbered 1.. in the system
+    std::vector<std::uint32_t> joint_blocks, contact_blocks;  // first block of each
+    std::vector<Ends> ends;                                   // of each block
+    std::vector<Shape> shapes;                                // of each row
+    std::vector<V> asked;                                     // [m/s] of each row: by how much its speed is to change
+    int exponent;                                             // of the system's answers
+    bool begun;                                               // answers are this step's
+  };
+  struct alignas(64) ContactMemory {
+    unsigned char bytes[sizeof(RollingBlock<S, 1, kMaxContactPoints>)];
+  };
+
+  // direct_islands.inl
+  void find_islands(const SolverInput<S>& input);
+  Island& island_of(std::uint32_t row_a, std::uint32_t row_b);
+  std::uint32_t add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b, std::uint32_t count);
+  void add_joint(const JointConstraint<S>& joint, std::uint32_t j);
+  void add_contact(const SolverInput<S>& input, std::uint32_t c);
+  static bool rolls(const SolverInput<S>& input, std::uint32_t c);
+
+  // direct_rows.inl
+  void find_root(std::uint32_t row, const Mat3<S>& kappa);
+  static Mat3<N> lower_root(const Mat3<N>& k);
+  End end_of(std::uint32_t row, const Shape& shape, bool is_a) const;
+  static DirectMotion<N> brought_to(const End& end, int exponent);
+  static int scale_of(const End& a, const End& b);
+  void place(Island& island, std::uint32_t first, std::uint32_t count, int least_exponent);
+  V speed_of(const Island& island, std::uint32_t r, const std::vector<MotionRow<V>>& motion) const;
+  Value answer_of(const Island& island, std::uint32_t r, V impulse) const;
+  V impulse_of(const Island& island, std::uint32_t r) const;
+
+  // direct_joints.inl
+  JointStep<S> joint_step(const SolverInput<S>& input);
+  void linearise_joints(const SolverInput<S>& input, Island& island);
+  void stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h);
+  void place_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first);
+  void ask_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first, Pass pass);
+  void guess_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first);
+  V motor_limit(const JointConstraint<S>& joint) const;
+  void keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const;
+
+  // direct_contacts.inl
+  ISO_INLINE Block& block_of(const SolverInput<S>& input, std::uint32_t c) {
+    return *reinterpret_cast<Block*>(memory_[c].bytes + (rolls(input, c) ? sizeof(RollingRows<S, 1>) : 0));
+  }
+  void place_contact(const SolverInput<S>& input, Island& island, std::uint32_t k);
+  void ask_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass);
+  void guess_contact(const SolverInput<S>& input, Island& island, std::uint32_t k);
+  void keep_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass);
+  bool bounces(const SolverInput<S>& input, const Island& island);
+
+  // direct.inl
+  void place_rows(const SolverInput<S>& input, Island& island);
+  void solve(const SolverInput<S>& input, Island& island, Pass pass);
+  void scale_right_sides(const SolverInput<S>& input, Island& island);
+  void apply(const Island& island);
+
+  BodyRows<S> bodies_;
+  std::int32_t rate_ = 1;  // [1/s] sub-steps
+  DisjointSets sets_;
+  std::vector<std::uint32_t> island_of_;  // of each set, by its name
+  std::vector<std::uint32_t> local_;      // of each row of the bodies: its number in its island
+  std::vector<Island> islands_;
+  std::uint32_t island_count_ = 0;
+  std::vector<BodyRoot> roots_;
+  std::vector<Mat3<S>> kappa_, tension_;  // of each row: as joints see it; of those that are taut
+  std::vector<std::uint32_t> taut_;
+  std::vector<ContactMemory> memory_;
+  std::vector<BlockBodies> block_bodies_;
+  std::vector<std::uint32_t> order_;
+  std::vector<MotionRow<V>> free_velocity_;  // of each row: without this sub-step's impulses
+  std::vector<End> ends_;
+};
+
+#define ISO_DECLARE(S) extern template class DirectSolver<S>;
+ISO_FOR_EACH_SCALAR(ISO_DECLARE)
+#undef ISO_DECLARE
+
+}  // namespace isostep

@@ -1,0 +1,174 @@
+// Bodies of direct.hpp: the stages of a step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/direct_contacts.inl"
+#include "isostep/dynamics/solvers/direct_islands.inl"
+#include "isostep/dynamics/solvers/direct_joints.inl"
+#include "isostep/dynamics/solvers/direct_rows.inl"
+
+namespace isostep {
+
+template <class S> void DirectSolver<S>::gather_bodies(const SolverInput<S>& input) {
+  rate_ = integration_rate(SolverName::direct, input.hz, input.substeps);
+  bodies_.gather(input);
+}
+
+template <class S> void DirectSolver<S>::colour_constraints(const SolverInput<S>& input) { find_islands(input); }
+
+template <class S> void DirectSolver<S>::prepare(const SolverInput<S>& input) {
+  const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
+  const SolverBodies<S>& bodies = bodies_.rows();
+  const auto count = static_cast<std::uint32_t>(input.contacts.size());
+  memory_.resize(count);
+  block_bodies_.resize(count);
+  order_.resize(count);
+  for (std::uint32_t c = 0; c < count; ++c) {
+    order_[c] = c;
+    kernels.prepare({memory_[c].bytes, &block_bodies_[c], 1, static_cast<std::int32_t>(input.contacts[c].count),
+                     rolls(input, c), &order_[c], input.contacts.data(), input.geometry.data(), bodies.velocity.data(),
+                     bodies.mass.data(), S(0), S(0)});
+  }
+  roots_.resize(bodies.mass.size());
+  kappa_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));  // of what does not move none is ever set
+  tension_.resize(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
+}
+
+/// Arms of contacts are those of the step's begin, joints' of now.
+template <class S> void DirectSolver<S>::place_rows(const SolverInput<S>& input, Island& island) {
+  if (island.begun && island.joints.empty()) return;
+  linearise_joints(input, island);
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    place_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+  }
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(input, island, k);
+  island.system.assemble();
+}
+
+/// A common exponent, and room for answers that are larger.
+template <class S> void DirectSolver<S>::scale_right_sides(const SolverInput<S>& input, Island& island) {
+  DirectSystem<N>& system = island.system;
+  const std::uint32_t rows = 3 * system.block_count();
+  int exponent = -128;
+  const auto see = [&](Value value, int of_row) {
+    const int own = System::exponent(value) + of_row;
+    if (exponent < own) exponent = own;
+  };
+  for (std::uint32_t r = 0; r < rows; ++r) {
+    const DirectRow<N>& row = system.row(r);
+    if (row.bound != DirectBound::absent) see(System::value(island.asked[r]), D::kGain - row.exponent);
+  }
+  const auto motor = [&](std::size_t k, const auto& act) {
+    const JointConstraint<S>& joint = input.joints[island.joints[k]];
+    if (joint.drive_count == 0 || !joint.drives[0].driven) return;
+    const std::uint32_t r = 3 * (island.joint_blocks[k] + joint.block_count) + detail::kMotorRow;
+    act(r, answer_of(island, r, motor_limit(joint)));
+  };
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    motor(k, [&](std::uint32_t r, Value most) { see(most, system.row(r).exponent + 5 * D::kRoom); });
+  }
+  system.rescale(island.exponent - exponent);
+  island.exponent = exponent;
+  for (std::uint32_t r = 0; r < rows; ++r) {
+    DirectRow<N>& row = system.row(r);
+    row.right = N(0);
+    if (row.bound != DirectBound::absent) {
+      row.right = System::number(System::value(island.asked[r]), exponent + row.exponent);
+    }
+  }
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    motor(k, [&](std::uint32_t r, Value most) {
+      system.row(r).limit = System::number(most, exponent - system.row(r).exponent);
+    });
+  }
+}
+
+template <class S> void DirectSolver<S>::solve(const SolverInput<S>& input, Island& island, Pass pass) {
+  DirectSystem<N>& system = island.system;
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    ask_joint(input.joints[island.joints[k]], island, island.joint_blocks[k], pass);
+  }
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) ask_contact(input, island, k, pass);
+  scale_right_sides(input, island);
+  if (!island.begun) {
+    for (std::size_t k = 0; k < island.joints.size(); ++k) {
+      guess_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+    }
+    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) guess_contact(input, island, k);
+    island.begun = true;
+  }
+  system.settle();
+  system.solve(pass != Pass::biased);  // what yields in positions is closed, in velocities it would stay
+  apply(island);
+}
+
+/// Velocities that the answers give.
+template <class S> void DirectSolver<S>::apply(const Island& island) {
+  for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
+    const std::uint32_t row = island.bodies[i];
+    const DirectMotion<N>& u = island.system.motion(i + 1);
+    const BodyRoot& root = roots_[row];
+    const int exponent = island.exponent + root.root_exponent;
+    MotionRow<V>& v = bodies_.rows().velocity[row];
+    const MotionRow<V>& free = free_velocity_[row];
+    const auto add = [](V old, N change, int e) { return System::add(old, System::value(change, e)); };
+    v.linear = {add(free.linear.x, root.root * u.linear.x, exponent),
+                add(free.linear.y, root.root * u.linear.y, exponent),
+                add(free.linear.z, root.root * u.linear.z, exponent)};
+    const Mat3<N>& t = root.turn;
+    const N x = t.rows[0].x * u.angular.x, y = t.rows[1].x * u.angular.x + t.rows[1].y * u.angular.y,
+            z = t.rows[2].x * u.angular.x + t.rows[2].y * u.angular.y + t.rows[2].z * u.angular.z;
+    const int turning = exponent + root.turn_exponent;
+    v.angular = {add(free.angular.x, root.root * x, turning), add(free.angular.y, root.root * y, turning),
+                 add(free.angular.z, root.root * z, turning)};
+  }
+}
+
+template <class S> void DirectSolver<S>::solve_substeps(const SolverInput<S>& input) {
+  const std::size_t count = bodies_.count();
+  for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
+    bodies_.integrate_velocities(input, rate_, 0, count);
+    free_velocity_ = bodies_.rows().velocity;
+    for (std::uint32_t i = 0; i < island_count_; ++i) {
+      place_rows(input, islands_[i]);
+      solve(input, islands_[i], Pass::biased);
+    }
+    bodies_.integrate_positions(input, rate_, 0, count);
+    for (std::uint32_t i = 0; i < island_count_; ++i) {
+      Island& island = islands_[i];
+      solve(input, island, Pass::relaxed);
+      for (std::size_t k = 0; k < island.joints.size(); ++k) {
+        keep_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+      }
+      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(input, island, k, Pass::relaxed);
+    }
+  }
+}
+
+template <class S> void DirectSolver<S>::restitute(const SolverInput<S>& input) {
+  for (std::uint32_t i = 0; i < island_count_; ++i) {
+    Island& island = islands_[i];
+    if (!bounces(input, island)) continue;
+    for (const std::uint32_t row : island.bodies) free_velocity_[row] = bodies_.rows().velocity[row];
+    island.system.release();
+    solve(input, island, Pass::bounced);
+    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(input, island, k, Pass::bounced);
+  }
+}
+
+template <class S> void DirectSolver<S>::store_impulses(const SolverInput<S>& input) {
+  const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
+  for (std::uint32_t c = 0; c < input.contacts.size(); ++c) {
+    Block& block = block_of(input, c);
+    const std::uint32_t points = input.contacts[c].count;
+    for (std::uint32_t p = 0; p < points; ++p) {
+      block.normals[p].total_impulse[0] -= block.normals[p].row.impulse[0];  // the kernel adds the last
+    }
+    kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(input, c), &order_[c],
+                   input.contacts.data(), input.step_impulses.data()});
+  }
+  bodies_.store(input, 0, bodies_.count());
+}
+
+}  // namespace isostep

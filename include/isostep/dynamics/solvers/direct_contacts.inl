@@ -1,0 +1,130 @@
+// DirectSolver: contacts as rows, in the numbers that the contact kernels prepare and store.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/direct.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// [1] of an overlap that is to be gone after the sub-step, at kPushSpeed or slower.
+template <class S> inline constexpr S kDirectContactShare = S(0.25);
+}  // namespace detail
+
+template <class S> void DirectSolver<S>::place_contact(const SolverInput<S>& input, Island& island, std::uint32_t k) {
+  const std::uint32_t c = island.contacts[k];
+  const Block& block = block_of(input, c);
+  DirectPatch<N>& patch = island.system.patches()[k];
+  const auto vector = [](const S(&v)[3][1]) ISO_INLINE_LAMBDA -> Vec3<S> { return {v[0][0], v[1][0], v[2][0]}; };
+  const auto put = [&](std::uint32_t r, const S(*direction)[3][1], const AngularRow<S, 1>& row, DirectBound bound) {
+    const Vec3<S> linear = direction != nullptr ? vector(*direction) : Vec3<S>::zero();
+    island.shapes[r] = {linear, vector(row.jacobian_a), vector(row.jacobian_b)};
+    island.system.row(r).bound = row.effective_mass[0] > S(0) ? bound : DirectBound::absent;
+  };
+  const std::uint32_t count = patch.points == 1 ? 3 : 3 * (1 + (patch.points + 2) / 3);
+  for (std::uint32_t r = patch.first; r < patch.first + count; ++r) island.system.row(r).bound = DirectBound::absent;
+  for (std::uint32_t t = 0; t < 2; ++t) {
+    put(patch.first + t, &block.tangents[t].direction, block.tangents[t].row, DirectBound::boxed);
+  }
+  if (patch.points > 1) put(patch.first + 2, nullptr, block.twist, DirectBound::boxed);
+  for (std::uint32_t p = 0; p < patch.points; ++p) {
+    put(patch.normal + p, &block.normal, block.normals[p].row, DirectBound::above);
+  }
+  place(island, patch.first, count, -512);
+  const auto factor = [](S ratio, int& exponent) {
+    const Value value = System::value(ratio);
+    exponent = System::exponent(value);
+    return System::number(value, exponent);
+  };
+  patch.friction = factor(block.friction[0], patch.friction_exponent);
+  if (patch.rolling == DirectPatch<N>::kNoRolling) return;
+  const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);
+  for (std::uint32_t r = 0; r < 2; ++r) put(patch.rolling + r, nullptr, rolling.rows[r], DirectBound::boxed);
+  island.system.row(patch.rolling + 2).bound = DirectBound::absent;
+  place(island, patch.rolling, 3, island.system.row(patch.first).exponent);
+  patch.lever = factor(rolling.lever[0], patch.lever_exponent);
+  patch.lever_exponent += island.system.row(patch.rolling).exponent - island.system.row(patch.first).exponent;
+}
+
+template <class S>
+void DirectSolver<S>::ask_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass) {
+  const Block& block = block_of(input, island.contacts[k]);
+  const DirectPatch<N>& patch = island.system.patches()[k];
+  const S rate = S(rate_);
+  const V farthest = divide_to<V>(S(64), rate);  // what lies farther away is not met within the sub-step
+  const auto ask = [&](std::uint32_t r, V wanted) { island.asked[r] = wanted - speed_of(island, r, free_velocity_); };
+  for (std::uint32_t t = 0; t < 2; ++t) ask(patch.first + t, -block.tangents[t].surface[0]);
+  if (patch.points > 1) ask(patch.first + 2, V(0));
+  if (patch.rolling != DirectPatch<N>::kNoRolling) {
+    for (std::uint32_t r = 0; r < 2; ++r) ask(patch.rolling + r, V(0));
+  }
+  for (std::uint32_t p = 0; p < patch.points; ++p) {
+    const std::uint32_t r = patch.normal + p;
+    const NormalRow<S, 1>& row = block.normals[p];
+    const V separation = row.separation[0] + speed_of(island, r, bodies_.rows().displacement);
+    V wanted = V(0);
+    if (separation > V(0)) wanted = -scaled(rate, min(separation, farthest));
+    else if (pass == Pass::biased)
+      wanted = min(-scaled(detail::kDirectContactShare<S> * rate, max(separation, -farthest)), detail::kPushSpeed<S>);
+    // Only where something pushed: a gap that merely closed has nothing to give back.
+    const bool bounces = pass == Pass::bounced && block.restitution[0] > S(0) && row.total_impulse[0] > V(0) &&
+                         row.approach[0] < -detail::kRestitutionSpeed<S>;
+    if (bounces) wanted = -scaled(block.restitution[0], row.approach[0]);
+    ask(r, wanted);
+  }
+}
+
+/// Points that pushed push again and friction at its limit stays there. Of a contact that is new everything holds.
+template <class S> void DirectSolver<S>::guess_contact(const SolverInput<S>& input, Island& island, std::uint32_t k) {
+  Block& block = block_of(input, island.contacts[k]);
+  const DirectPatch<N>& patch = island.system.patches()[k];
+  DirectSystem<N>& system = island.system;
+  const auto load = [&](std::uint32_t r, V impulse) {
+    DirectRow<N>& row = system.row(r);
+    row.answer = D::bounded(System::number(answer_of(island, r, impulse), island.exponent - row.exponent));
+  };
+  bool fresh = true;
+  for (std::uint32_t p = 0; p < patch.points; ++p) {
+    const V impulse = block.normals[p].row.impulse[0];
+    fresh = fresh && !(impulse > V(0));
+    load(patch.normal + p, impulse);
+    block.normals[p].total_impulse[0] = V(0);
+  }
+  for (std::uint32_t p = 0; p < patch.points; ++p) {
+    const std::uint32_t r = patch.normal + p;
+    const bool pushes = fresh ? island.asked[r] > V(0) : block.normals[p].row.impulse[0] > V(0);
+    system.row(r).state = pushes ? DirectState::free : DirectState::at_low;
+  }
+  for (std::uint32_t t = 0; t < 2; ++t) load(patch.first + t, block.tangents[t].row.impulse[0]);
+  if (patch.points > 1) load(patch.first + 2, block.twist.impulse[0]);
+  system.guess_friction(k, fresh);
+}
+
+template <class S>
+void DirectSolver<S>::keep_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass) {
+  Block& block = block_of(input, island.contacts[k]);
+  const DirectPatch<N>& patch = island.system.patches()[k];
+  for (std::uint32_t p = 0; p < patch.points; ++p) {
+    const V impulse = impulse_of(island, patch.normal + p);
+    NormalRow<S, 1>& row = block.normals[p];
+    row.total_impulse[0] = saturating_add(row.total_impulse[0], impulse);
+    row.row.impulse[0] = pass == Pass::bounced ? saturating_add(row.row.impulse[0], impulse) : impulse;
+  }
+  if (pass == Pass::bounced) return;
+  for (std::uint32_t t = 0; t < 2; ++t) block.tangents[t].row.impulse[0] = impulse_of(island, patch.first + t);
+  block.twist.impulse[0] = patch.points > 1 ? impulse_of(island, patch.first + 2) : V(0);
+}
+
+template <class S> bool DirectSolver<S>::bounces(const SolverInput<S>& input, const Island& island) {
+  for (const std::uint32_t c : island.contacts) {
+    const Block& block = block_of(input, c);
+    if (!(block.restitution[0] > S(0))) continue;
+    for (std::uint32_t p = 0; p < input.contacts[c].count; ++p) {
+      const NormalRow<S, 1>& row = block.normals[p];
+      if (row.approach[0] < -detail::kRestitutionSpeed<S> && row.total_impulse[0] > V(0)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace isostep

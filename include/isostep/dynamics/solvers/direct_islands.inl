@@ -1,0 +1,100 @@
+// DirectSolver: which constraints are solved together, and how many blocks each takes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/direct.hpp"
+
+namespace isostep {
+
+template <class S> bool DirectSolver<S>::rolls(const SolverInput<S>& input, std::uint32_t c) {
+  return input.geometry[c].material.rolling_resistance > S(0);
+}
+
+template <class S>
+typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a, std::uint32_t row_b) {
+  const std::uint32_t set = sets_.find(bodies_.rows().moves(row_a) ? row_a : row_b);
+  if (island_of_[set] == 0) {
+    if (island_count_ == islands_.size()) islands_.emplace_back();
+    Island& island = islands_[island_count_++];
+    island_of_[set] = island_count_;
+    for (auto* list : {&island.joints, &island.contacts, &island.bodies, &island.joint_blocks, &island.contact_blocks})
+      list->clear();
+    island.ends.clear();
+    island.exponent = 0;
+    island.begun = false;
+    island.system.begin();
+  }
+  Island& island = islands_[island_of_[set] - 1];
+  for (const std::uint32_t row : {row_a, row_b}) {
+    if (!bodies_.rows().moves(row) || local_[row] != 0) continue;
+    island.bodies.push_back(row);
+    local_[row] = static_cast<std::uint32_t>(island.bodies.size());
+  }
+  return island;
+}
+
+template <class S>
+std::uint32_t DirectSolver<S>::add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b,
+                                          std::uint32_t count) {
+  const std::uint32_t first = island.system.block_count();
+  const auto& mass = bodies_.rows().mass;
+  const Value a = System::value(mass[row_a].mass), b = System::value(mass[row_b].mass);
+  Value reduced = bodies_.rows().moves(row_a) ? a : b;
+  if (bodies_.rows().moves(row_a) && bodies_.rows().moves(row_b)) {
+    reduced = System::quotient(System::product(a, b), System::sum(a, b));
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    island.system.add_block(local_[row_a], local_[row_b]);
+    island.ends.push_back({row_a, row_b, reduced});
+  }
+  return first;
+}
+
+template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joint, std::uint32_t j) {
+  if (!joint.holds || joint.block_count + joint.drive_count == 0) return;
+  Island& island = island_of(joint.row_a, joint.row_b);
+  island.joints.push_back(j);
+  island.joint_blocks.push_back(add_blocks(island, joint.row_a, joint.row_b, joint.block_count + joint.drive_count));
+}
+
+/// Tangents and twist, or tangents and the only point; points by threes; two rows of rolling resistance.
+template <class S> void DirectSolver<S>::add_contact(const SolverInput<S>& input, std::uint32_t c) {
+  const ContactGeometry<S>& g = input.geometry[c];
+  if (!bodies_.rows().moves(g.row_a) && !bodies_.rows().moves(g.row_b)) return;
+  const std::uint32_t points = input.contacts[c].count, own = points == 1 ? 1 : 1 + (points + 2) / 3;
+  Island& island = island_of(g.row_a, g.row_b);
+  const std::uint32_t first = add_blocks(island, g.row_a, g.row_b, own + (rolls(input, c) ? 1 : 0));
+  island.contacts.push_back(c);
+  island.contact_blocks.push_back(first);
+  DirectPatch<N> patch = {};
+  patch.first = 3 * first;
+  patch.normal = 3 * first + (points == 1 ? 2 : 3);
+  patch.points = points;
+  patch.rolling = rolls(input, c) ? 3 * (first + own) : DirectPatch<N>::kNoRolling;
+  island.system.patches().push_back(patch);
+}
+
+template <class S> void DirectSolver<S>::find_islands(const SolverInput<S>& input) {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  sets_.begin(bodies.mass.size());
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    if (bodies.moves(a) && bodies.moves(b)) sets_.join(a, b);
+  };
+  for (const JointConstraint<S>& joint : input.joints) {
+    if (joint.holds) join(joint.row_a, joint.row_b);
+  }
+  for (const ContactGeometry<S>& g : input.geometry) join(g.row_a, g.row_b);
+  island_of_.assign(bodies.mass.size(), 0);
+  local_.assign(bodies.mass.size(), 0);
+  island_count_ = 0;
+  for (std::uint32_t j = 0; j < input.joints.size(); ++j) add_joint(input.joints[j], j);
+  for (std::uint32_t c = 0; c < input.contacts.size(); ++c) add_contact(input, c);
+  for (std::uint32_t i = 0; i < island_count_; ++i) {
+    Island& island = islands_[i];
+    island.shapes.resize(3 * island.system.block_count());
+    island.asked.resize(3 * island.system.block_count());
+    island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks);
+  }
+}
+
+}  // namespace isostep

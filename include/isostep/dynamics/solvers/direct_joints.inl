@@ -1,0 +1,186 @@
+// DirectSolver: joints as equations, their springs, motors and limits as rows of a block each.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/joint_tension.hpp"
+#include "isostep/dynamics/solvers/direct.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// [1] of an error that is to be gone after the sub-step: nothing has to converge, so half; all of it would answer the
+/// error of a curved path with its mirror image.
+template <class S> inline constexpr S kDirectJointShare = S(0.5);
+
+/// The same of limits, and the speed that they close with [m/s]: half a metre a second turns a limb at ten radians a
+/// second.
+template <class S> inline constexpr S kDirectLimitShare = S(0.125);
+template <class S> inline constexpr Velocity<S> kDirectLimitSpeed = Velocity<S>(0.5);
+
+/// Row of a drive's block.
+enum DriveRow : std::uint32_t { kSpringRow, kMotorRow, kLimitRow };
+
+/// Which bound of a drive is nearer: the only one that a sub-step can reach.
+template <class S> ISO_INLINE bool is_lower(const JointDrive<S>& drive) {
+  if (!drive.bounded_above) return true;
+  return drive.bounded_below && drive.position - drive.lower < drive.upper - drive.position;
+}
+}  // namespace detail
+
+template <class S> JointStep<S> DirectSolver<S>::joint_step(const SolverInput<S>& input) {
+  const S rate = S(rate_);
+  return {input.states.data(),
+          &bodies_.rows(),
+          rate,
+          divide_to<Step<S>>(S(1), rate),
+          {detail::kDirectJointShare<S> * rate, S(1), S(0)}};
+}
+
+template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& input, Island& island) {
+  const JointStep<S> step = joint_step(input);
+  for (const std::uint32_t j : island.joints) linearise_joint(input.joints[j], step);
+  for (const std::uint32_t row : island.bodies) kappa_[row] = bodies_.rows().mass[row].kappa;
+  stiffen(island, input.joints, step.h);
+  for (const std::uint32_t row : island.bodies) find_root(row, kappa_[row]);
+  for (const std::uint32_t j : island.joints) {
+    JointConstraint<S>& joint = input.joints[j];
+    if (joint.drive_count == 0) continue;
+    weigh_joint(joint, kappa_[joint.row_a], kappa_[joint.row_b]);
+    for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+      joint.blocks[i].inverse = invert_symmetric(joint.blocks[i].coupling, detail::kBlockCompliance<S>);
+    }
+    weigh_drives(joint);
+  }
+}
+
+/// As JointTrees.
+template <class S>
+void DirectSolver<S>::stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h) {
+  taut_.clear();
+  for (const std::uint32_t j : island.joints) {
+    const JointConstraint<S>& joint = joints[j];
+    if (joint.block_count == 0) continue;
+    for (const bool is_a : {true, false}) {
+      const std::uint32_t row = is_a ? joint.row_a : joint.row_b;
+      if (!bodies_.rows().moves(row)) continue;
+      const detail::Pull<S> pull = detail::pull_on(joint, is_a, h);
+      if (!(pull.stiffness > S(0))) continue;
+      if (tension_[row].rows[0].x + tension_[row].rows[1].y + tension_[row].rows[2].z == S(0)) taut_.push_back(row);
+      tension_[row] = tension_[row] + detail::across(pull.axis, pull.stiffness);
+    }
+  }
+  for (const std::uint32_t row : taut_) {
+    kappa_[row] = detail::stiffened(kappa_[row], tension_[row]);
+    tension_[row] = Mat3<S>::diagonal(Vec3<S>::zero());
+  }
+}
+
+template <class S>
+void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first) {
+  const Vec3<S> zero = Vec3<S>::zero();
+  const auto put = [&](std::uint32_t r, const JointRow<S>& from, DirectBound bound) {
+    const bool empty = from.linear == zero && from.angular_a == zero && from.angular_b == zero;
+    island.shapes[r] = {from.linear, from.angular_a, from.angular_b};
+    island.system.row(r).bound = empty ? DirectBound::absent : bound;
+  };
+  for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+    for (std::uint32_t r = 0; r < 3; ++r) put(3 * (first + i) + r, joint.blocks[i].rows[r], DirectBound::equal);
+    for (std::uint32_t r = 0; r < 3; ++r) place(island, 3 * (first + i) + r, 1, -512);
+  }
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    const std::uint32_t r = 3 * (first + joint.block_count + i);
+    const auto bound = [](bool there, DirectBound kind) { return there ? kind : DirectBound::absent; };
+    put(r + detail::kSpringRow, drive.row, bound(drive.sprung && drive.effective_mass > S(0), DirectBound::equal));
+    put(r + detail::kMotorRow, drive.row, bound(drive.driven, DirectBound::boxed));
+    put(r + detail::kLimitRow, drive.row,
+        bound(drive.bounded_below || drive.bounded_above,
+              detail::is_lower(drive) ? DirectBound::above : DirectBound::below));
+    place(island, r + detail::kMotorRow, 2, -512);
+    if (island.system.row(r).bound == DirectBound::absent) {
+      place(island, r, 1, -512);
+      continue;
+    }
+    // An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
+    const Value give = System::quotient(
+        System::value(drive.spring.impulse_scale),
+        System::product(System::product(System::value(drive.spring.mass_scale), System::value(drive.effective_mass)),
+                        island.ends[r / 3].reduced));
+    place(island, r, 1, ((System::exponent(give) + 1) >> 1) + D::kRoom);
+    DirectRow<N>& row = island.system.row(r);
+    row.soft = System::number(give, 2 * row.exponent);
+  }
+}
+
+template <class S>
+void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first, Pass pass) {
+  const S bias_rate = pass == Pass::biased ? detail::kDirectJointShare<S> * S(rate_) : S(0);
+  for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+    const Vec3<V>& error = joint.blocks[i].error;
+    for (std::uint32_t r = 0; r < 3; ++r) {
+      const std::uint32_t at = 3 * (first + i) + r;
+      const V most = detail::kJointPushSpeed<S>, bias = scaled(bias_rate, error[static_cast<int>(r)]);
+      island.asked[at] = -(speed_of(island, at, free_velocity_) + clamp(bias, -most, most));
+    }
+  }
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    const std::uint32_t r = 3 * (first + joint.block_count + i);
+    const V speed = speed_of(island, r, free_velocity_);
+    island.asked[r + detail::kSpringRow] = -(speed + drive.spring_speed);
+    island.asked[r + detail::kMotorRow] = drive.speed - speed;
+    const bool lower = detail::is_lower(drive);
+    const S gap = lower ? drive.position - drive.lower : drive.upper - drive.position;
+    const V distance = detail::bounded_error(gap, h);
+    V allowed = scaled(S(rate_), distance);
+    if (!(gap > S(0))) {
+      const S rate = pass == Pass::biased ? detail::kDirectLimitShare<S> * S(rate_) : S(0);
+      allowed = max(scaled(rate, distance), -detail::kDirectLimitSpeed<S>);
+    }
+    island.asked[r + detail::kLimitRow] = lower ? -(speed + allowed) : allowed - speed;
+  }
+}
+
+/// [m/s] most that a motor gives in a sub-step.
+template <class S> typename DirectSolver<S>::V DirectSolver<S>::motor_limit(const JointConstraint<S>& joint) const {
+  return convert<V>(min(joint.motor_force * divide_to<Step<S>>(S(1), S(rate_)), Limits<S>::speed()));
+}
+
+/// Motors that gave all they had and limits that did not push are taken for doing so again.
+template <class S>
+void DirectSolver<S>::guess_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first) {
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    const std::uint32_t r = 3 * (first + joint.block_count + i);
+    const V most = motor_limit(joint) - resolution<V>();
+    DirectRow<N>& motor = island.system.row(r + detail::kMotorRow);
+    motor.state = !(drive.motor_impulse < most)    ? DirectState::at_high
+                  : !(-most < drive.motor_impulse) ? DirectState::at_low
+                                                   : DirectState::free;
+    DirectRow<N>& limit = island.system.row(r + detail::kLimitRow);
+    const bool lower = limit.bound == DirectBound::above;
+    const bool pushes = lower ? drive.lower_impulse > V(0) : drive.upper_impulse > V(0);
+    limit.state = pushes ? DirectState::free : lower ? DirectState::at_low : DirectState::at_high;
+  }
+}
+
+template <class S>
+void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const {
+  for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+    const std::uint32_t r = 3 * (first + i);
+    joint.blocks[i].impulse = {impulse_of(island, r), impulse_of(island, r + 1), impulse_of(island, r + 2)};
+  }
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    const std::uint32_t r = 3 * (first + joint.block_count + i);
+    drive.spring_impulse = impulse_of(island, r + detail::kSpringRow);
+    drive.motor_impulse = impulse_of(island, r + detail::kMotorRow);
+    const V limit = impulse_of(island, r + detail::kLimitRow);
+    drive.lower_impulse = max(limit, V(0));
+    drive.upper_impulse = max(-limit, V(0));
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,131 @@
+// The sub-steps of sequential.hpp as stages of pieces: what threads do side by side, and in which order.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/body_rows.inl"
+#include "isostep/dynamics/solvers/sequential.hpp"
+
+namespace isostep {
+
+namespace detail {
+
+template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule) {
+  const S rate = S(schedule.rate);
+  // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step. Loads
+  // beyond a 64th of the format (32 m/s for Q16.16) count as that: times friction and the cone's slope they still fit.
+  return {schedule.contact_softness,
+          rate,
+          kPushSpeed<S>,
+          divide_to<Velocity<S>>(S(64), rate),
+          highest<Velocity<S>>() * Velocity<S>(1.0 / 64),
+          kRestitutionSpeed<S>};
+}
+}  // namespace detail
+
+template <class S> void Sequential<S>::add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces) {
+  stages_.push_back({work, of_plan});
+  pieces_.push_back(pieces);
+}
+template <class S> void Sequential<S>::add_stages(Work work, const PassPlan& plan) {
+  for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, i, plan.stages()[i]);
+}
+
+template <class S> void Sequential<S>::run(const SolverInput<S>& input) {
+  const S rate = S(schedule_.rate);
+  Job job = {this,
+             input,
+             detail::contact_pass(schedule_),
+             {input.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness}};
+  run_stages(runner_, pieces_, &Sequential::do_piece, &job);
+  stages_.clear();
+  pieces_.clear();
+}
+
+template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage, std::uint32_t piece) {
+  const Job& job = *static_cast<const Job*>(data);
+  Sequential& solver = *job.solver;
+  const Stage& what = solver.stages_[stage];
+  switch (what.work) {
+    case Work::integrate_velocities:
+    case Work::integrate_positions:
+    case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
+    case Work::warm_start_joints:
+    case Work::solve_joints:
+    case Work::relax_joints:
+    case Work::store_joints: return solver.do_joints(job, what.work, piece);
+    default: break;
+  }
+  const bool all = what.work == Work::prepare || what.work == Work::store;
+  const PassPlan& plan = all ? solver.all_ : solver.colours_;
+  for (const PassPlan::Slice& slice : plan.piece(what.of_plan, piece)) solver.do_slice(job, what.work, slice);
+}
+
+template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const PassPlan::Slice& slice) {
+  const Run& run = runs_[slice.run];
+  switch (work) {
+    case Work::prepare: return prepare_slice(job.input, slice);
+    case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
+    case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
+    case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
+    case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
+    case Work::store: return store_slice(job.input, slice);
+    default: return;
+  }
+}
+
+template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std::uint32_t piece) {
+  const std::size_t count = job.input.states.size();
+  const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
+  switch (work) {
+    case Work::integrate_velocities: return bodies_.integrate_velocities(job.input, schedule_.rate, first, end);
+    case Work::integrate_positions: return bodies_.integrate_positions(job.input, schedule_.rate, first, end);
+    default: return bodies_.store(job.input, first, end);
+  }
+}
+
+template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std::uint32_t piece) {
+  const std::uint32_t count = joint_trees_.batch_count(), pieces = min(count, kMaxPieces);
+  for (std::uint32_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) {
+    if (work == Work::warm_start_joints) joint_trees_.warm_start(i, job.input.joints, job.joints);
+    else if (work == Work::store_joints) joint_trees_.store(i, job.input.joints);
+    else joint_trees_.solve(i, job.input.joints, job.joints, work == Work::relax_joints);
+  }
+}
+
+template <class S> void Sequential<S>::prepare(const SolverInput<S>&) {
+  memory_.resize((memory_bytes_ + 63) / 64 + 1);
+  block_bodies_.resize(block_count_ + 1);
+  add_stages(Work::prepare, all_);
+}
+
+template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& input) {
+  joint_trees_.plan(input.joints, bodies_.rows(), input.tree_kernels, schedule_.joint_order);
+  const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
+  for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
+    add_stage(Work::integrate_velocities, 0, body_pieces_);
+    add_stage(Work::warm_start_joints, 0, joints);
+    add_stages(Work::warm_start, colours_);
+    for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
+      add_stage(Work::solve_joints, 0, joints);
+      add_stages(Work::solve, colours_);
+    }
+    add_stage(Work::integrate_positions, 0, body_pieces_);
+    if (!schedule_.relaxes) continue;
+    add_stage(Work::relax_joints, 0, joints);
+    add_stages(Work::relax, colours_);
+  }
+  add_stage(Work::store_joints, 0, joints);
+}
+
+template <class S> void Sequential<S>::restitute(const SolverInput<S>& input) {
+  bool bounces = false;
+  for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
+  if (bounces) add_stages(Work::restitute, colours_);
+}
+
+template <class S> void Sequential<S>::store_impulses(const SolverInput<S>&) {
+  add_stages(Work::store, all_);
+  add_stage(Work::store_bodies, 0, body_pieces_);
+}
+
+}  // namespace isostep

@@ -1,0 +1,223 @@
+// Bodies of worst_first.hpp: rows, who shares bodies with whom, and the passes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/body_rows.inl"
+#include "isostep/dynamics/solvers/worst_first.hpp"
+#include "isostep/dynamics/solvers/worst_first_position.inl"
+#include "isostep/dynamics/solvers/worst_first_velocity.inl"
+
+namespace isostep {
+
+template <class S> void WorstFirstResolver<S>::gather_bodies(const SolverInput<S>& input) {
+  bodies_.gather(input);
+  gained_.resize(bodies_.rows().velocity.size());
+}
+
+template <class S> void WorstFirstResolver<S>::colour_constraints(const SolverInput<S>& input) {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  const auto mover = [&](std::uint32_t row) { return bodies.moves(row) ? row : 0u; };
+  points_.clear();
+  rolling_.clear();
+  joints_.clear();
+  ends_.clear();
+  for (std::uint32_t i = 0; i < input.contacts.size(); ++i) {
+    const ContactGeometry<S>& g = input.geometry[i];
+    const Ends ends = {mover(g.row_a), mover(g.row_b)};
+    if (ends.a == 0 && ends.b == 0) continue;
+    for (std::uint32_t p = 0; p < input.contacts[i].count; ++p) {
+      add_point(input, i, p);
+      ends_.push_back(ends);
+    }
+  }
+  for (std::uint32_t j = 0; j < input.joints.size(); ++j) {
+    if (!input.joints[j].holds) continue;
+    joints_.push_back(j);
+    ends_.push_back({mover(input.joints[j].row_a), mover(input.joints[j].row_b)});
+  }
+  urgency_.resize(ends_.size());
+  list_neighbours();
+}
+
+template <class S>
+void WorstFirstResolver<S>::add_point(const SolverInput<S>& input, std::uint32_t contact, std::uint32_t point) {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  const ContactGeometry<S>& g = input.geometry[contact];
+  const SolverMass<S>& a = bodies.mass[g.row_a];
+  const SolverMass<S>& b = bodies.mass[g.row_b];
+  Point row = {};
+  row.contact = contact;
+  row.a = g.row_a;
+  row.b = g.row_b;
+  row.rolling = kNoPair;
+  row.share = mass_share(a.mass, b.mass);
+  const auto& at = g.points[point];
+  const auto pushing = [&](Vec3<Unit<S>> d) {
+    const Vec3<S> n = convert<S>(d);
+    return detail::weighed_row(n, cross(at.arm_a, n), cross(at.arm_b, n), a, b, row.share);
+  };
+  const S linear = row.share.a + row.share.b;
+  row.normal = pushing(g.normal);
+  row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
+  const Tangents<Unit<S>> basis = tangents_of(g.normal);
+  row.friction.rows[0] = pushing(basis.t);
+  row.friction.rows[1] = pushing(basis.u);
+  detail::invert_pair(row.friction, linear);
+  row.friction.surface[0] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.t));
+  row.friction.surface[1] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.u));
+  row.mu = g.material.friction;
+  row.restitution = g.material.restitution;
+  row.separation = convert<V>(at.separation);
+  load_impulses(input.contacts[contact], point, row);
+  if (g.material.rolling_resistance > S(0)) add_rolling(g, point, row);
+  points_.push_back(row);
+}
+
+/// The last step's. A contact's friction was borne by its points as its weight was.
+template <class S>
+void WorstFirstResolver<S>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
+  row.impulse = contact.normal_impulse[point];
+  row.total_impulse = -row.impulse;  // the first warm start is the last step's
+  V weight = V(0);
+  for (std::uint32_t p = 0; p < contact.count; ++p) weight = saturating_add(weight, contact.normal_impulse[p]);
+  if (!(V(0) < weight)) return;
+  const S part = divide_to<S>(row.impulse, weight);
+  for (int k = 0; k < 2; ++k) {
+    const V friction = saturate_to<V>(dot_sum(contact.friction_impulse, row.friction.rows[k].linear));
+    row.friction.impulse[k] = scaled(part, friction);
+  }
+}
+
+/// As soft step has it: the rows' radius is the distance from the contact to the centre that rolls, which keeps the
+/// coefficients near one.
+template <class S>
+void WorstFirstResolver<S>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, Point& row) {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  const auto distance = [&](std::uint32_t body, Vec3<S> arm) {
+    return bodies.moves(body) ? abs(dot(arm, g.normal)) : S(0);
+  };
+  const S radius = max(distance(g.row_a, g.points[point].arm_a), distance(g.row_b, g.points[point].arm_b));
+  if (!(S(0) < radius)) return;
+  TangentPair<S> pair = {};
+  const Tangents<Unit<S>> basis = tangents_of(g.normal);
+  const auto turning = [&](Vec3<Unit<S>> axis) {
+    const Vec3<S> jacobian = convert<S>(axis) * radius;
+    return detail::weighed_row(Vec3<S>::zero(), jacobian, jacobian, bodies.mass[g.row_a], bodies.mass[g.row_b],
+                               row.share);
+  };
+  pair.rows[0] = turning(basis.t);
+  pair.rows[1] = turning(basis.u);
+  detail::invert_pair(pair, S(0));
+  // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
+  row.lever = min(divide_to<S>(g.material.rolling_resistance, radius), S(4));
+  row.rolling = static_cast<std::uint32_t>(rolling_.size());
+  rolling_.push_back(pair);
+}
+
+/// Only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
+template <class S> void WorstFirstResolver<S>::list_neighbours() {
+  const std::size_t bodies = bodies_.rows().mass.size();
+  first_.assign(bodies + 2, 0);  // counted two places on: filling leaves each list's start where it is looked for
+  const auto each_end = [&](auto&& visit) ISO_INLINE_LAMBDA {
+    for (std::uint32_t i = 0; i < ends_.size(); ++i) {
+      if (ends_[i].a != 0) visit(ends_[i].a, i);
+      if (ends_[i].b != 0) visit(ends_[i].b, i);
+    }
+  };
+  each_end([&](std::uint32_t body, std::uint32_t) ISO_INLINE_LAMBDA { ++first_[body + 2]; });
+  for (std::size_t b = 2; b < bodies + 2; ++b) first_[b] += first_[b - 1];
+  if (neighbours_.size() < first_[bodies + 1]) neighbours_.resize(first_[bodies + 1]);
+  each_end([&](std::uint32_t body, std::uint32_t i) ISO_INLINE_LAMBDA { neighbours_[first_[body + 1]++] = i; });
+}
+
+/// Those of `not_of` have been looked at already.
+template <class S>
+template <class Look>
+void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, std::uint32_t body,
+                                       std::uint32_t not_of) {
+  if (body == 0) return;
+  for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) {
+    const std::uint32_t other = neighbours_[k];
+    if (other == index || (not_of != 0 && (ends_[other].a == not_of || ends_[other].b == not_of))) continue;
+    urgency_[other] = look(other);
+    worst_.replay(other, before());
+  }
+}
+
+template <class S>
+template <class Look, class Apply>
+void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
+  const auto count = static_cast<std::uint32_t>(ends_.size());
+  if (count == 0) return;
+  for (std::uint32_t i = 0; i < count; ++i) urgency_[i] = look(i);
+  worst_.plant(count, before());
+  std::uint64_t looks = 0;
+  const std::uint64_t most = most_looks(count);
+  for (std::uint32_t left = most_iterations(count); left > 0 && looks < most; --left) {
+    const std::uint32_t worst = worst_.first();
+    const V was = urgency_[worst];
+    if (was == V(0)) break;
+    apply(worst);
+    const V is = look(worst);
+    urgency_[worst] = is < was ? is : V(0);
+    worst_.replay(worst, before());
+    const Ends ends = ends_[worst];
+    look_again(look, worst, ends.a, 0);
+    look_again(look, worst, ends.b, ends.a);
+    looks += (first_[ends.a + 1] - first_[ends.a]) + (first_[ends.b + 1] - first_[ends.b]);
+  }
+}
+
+template <class S> void WorstFirstResolver<S>::prepare(const SolverInput<S>&) {}
+
+template <class S> void WorstFirstResolver<S>::solve_substeps(const SolverInput<S>& input) {
+  const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
+  const JointStep<S> step = {input.states.data(), &bodies_.rows(), S(rate), divide_to<Step<S>>(S(1), S(rate)),
+                             Softness<S>::rigid()};
+  const auto points = static_cast<std::uint32_t>(points_.size());
+  const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return input.joints[joints_[i - points]]; };
+  for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
+    begin_velocities(input, step);
+    resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },
+            [&](std::uint32_t i) {
+              if (i < points) resolve_motion(points_[i]);
+              else resolve_motion(joint(i), step);
+            });
+    bodies_.integrate_positions(input, rate, 0, bodies_.count());
+    begin_positions(step);
+    resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
+            [&](std::uint32_t i) {
+              if (i < points) project(input, points_[i]);
+              else project(input, joint(i), step);
+            });
+  }
+}
+
+template <class S> void WorstFirstResolver<S>::store_impulses(const SolverInput<S>& input) {
+  for (std::size_t i = 0; i < input.contacts.size(); ++i) {
+    Contact<S>& contact = input.contacts[i];
+    for (V& impulse : contact.normal_impulse) impulse = V(0);
+    contact.friction_impulse = Vec3<V>::zero();
+    contact.twist_impulse = V(0);
+    contact.flags &= ~contact_flag::kTouching;
+    input.step_impulses[i] = V(0);
+  }
+  std::uint32_t last = kNoPair, place = 0;
+  for (Point& row : points_) {
+    place = row.contact == last ? place + 1 : 0;
+    last = row.contact;
+    Contact<S>& contact = input.contacts[row.contact];
+    const V total = saturating_add(row.total_impulse, row.impulse);
+    input.step_impulses[row.contact] = saturating_add(input.step_impulses[row.contact], total);
+    if (total > V(0)) contact.flags |= contact_flag::kTouching;
+    if (row.least_speed < row.target) forget_impact(row);
+    contact.normal_impulse[place] = row.impulse;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3<V> part = scaled(row.friction.rows[k].linear, row.friction.impulse[k]);
+      contact.friction_impulse = saturated_sum<S>(contact.friction_impulse, part);
+    }
+  }
+  bodies_.store(input, 0, bodies_.count());
+}
+
+}  // namespace isostep

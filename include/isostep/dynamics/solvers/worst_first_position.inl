@@ -1,0 +1,131 @@
+// The position pass of worst_first.hpp: nonlinear projection of overlaps and of joints' errors.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint.inl"
+#include "isostep/dynamics/solvers/body_rows.inl"
+#include "isostep/dynamics/solvers/worst_first.hpp"
+
+namespace isostep {
+
+namespace detail {
+
+/// [m] Overlap that is left, so that what rests keeps touching.
+template <class S> inline constexpr Velocity<S> kRestingOverlap = Velocity<S>(0x1p-11);
+/// [1] of an overlap that a sub-step takes away: all of it at once makes stacks jump (relaxation, pp. 324-325).
+template <class S> inline constexpr S kRelaxation = S(0.25);
+/// [m] Errors of position that are left alone.
+template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<S>(0x1p-14);
+/// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
+template <class S> inline constexpr Velocity<S> kMostProjectedTurn = Velocity<S>(0.2);
+
+/// How far below zero, or not at all.
+template <class S> ISO_INLINE S shortfall(const JointDrive<S>& drive) {
+  S most = S(0);
+  if (drive.bounded_below) most = max(most, drive.lower - drive.position);
+  if (drive.bounded_above) most = max(most, drive.position - drive.upper);
+  return most;
+}
+
+}  // namespace detail
+
+/// From the two displacements each time, so that it does not gather the roundings of every move.
+template <class S> Velocity<S> WorstFirstResolver<S>::gap(const Point& row) const {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  return saturating_add(row.separation,
+                        detail::along(row.normal, bodies.displacement[row.a], bodies.displacement[row.b]));
+}
+
+template <class S> void WorstFirstResolver<S>::begin_positions(const JointStep<S>& step) {
+  const V fastest = detail::kPushSpeed<S> * step.h;
+  for (Point& row : points_) {
+    const V over = min(saturating_add(gap(row), detail::kRestingOverlap<S>), V(0));
+    const V taken = min(saturate_to<V>(product(detail::kRelaxation<S>, -over)), fastest);
+    row.least_gap = saturating_add(over, taken) - detail::kRestingOverlap<S>;
+  }
+}
+
+template <class S> Velocity<S> WorstFirstResolver<S>::overlap_urgency(const Point& row) const {
+  const V missing = saturating_subtract(row.least_gap, gap(row));
+  return detail::kProjectionTolerance<S> < missing ? missing : V(0);
+}
+
+template <class S>
+Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const {
+  linearise_joint(joint, step);
+  V most = V(0);
+  for (std::uint32_t i = 0; i < joint.block_count; ++i) most = max(most, max_abs(joint.blocks[i].error));
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    most = max(most, detail::bounded_error(detail::shortfall(joint.drives[i]), step.h));
+  }
+  return detail::kProjectionTolerance<S> < most ? most : V(0);
+}
+
+/// Linear and angular parts by inverse inertia (pp. 323-328).
+template <class S> void WorstFirstResolver<S>::project(const SolverInput<S>& input, const Point& row) {
+  const V missing = saturating_subtract(row.least_gap, gap(row));
+  const V amount = saturate_to<V>(product(row.mass, missing));
+  const auto part = [&](S share, Vec3<S> angular, Vec3<S> turn, V way) {
+    Motion m = Motion::zero();
+    V linear = saturate_to<V>(product(share, way));
+    const Vec3<V> rotation = detail::pushed(Vec3<V>::zero(), turn, way, highest<V>());
+    const V turned = max_abs(rotation);
+    m.angular = rotation;
+    if (detail::kMostProjectedTurn<S> < turned) {
+      const V keep = divide_to<V>(detail::kMostProjectedTurn<S>, turned);
+      m.angular = {rotation.x * keep, rotation.y * keep, rotation.z * keep};
+      linear = saturating_add(linear, saturate_to<V>(dot_sum(angular, rotation - m.angular)));
+    }
+    m.linear = detail::pushed(Vec3<V>::zero(), row.normal.linear, linear, highest<V>());
+    return m;
+  };
+  move(input, row.a, part(row.share.a, row.normal.angular_a, row.normal.turn_a, -amount));
+  move(input, row.b, part(row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
+}
+
+/// As solve_joint() has it, of positions: drives that are out of bounds, then angles, then the point.
+template <class S>
+void WorstFirstResolver<S>::project(const SolverInput<S>& input, JointConstraint<S>& joint, const JointStep<S>& step) {
+  const SolverBodies<S>& bodies = *step.bodies;
+  weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
+  JointMotion<S> m = {Motion::zero(), Motion::zero()};
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    const V missing = detail::bounded_error(detail::shortfall(drive), step.h);
+    if (!(V(0) < missing)) continue;
+    const bool below = drive.bounded_below && drive.position < drive.lower;
+    const S mass = detail::mass_of(detail::self_coupling(drive.row, drive.row, joint.share));
+    isostep::push(drive.row, joint.share, saturated<S>(product(mass, below ? missing : -missing)), m);
+  }
+  const V most = detail::kJointPushSpeed<S> * step.h;
+  const auto bound = [&](V error) { return clamp(error, -most, most); };
+  for (std::uint32_t i = joint.block_count; i-- > 0;) {
+    const JointBlock<S>& block = joint.blocks[i];
+    const Vec3<V> error = {bound(block.error.x), bound(block.error.y), bound(block.error.z)};
+    const Mat3<S> inverse = invert_symmetric(block.coupling, detail::kBlockCompliance<S>);
+    isostep::push(block, joint.share, -saturated_times(inverse, speed_along(block, m) + error), m);
+  }
+  move(input, joint.row_a, m.a);
+  move(input, joint.row_b, m.b);
+}
+
+/// The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
+template <class S>
+void WorstFirstResolver<S>::move(const SolverInput<S>& input, std::uint32_t body, const Motion& asked) {
+  SolverBodies<S>& bodies = bodies_.rows();
+  if (!bodies.moves(body)) return;
+  Motion way = asked;
+  detail::hold_locks(input.properties[body - 1].flags, way);
+  BodyState<S>& state = input.states[body - 1];
+  Motion& displacement = bodies.displacement[body];
+  const Vec3<S> before = convert<S>(displacement.linear);
+  displacement.linear += way.linear;
+  displacement.angular += way.angular;
+  state.centre += convert<S>(displacement.linear) - before;
+  const V most = detail::kMostProjectedTurn<S>;
+  const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -most, most), Unit<S>(1))); };
+  state.orientation =
+      integrate(state.orientation, Vec3<Unit<S>>{turn(way.angular.x), turn(way.angular.y), turn(way.angular.z)});
+}
+
+}  // namespace isostep

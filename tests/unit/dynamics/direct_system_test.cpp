@@ -1,0 +1,193 @@
+// Complementarity problems: against enumeration of who is at which bound, and where that is long by their conditions.
+// SPDX-License-Identifier: MIT
+#include "isostep/dynamics/solvers/direct_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace isostep {
+namespace {
+
+constexpr double kScale = 0x1p-24;  // of right-hand sides and answers: room for answers of a million in fixed point
+
+template <class N> N number(double x) {
+  if constexpr (std::is_same_v<N, Exact<double>>) return N(x);
+  else return from_double<N>(x);
+}
+
+template <class N> class DirectSystemOf : public testing::Test {
+ protected:
+  double draw() { return static_cast<double>(random_()) / 2147483648.0 - 1; }
+
+  /// Blocks of three rows between two bodies each, which `rank` directions of them can move.
+  void build(std::uint32_t blocks, std::uint32_t bodies, int rank) {
+    system_.begin();
+    const auto count = static_cast<int>(6 * (bodies + 1));
+    w_ = Eigen::MatrixXd::Zero(3 * static_cast<int>(blocks), count);
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      const std::uint32_t ends[2] = {b % (bodies + 1), (b + 1 + b / (bodies + 1)) % (bodies + 1)};
+      system_.add_block(ends[0], ends[1] == ends[0] ? 0 : ends[1]);
+      for (std::uint32_t r = 3 * b; r < 3 * b + 3; ++r) {
+        for (std::uint32_t e = 0; e < 2; ++e) {
+          if (ends[e] == 0 || (e == 1 && ends[1] == ends[0])) continue;
+          double parts[6] = {};
+          for (int i = 0; i < rank; ++i) parts[i] = draw() * 0.25;
+          auto& end = system_.row(r).ends[e];
+          end.linear = {number<N>(parts[0]), number<N>(parts[1]), number<N>(parts[2])};
+          end.angular = {number<N>(parts[3]), number<N>(parts[4]), number<N>(parts[5])};
+          for (int i = 0; i < 6; ++i) w_(static_cast<int>(r), static_cast<int>(6 * ends[e]) + i) = parts[i];
+        }
+      }
+    }
+    const auto rows = static_cast<std::size_t>(3 * blocks);
+    low_.assign(rows, 0);
+    high_.assign(rows, 0);
+    right_ = Eigen::VectorXd(3 * static_cast<int>(blocks));
+    for (std::uint32_t r = 0; r < rows; ++r) right_[static_cast<int>(r)] = draw();
+    bodies_ = bodies;
+  }
+  void bound(std::uint32_t r, DirectBound kind) {
+    constexpr double kFar = 1e9;
+    DirectRow<N>& row = system_.row(r);
+    row.bound = kind;
+    row.state = DirectState::free;
+    row.answer = N(0);
+    row.limit = number<N>(0.3 * kScale);
+    row.right = number<N>(right_[static_cast<int>(r)] * kScale);
+    low_[r] = kind == DirectBound::above ? 0 : kind == DirectBound::boxed ? -0.3 : -kFar;
+    high_[r] = kind == DirectBound::below ? 0 : kind == DirectBound::boxed ? 0.3 : kFar;
+  }
+  bool solve() {
+    system_.tie(bodies_, 1000);
+    system_.assemble();
+    return system_.solve(false);
+  }
+  double answer(std::uint32_t r) const { return to_double(system_.row(r).answer) / kScale; }
+  /// K with what rows yield, as the class says it.
+  Eigen::MatrixXd yielding() const {
+    Eigen::MatrixXd k = w_ * w_.transpose();
+    for (int i = 0; i < k.rows(); ++i) {
+      if (low_[static_cast<std::size_t>(i)] > -1e8 || high_[static_cast<std::size_t>(i)] < 1e8) k(i, i) *= 1 + 0x1p-12;
+    }
+    return k;
+  }
+
+  /// Every row free, at its lower or at its upper bound: all combinations, until one answers.
+  bool enumerate(const Eigen::MatrixXd& k, Eigen::VectorXd& x) const {
+    const int n = static_cast<int>(k.rows());
+    int combinations = 1;
+    for (int i = 0; i < n; ++i) combinations *= 3;
+    for (int which = 0; which < combinations; ++which) {
+      Eigen::MatrixXd a = k;
+      Eigen::VectorXd b = right_;
+      bool possible = true;
+      std::vector<int> state(static_cast<std::size_t>(n));
+      for (int i = 0, rest = which; i < n; ++i, rest /= 3) {
+        const auto at = static_cast<std::size_t>(i);
+        state[at] = rest % 3;
+        if (state[at] == 0) continue;
+        const double value = state[at] == 1 ? low_[at] : high_[at];
+        possible = possible && std::abs(value) < 1e8;
+        a.row(i).setZero();
+        a(i, i) = 1;
+        b[i] = value;
+      }
+      if (!possible) continue;
+      x = a.fullPivLu().solve(b);
+      const Eigen::VectorXd rest = k * x - right_;
+      for (int i = 0; possible && i < n; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        if (state[at] == 0) possible = low_[at] - 1e-12 < x[i] && x[i] < high_[at] + 1e-12;
+        if (state[at] == 1) possible = rest[i] > -1e-12;
+        if (state[at] == 2) possible = rest[i] < 1e-12;
+      }
+      if (possible) return true;
+    }
+    return false;
+  }
+
+  std::mt19937 random_{11};
+  DirectSystem<N> system_;
+  Eigen::MatrixXd w_;
+  Eigen::VectorXd right_;
+  std::vector<double> low_, high_;
+  std::uint32_t bodies_ = 0;
+};
+using Numbers = testing::Types<Exact<double>, Fixed<std::int64_t, 62>>;
+TYPED_TEST_SUITE(DirectSystemOf, Numbers);
+
+TYPED_TEST(DirectSystemOf, SmallProblemsHaveTheAnswerThatEnumerationFinds) {
+  const DirectBound kinds[] = {DirectBound::above, DirectBound::boxed, DirectBound::equal, DirectBound::below};
+  for (int trial = 0; trial < 100; ++trial) {
+    this->build(2, 2, 6);
+    for (std::uint32_t r = 0; r < 6; ++r) {
+      this->bound(r, kinds[this->random_() % 4]);
+    }
+    ASSERT_TRUE(this->solve()) << trial;
+    Eigen::VectorXd x;
+    const Eigen::MatrixXd k = this->yielding();
+    ASSERT_TRUE(this->enumerate(k, x)) << trial;
+    // Equations still yield a little after the last pass: 2^-20 of 2^-20, times what K magnifies.
+    const double bound =
+        1e-6 * (1 + x.norm()) / std::max(1e-6, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues()[0]);
+    for (std::uint32_t r = 0; r < 6; ++r)
+      EXPECT_NEAR(this->answer(r), x[static_cast<int>(r)], bound) << trial << " " << r;
+  }
+}
+
+/// As many rows as three times the ways to move: half of what pushes is redundant.
+TYPED_TEST(DirectSystemOf, PivotsOnRedundantProblemsComeToAnEnd) {
+  for (int trial = 0; trial < 60; ++trial) {
+    this->build(24, 6, trial % 2 == 0 ? 6 : 4);
+    for (std::uint32_t r = 0; r < 72; ++r) {
+      this->bound(r, r % 3 == 0 || trial % 3 == 0 ? DirectBound::above : DirectBound::boxed);
+    }
+    ASSERT_TRUE(this->solve()) << trial;
+    EXPECT_LT(this->system_.pivots(), DirectSystem<TypeParam>::kMostPivots) << trial;
+    Eigen::VectorXd x(72);
+    for (std::uint32_t r = 0; r < 72; ++r) x[static_cast<int>(r)] = this->answer(r);
+    const Eigen::VectorXd rest = this->yielding() * x - this->right_;
+    const double slack = 1e-6 * (1 + x.cwiseAbs().maxCoeff());
+    for (std::uint32_t r = 0; r < 72; ++r) {
+      const double at = x[static_cast<int>(r)], left = rest[static_cast<int>(r)];
+      EXPECT_GE(at, this->low_[r] - slack);
+      EXPECT_LE(at, this->high_[r] + slack);
+      EXPECT_TRUE(at <= this->low_[r] + slack || left < slack) << trial << " " << r;
+      EXPECT_TRUE(at >= this->high_[r] - slack || left > -slack) << trial << " " << r;
+    }
+  }
+}
+
+TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
+  using N = TypeParam;
+  // One body on one point: tangents x and z, normal y.
+  this->build(1, 1, 0);
+  for (std::uint32_t r = 0; r < 3; ++r) {
+    this->system_.row(r).ends[1] = DirectMotion<N>::zero();
+    this->system_.row(r).ends[1].linear.set(r == 0 ? 0 : r == 1 ? 2 : 1, number<N>(0.5));
+  }
+  for (const double push : {0.2, 0.9}) {
+    this->right_ << push, 0, 1;
+    this->bound(0, DirectBound::boxed);
+    this->bound(1, DirectBound::boxed);
+    this->bound(2, DirectBound::above);
+    this->system_.patches().clear();
+    this->system_.patches().push_back({0, 2, 1, DirectPatch<N>::kNoRolling, number<N>(0.5), N(0), 0, 0});
+    this->system_.tie(this->bodies_, 1000);
+    this->system_.assemble();
+    this->system_.guess_friction(0, true);
+    ASSERT_TRUE(this->system_.solve(false));
+    EXPECT_NEAR(this->answer(2), 4, 2e-3);
+    EXPECT_NEAR(this->answer(0), push < 0.5 ? 4 * push : 2, 2e-3);
+    EXPECT_NEAR(this->answer(1), 0, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace isostep
