@@ -6,6 +6,7 @@ option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; to
 option(ISOSTEP_THREADS "isostep::threads: a step's work on oneTBB's threads; the tool brings it anyway" OFF)
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
+option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)
 option(ISOSTEP_NO_INT128 "Do without the compiler's __int128, as targets that lack it must" OFF)
 set(ISOSTEP_SCALARS "float;double;Q16_16;Q32_32" CACHE STRING "Scalars the library holds")
 

@@ -150,6 +150,10 @@ template <class S> void use_state(World<S>& world) {
            .ok());
 }
 
+struct Drawer : DebugDraw {
+  void part(const DrawnBody& body, const DrawnPart& part) override { keep(body.pose.position), keep(part.radius); }
+};
+
 template <class S> void use_world() {
   World<S> world;
   const ShapeId sphere = world.add_shape(Sphere{0.5});
@@ -179,6 +183,8 @@ template <class S> void use_world() {
   keep(world.closest({S(0), S(9), S(0)}, S(4))), keep(world.pose(body)), keep(world.bodies().size());
   for (const RenderPose& pose : world.poses_float(0.5f)) keep(pose.position);
   world.apply(Command<S>(WakeBody{body}));
+  Drawer drawer;
+  draw(world, drawer, {.masses = true});
   typename World<S>::Snapshot frame;
   world.save(frame);
   world.load(frame);
@@ -239,6 +245,8 @@ template <class S> void use_particles() {
   world.save(frame);
   world.load(frame);
   keep(world.hash()), keep(frame.bytes()), keep(world.state().position[0]);
+  Drawer drawer;
+  draw(world, drawer);
   ParticleWorld<S> moved = std::move(world);
   const ReplayReader replay(file);
   const Result<ReplayHeader> header = header_of_world(moved.settings(), "none", 0);

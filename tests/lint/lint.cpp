@@ -211,6 +211,7 @@ const Exception kExceptions[] = {
     {"world/engine_queries.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
     {"session/core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
     {"session/peer_core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
+    {"world/debug_draw.hpp", "virtual", "what draws is outside of worlds: never copied, hashed or rolled back"},
     {"world/instantiate.inl", "kIsFixed", "floating formats are not added by users: a message, not a case"},
 };
 

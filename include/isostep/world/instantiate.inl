@@ -17,6 +17,7 @@
 #include "isostep/geometry/validate.inl"
 #include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
+#include "isostep/world/debug_draw.inl"
 #include "isostep/world/world.inl"
 
 /// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is
@@ -66,4 +67,6 @@
   template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
   template class World<OwnScalar>;                                                                                    \
+  template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \
+  template void draw<OwnScalar>(const ParticleWorld<OwnScalar>&, DebugDraw&, const DrawOptions&);                     \
   }

@@ -1,0 +1,26 @@
+// Drawing for every shipped scalar, and a DebugDraw that draws nothing.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/debug_draw.inl"
+
+namespace isostep {
+
+DebugDraw::~DebugDraw() = default;
+void DebugDraw::body(const DrawnBody&) {}
+void DebugDraw::part(const DrawnBody&, const DrawnPart&) {}
+void DebugDraw::mass(const DrawnMass&) {}
+void DebugDraw::box(const DrawnBox&) {}
+void DebugDraw::island(const DrawnIsland&) {}
+void DebugDraw::contact(const DrawnContact&) {}
+void DebugDraw::joint(const DrawnJoint&) {}
+void DebugDraw::particle(const DrawnParticle&) {}
+void DebugDraw::spring(const DrawnSpring&) {}
+void DebugDraw::link(const DrawnLink&) {}
+void DebugDraw::collider(const DrawnCollider&) {}
+
+#define ISO_INSTANTIATE(S)                                                \
+  template void draw<S>(const World<S>&, DebugDraw&, const DrawOptions&); \
+  template void draw<S>(const ParticleWorld<S>&, DebugDraw&, const DrawOptions&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
