@@ -1,6 +1,9 @@
 // Bullet (float) in the scene benchmark, as its manual sets it up.
 // SPDX-License-Identifier: MIT
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <btBulletDynamicsCommon.h>
+
+#include <cmath>
 
 #include "peer.hpp"
 
@@ -16,9 +19,27 @@ std::unique_ptr<btCollisionShape> shape_of(const PeerPart& part) {
   switch (part.type) {
     case ShapeType::sphere: return std::make_unique<btSphereShape>(bt(part.radius));
     case ShapeType::capsule: return std::make_unique<btCapsuleShape>(bt(part.radius), bt(2 * part.half_height));
+    case ShapeType::half_space: return std::make_unique<btStaticPlaneShape>(bt(part.normal), bt(part.offset));
     default: return std::make_unique<btBoxShape>(bt(part.half_extents));
   }
 }
+
+/// Bodies of one group do not meet; a body's user index is its group. Beside the rule of the library.
+struct GroupFilter : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+    if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0) return false;
+    if ((b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0) return false;
+    const int group = static_cast<const btCollisionObject*>(a->m_clientObject)->getUserIndex();
+    return group <= 0 || group != static_cast<const btCollisionObject*>(b->m_clientObject)->getUserIndex();
+  }
+};
+
+/// The larger, as ours; by itself Bullet multiplies.
+btScalar restitution_of_pair(const btCollisionObject* a, const btCollisionObject* b) {
+  return btMax(a->getRestitution(), b->getRestitution());
+}
+/// What is left after a second of damping by `rate` [1/s], as Bullet wants it.
+btScalar damping(double rate) { return bt(1 - std::exp(-rate)); }
 
 /// Shapes first, so that they go last.
 struct BulletBody {
@@ -31,6 +52,8 @@ class BulletEngine : public Peer {
  public:
   explicit BulletEngine(const scenes::Scene& scene)
       : Peer(scene), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    gCalculateCombinedRestitutionCallback = restitution_of_pair;
+    world_.getPairCache()->setOverlapFilterCallback(&filter_);
     world_.setGravity(bt(gravity()));
     for (const PeerBody& body : bodies()) {
       bodies_.push_back(make(body));
@@ -46,12 +69,6 @@ class BulletEngine : public Peer {
   /// No sub-steps of its own and no interpolation: exactly one step of 1/60 s.
   void step() override { world_.stepSimulation(bt(1.0 / 60), 0); }
 
-  bool all_asleep() const override {
-    for (const BulletBody& body : bodies_) {
-      if (!body.body->isStaticOrKinematicObject() && body.body->isActive()) return false;
-    }
-    return true;
-  }
   std::string settings() const override {
     return std::to_string(world_.getSolverInfo().m_numIterations) + " iterations";
   }
@@ -61,21 +78,28 @@ class BulletEngine : public Peer {
     const btRigidBody& body = *bodies_[i].body;
     const btQuaternion q = body.getOrientation();
     return {ours(body.getCenterOfMassPosition()), ours(body.getLinearVelocity()), ours(body.getAngularVelocity()),
-            normalise(Quat<double>{q.x(), q.y(), q.z(), q.w()})};
+            normalise(Quat<double>{q.x(), q.y(), q.z(), q.w()}), body.isActive()};
   }
   void replace(std::size_t i, const PeerBody& by) override {
     world_.removeRigidBody(bodies_[i].body.get());
     bodies_[i] = make(by);
     add(bodies_[i], by);
   }
+  void launch(std::size_t i, Vec3<double> velocity) override {
+    bodies_[i].body->activate(true);
+    bodies_[i].body->setLinearVelocity(bt(velocity));
+    bodies_[i].body->setAngularVelocity({0, 0, 0});
+  }
   /// Bullet asks a kinematic body's motion state where it will be at the end of the step.
   void drive(int frame) override {
     for (std::size_t i = 0; i < bodies().size(); ++i) {
       if (bodies()[i].type != BodyType::kinematic) continue;
       const Vec3<double> spin = bodies()[i].spin;
-      const double speed = sqrt(dot(spin, spin));
-      const btQuaternion turn(bt(spin * (1 / speed)), bt(speed * (frame + 1) / 60));
-      bodies_[i].path->setWorldTransform(btTransform(turn * bt(bodies()[i].orientation), bt(bodies()[i].position)));
+      const double speed = sqrt(dot(spin, spin)), time = (frame + 1) / 60.0;
+      const btQuaternion turn =
+          speed > 0 ? btQuaternion(bt(spin * (1 / speed)), bt(speed * time)) : btQuaternion::getIdentity();
+      bodies_[i].path->setWorldTransform(
+          btTransform(turn * bt(bodies()[i].orientation), bt(bodies()[i].position + bodies()[i].velocity * time)));
     }
   }
 
@@ -99,8 +123,13 @@ class BulletEngine : public Peer {
                                                   bt(from.inertia));
     info.m_startWorldTransform = pose;
     info.m_friction = bt(friction_of_one(from.friction));
+    info.m_restitution = bt(from.restitution);
+    info.m_linearDamping = damping(from.linear_damping);
+    info.m_angularDamping = damping(from.angular_damping);
     made.body = std::make_unique<btRigidBody>(info);
     made.body->setLinearVelocity(bt(from.velocity));
+    made.body->setAngularVelocity(bt(from.spin));
+    made.body->setUserIndex(static_cast<int>(from.group));
     if (from.type == BodyType::kinematic) {
       made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     }
@@ -116,19 +145,33 @@ class BulletEngine : public Peer {
     } else {
       world_.addRigidBody(made.body.get(), btBroadphaseProxy::DefaultFilter, 0);
     }
+    if (from.gravity_scale != 1) made.body->setGravity(bt(gravity() * from.gravity_scale));
+  }
+  std::unique_ptr<btTypedConstraint> constraint(const PeerJoint& joint) {
+    btRigidBody& a = joint.a < 0 ? btTypedConstraint::getFixedBody() : *bodies_[static_cast<std::size_t>(joint.a)].body;
+    btRigidBody& b = *bodies_[static_cast<std::size_t>(joint.b)].body;
+    const btTransform on_a(bt(joint.on_a.orientation), bt(joint.on_a.position));
+    const btTransform on_b(bt(joint.on_b.orientation), bt(joint.on_b.position));
+    switch (joint.type) {
+      case JointType::hinge: {
+        auto hinge = std::make_unique<btHingeConstraint>(a, b, on_a, on_b);
+        if (joint.is_limited) hinge->setLimit(bt(joint.lower), bt(joint.upper));
+        else hinge->setLimit(1, -1);  // none
+        return hinge;
+      }
+      case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, on_a, on_b);
+      case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");
+      default: break;
+    }
+    if (joint.a < 0) return std::make_unique<btPoint2PointConstraint>(b, bt(joint.on_b.position));
+    return std::make_unique<btPoint2PointConstraint>(a, b, bt(joint.on_a.position), bt(joint.on_b.position));
   }
   void connect(const PeerJoint& joint) {
-    const auto frame = [&](btRigidBody& body) { return body.getCenterOfMassTransform().invXform(bt(joint.anchor)); };
-    btRigidBody& b = *bodies_[static_cast<std::size_t>(joint.b)].body;
-    if (joint.a < 0) {
-      joints_.push_back(std::make_unique<btPoint2PointConstraint>(b, frame(b)));
-    } else {
-      btRigidBody& a = *bodies_[static_cast<std::size_t>(joint.a)].body;
-      joints_.push_back(std::make_unique<btPoint2PointConstraint>(a, b, frame(a), frame(b)));
-    }
-    world_.addConstraint(joints_.back().get(), true);
+    joints_.push_back(constraint(joint));
+    world_.addConstraint(joints_.back().get(), !joint.collide);
   }
 
+  GroupFilter filter_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

@@ -8,17 +8,11 @@
 #include <vector>
 
 #include "clock.hpp"
-#include "isostep/math/vec3.hpp"
 #include "scenes/measure.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/sight.hpp"
 
 namespace isostep::bench {
-
-/// A body of the scene as it is now.
-struct Place {
-  Vec3<double> centre;  // [m]
-  bool dynamic;
-};
 
 /// Built by a Maker, then before_step and a step once a frame; only steps are timed. Measures are in double and cheap
 /// but for `overlap`, which is asked for once, at the end.
@@ -42,10 +36,7 @@ class Engine {
   virtual bool all_asleep() const = 0;
   /// Steps so far that had to mend something, or whose numbers are no numbers.
   virtual int faults() const = 0;
-  /// In the order of the scene.
-  virtual std::vector<Place> places() const = 0;
-  virtual double joint_error() const = 0;  // [m] largest separation of anchors
-  virtual scenes::Energy energy() const = 0;
+  virtual scenes::Sight sight() const = 0;
   virtual scenes::Overlap overlap() const = 0;
   virtual std::string settings() const = 0;  // for the report: "avx2, 8 sub-steps"
 };
@@ -61,6 +52,9 @@ struct Maker {
 };
 /// Every engine that can be run: our scalars, then peers.
 std::vector<Maker> makers();
+
+/// Those that are not ours.
+std::vector<Maker> peer_makers();
 
 std::unique_ptr<Engine> make_bullet(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const scenes::Scene& scene, const EngineOptions& options);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <ode/ode.h>
 
+#include <algorithm>
+#include <set>
+
 #include "peer.hpp"
 
 namespace isostep::bench {
@@ -14,6 +17,12 @@ void set_quaternion(dReal* out, Quat<double> q) {
   out[1] = q.x;
   out[2] = q.y;
   out[3] = q.z;
+}
+
+/// `rate` [1/s] as a share of a step, at any speed.
+void set_damping(dBodyID body, double rate, void (*set_scale)(dBodyID, dReal), void (*set_threshold)(dBodyID, dReal)) {
+  set_scale(body, std::min(1.0, rate / 60));
+  set_threshold(body, 0);
 }
 
 /// Once a process; ODE keeps tables of its own.
@@ -47,12 +56,6 @@ class OdeEngine : public Peer {
     dJointGroupEmpty(touching_);
   }
 
-  bool all_asleep() const override {
-    for (const OdeBody& body : bodies_) {
-      if (body.body != nullptr && dBodyIsEnabled(body.body) != 0) return false;
-    }
-    return true;
-  }
   std::string settings() const override {
     return "QuickStep, " + std::to_string(dWorldGetQuickStepNumIterations(world_)) + " iterations";
   }
@@ -62,18 +65,31 @@ class OdeEngine : public Peer {
     const dBodyID body = bodies_[i].body;
     if (body == nullptr) {
       const PeerBody& fixed = bodies()[i];
-      return {fixed.position, fixed.velocity, fixed.spin, fixed.orientation};
+      return {fixed.position, fixed.velocity, fixed.spin, fixed.orientation, false};
     }
     const dReal* q = dBodyGetQuaternion(body);
     return {ours(dBodyGetPosition(body)), ours(dBodyGetLinearVel(body)), ours(dBodyGetAngularVel(body)),
-            normalise(Quat<double>{q[1], q[2], q[3], q[0]})};
+            normalise(Quat<double>{q[1], q[2], q[3], q[0]}), dBodyIsEnabled(body) != 0};
   }
   void replace(std::size_t i, const PeerBody& by) override {
     for (const dGeomID geom : bodies_[i].geoms) dGeomDestroy(geom);
     dBodyDestroy(bodies_[i].body);
     bodies_[i] = make(by);
   }
-  void drive(int) override {}  // ODE moves kinematic bodies by their velocity
+  void launch(std::size_t i, Vec3<double> velocity) override {
+    dBodyEnable(bodies_[i].body);
+    dBodySetLinearVel(bodies_[i].body, velocity.x, velocity.y, velocity.z);
+    dBodySetAngularVel(bodies_[i].body, 0, 0, 0);
+  }
+  /// ODE moves kinematic bodies by their velocity, and knows gravity whole or not at all.
+  void drive(int) override {
+    for (std::size_t i = 0; i < bodies().size(); ++i) {
+      const PeerBody& body = bodies()[i];
+      if (body.type != BodyType::dynamic || body.gravity_scale == 1) continue;
+      const Vec3<double> force = gravity() * (body.mass * (body.gravity_scale - 1));
+      dBodyAddForce(bodies_[i].body, force.x, force.y, force.z);
+    }
+  }
 
  private:
   struct OdeBody {
@@ -86,6 +102,7 @@ class OdeEngine : public Peer {
     switch (part.type) {
       case ShapeType::sphere: return dCreateSphere(space_, part.radius);
       case ShapeType::capsule: return dCreateCapsule(space_, part.radius, 2 * part.half_height);
+      case ShapeType::half_space: return dCreatePlane(space_, 0, 1, 0, 0);  // `place` knows where
       default: return dCreateBox(space_, 2 * h.x, 2 * h.y, 2 * h.z);
     }
   }
@@ -95,6 +112,7 @@ class OdeEngine : public Peer {
     if (!from.collide) return made;
     for (const PeerPart& part : from.parts) {
       const dGeomID geom = geom_of(part);
+      dGeomSetData(geom, const_cast<PeerBody*>(&from));
       if (made.body != nullptr) dGeomSetBody(geom, made.body);
       place(geom, part, from, made.body != nullptr);
       made.geoms.push_back(geom);
@@ -117,6 +135,10 @@ class OdeEngine : public Peer {
     dMass mass;
     dMassSetParameters(&mass, from.mass, 0, 0, 0, from.inertia.x, from.inertia.y, from.inertia.z, 0, 0, 0);
     dBodySetMass(body, &mass);
+    if (from.linear_damping > 0)
+      set_damping(body, from.linear_damping, dBodySetLinearDamping, dBodySetLinearDampingThreshold);
+    if (from.angular_damping > 0)
+      set_damping(body, from.angular_damping, dBodySetAngularDamping, dBodySetAngularDampingThreshold);
     return body;
   }
   /// ODE's capsules lie along z, ours along y.
@@ -133,15 +155,66 @@ class OdeEngine : public Peer {
       return;
     }
     const Vec3<double> at = body.position + to_matrix(body.orientation) * part.position;
+    if (part.type == ShapeType::half_space) {
+      const Vec3<double> n = to_matrix(normalise(body.orientation * part.orientation)) * part.normal;
+      dGeomPlaneSetParams(geom, n.x, n.y, n.z, part.offset + dot(n, at));
+      return;
+    }
     set_quaternion(q, body.orientation * local);
     dGeomSetPosition(geom, at.x, at.y, at.z);
     dGeomSetQuaternion(geom, q);
   }
+  /// A spring as its manual has it: `push` [N s/m] is stiffness times the step, `damping` [N s/m].
+  static void soften(dJointID joint, double push, double damping) {
+    dJointSetDBallParam(joint, dParamERP, push / (push + damping));
+    dJointSetDBallParam(joint, dParamCFM, 1 / (push + damping));
+  }
+  Vec3<double> in_world(int body, Vec3<double> local) const {
+    if (body < 0) return local;
+    const PeerBody& at = bodies()[static_cast<std::size_t>(body)];
+    return at.position + to_matrix(at.orientation) * local;
+  }
+  /// Anchors are given where they lie at the start.
   void connect(const PeerJoint& joint) {
     const auto body = [&](int i) { return i < 0 ? nullptr : bodies_[static_cast<std::size_t>(i)].body; };
-    const dJointID made = dJointCreateBall(world_, nullptr);
-    dJointAttach(made, body(joint.a), body(joint.b));
-    dJointSetBallAnchor(made, joint.anchor.x, joint.anchor.y, joint.anchor.z);
+    const Vec3<double> on_a = in_world(joint.a, joint.on_a.position), on_b = in_world(joint.b, joint.on_b.position);
+    const Vec3<double> axis =
+        in_world(joint.a, joint.on_a.position + to_matrix(joint.on_a.orientation).column(2)) - on_a;
+    dJointID made = nullptr;
+    switch (joint.type) {
+      case JointType::ball:
+        made = dJointCreateBall(world_, nullptr);
+        dJointAttach(made, body(joint.a), body(joint.b));
+        dJointSetBallAnchor(made, on_b.x, on_b.y, on_b.z);
+        break;
+      case JointType::hinge:
+        made = dJointCreateHinge(world_, nullptr);
+        dJointAttach(made, body(joint.a), body(joint.b));
+        dJointSetHingeAnchor(made, on_b.x, on_b.y, on_b.z);
+        dJointSetHingeAxis(made, axis.x, axis.y, axis.z);
+        if (joint.is_limited) {
+          dJointSetHingeParam(made, dParamLoStop, joint.lower);
+          dJointSetHingeParam(made, dParamHiStop, joint.upper);
+        }
+        break;
+      case JointType::fixed:
+        made = dJointCreateFixed(world_, nullptr);
+        dJointAttach(made, body(joint.a), body(joint.b));
+        dJointSetFixed(made);
+        break;
+      case JointType::distance:
+        if (!joint.is_spring && joint.lower != joint.upper) throw scenes::SceneError("", "ODE has no rope");
+        made = dJointCreateDBall(world_, nullptr);
+        dJointAttach(made, body(joint.a), body(joint.b));
+        dJointSetDBallAnchor1(made, on_a.x, on_a.y, on_a.z);
+        dJointSetDBallAnchor2(made, on_b.x, on_b.y, on_b.z);
+        dJointSetDBallDistance(made, joint.is_spring ? joint.rest : joint.upper);
+        if (joint.is_spring) soften(made, joint.stiffness / 60, joint.damping);
+        break;
+    }
+    if (joint.collide || joint.a < 0 || joint.b < 0) return;
+    const auto place = [&](int i) { return &bodies()[static_cast<std::size_t>(i)]; };
+    apart_.insert(std::minmax(place(joint.a), place(joint.b)));
   }
 
   static void collide(void* self, dGeomID a, dGeomID b) { static_cast<OdeEngine*>(self)->touch(a, b); }
@@ -149,15 +222,19 @@ class OdeEngine : public Peer {
   void touch(dGeomID a, dGeomID b) {
     const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
     if (body_a == body_b) return;
-    if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0)
-      return;
+    const PeerBody& of_a = *static_cast<const PeerBody*>(dGeomGetData(a));
+    const PeerBody& of_b = *static_cast<const PeerBody*>(dGeomGetData(b));
+    if (of_a.group != 0 && of_a.group == of_b.group) return;
+    if (apart_.count(std::minmax(&of_a, &of_b)) != 0) return;
     constexpr int kMost = 8;  // box against box finds no more
     dContact contacts[kMost];
     const int count = dCollide(a, b, kMost, &contacts[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
       contacts[i].surface = {};
       contacts[i].surface.mode = dContactApprox1;
-      contacts[i].surface.mu = 0.5;
+      contacts[i].surface.mu = of_a.friction == of_b.friction ? of_a.friction : sqrt(of_a.friction * of_b.friction);
+      contacts[i].surface.bounce = std::max(of_a.restitution, of_b.restitution);
+      if (contacts[i].surface.bounce > 0) contacts[i].surface.mode |= dContactBounce;
       dJointAttach(dJointCreateContact(world_, touching_, &contacts[i]), body_a, body_b);
     }
   }
@@ -166,6 +243,7 @@ class OdeEngine : public Peer {
   dSpaceID space_ = nullptr;
   dJointGroupID touching_ = nullptr;
   std::vector<OdeBody> bodies_;
+  std::set<std::pair<const PeerBody*, const PeerBody*>> apart_;  // joined, and not to collide; lower address first
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scenes/bars.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -15,7 +16,7 @@ constexpr int kEnergyFrames = 60;
 /// One engine's run, and what is noted beside it.
 struct Lane {
   std::unique_ptr<Engine> engine;
-  std::vector<Place> start;
+  std::vector<scenes::BodySight> start;
   scenes::Energy energy_start;
   std::vector<double> times;  // [ms] a frame
   double kinetic = 0, joint_worst = 0;
@@ -28,18 +29,18 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
   for (int frame = from; frame < to; ++frame) {
     lane.engine->before_step(frame, true);
     lane.times.push_back(lane.engine->timed_steps(1));
-    if (!scene.joints.empty()) lane.joint_worst = std::max(lane.joint_worst, lane.engine->joint_error());
+    if (!scene.joints.empty()) lane.joint_worst = std::max(lane.joint_worst, lane.engine->sight().joint_error);
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
     if (frame < scene.frames - kEnergyFrames) continue;
-    const scenes::Energy energy = lane.engine->energy();
+    const scenes::Energy energy = lane.engine->sight().energy;
     lane.kinetic += energy.kinetic / energy.mass / kEnergyFrames;
   }
 }
 
 /// Reach: from the world's end of the first joint to the last body, straight chains only.
 void measure_places(const Lane& lane, const scenes::Scene& scene, Row& row) {
-  const std::vector<Place> now = lane.engine->places();
-  row.outside = count_outside(scene, now);
+  const std::vector<scenes::BodySight> now = lane.engine->sight().bodies;
+  row.outside = scenes::count_outside(scene.name, now);
   if (scene.script != scenes::Script::none) return;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (!now[i].dynamic) continue;
@@ -73,14 +74,14 @@ scenes::Overlap calm_overlap(Engine& engine, int frames) {
 
 void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   measure_places(lane, scene, row);
-  const scenes::Energy end = lane.engine->energy();
+  const scenes::Sight end = lane.engine->sight();
   row.settings = lane.engine->settings();
   row.faults = lane.engine->faults();
   row.overlap = lane.engine->overlap();
   row.kinetic = lane.kinetic;
-  row.energy_loss = (lane.energy_start.total() - end.total()) / end.mass;
+  row.energy_loss = (lane.energy_start.total() - end.energy.total()) / end.energy.mass;
   row.joint_worst = lane.joint_worst;
-  row.joint_end = lane.engine->joint_error();
+  row.joint_end = end.joint_error;
   if (scene.script != scenes::Script::none) row.calm = calm_overlap(*lane.engine, scene.frames);
   row.asleep_at = lane.asleep_at < 0 ? -1 : lane.asleep_at / 60.0;
 }
@@ -104,8 +105,9 @@ std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Make
   for (const Maker& maker : makers) {
     Lane lane;
     lane.engine = maker.make(scene, options.engine);
-    lane.start = lane.engine->places();
-    lane.energy_start = lane.engine->energy();
+    const scenes::Sight start = lane.engine->sight();
+    lane.start = start.bodies;
+    lane.energy_start = start.energy;
     lanes.push_back(std::move(lane));
   }
   return lanes;

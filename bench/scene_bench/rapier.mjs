@@ -3,9 +3,10 @@
 // SPDX-License-Identifier: MIT
 //   {"scene": {...}}         builds it                                       answer: 0
 //   {"replace": [i, body]}   body i is gone, another takes its place         answer: 0
+//   {"launch": [i, v]}       body i flies off with velocity v [m/s]          answer: 0
 //   {"steps": n}             steps                                           answer: CPU time of them all [ms]
-//   {"state": 0}             where everything is     answer: 13 doubles a body (position, quaternion x y z w, velocity,
-//                                                    spin), then the number of awake dynamic bodies
+//   {"state": 0}             where everything is     answer: 14 doubles a body (position, quaternion x y z w, velocity,
+//                                                    spin, whether it is awake)
 // CPU time is that of this process, all threads, in whole microseconds: other work on the machine does not count.
 import { readSync, writeSync } from "node:fs";
 import { join } from "node:path";
@@ -16,20 +17,38 @@ await RAPIER.init();
 
 const vector = ([x, y, z]) => ({ x, y, z });
 const rotation = ([x, y, z, w]) => ({ x, y, z, w });
-let world, bodies;
+let world, bodies, uniform;
 
-function collider(part, body) {
-  const description =
-    part.type === "sphere" ? RAPIER.ColliderDesc.ball(part.radius)
-    : part.type === "capsule" ? RAPIER.ColliderDesc.capsule(part.half_height, part.radius)
-    : RAPIER.ColliderDesc.cuboid(...part.half_extents);
-  description.setTranslation(...part.position).setRotation(rotation(part.orientation));
-  description.setFriction(body.friction).setRestitution(0);
-  if (!body.collide) description.setCollisionGroups(0);
-  if (body.type === "dynamic") {
-    const none = { x: 0, y: 0, z: 0 };
-    description.setMassProperties(body.mass, none, vector(body.inertia), { ...none, w: 1 });
+function shape(part) {
+  switch (part.type) {
+    case "sphere": return RAPIER.ColliderDesc.ball(part.radius);
+    case "capsule": return RAPIER.ColliderDesc.capsule(part.half_height, part.radius);
+    case "half_space": return new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vector(part.normal)));
+    default: return RAPIER.ColliderDesc.cuboid(...part.half_extents);
   }
+}
+
+// By quaternion q: v + 2 q x (q x v + w v).
+function turned([x, y, z, w], [a, b, c]) {
+  const p = y * c - z * b + w * a, q = z * a - x * c + w * b, r = x * b - y * a + w * c;
+  return [a + 2 * (y * r - z * q), b + 2 * (z * p - x * r), c + 2 * (x * q - y * p)];
+}
+
+const mass = (body) => [body.mass, vector([0, 0, 0]), vector(body.inertia), rotation([0, 0, 0, 1])];
+
+// A half-space has no offset of its own. Mass is the collider's where it is the only one, else the body's.
+function collider(part, body) {
+  const description = shape(part);
+  const at = turned(part.orientation, part.normal.map((n) => (part.type === "half_space" ? n * part.offset : 0)));
+  description.setTranslation(...part.position.map((p, i) => p + at[i])).setRotation(rotation(part.orientation));
+  description.setFriction(uniform ? body.friction : Math.sqrt(body.friction)).setRestitution(body.restitution);
+  if (!uniform) description.setFrictionCombineRule(RAPIER.CoefficientCombineRule.Multiply);
+  description.setRestitutionCombineRule(RAPIER.CoefficientCombineRule.Max);
+  const bit = 1 << body.group; // colliders of one group do not meet
+  if (!body.collide) description.setCollisionGroups(0);
+  else if (body.group > 0) description.setCollisionGroups(((bit << 16) | (0xffff & ~bit)) >>> 0);
+  if (body.type === "dynamic" && body.parts.length > 1) description.setDensity(0);
+  else if (body.type === "dynamic") description.setMassProperties(...mass(body));
   return description;
 }
 
@@ -38,21 +57,33 @@ function make(body, allowSleep) {
   const description = RAPIER.RigidBodyDesc[kinds[body.type]]();
   description.setTranslation(...body.position).setRotation(rotation(body.orientation));
   description.setLinvel(...body.velocity).setAngvel(vector(body.spin)).setCanSleep(allowSleep);
+  description.setGravityScale(body.gravity_scale);
+  description.setLinearDamping(body.linear_damping).setAngularDamping(body.angular_damping);
+  if (body.type === "dynamic" && body.parts.length > 1) description.setAdditionalMassProperties(...mass(body));
   const made = world.createRigidBody(description);
   for (const part of body.parts) world.createCollider(collider(part, body), made);
   return made;
 }
 
-// Anchors are given in the bodies' own frames; body -1 is the world.
-function connect({ a, b, on_a, on_b }) {
+// Ends are given in the bodies' own frames, z the axis of a hinge; body -1 is the world.
+function connect({ type, a, b, on_a, on_b, limits, rest, stiffness, damping, length, collide }) {
   const holder = a < 0 ? world.createRigidBody(RAPIER.RigidBodyDesc.fixed()) : bodies[a];
-  const joint = RAPIER.JointData.spherical(vector(on_a), vector(on_b));
-  world.createImpulseJoint(joint, holder, bodies[b], true).setContactsEnabled(false);
+  const p = vector(on_a.anchor), q = vector(on_b.anchor), z = [0, 0, 1];
+  const axis = (end) => vector(turned(end.axes, z));
+  const joint =
+    type === "ball" ? RAPIER.JointData.spherical(p, q)
+    : type === "hinge" ? RAPIER.JointData.revoluteWithAxes(p, q, axis(on_a), axis(on_b))
+    : type === "fixed" ? RAPIER.JointData.fixed(p, rotation(on_a.axes), q, rotation(on_b.axes))
+    : type === "spring" ? RAPIER.JointData.spring(rest, stiffness, damping, p, q)
+    : RAPIER.JointData.rope(length, p, q);
+  if (limits !== null) Object.assign(joint, { limitsEnabled: true, limits });
+  world.createImpulseJoint(joint, holder, bodies[b], true).setContactsEnabled(collide);
 }
 
 function raise(scene) {
   world = new RAPIER.World(vector(scene.gravity));
   world.timestep = 1 / 60;
+  uniform = scene.uniform;
   bodies = scene.bodies.map((body) => make(body, scene.allow_sleep));
   scene.joints.forEach(connect);
 }
@@ -72,6 +103,12 @@ function replace([index, body]) {
   return [0];
 }
 
+function launch([index, velocity]) {
+  bodies[index].setLinvel(vector(velocity), true);
+  bodies[index].setAngvel(vector([0, 0, 0]), true);
+  return [0];
+}
+
 function steps(count) {
   const start = process.cpuUsage();
   for (let i = 0; i < count; ++i) world.step();
@@ -83,9 +120,8 @@ function steps(count) {
 const at = { x: 0, y: 0, z: 0, w: 0 };
 let numbers = new Float64Array(0);
 function state() {
-  if (numbers.length === 0) numbers = new Float64Array(13 * bodies.length + 1);
+  if (numbers.length === 0) numbers = new Float64Array(14 * bodies.length);
   let n = 0;
-  let awake = 0;
   for (const body of bodies) {
     body.translation(at);
     numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
@@ -95,9 +131,8 @@ function state() {
     numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
     body.angvel(at);
     numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
-    if (body.isDynamic() && !body.isSleeping()) ++awake;
+    numbers[n++] = body.isSleeping() ? 0 : 1;
   }
-  numbers[n] = awake;
   return numbers;
 }
 
@@ -107,7 +142,7 @@ function answer(doubles) {
   for (let sent = 0; sent < bytes.length;) sent += writeSync(1, bytes, sent);
 }
 
-const verbs = { scene: build, replace, steps, state };
+const verbs = { scene: build, replace, launch, steps, state };
 const chunk = Buffer.alloc(1 << 16);
 let pending = [];
 for (;;) {

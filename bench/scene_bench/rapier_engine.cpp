@@ -82,15 +82,18 @@ Json json_of(Vec3<double> v) { return {v.x, v.y, v.z}; }
 Json json_of(Quat<double> q) { return {q.x, q.y, q.z, q.w}; }
 
 Json json_of(const PeerPart& part) {
-  const char* type = part.type == ShapeType::sphere ? "sphere" : part.type == ShapeType::capsule ? "capsule" : "box";
-  return {{"type", type},
+  constexpr const char* kTypes[] = {"sphere", "box", "capsule", "half_space"};
+  return {{"type", kTypes[static_cast<int>(part.type)]},
           {"half_extents", json_of(part.half_extents)},
           {"radius", part.radius},
           {"half_height", part.half_height},
+          {"normal", json_of(part.normal)},
+          {"offset", part.offset},
           {"position", json_of(part.position)},
           {"orientation", json_of(part.orientation)}};
 }
 Json json_of(const PeerBody& body) {
+  if (body.group > 15) throw scenes::SceneError("", "Rapier has no more than 16 groups");
   const char* type = body.type == BodyType::fixed       ? "fixed"
                      : body.type == BodyType::kinematic ? "kinematic"
                                                         : "dynamic";
@@ -102,10 +105,41 @@ Json json_of(const PeerBody& body) {
                {"mass", body.mass},
                {"inertia", json_of(body.inertia)},
                {"friction", body.friction},
+               {"restitution", body.restitution},
+               {"gravity_scale", body.gravity_scale},
+               {"linear_damping", body.linear_damping},
+               {"angular_damping", body.angular_damping},
+               {"group", body.group},
                {"collide", body.collide},
                {"parts", Json::array()}};
   for (const PeerPart& part : body.parts) json["parts"].push_back(json_of(part));
   return json;
+}
+
+Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"axes", json_of(end.orientation)}}; }
+/// A rod is no joint of Rapier's.
+Json json_of(const PeerJoint& joint) {
+  constexpr const char* kTypes[] = {"ball", "hinge", "fixed", "rope"};
+  if (joint.type == JointType::distance && !joint.is_spring && joint.lower > 0)
+    throw scenes::SceneError("", "Rapier has no rod");
+  return {{"type", joint.is_spring ? "spring" : kTypes[static_cast<int>(joint.type)]},
+          {"rest", joint.rest},
+          {"stiffness", joint.stiffness},
+          {"damping", joint.damping},
+          {"limits", joint.is_limited ? Json{joint.lower, joint.upper} : Json()},
+          {"a", joint.a},
+          {"b", joint.b},
+          {"on_a", json_of(joint.on_a)},
+          {"on_b", json_of(joint.on_b)},
+          {"length", joint.upper},
+          {"collide", joint.collide}};
+}
+/// Pairs mix as ours where surfaces differ; where they do not, Rapier's own rule says the same.
+bool is_uniform(const std::vector<PeerBody>& bodies) {
+  for (const PeerBody& body : bodies) {
+    if (body.friction != bodies.front().friction) return false;
+  }
+  return true;
 }
 
 class RapierEngine : public Peer {
@@ -114,15 +148,11 @@ class RapierEngine : public Peer {
       : Peer(scene), package_(package), node_(package_directory(package)) {
     Json built = {{"gravity", json_of(gravity())},
                   {"allow_sleep", allow_sleep()},
+                  {"uniform", is_uniform(bodies())},
                   {"bodies", Json::array()},
                   {"joints", Json::array()}};
     for (const PeerBody& body : bodies()) built["bodies"].push_back(json_of(body));
-    for (std::size_t i = 0; i < joints().size(); ++i) {
-      built["joints"].push_back({{"a", joints()[i].a},
-                                 {"b", joints()[i].b},
-                                 {"on_a", json_of(anchors()[i].on_a)},
-                                 {"on_b", json_of(anchors()[i].on_b)}});
-    }
+    for (const PeerJoint& joint : joints()) built["joints"].push_back(json_of(joint));
     node_.ask({{"scene", built}}, 1);
   }
 
@@ -132,27 +162,33 @@ class RapierEngine : public Peer {
     return node_.ask({{"steps", count}}, 1).front();
   }
 
-  bool all_asleep() const override { return state().back() == 0; }
   std::string settings() const override { return std::string(package_) + ", 4 iterations"; }
 
  protected:
   Motion motion(std::size_t i) const override {
     const double* m = state().data() + kNumbers * i;
-    return {
-        {m[0], m[1], m[2]}, {m[7], m[8], m[9]}, {m[10], m[11], m[12]}, normalise(Quat<double>{m[3], m[4], m[5], m[6]})};
+    return {{m[0], m[1], m[2]},
+            {m[7], m[8], m[9]},
+            {m[10], m[11], m[12]},
+            normalise(Quat<double>{m[3], m[4], m[5], m[6]}),
+            m[13] != 0};
   }
   void replace(std::size_t i, const PeerBody& by) override {
     state_.clear();
     node_.ask({{"replace", {i, json_of(by)}}}, 1);
   }
+  void launch(std::size_t i, Vec3<double> velocity) override {
+    state_.clear();
+    node_.ask({{"launch", {i, json_of(velocity)}}}, 1);
+  }
   void drive(int) override {}  // Rapier moves kinematic bodies by their velocity
 
  private:
-  static constexpr std::size_t kNumbers = 13;  // a body
+  static constexpr std::size_t kNumbers = 14;  // a body
 
   /// Asked for once a step.
   const std::vector<double>& state() const {
-    if (state_.empty()) state_ = node_.ask({{"state", 0}}, kNumbers * bodies().size() + 1);
+    if (state_.empty()) state_ = node_.ask({{"state", 0}}, kNumbers * bodies().size());
     return state_;
   }
 

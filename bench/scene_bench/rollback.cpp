@@ -19,7 +19,7 @@ constexpr int kRuns = 41;
 constexpr std::size_t kFrames = 8;
 
 template <class S> RollbackRow measure(const scenes::Scene& scene) {
-  World<S> world(scenes::settings_of<S>(scene, 60, Settings<S>{}.substeps));
+  World<S> world(scenes::settings_of<S>(scene));
   scenes::build(scene, world);
   const auto act = [&] { scenes::before_step(scene.script, world); };
   for (int i = 0; i < scene.frames; ++i) {

@@ -3,10 +3,15 @@
 #include "verdict.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string_view>
+
+#include "scenes/bars.hpp"
 
 namespace isostep::bench {
 namespace {
+
+using scenes::Measure;
 
 bool starts_with(std::string_view name, std::string_view head) { return name.substr(0, head.size()) == head; }
 
@@ -26,73 +31,33 @@ bool lost(const Row& row) {
   return false;
 }
 
-struct Bars {
-  bool must, aim;
-};
-
-/// Fixed point of 32 bits is for particles and small scenes, and has bars for those alone.
-Bars small_bars(const Row& row, bool& any) {
-  const scenes::Overlap& o = row.overlap;
-  const double top = std::abs(row.top_error);
-  any = true;
-  if (row.scene == "S1x10") return {top < 0.05 && row.drift < 0.05, top < 0.025 && row.drift < 0.025};
-  if (row.scene == "S4s") return {o.worst < 0.08 && o.mean < 0.008, o.worst < 0.04 && o.mean < 0.004};
-  if (row.scene == "S2") return {nothing_moved(row), row.moved < 0.125};
-  any = false;
-  return {};
-}
-
-Bars bars(const Row& row, bool& any) {
-  const std::string_view scene = row.scene;
-  const scenes::Overlap& o = row.overlap;
-  const double top = std::abs(row.top_error);
-  any = true;
-  if (scene == "S1") return {top < 0.12 && row.drift < 0.01, top < 0.02 && row.drift < 0.005};
-  if (scene == "S1x10") return {top < 0.03, top < 0.01};
-  if (scene == "S2" || scene == "S3") {
-    return {o.worst < 0.004 && row.kinetic < 1e-8, o.worst < 0.001 && row.kinetic < 1e-9};
+std::optional<double> value_of(const Row& row, Measure measure) {
+  switch (measure) {
+    case Measure::top: return row.top_error;
+    case Measure::drift: return row.drift;
+    case Measure::moved: return row.moved;
+    case Measure::stretch: return row.reach_error;
+    case Measure::outside: return row.outside;
+    case Measure::penetration: return row.overlap.worst;
+    case Measure::penetration_mean: return row.overlap.mean;
+    case Measure::unrest: return row.kinetic;
+    case Measure::joint_error: return row.joint_worst;
+    case Measure::joint_end: return row.joint_end;
+    case Measure::energy_loss: return row.energy_loss;
+    case Measure::asleep_at: return row.asleep_at < 0 ? std::numeric_limits<double>::infinity() : row.asleep_at;
+    case Measure::asleep_ms: return row.asleep_at < 0 ? std::numeric_limits<double>::infinity() : row.asleep_ms;
   }
-  if (scene == "S4") {
-    return {o.worst < 0.04 && o.mean < 0.0025, o.worst < 0.02 && o.mean < 0.0015 && row.kinetic < 2e-5};
-  }
-  if (scene == "S5") return {o.worst < 0.03 && o.mean < 0.0035, o.worst < 0.02 && o.mean < 0.0016};
-  if (scene == "S6") return {row.joint_worst < 0.15, row.joint_worst < 0.05 && std::abs(row.energy_loss) < 20};
-  if (scene == "S6v") return {row.reach_error < 0.7, row.reach_error < 0.05};
-  if (scene == "S7") {
-    return {row.joint_worst < 0.12 && row.joint_end < 0.005, row.joint_worst < 0.05 && row.joint_end < 0.001};
-  }
-  if (scene == "S8") {
-    const bool asleep = row.asleep_at >= 0;
-    return {asleep && row.asleep_at < 2 && row.asleep_ms < 0.002, asleep && row.asleep_at < 1 && row.asleep_ms < 0.001};
-  }
-  if (scene == "S9") return {o.worst < 0.06, o.worst < 0.03};
-  any = false;
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
 
-int count_outside(const scenes::Scene& scene, const std::vector<Place>& places) {
-  int outside = 0;
-  const bool pit = starts_with(scene.name, "S4") || scene.name == "S5" || scene.name == "S7";
-  const bool drum = scene.name == "S9", floor = !drum && !starts_with(scene.name, "S6");
-  for (const Place& place : places) {
-    if (!place.dynamic) continue;
-    const Vec3<double> c = place.centre;
-    bool in = !floor || c.y > 0;
-    if (pit) in = in && std::abs(c.x) < 5 && std::abs(c.z) < 5;
-    if (drum) in = std::hypot(c.x, c.y - 6) < 4.5 && std::abs(c.z) < 4;
-    outside += in ? 0 : 1;
-  }
-  return outside;
-}
-
 void judge(Row& row) {
-  bool any = false;
-  const Bars reached = row.engine == "q16.16" ? small_bars(row, any) : bars(row, any);
   row.failed = lost(row);
-  const bool must = reached.must && !row.failed;
-  row.bar = !row.ours || !any ? "-" : !must ? "misses" : reached.aim ? "aim" : "must";
+  const std::vector<scenes::Bar> bars = scenes::bars_of(row.scene, row.engine == "q16.16");
+  const scenes::Reach reach = scenes::reach_of(bars, [&](Measure measure) { return value_of(row, measure); });
+  const bool misses = row.failed && reach != scenes::Reach::no_bar;
+  row.bar = scenes::kReachNames[!row.ours ? 0 : static_cast<int>(misses ? scenes::Reach::misses : reach)];
 }
 
 }  // namespace isostep::bench

@@ -81,9 +81,12 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
   d.inertia = read<S>(body.inertia, place + "/inertia");
   d.material.friction = read<S>(body.friction, place + "/friction");
   d.material.restitution = read<S>(body.restitution, place + "/restitution");
+  d.material.rolling_resistance = read<S>(body.rolling_resistance, place + "/rolling_resistance");
+  d.material.surface_velocity = read<S>(body.surface_velocity, place + "/surface_velocity");
   d.gravity_scale = read<S>(body.gravity_scale, place + "/gravity_scale");
   d.linear_damping = read<S>(body.linear_damping, place + "/linear_damping");
   d.angular_damping = read<S>(body.angular_damping, place + "/angular_damping");
+  d.locks = body.locks;
   d.filter.group = body.group;
   d.user_data = user_data;
   d.sensor = body.sensor;
@@ -141,13 +144,14 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
 
 template <class S> S value_of(const Number& number, const std::string& place) { return read<S>(number, place); }
 
-template <class S> Settings<S> settings_of(const Scene& scene, int hz, int substeps) {
+template <class S> Settings<S> settings_of(const Scene& scene) {
   Settings<S> settings;
-  settings.hz = hz;
-  settings.substeps = substeps;
+  settings.hz = scene.hz;
+  settings.substeps = scene.substeps;
+  settings.solver = scene.solver;
   settings.gravity = read<S>(scene.gravity, "/gravity");
   settings.allow_sleep = scene.allow_sleep;
-  if (static_cast<long long>(hz) * substeps > kMaxRate) {
+  if (static_cast<long long>(scene.hz) * scene.substeps > kMaxRate) {
     throw SceneError("hz and substeps", "more than " + std::to_string(kMaxRate) + " sub-steps a second");
   }
   if (const World<S> probe(settings); probe.fault() != Fault::none) {
@@ -179,7 +183,7 @@ template <class S> Built<S> build(const Scene& scene, World<S>& world) {
 }
 
 #define ISO_INSTANTIATE(S)                                                                     \
-  template Settings<S> settings_of<S>(const Scene&, int, int);                                 \
+  template Settings<S> settings_of<S>(const Scene&);                                           \
   template Built<S> build<S>(const Scene&, World<S>&);                                         \
   template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&); \
   template S value_of<S>(const Number&, const std::string&);

@@ -15,9 +15,8 @@ template <class S> struct Built {
   std::vector<JointId> joints;
 };
 
-/// Throws SceneError when gravity is no number of S.
-template <class S>
-Settings<S> settings_of(const Scene& scene, int hz = Settings<S>{}.hz, int substeps = Settings<S>{}.substeps);
+/// Throws SceneError when gravity is no number of S, or rates are beyond Settings'.
+template <class S> Settings<S> settings_of(const Scene& scene);
 /// Into a world that is empty. A body's user data is its place in the order of creation, from 1. Throws SceneError.
 template <class S> Built<S> build(const Scene& scene, World<S>& world);
 
@@ -28,7 +27,7 @@ BodyId add_body(World<S>& world, const SceneBody& body, std::uint64_t user_data,
 template <class S> S value_of(const Number& number, const std::string& place);
 
 #define ISO_EXTERN(S)                                                                                 \
-  extern template Settings<S> settings_of<S>(const Scene&, int, int);                                 \
+  extern template Settings<S> settings_of<S>(const Scene&);                                           \
   extern template Built<S> build<S>(const Scene&, World<S>&);                                         \
   extern template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&); \
   extern template S value_of<S>(const Number&, const std::string&);

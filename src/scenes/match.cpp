@@ -11,8 +11,10 @@ namespace isostep::scenes {
 template <class S>
 Match<S>::Match(const MatchSettings& settings)
     : settings_(within_range(settings)), starts_{}, half_(S(0)), report_{}, event_count_(0) {
-  const MatchPlan plan = plan_match(settings_);
-  parts_ = std::make_unique<Parts>(settings_of<S>(plan.scene, settings_.hz, settings_.substeps));
+  MatchPlan plan = plan_match(settings_);
+  plan.scene.hz = settings_.hz;
+  plan.scene.substeps = settings_.substeps;
+  parts_ = std::make_unique<Parts>(settings_of<S>(plan.scene));
   World<S>& world = parts_->world;
   const Built<S> built = build(plan.scene, world);
   for (std::size_t n = 0; n < built.bodies.size(); ++n) {

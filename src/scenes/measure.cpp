@@ -14,8 +14,7 @@
 namespace isostep::scenes {
 namespace {
 
-template <class T> Vec3<double> in_double(Vec3<T> v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
-template <class U> Quat<double> in_double(const Quat<U>& q) {
+template <class U> Quat<double> unit_in_double(const Quat<U>& q) {
   return normalise(Quat<double>{to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)});
 }
 
@@ -62,14 +61,14 @@ template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
   std::vector<Part> parts;
   each_body(state, [&](const BodyState<S>& body, const BodyProperties<S>& properties) {
     if ((properties.flags & body_flag::kCollide) == 0 || (properties.flags & body_flag::kSensor) != 0) return;
-    const Mat3<double> axes = to_matrix(in_double(body.orientation));
+    const Mat3<double> axes = to_matrix(unit_in_double(body.orientation));
     const Vec3<double> origin = in_double(body.centre) - axes * in_double(properties.local_centre);
     const ShapeRecord& shape = (*state.shapes)[properties.shape];
     for (std::uint32_t i = 0; i < shape.child_count; ++i) {
       const Child<S>& child = (*state.children)[shape.first_child + i];
       Solid solid = {};
       solid.type = child.primitive.type;
-      solid.axes = axes * to_matrix(in_double(child.pose.orientation));
+      solid.axes = axes * to_matrix(unit_in_double(child.pose.orientation));
       solid.centre = origin + axes * in_double(child.pose.position);
       solid.half = in_double(child.primitive.half);
       solid.radius = to_double(child.primitive.radius);
@@ -112,7 +111,7 @@ Overlap summary(std::vector<double> depths) {
     overlap.mean += depth / static_cast<double>(depths.size());
     overlap.deep += depth > 0.05 ? 1u : 0u;
   }
-  overlap.worst = depths.back();
+  overlap.worst = depths.back() + 0.0;  // no minus zero
   overlap.p99 = depths[(depths.size() * 99 + 99) / 100 - 1];
   return overlap;
 }
@@ -147,7 +146,8 @@ template <class S> Energy measure_energy(const World<S>& world) {
     if (properties.type != BodyType::dynamic) return;
     const double mass = to_double(properties.mass);
     const Vec3<double> velocity = in_double(body.velocity);
-    const Mat3<double> axes = to_matrix(in_double(body.orientation)) * to_matrix(in_double(properties.principal));
+    const Mat3<double> axes =
+        to_matrix(unit_in_double(body.orientation)) * to_matrix(unit_in_double(properties.principal));
     const Vec3<double> spin = transposed_times(axes, in_double(body.spin)), kappa = in_double(properties.kappa);
     double square = dot(velocity, velocity);
     for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? spin[i] * spin[i] / kappa[i] : 0.0;

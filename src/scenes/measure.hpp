@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "isostep/world/world.hpp"
 
 namespace isostep::scenes {
+
+template <class T> Vec3<double> in_double(Vec3<T> v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
+inline double length_of(Vec3<double> v) { return std::sqrt(dot(v, v)); }
 
 /// Over pairs of parts that may collide and are closer than 1 cm, overlapping ones included.
 struct Overlap {

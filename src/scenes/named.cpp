@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "named.hpp"
 
+#include "trials/trial.hpp"
+
 namespace isostep::scenes {
 namespace {
 
@@ -23,6 +25,15 @@ Scene sleeping_pyramid() {
   return scene;
 }
 
+Scene mixed_by(SolverName solver) {
+  Scene scene = mixed();
+  scene.solver = solver;
+  return scene;
+}
+Scene mixed_pgs() { return mixed_by(SolverName::pgs); }
+Scene mixed_worst_first() { return mixed_by(SolverName::worst_first); }
+Scene mixed_direct() { return mixed_by(SolverName::direct); }
+
 constexpr NamedScene kScenes[] = {
     {"S1", "20 unit boxes stacked", tall_stack},
     {"S1x5", "5 unit boxes stacked", small_stack},
@@ -39,6 +50,9 @@ constexpr NamedScene kScenes[] = {
     {"S8", "S3 with sleep", sleeping_pyramid},
     {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
+    {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
+    {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},
+    {"mixed_direct", "the same, all contacts at once", mixed_direct},
 };
 
 }  // namespace
@@ -50,6 +64,11 @@ std::optional<Scene> find_scene(std::string_view name) {
     if (name != entry.name) continue;
     Scene scene = entry.make();
     scene.name = entry.name;
+    return scene;
+  }
+  if (const Trial* trial = find_trial(name)) {
+    Scene scene = trial->make();
+    scene.name = trial->name;
     return scene;
   }
   return std::nullopt;

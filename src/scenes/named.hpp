@@ -16,7 +16,7 @@ struct NamedScene {
   Scene (*make)();
 };
 std::span<const NamedScene> named_scenes();
-/// Nothing for a name that no scene has.
+/// Of these, or of the trials (trials/trial.hpp). Nothing for a name that neither has.
 std::optional<Scene> find_scene(std::string_view name);
 
 // Makers, one file a family.

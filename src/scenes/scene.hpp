@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/solvers/solver_name.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/scalar/text.hpp"
 
@@ -60,9 +61,12 @@ struct SceneBody {
   Vector inertia = zero_vector();           // [kg m^2] 0: from the shape
   Number friction = 0.5;                    // [1]
   Number restitution = 0;                   // [1]
+  Number rolling_resistance = 0;            // [m] lever arm of the normal force that resists rolling
+  Vector surface_velocity = zero_vector();  // [m/s] world, a conveyor belt's
   Number gravity_scale = 1;                 // [1]
   Number linear_damping = 0;                // [1/s]
   Number angular_damping = 0;               // [1/s]
+  std::uint32_t locks = 0;                  // body_flag::kLockX ...
   std::uint32_t group = 0;
   bool allow_sleep = true;
   bool collide = true;
@@ -86,14 +90,16 @@ struct SceneJoint {
   Number spring_damping = 0;             // [1]
 };
 
-/// What happens between frames: closed, so that a scene file can name it.
-enum class Script : std::uint32_t { none, mixer, mixed };
-inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed"};
+/// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
+enum class Script : std::uint32_t { none, mixer, mixed, hit };
+inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed", "hit"};
 
 struct Scene {
   std::string name = "scene";
   Vector gravity = {0, -10, 0};  // [m/s^2]
   bool allow_sleep = true;
+  int hz = 60, substeps = 8;  // as in Settings
+  SolverName solver = SolverName::soft_step;
   int frames = 600;  // of a run that asks for no other count
   Script script = Script::none;
   std::vector<SceneBody> bodies;

@@ -41,6 +41,14 @@ ScenePart read_part(const JsonNode& node, const std::string& place) {
   return part;
 }
 
+void read_flags(ObjectReader& reader, std::span<const FlagKey> keys, std::uint32_t& flags) {
+  for (const auto& [key, flag] : keys) {
+    bool set = false;
+    reader.flag(key, set);
+    if (set) flags |= flag;
+  }
+}
+
 SceneBody read_body(const JsonNode& node, const std::string& place) {
   ObjectReader reader(node, place);
   SceneBody body;
@@ -55,9 +63,12 @@ SceneBody read_body(const JsonNode& node, const std::string& place) {
   reader.vector("inertia", body.inertia);
   reader.number("friction", body.friction);
   reader.number("restitution", body.restitution);
+  reader.number("rolling_resistance", body.rolling_resistance);
+  reader.vector("surface_velocity", body.surface_velocity);
   reader.number("gravity_scale", body.gravity_scale);
   reader.number("linear_damping", body.linear_damping);
   reader.number("angular_damping", body.angular_damping);
+  read_flags(reader, kBodyLocks, body.locks);
   std::int64_t group = 0;
   reader.integer("group", 0, 0xffffffff, group);
   body.group = static_cast<std::uint32_t>(group);
@@ -92,11 +103,7 @@ SceneJoint read_joint(const JsonNode& node, const std::string& place, std::size_
     reader.vector("anchor_b", joint.anchor_b);
   }
   reader.rotation("orientation", joint.orientation);
-  for (const auto& [key, flag] : kJointFlags) {
-    bool set = false;
-    reader.flag(key, set);
-    if (set) joint.flags |= flag;
-  }
+  read_flags(reader, kJointFlags, joint.flags);
   for (const auto& [key, member] : kJointNumbers) reader.number(key, joint.*member);
   reader.finish();
   return joint;
@@ -110,6 +117,12 @@ void read_name(ObjectReader& reader, Scene& scene) {
   if (!printable) throw SceneError("/name", "expected 1 to 128 printable ASCII characters");
 }
 
+int read_count(ObjectReader& reader, const char* key, int least, int most, int otherwise) {
+  std::int64_t value = otherwise;
+  reader.integer(key, least, most, value);
+  return static_cast<int>(value);
+}
+
 }  // namespace
 
 Scene read_scene(std::string_view json) {
@@ -119,9 +132,10 @@ Scene read_scene(std::string_view json) {
   read_name(reader, scene);
   reader.vector("gravity", scene.gravity);
   reader.flag("allow_sleep", scene.allow_sleep);
-  std::int64_t frames = scene.frames;
-  reader.integer("frames", 0, 1'000'000'000, frames);
-  scene.frames = static_cast<int>(frames);
+  scene.hz = read_count(reader, "hz", 10, 1000, scene.hz);
+  scene.substeps = read_count(reader, "substeps", 1, 64, scene.substeps);
+  if (reader.has("solver")) scene.solver = static_cast<SolverName>(reader.choice("solver", kSolverNames));
+  scene.frames = read_count(reader, "frames", 0, 1'000'000'000, scene.frames);
   if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
   reader.require("bodies");
   const auto bodies = reader.array("bodies");

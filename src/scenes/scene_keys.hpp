@@ -10,15 +10,21 @@ inline constexpr const char* kShapeNames[] = {"sphere", "box", "capsule", "half_
 inline constexpr const char* kBodyNames[] = {"static", "kinematic", "dynamic"};
 inline constexpr const char* kJointNames[] = {"ball", "hinge", "fixed", "distance"};
 
-struct JointFlagKey {
+struct FlagKey {
   const char* key;
   std::uint32_t flag;
 };
-inline constexpr JointFlagKey kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
-                                               {"limit", joint_flag::kLimit},
-                                               {"motor", joint_flag::kMotor},
-                                               {"spring", joint_flag::kSpring},
-                                               {"limit_cone", joint_flag::kCone}};
+inline constexpr FlagKey kBodyLocks[] = {{"lock_x", body_flag::kLockX},
+                                         {"lock_y", body_flag::kLockX << 1},
+                                         {"lock_z", body_flag::kLockX << 2},
+                                         {"lock_angular_x", body_flag::kLockAngularX},
+                                         {"lock_angular_y", body_flag::kLockAngularX << 1},
+                                         {"lock_angular_z", body_flag::kLockAngularX << 2}};
+inline constexpr FlagKey kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
+                                          {"limit", joint_flag::kLimit},
+                                          {"motor", joint_flag::kMotor},
+                                          {"spring", joint_flag::kSpring},
+                                          {"limit_cone", joint_flag::kCone}};
 
 struct JointNumberKey {
   const char* key;

@@ -66,9 +66,12 @@ std::string text_of(const SceneBody& body) {
   out.member("inertia", body.inertia, plain.inertia);
   out.member("friction", body.friction);
   out.member("restitution", body.restitution, plain.restitution);
+  out.member("rolling_resistance", body.rolling_resistance, plain.rolling_resistance);
+  out.member("surface_velocity", body.surface_velocity, plain.surface_velocity);
   out.member("gravity_scale", body.gravity_scale, plain.gravity_scale);
   out.member("linear_damping", body.linear_damping, plain.linear_damping);
   out.member("angular_damping", body.angular_damping, plain.angular_damping);
+  for (const auto& [key, flag] : kBodyLocks) out.member(key, (body.locks & flag) != 0, false);
   if (body.group != plain.group) out.raw("group", std::to_string(body.group));
   out.member("allow_sleep", body.allow_sleep, plain.allow_sleep);
   out.member("collide", body.collide, plain.collide);
@@ -103,6 +106,12 @@ template <class T> std::string lines_of(const std::vector<T>& items) {
 std::string write_scene(const Scene& scene) {
   std::string text = "{\"name\": " + quoted(scene.name) + ", \"gravity\": " + list(scene.gravity) +
                      ", \"allow_sleep\": " + list(scene.allow_sleep) + ", \"frames\": " + std::to_string(scene.frames);
+  const Scene standard;
+  if (scene.hz != standard.hz) text += ", \"hz\": " + std::to_string(scene.hz);
+  if (scene.substeps != standard.substeps) text += ", \"substeps\": " + std::to_string(scene.substeps);
+  if (scene.solver != standard.solver) {
+    text += ", \"solver\": " + quoted(kSolverNames[static_cast<std::size_t>(scene.solver)]);
+  }
   if (scene.script != Script::none) {
     text += ", \"script\": " + quoted(kScriptNames[static_cast<std::size_t>(scene.script)]);
   }

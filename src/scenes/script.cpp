@@ -1,4 +1,4 @@
-// The scripts: S9's exchange of bodies, and the many commands of `mixed`.
+// The scripts: S9's exchange of bodies, the many commands of `mixed`, and one hit.
 // SPDX-License-Identifier: MIT
 #include "script.hpp"
 
@@ -133,11 +133,22 @@ template <class S> class Mixing {
   Draws draws_;
 };
 
+/// At tick 120 the last body made is thrown down with 20 m/s.
+template <class S> void hit(World<S>& world) {
+  if (world.tick() != 120) return;
+  BodyId last;
+  for (const BodyId body : dynamic_bodies(world)) {
+    if (!last || world.user_data(body) > world.user_data(last)) last = body;
+  }
+  world.set_velocity(last, vector<S>(0, -20, 0), vector<S>(0, 0, 0));
+}
+
 }  // namespace
 
 template <class S> void before_step(Script script, World<S>& world) {
   if (script == Script::mixer) stir(world);
   if (script == Script::mixed) Mixing<S>(world).run();
+  if (script == Script::hit) hit(world);
 }
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);

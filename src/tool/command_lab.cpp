@@ -1,142 +1,52 @@
-// isostep lab: experiments, as tables, JSON, and charts where gnuplot is installed.
+// isostep lab SCENE: which scalar, solver, sub-steps and model are the cheapest that hold a tolerance.
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "files.hpp"
-#include "lab/springs.hpp"
+#include "lab/report/report.hpp"
+#include "lab/summary.hpp"
+#include "lab/sweep.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {
+
 namespace {
 
-using lab::SpringSample;
-using lab::SpringSystem;
-using lab::SpringVerdict;
-
-/// The word within single quotes; inside them `quote` stands for one.
-std::string quoted(const std::string& word, const char* quote) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string(quote) : std::string(1, c);
-  return text + "'";
-}
-
-/// bench/chart/NAME.gp draws DIRECTORY/NAME.tsv to NAME.svg beside it. Says on stderr what it did.
-void draw(const std::string& directory, const std::string& name) {
-  const std::string script = std::string(ISOSTEP_CHART_DIR) + "/" + name + ".gp";
-  const std::string table = directory + "/" + name + ".tsv", chart = directory + "/" + name + ".svg";
-  if (std::system("gnuplot --version >/dev/null 2>&1") != 0 || !std::filesystem::exists(script)) {
-    std::cerr << "isostep: gnuplot or " << script << " is not there: no chart\n";
-    return;
-  }
-  const std::string variables = "data=" + quoted(table, "''") + "; out=" + quoted(chart, "''");
-  const std::string shell = "gnuplot -e " + quoted(variables, "'\\''") + " " + quoted(script, "'\\''") + " >&2";
-  if (std::system(shell.c_str()) != 0) throw ToolError(exit_status::kOutput, chart + ": gnuplot failed");
-  std::cerr << "drawn: " << chart << "\n";
-}
-
-std::vector<SpringSample> sweep(const std::vector<double>& stiffnesses, int timings) {
-  std::vector<SpringSample> samples;
-  for (const SpringSystem system : {SpringSystem::oscillator, SpringSystem::net}) {
-    any_scalar([&](auto tag) {
-      for (int method = 0; method < lab::kSpringMethods; ++method) {
-        for (const double stiffness : stiffnesses) {
-          stop_if_interrupted();
-          const char* scalar = ScalarTraits<typename decltype(tag)::Type>::kName;
-          samples.push_back(lab::measure_springs(system, scalar, method, stiffness, timings));
-        }
-      }
-      return false;
-    });
-  }
-  return samples;
-}
-
-const char* verdict_of(const SpringSample& sample) {
-  return lab::kSpringVerdictNames[static_cast<int>(sample.verdict)];
-}
-const char* system_of(const SpringSample& sample) { return lab::kSpringSystemNames[static_cast<int>(sample.system)]; }
-
-std::string tsv_of(const std::vector<SpringSample>& samples) {
-  std::string text = "system\tscalar\tmethod\tstiffness\tverdict\tenergy\tamplitude\tstep_ns\n";
-  for (const SpringSample& s : samples) {
-    char line[256];
-    std::snprintf(line, sizeof line, "%s\t%s\t%s\t%.6g\t%s\t%.6g\t%.6g\t%.1f\n", system_of(s), s.scalar,
-                  lab::spring_method_name(s.method), s.stiffness, verdict_of(s), s.energy, s.amplitude, s.step_ns);
-    text += line;
-  }
-  return text;
-}
-
-std::string json_of(const std::vector<SpringSample>& samples) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SpringSample& s : samples) {
-    list.push_back({{"system", system_of(s)},
-                    {"scalar", s.scalar},
-                    {"method", lab::spring_method_name(s.method)},
-                    {"stiffness", s.stiffness},
-                    {"verdict", verdict_of(s)},
-                    {"energy", s.energy},
-                    {"amplitude", s.amplitude},
-                    {"step_ns", s.step_ns}});
-  }
-  return nlohmann::ordered_json{{"experiment", "springs"}, {"samples", list}}.dump(1) + "\n";
-}
-
-/// Samples of one system, scalar and method lie together, `count` of them, ascending by stiffness.
-void print_table(const std::vector<SpringSample>& samples, std::size_t count) {
-  std::printf(
-      "Energy after 10 s, of that at the start, against k h^2 / m; behind it the largest amplitude.\n"
-      "~ the energy was above 3/2 for a while, x it exploded, by then to so much.\n");
-  for (std::size_t block = 0; block < samples.size(); block += count * lab::kSpringMethods) {
-    const auto at = [&](int method, std::size_t i) -> const SpringSample& {
-      return samples[block + static_cast<std::size_t>(method) * count + i];
-    };
-    std::printf("\n%s, %s\n%-9s", system_of(at(0, 0)), at(0, 0).scalar, "kh^2/m");
-    for (int m = 0; m < lab::kSpringMethods; ++m) std::printf(" %19s", lab::spring_method_name(m));
-    std::printf("\n");
-    for (std::size_t i = 0; i < count; ++i) {
-      std::printf("%-9.3g", at(0, i).stiffness);
-      for (int m = 0; m < lab::kSpringMethods; ++m) {
-        const SpringSample& s = at(m, i);
-        const char mark = s.verdict == SpringVerdict::exploded ? 'x' : s.verdict == SpringVerdict::bounded ? '~' : ' ';
-        std::printf(" %c%9.3g %8.3g", mark, s.energy, s.amplitude);
-      }
-      std::printf("\n");
-    }
-    std::printf("%-9s", "ns a step");
-    for (int m = 0; m < lab::kSpringMethods; ++m) {
-      std::vector<double> times;
-      for (std::size_t i = 0; i < count; ++i) times.push_back(at(m, i).step_ns);
-      std::sort(times.begin(), times.end());
-      std::printf(" %19.0f", times[count / 2]);
-    }
-    std::printf("\n");
-  }
+int command_lab_all(const LabOptions& options) {
+  if (!options.scene.empty()) throw ToolError(exit_status::kUsage, "lab: --all is of every scene, not of one");
+  if (options.out.empty()) throw ToolError(exit_status::kUsage, "lab: --all needs a directory (--out)");
+  lab::ReportOptions report;
+  report.out = options.out;
+  report.is_short = options.is_short;
+  report.fresh = options.fresh;
+  report.jobs = options.jobs;
+  report.limit = options.limit;
+  report.peers = options.peers;
+  return lab::write_lab_report(report);
 }
 
 }  // namespace
 
-int command_lab_springs(const LabSpringsOptions& options) {
-  const std::vector<double> stiffnesses = lab::spring_stiffnesses(options.quick);
-  if (!options.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
-    expect_writable(options.out + "/springs.tsv");
-  }
-  const std::vector<SpringSample> samples = sweep(stiffnesses, options.quick ? 1 : 5);
-  if (options.json) std::cout << json_of(samples);
-  else print_table(samples, stiffnesses.size());
-  if (!options.out.empty()) {
-    write_file(options.out + "/springs.tsv", tsv_of(samples));
-    draw(options.out, "springs");
-  }
+int command_lab(const LabOptions& options) {
+  if (options.all) return command_lab_all(options);
+  if (options.scene.empty())
+    throw ToolError(exit_status::kUsage, "lab: a scene is missing (isostep scenes lists them; --all: every one)");
+  const lab::Tolerance tolerance = lab::parse_tolerance(options.tolerance);
+  const lab::Subject subject = lab::subject_of(options.scene);
+  expect_writable(options.csv);
+  lab::SweepOptions sweep;
+  sweep.out = options.out;
+  sweep.jobs = options.jobs;
+  sweep.frames = options.frames;
+  sweep.limit = options.limit;
+  sweep.fresh = options.fresh;
+  const std::vector<lab::LabPoint> points =
+      lab::grid(options.scene, {options.scalars, options.solvers, options.models, options.substeps, options.hz});
+  const std::vector<lab::LabResult> results = lab::sweep(points, sweep);
+  const lab::Summary summary = {subject, results, tolerance, lab::default_point(options.scene, "")};
+  std::cout << (options.json ? json_of(summary) : table_of(summary));
+  if (!options.csv.empty()) write_file(options.csv, lab::csv_of(results));
   return exit_status::kOk;
 }
 

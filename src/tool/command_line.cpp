@@ -9,6 +9,8 @@
 #include "commands.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/particles/settings.hpp"
+#include "lab/report/report.hpp"
+#include "lab/tolerance.hpp"
 #include "scene_game.hpp"
 #include "tool.hpp"
 
@@ -73,7 +75,7 @@ class CommandLine {
     command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(10, 1000));
     command->add_option("--substeps", run_.game.substeps, "per step [the scene's]")->check(CLI::Range(1, 64));
     command->add_option("--solver", run_.game.solver, "how contacts are solved [the scene's]")
-        ->check(CLI::IsMember(names_in(isostep::kParticleSolverNames)));
+        ->check(CLI::IsMember(names_in(isostep::kSolverNames)));
     command->add_option("--integrator", run_.game.integrator, "how particles are integrated [the scene's]")
         ->check(CLI::IsMember(names_in(isostep::kIntegratorNames)));
     command->add_option("--stepping", run_.game.stepping, "how particles' sub-steps end [the scene's]")
@@ -89,6 +91,18 @@ class CommandLine {
     command->add_option("--record", run_.record, "write a replay");
     command->add_option("--hashes", run_.hashes, "write the hash after each frame");
     command->add_option("--dump", run_.dump, "write the last frame's bodies as JSON");
+    CLI::Option* html = command->add_option("--html", run_.html, "write a page that plays the run in a browser");
+    command->add_option("--html-every", run_.html_every, "steps from one frame of the page to the next")
+        ->check(CLI::Range(1, kMostFrames))
+        ->needs(html)
+        ->capture_default_str();
+    CLI::Option* beside = command->add_option("--beside", run_.beside, "play the run in this number type beside it")
+                              ->check(CLI::IsMember(kScalars))
+                              ->needs(html);
+    command->add_option("--beside-tolerance", run_.beside_tolerance, "metres beyond which a body has parted")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->needs(beside)
+        ->capture_default_str();
     command->add_flag("--json", run_.json, "one JSON object");
   }
   void add_verify() {
@@ -181,14 +195,60 @@ class CommandLine {
     command->add_option("--out", demo_.out, "keep the recordings in this directory");
   }
   void add_lab() {
-    CLI::App* lab = app_.add_subcommand("lab", "experiments: where methods and numbers fail, and what they cost");
-    lab->require_subcommand(1);
+    CLI::App* lab =
+        app_.add_subcommand("lab", "the cheapest scalar, solver, sub-steps and model that hold a scene's tolerance");
+    lab->callback([this, lab] {
+      if (!lab->get_subcommands().empty()) return;
+      if (lab_.all && lab->count("--limit") == 0) lab_.limit = tool::lab::ReportOptions{}.limit;
+      chosen_ = [this] { return tool::command_lab(lab_); };
+    });
+    lab->require_subcommand(0, 1);
+    lab_.tolerance = tool::lab::kDefaultTolerance;
+    add_lab_sweep(lab);
+    add_lab_report(lab);
     CLI::App* springs = lab->add_subcommand(
         "springs", "stiffness against integrator and scalar: stable, bounded or exploded, energy after 10 s, time");
     springs->callback([this] { chosen_ = [this] { return tool::command_lab_springs(lab_springs_); }; });
     springs->add_flag("--quick", lab_springs_.quick, "fewer stiffnesses, and steps timed once");
     springs->add_option("--out", lab_springs_.out, "write springs.tsv and, by gnuplot, springs.svg here");
     springs->add_flag("--json", lab_springs_.json, "one JSON object");
+  }
+
+  void add_lab_report(CLI::App* lab) {
+    lab->add_flag("--all", lab_.all, "instead of one scene the report: every scene and trial, report.html in --out");
+    lab->add_flag("--short", lab_.is_short, "with --all: a small set of them");
+    lab->add_option("--peers", lab_.peers, "with --all: the program that runs other engines (isostep_peers)");
+  }
+  void add_lab_sweep(CLI::App* lab) {
+    lab->add_option("scene", lab_.scene, "a named scene, or a scene file");
+    lab->add_option("--tolerance", lab_.tolerance, "5mm, or penetration=2mm,joint=1mm,deviation=5cm,energy=0.1,stands")
+        ->capture_default_str();
+    lab->add_option("--scalars", lab_.scalars, "with commas between them [all]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    lab->add_option("--solvers", lab_.solvers, "[all]")->delimiter(',')->allow_extra_args(false);
+    lab->add_option("--models", lab_.models, "rigid, spheres, particles [those that the scene offers]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    lab->add_option("--substeps", lab_.substeps, "[1,2,4,8,16,32]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 64));
+    lab->add_option("--hz", lab_.hz, "steps per second [the scene's]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(10, 1000));
+    lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
+        ->check(CLI::Range(1, kMostFrames));
+    lab->add_option("--limit", lab_.limit, "seconds of CPU time after which a run is given up")
+        ->check(CLI::Range(0.01, 1e6))
+        ->capture_default_str();
+    lab->add_option("--jobs", lab_.jobs, "runs at a time [one a core]")->check(CLI::Range(1, 256));
+    lab->add_option("--out", lab_.out, "directory of results.jsonl, where what is done is not done again")
+        ->capture_default_str();
+    lab->add_flag("--fresh", lab_.fresh, "run again what is done");
+    lab->add_option("--csv", lab_.csv, "write every run as a table");
+    lab->add_flag("--json", lab_.json, "one JSON object");
   }
 
   CLI::App& app_;
@@ -202,6 +262,7 @@ class CommandLine {
   tool::PeerOptions peer_;
   tool::RelayOptions relay_;
   tool::DemoOptions demo_;
+  tool::LabOptions lab_;
   tool::LabSpringsOptions lab_springs_;
 };
 

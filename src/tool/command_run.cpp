@@ -1,13 +1,17 @@
 // isostep run: one scene, measured; and its recording, hashes, snapshot and last frame as files.
 // SPDX-License-Identifier: MIT
+#include <cstdio>
 #include <iostream>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "commands.hpp"
 #include "files.hpp"
 #include "games.hpp"
 #include "goldens.hpp"
+#include "page/camera.hpp"
+#include "page/page.hpp"
 #include "particle_watch.hpp"
 #include "run_watch.hpp"
 #include "threads/tbb_runner.hpp"
@@ -26,6 +30,10 @@ template <class W> void load_snapshot(W& world, const RunOptions& options) {
     throw ToolError(exit_status::kUsage, options.load + ": a snapshot keeps its own hz, substeps and methods");
 }
 
+template <class Scene> int frames_of(const RunOptions& options, const Scene& scene) {
+  return options.frames >= 0 ? options.frames : scene.frames;
+}
+
 template <class Game> class Run {
  public:
   using World = typename Game::World;
@@ -38,16 +46,30 @@ template <class Game> class Run {
     if (options.threads > 1) use_threads(game_.world, threads_.emplace(options.threads).runner());
   }
 
-  int run() {
+  /// `camera`: for a page, or null.
+  int run(page::Camera* camera) {
     open_recording();
-    const int frames = options_.frames >= 0 ? options_.frames : scene_.frames;
+    const int frames = frames_of(options_, scene_);
     watch_.emplace(watch_of(game_.world));
-    for (int i = 0; i < frames && !interrupted(); ++i) step(i, i + 60 >= frames);
+    if (options_.load.empty()) judge();
+    if (camera != nullptr) camera->begin(game_.world);
+    for (int i = 0; i < frames && !interrupted(); ++i) {
+      step(i, i + 60 >= frames);
+      if (camera != nullptr) camera->stepped(game_.world, i + 1, i + 1 == frames);
+    }
     finish(frames);
     return interrupted() ? exit_status::kInterrupted : exit_status::kOk;
   }
 
  private:
+  /// Trials are of rigid bodies, and named: no file's scene is one.
+  void judge() {
+    if constexpr (std::is_same_v<Scene, scenes::Scene>) {
+      const scenes::Trial* const trial = scenes::find_trial(options_.scene);
+      if (trial != nullptr) watch_->judge(*trial, scene_, game_.world);
+    }
+  }
+
   void open_recording() {
     if (options_.record.empty()) return;
     file_.emplace(options_.record);
@@ -112,19 +134,83 @@ template <class Game> class Run {
   std::vector<std::uint64_t> hashes_;
 };
 
+/// The same run in another scalar, for the page alone.
+template <class Game> void film(const RunOptions& options, const typename Game::Scene& scene, page::Camera& camera) {
+  Game game(scene, options.game);
+  camera.begin(game.world);
+  const int frames = frames_of(options, scene);
+  for (int i = 0; i < frames; ++i) {
+    stop_if_interrupted();
+    game.before_step(game.world);
+    game.world.step();
+    game.after_step(game.world);
+    camera.stepped(game.world, i + 1, i + 1 == frames);
+  }
+}
+
+void require_page(const RunOptions& options) {
+  if (!page::available()) throw ToolError(exit_status::kUnavailable, page::how_to_get());
+  if (!options.beside.empty() && !options.load.empty())
+    throw ToolError(exit_status::kUsage, "--beside begins both runs anew: not with --load");
+}
+
+/// A line for people.
+std::string told_of(const page::Film& film, const RunOptions& options, std::size_t bytes) {
+  char text[160];
+  std::snprintf(text, sizeof text, ", %.1f MB", 1e-6 * static_cast<double>(bytes));
+  std::string line = "page          " + options.html + text;
+  if (options.beside.empty()) return line + "\n";
+  const page::Divergence& apart = film.divergence;
+  if (apart.frame == page::Divergence::kNever) {
+    std::snprintf(text, sizeof text, "; %s stays within %g mm of it", options.beside.c_str(), 1e3 * film.tolerance);
+  } else {
+    const auto frame = static_cast<std::size_t>(apart.frame);
+    std::snprintf(text, sizeof text, "; %s parts from it at frame %llu, body %u by %.3g mm", options.beside.c_str(),
+                  static_cast<unsigned long long>(film.run.frames[frame].tick), apart.slot, 1e3 * apart.distance);
+  }
+  return line + text + "\n";
+}
+
+void write_page(page::Film& film, const RunOptions& options) {
+  film.every = options.html_every;
+  film.tolerance = options.beside_tolerance;
+  if (!options.beside.empty()) film.divergence = page::compare(film.run, film.beside, film.tolerance);
+  const std::string text = page::page_of(film);
+  write_file(options.html, text);
+  if (!options.json) std::cout << told_of(film, options, text.size());
+}
+
 }  // namespace
 
 int command_run(const RunOptions& options) {
+  std::optional<page::Film> shot;
+  if (!options.html.empty()) {
+    require_page(options);
+    shot.emplace();
+  }
   int status = exit_status::kSoftware;
   with_game(options.scene, options.scalar, [&](auto tag, const auto& scene) {
     std::optional<Run<typename decltype(tag)::Type>> run;
+    std::optional<page::Camera> camera;
     try {
       run.emplace(options, scene);
     } catch (const scenes::SceneError& error) {
       fail_scene(options.scene, error);
     }
-    status = run->run();
+    if (shot) {
+      shot->scene = scene.name;
+      camera.emplace(shot->run, options.html_every);
+    }
+    status = run->run(camera ? &*camera : nullptr);
   });
+  if (!shot || status != exit_status::kOk) return status;
+  if (!options.beside.empty()) {
+    with_game(options.scene, options.beside, [&](auto tag, const auto& scene) {
+      page::Camera camera(shot->beside, options.html_every);
+      film<typename decltype(tag)::Type>(options, scene, camera);
+    });
+  }
+  write_page(*shot, options);
   return status;
 }
 

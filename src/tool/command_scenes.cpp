@@ -1,4 +1,4 @@
-// isostep scenes: lists the named scenes, or writes them as files.
+// isostep scenes: lists the named scenes and the trials, or writes them as files.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include "files.hpp"
 #include "games.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/trials/trial.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -41,15 +42,37 @@ void print_table() {
   }
 }
 
+void print_trials() {
+  std::size_t width = 0;
+  for (const scenes::Trial& trial : scenes::trials()) width = std::max(width, std::string_view(trial.name).size());
+  std::printf("\n%-*s %6s %6s %7s %7s %9s  %s\n", static_cast<int>(width), "trial", "number", "frames", "bodies",
+              "joints", "bar", "what, and what is measured");
+  for (const scenes::Trial& trial : scenes::trials()) {
+    const SceneRow row = RigidGames::row(trial.name, trial.description);
+    char bar[32];
+    std::snprintf(bar, sizeof bar, "%.3g %s", trial.bar, trial.unit);
+    std::printf("%-*s %6s %6d %7zu %7zu %9s  %s: %s\n", static_cast<int>(width), trial.name, trial.number, row.frames,
+                row.counts[0], row.counts[1], bar, trial.description, trial.measure);
+  }
+}
+
+nlohmann::ordered_json json_of(const SceneRow& row) {
+  nlohmann::ordered_json json = {{"name", row.name}, {"frames", row.frames}};
+  for (int i = 0; i < 2; ++i) json[row.counted[i]] = row.counts[i];
+  json["description"] = row.description;
+  return json;
+}
 void print_json() {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SceneRow& row : scene_rows()) {
-    nlohmann::ordered_json json = {{"name", row.name}, {"frames", row.frames}};
-    for (int i = 0; i < 2; ++i) json[row.counted[i]] = row.counts[i];
-    json["description"] = row.description;
-    list.push_back(json);
+  for (const SceneRow& row : scene_rows()) list.push_back(json_of(row));
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+  for (const scenes::Trial& trial : scenes::trials()) {
+    nlohmann::ordered_json json = json_of(RigidGames::row(trial.name, trial.description));
+    json.update(nlohmann::ordered_json{
+        {"number", trial.number}, {"measure", trial.measure}, {"unit", trial.unit}, {"bar", trial.bar}});
+    trials.push_back(json);
   }
-  std::cout << nlohmann::ordered_json{{"scenes", list}}.dump(1) << "\n";
+  std::cout << nlohmann::ordered_json{{"scenes", list}, {"trials", trials}}.dump(1) << "\n";
 }
 
 }  // namespace
@@ -57,7 +80,10 @@ void print_json() {
 int command_scenes(const ScenesOptions& options) {
   if (!options.write.empty()) write_all(options.write);
   if (options.json) print_json();
-  else if (options.write.empty()) print_table();
+  else if (options.write.empty()) {
+    print_table();
+    print_trials();
+  }
   return exit_status::kOk;
 }
 

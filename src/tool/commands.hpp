@@ -23,6 +23,10 @@ struct RunOptions {
   int threads = 1;
   std::string simd = "best";
   std::string load, save, record, hashes, dump;  // files, or empty
+  std::string html;                              // a page that plays the run, or empty
+  int html_every = 1;                            // steps from one frame of the page to the next
+  std::string beside;                            // a scalar whose run the page plays as well, or empty
+  double beside_tolerance = 0.01;                // [m] beyond which the two have parted
   bool json = false;
 };
 int command_run(const RunOptions& options);
@@ -90,10 +94,29 @@ struct RelayOptions {
 };
 int command_relay(const RelayOptions& options);
 
+struct LabOptions {
+  std::string scene;
+  std::string tolerance;
+  std::vector<std::string> scalars, solvers, models;  // empty: all
+  std::vector<int> substeps, hz;                      // empty: see lab/sweep.hpp
+  int frames = -1;                                    // -1: the scene's
+  double limit = 20;                                  // [s] CPU time of a run
+  int jobs = 0;                                       // 0: as many as cores
+  bool fresh = false;
+  std::string out = "build/lab";  // directory, or empty
+  std::string csv;                // file, or empty
+  bool json = false;
+  // Instead of one scene the report, see lab/report/report.hpp.
+  bool all = false, is_short = false;
+  std::string peers;  // program that runs the peers, or empty
+};
+int command_lab(const LabOptions& options);
+
 struct LabSpringsOptions {
   bool quick = false;  // fewer stiffnesses, steps timed once
   bool json = false;
-  std::string out;  // directory for the table and its chart, or empty
+  bool quiet = false;  // no table
+  std::string out;     // directory for the table and its chart, or empty
 };
 int command_lab_springs(const LabSpringsOptions& options);
 

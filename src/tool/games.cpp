@@ -5,14 +5,11 @@
 namespace isostep::tool {
 
 void RigidGames::list(std::vector<SceneRow>& rows) {
-  for (const scenes::NamedScene& entry : scenes::named_scenes()) {
-    const Scene scene = *find(entry.name);
-    rows.push_back({entry.name,
-                    entry.description,
-                    scene.frames,
-                    {"bodies", "joints"},
-                    {scene.bodies.size(), scene.joints.size()}});
-  }
+  for (const scenes::NamedScene& entry : scenes::named_scenes()) rows.push_back(row(entry.name, entry.description));
+}
+SceneRow RigidGames::row(std::string_view name, const char* description) {
+  const Scene scene = *find(name);
+  return {scene.name, description, scene.frames, {"bodies", "joints"}, {scene.bodies.size(), scene.joints.size()}};
 }
 
 std::optional<scenes::ParticleScene> ParticleGames::find(std::string_view name) {

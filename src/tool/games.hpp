@@ -29,6 +29,7 @@ struct RigidGames {
   template <class S> using Game = SceneGame<S>;
   static std::optional<Scene> find(std::string_view name) { return scenes::find_scene(name); }
   static void list(std::vector<SceneRow>& rows);
+  static SceneRow row(std::string_view name, const char* description);
 };
 
 /// Worlds of particles.

@@ -2,28 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "game_options.hpp"
 #include "isostep/particles/recorder.hpp"
+#include "scene_game.hpp"
 #include "scenes/particles/particle_game.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {
 
-/// The place of a name in its list; empty leaves `value` as it is. The command line has let through no other.
-template <class Enum> void choose(Enum& value, std::string_view name, std::span<const char* const> names) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (name == names[i]) value = static_cast<Enum>(i);
-  }
-}
-
-/// The settings with what the options ask for.
+/// The settings with what the options ask for. Throws ToolError 64 for a solver that particles have not got.
 template <class S> ParticleSettings<S> asked_of(ParticleSettings<S> settings, const GameOptions& options) {
   if (options.hz > 0) settings.hz = options.hz;
   if (options.substeps > 0) settings.substeps = options.substeps;
-  choose(settings.solver, options.solver, kParticleSolverNames);
+  if (!choose(settings.solver, options.solver, kParticleSolverNames))
+    throw ToolError(exit_status::kUsage, "particles have no solver " + options.solver);
   choose(settings.integrator, options.integrator, kIntegratorNames);
   choose(settings.stepping, options.stepping, kSteppingNames);
   return settings;

@@ -3,6 +3,7 @@
 #include "run_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,25 @@ std::string line_of_times(const StepTimes& ms) {
               ms.mean, ms.p99, ms.max, ms.median_settled);
 }
 
+nlohmann::ordered_json json_of_trial(const TrialReport& r) {
+  const scenes::Trial& trial = *r.trial;
+  nlohmann::ordered_json json = {{"number", trial.number}, {"measure", trial.measure}, {"unit", trial.unit},
+                                 {"bar", trial.bar},       {"figure", nullptr},        {"survived", nullptr}};
+  if (std::isfinite(r.verdict.figure)) json["figure"] = r.verdict.figure;
+  if (r.over) json["survived"] = r.verdict.survived;
+  return json;
+}
+std::string line_of_trial(const TrialReport& r) {
+  const scenes::Trial& trial = *r.trial;
+  const std::string label = std::string("trial ") + trial.number,
+                    unit = *trial.unit ? std::string(" ") + trial.unit : "";
+  return line("%-13s %s %.3g%s, bar %.3g%s: %s", label.c_str(), trial.measure, r.verdict.figure, unit.c_str(),
+              trial.bar, unit.c_str(),
+              !r.over              ? "not over"
+              : r.verdict.survived ? "survived"
+                                   : "failed");
+}
+
 }  // namespace
 
 StepTimes summarise(std::vector<double> ms) {
@@ -77,6 +97,7 @@ std::string json_of(const RunReport& r) {
                                      {"asleep_at", nullptr},
                                      {"faults", r.faults}});
   if (r.asleep_at >= 0) json["asleep_at"] = r.asleep_at;
+  if (r.trial) json["trial"] = json_of_trial(*r.trial);
   return json.dump() + "\n";
 }
 
@@ -96,6 +117,7 @@ std::string table_of(const RunReport& r) {
                r.unrest);
   text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);
   text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
+  if (r.trial) text += line_of_trial(*r.trial);
   return text;
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "isostep/particles/particle_world.hpp"
+#include "scenes/trials/trial.hpp"
 
 namespace isostep::tool {
 
@@ -29,10 +31,18 @@ struct AnyRunReport {
   std::uint64_t faults = 0;                 // all that the step reports named
 };
 
+/// Of a run of a trial's scene from its start.
+struct TrialReport {
+  const scenes::Trial* trial;
+  scenes::Verdict verdict;
+  bool over;  // false: the run was shorter than the trial, which has no verdict yet
+};
+
 struct RunReport : AnyRunReport {
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
   double joint_error_max = 0;                                     // [m] over the run
   int asleep_at = -1;  // first frame, from 0, that ends with nobody awake; -1: none
+  std::optional<TrialReport> trial;
 
   // For people alone.
   double penetration_mean = 0;  // [m] over pairs closer than 1 cm

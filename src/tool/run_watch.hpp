@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "run_report.hpp"
 #include "scene_game.hpp"
 #include "scenes/measure.hpp"
+#include "scenes/trials/trial_run.hpp"
 
 namespace isostep::tool {
 
@@ -22,11 +24,16 @@ template <class S> class RigidWatch {
     found_.energy_start = scenes::measure_energy(world).total();
     observe_joints(world);
   }
+  /// Of a trial's scene as built; from now on it is judged.
+  void judge(const scenes::Trial& trial, const scenes::Scene& scene, const World<S>& world) {
+    trial_.emplace(trial, scene).see(world);
+  }
   /// `last_second`: of the run.
   void stepped(const World<S>& world, const StepReport& step, int frame, bool last_second) {
     found_.faults += std::uint64_t{step.clamped_speed} + step.clamped_position + step.stopped;
     if (found_.asleep_at < 0 && world.state().awake.states.empty()) found_.asleep_at = frame;
     observe_joints(world);
+    if (trial_) trial_->see(world, step);
     if (!last_second) return;
     const scenes::Energy energy = scenes::measure_energy(world);
     if (energy.mass > 0) unrest_.push_back(energy.kinetic / energy.mass);
@@ -46,6 +53,7 @@ template <class S> class RigidWatch {
     report.penetration_max = overlap.worst;
     report.penetration_mean = overlap.mean;
     report.energy_end = scenes::measure_energy(world).total();
+    if (trial_) report.trial = TrialReport{&trial_->trial(), trial_->verdict(), trial_->over()};
     for (const double value : unrest_) report.unrest += value / static_cast<double>(unrest_.size());
     return report;
   }
@@ -58,6 +66,7 @@ template <class S> class RigidWatch {
   }
 
   RunReport found_;
+  std::optional<scenes::TrialRun> trial_;
   std::vector<double> unrest_;
 };
 template <class S> RigidWatch<S> watch_of(const World<S>& world) { return RigidWatch<S>(world); }

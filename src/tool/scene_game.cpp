@@ -32,8 +32,6 @@ scenes::Scene load_scene_file(const std::string& name_or_file) {
 }
 
 void require_rigid_methods(const GameOptions& options) {
-  if (!options.solver.empty() && options.solver != "soft_step")
-    throw ToolError(exit_status::kUsage, "rigid bodies have no solver " + options.solver + ": only soft_step");
   if (!options.integrator.empty() || !options.stepping.empty())
     throw ToolError(exit_status::kUsage, "--integrator and --stepping are for scenes of particles");
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "game_options.hpp"
@@ -43,9 +45,27 @@ template <class W> void use_threads(W& world, const TaskRunner& runner) {
   }
 }
 
+/// The place of a name in its list; empty leaves `value` as it is. False for a name that is not there.
+template <class Enum> bool choose(Enum& value, std::string_view name, std::span<const char* const> names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (name != names[i]) continue;
+    value = static_cast<Enum>(i);
+    return true;
+  }
+  return name.empty();
+}
+
+/// A scene's settings, or a world's, with what the options ask for.
+template <class Methods> void ask(Methods& methods, const GameOptions& options) {
+  if (options.hz > 0) methods.hz = options.hz;
+  if (options.substeps > 0) methods.substeps = options.substeps;
+  choose(methods.solver, options.solver, kSolverNames);
+}
 /// Whether a world is already as the options ask; methods it has no choice of are refused before.
 template <class S> bool is_as_asked(const Settings<S>& own, const GameOptions& options) {
-  return (options.hz <= 0 || options.hz == own.hz) && (options.substeps <= 0 || options.substeps == own.substeps);
+  Settings<S> asked = own;
+  ask(asked, options);
+  return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver;
 }
 
 /// What every kind of game has: World, Scene; `world`, which its constructor builds from a scene; and `before_step` and
@@ -60,9 +80,14 @@ template <class S> struct SceneGame {
   }
   static Settings<S> settings_of(const Scene& scene, const GameOptions& options) {
     require_rigid_methods(options);
-    const Settings<S> own;
-    return scenes::settings_of<S>(scene, options.hz > 0 ? options.hz : own.hz,
-                                  options.substeps > 0 ? options.substeps : own.substeps);
+    Scene asked;  // bodies are not needed
+    asked.gravity = scene.gravity;
+    asked.allow_sleep = scene.allow_sleep;
+    asked.hz = scene.hz;
+    asked.substeps = scene.substeps;
+    asked.solver = scene.solver;
+    ask(asked, options);
+    return scenes::settings_of<S>(asked);
   }
   void before_step(World& any) const { scenes::before_step(script, any); }
   void after_step(World&) const {}

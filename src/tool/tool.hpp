@@ -17,6 +17,7 @@ inline constexpr int kOk = 0;
 inline constexpr int kDifferent = 1;
 inline constexpr int kUsage = 64;
 inline constexpr int kNoInput = 66;
+inline constexpr int kUnavailable = 69;
 inline constexpr int kSoftware = 70;
 inline constexpr int kOutput = 74;
 inline constexpr int kInterrupted = 130;

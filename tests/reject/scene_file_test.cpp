@@ -56,6 +56,15 @@ TEST(SceneFile, NestedWithoutEndIsRefused) {
   EXPECT_NE(refusal(objects).find("nested too deeply"), std::string::npos);
 }
 
+TEST(SceneFile, WithARateOrASolverThatCannotBeIsRefused) {
+  EXPECT_EQ(refusal(R"({"hz": 60, "substeps": 64, "solver": "direct", "bodies": []})"), "");
+  EXPECT_EQ(refusal(R"({"hz": 9, "bodies": []})").rfind("/hz: ", 0), 0u);
+  EXPECT_EQ(refusal(R"({"substeps": 65, "bodies": []})").rfind("/substeps: ", 0), 0u);
+  EXPECT_EQ(refusal(R"({"solver": "magic", "bodies": []})").rfind("/solver: ", 0), 0u);
+  EXPECT_NE(refusal(R"({"hz": 1000, "substeps": 17, "bodies": []})").find("16384 sub-steps a second"),
+            std::string::npos);
+}
+
 TEST(SceneFile, WithAKeyTwiceIsRefused) {
   EXPECT_EQ(refusal(R"({"bodies": [], "bodies": []})"), "the key \"bodies\" comes twice");
   EXPECT_EQ(refusal(with_body(kSphere + R"(, "mass": 1, "mass": 2)")), "/bodies/1: the key \"mass\" comes twice");

@@ -48,6 +48,18 @@ TEST(SceneFile, NumbersKeepTheirText) {
   EXPECT_EQ(scene.gravity[2].text(), "0.10000000000000000000000001");
 }
 
+TEST(SceneFile, NamesTheRateAndTheSolver) {
+  const std::string text = R"({"hz": 120, "substeps": 3, "solver": "pgs", "bodies": []})";
+  const Settings<float> settings = settings_of<float>(read_scene(text));
+  EXPECT_EQ(settings.hz, 120);
+  EXPECT_EQ(settings.substeps, 3);
+  EXPECT_EQ(settings.solver, SolverName::pgs);
+  const Scene again = read_scene(write_scene(read_scene(text)));
+  EXPECT_EQ(again.hz, 120);
+  EXPECT_EQ(again.substeps, 3);
+  EXPECT_EQ(again.solver, SolverName::pgs);
+}
+
 TEST(SceneFile, MembersReachTheWorld) {
   const Scene scene = read_scene(R"({"name": "n", "allow_sleep": false, "gravity": [0, 0, 0], "bodies": [
     {"type": "kinematic", "position": [1, 2, 3], "angular_velocity": [0, 0.5, 0],
@@ -74,6 +86,23 @@ TEST(SceneFile, MembersReachTheWorld) {
   EXPECT_EQ(joint->frame_a.position, (Vec3<double>{0, 0, -0.5}));
   EXPECT_EQ(joint->frame_b.position, (Vec3<double>{0, 1, 0}));
   EXPECT_EQ(joint->upper, 8.0);
+}
+
+TEST(SceneFile, SurfacesAndLocksReachTheWorldAndReturnToTheFile) {
+  const std::string text = R"({"bodies": [{"type": "static", "friction": 0.25, "rolling_resistance": 0.125,
+    "surface_velocity": [2, 0, -1], "shapes": [{"type": "sphere", "radius": 1}]},
+    {"type": "dynamic", "lock_y": true, "lock_angular_z": true, "shapes": [{"type": "sphere", "radius": 1}]}]})";
+  for (const Scene& scene : {read_scene(text), read_scene(write_scene(read_scene(text)))}) {
+    World<double> world(settings_of<double>(scene));
+    const Built<double> built = build(scene, world);
+    const Material<double>& belt = world.view(built.bodies[0]).properties->material;
+    EXPECT_EQ(belt.friction, 0.25);
+    EXPECT_EQ(belt.rolling_resistance, 0.125);
+    EXPECT_EQ(belt.surface_velocity, (Vec3<double>{2, 0, -1}));
+    EXPECT_EQ(world.view(built.bodies[0]).properties->flags & body_flag::kAllLocks, 0u);
+    EXPECT_EQ(world.view(built.bodies[1]).properties->flags & body_flag::kAllLocks,
+              body_flag::kLockX << 1 | body_flag::kLockAngularX << 2);
+  }
 }
 
 TEST(NamedScenes, HaveTheBodiesOfTheirDescription) {

@@ -74,6 +74,31 @@ void expect_one_line(const Answer& answer, int status, const std::string& part) 
   EXPECT_EQ(answer.err.find('\n'), answer.err.size() - 1) << answer.err;
 }
 
+TEST_F(CommandLine, WritesAPageOfARunOrSaysWhatIsMissing) {
+  const Answer answer = run({"run", "S1x5", "--frames", "20", "--html", path("a.html"), "--beside", "double"});
+  if (answer.status == 69) {
+    expect_one_line(answer, 69, "npm");
+    EXPECT_EQ(files(), 0u);
+    return;
+  }
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_NE(answer.out.find("a.html"), std::string::npos) << answer.out;
+  EXPECT_NE(read("a.html").find("\"frames\":21"), std::string::npos);
+  const Answer silent = run({"run", "S1x5", "--frames", "20", "--json", "--html", path("b.html")});
+  EXPECT_EQ(silent.out.find("b.html"), std::string::npos) << silent.out;
+  EXPECT_GT(read("b.html").size(), read("a.html").size() / 2);
+  const Answer lost = run({"run", "S1x5", "--frames", "1", "--html", path("none") + "/c.html"});
+  EXPECT_EQ(lost.status, 74);
+  EXPECT_NE(lost.err.find("none"), std::string::npos) << lost.err;
+}
+TEST_F(CommandLine, RefusesOptionsOfAPageWithoutOneWith64) {
+  expect_one_line(run({"run", "S1x5", "--beside", "double"}), 64, "--html");
+  expect_one_line(run({"run", "S1x5", "--html-every", "2"}), 64, "--html");
+  expect_one_line(run({"run", "S1x5", "--html", path("a"), "--beside-tolerance", "1"}), 64, "--beside");
+  expect_one_line(run({"run", "S1x5", "--html", path("a"), "--beside", "half"}), 64, "half");
+  EXPECT_EQ(files(), 0u);
+}
+
 TEST_F(CommandLine, RefusesWordsThatItDoesNotKnowWith64) {
   expect_one_line(run({}), 64, "a command is missing");
   expect_one_line(run({"walk"}), 64, "walk");
@@ -140,6 +165,18 @@ TEST_F(CommandLine, ReportsOneJsonObjectWithTheMembersOfTheManual) {
     ASSERT_NE(found, std::string::npos) << key << " in " << answer.out;
     at = found;
   }
+}
+
+TEST_F(CommandLine, SolvesByTheSolverThatIsNamed) {
+  const std::string standard = run({"run", "S1x5", "--frames", "12", "--json"}).out;
+  for (const std::string solver : {"pgs", "worst_first", "direct"}) {
+    const Answer answer = run({"run", "S1x5", "--frames", "12", "--solver", solver, "--json"});
+    EXPECT_EQ(answer.status, 0) << solver;
+    EXPECT_NE(answer.out.find("\"solver\":\"" + solver + "\""), std::string::npos) << answer.out;
+    const auto hash_of = [](const std::string& text) { return text.substr(text.find("\"hash\""), 26); };
+    EXPECT_NE(hash_of(answer.out), hash_of(standard)) << solver;
+  }
+  expect_one_line(run({"run", "bridge", "--solver", "pgs"}), 64, "particles have no solver pgs");
 }
 
 TEST_F(CommandLine, WritesAHashForEveryFrame) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <nlohmann/json.hpp>
+
 #include "tool/goldens.hpp"
 #include "tool/run_report.hpp"
 
@@ -23,6 +26,40 @@ TEST(StepTimes, OfOneStepOrNoneAreThatOrZero) {
   EXPECT_EQ(summarise({3}).p99, 3);
   EXPECT_EQ(summarise({3}).median_settled, 3);
   EXPECT_EQ(summarise({}).max, 0);
+}
+
+class TrialReports : public testing::Test {
+ protected:
+  static constexpr scenes::Trial kTrial = {"name", "5", "what", "peak stretch of a link", "%", 5, nullptr, nullptr};
+  static std::string last_line(const RunReport& report) {
+    const std::string text = table_of(report);
+    return text.substr(text.rfind('\n', text.size() - 2) + 1);
+  }
+  RunReport report_of(scenes::Verdict verdict, bool over) {
+    RunReport report;
+    report.trial = TrialReport{&kTrial, verdict, over};
+    return report;
+  }
+};
+
+TEST_F(TrialReports, AreALineForPeople) {
+  EXPECT_EQ(last_line(report_of({true, 3.25}, true)),
+            "trial 5       peak stretch of a link 3.25 %, bar 5 %: survived\n");
+  EXPECT_EQ(last_line(report_of({false, 7}, true)), "trial 5       peak stretch of a link 7 %, bar 5 %: failed\n");
+  EXPECT_EQ(last_line(report_of({true, 1}, false)), "trial 5       peak stretch of a link 1 %, bar 5 %: not over\n");
+  EXPECT_EQ(last_line(RunReport{}).substr(0, 6), "faults");
+}
+
+TEST_F(TrialReports, AreAnObjectForPrograms) {
+  const auto trial = [](const RunReport& report) {
+    return nlohmann::ordered_json::parse(json_of(report))["trial"].dump();
+  };
+  const std::string head = R"({"number":"5","measure":"peak stretch of a link","unit":"%","bar":5.0,)";
+  EXPECT_EQ(trial(report_of({true, 3.25}, true)), head + R"("figure":3.25,"survived":true})");
+  EXPECT_EQ(trial(report_of({true, 3.25}, false)), head + R"("figure":3.25,"survived":null})");
+  EXPECT_EQ(trial(report_of({false, std::numeric_limits<double>::infinity()}, true)),
+            head + R"("figure":null,"survived":false})");
+  EXPECT_FALSE(nlohmann::ordered_json::parse(json_of(RunReport{})).contains("trial"));
 }
 
 TEST(Goldens, ReadBackAsTheyWereWritten) {

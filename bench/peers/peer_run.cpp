@@ -1,0 +1,162 @@
+// A peer's run: times, measures, and the trial's verdict.
+// SPDX-License-Identifier: MIT
+#include "peer_run.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "isostep/state/hash.hpp"
+#include "scenes/bars.hpp"
+#include "scenes/named.hpp"
+#include "scenes/scene_file.hpp"
+#include "tool/lab/run_point.hpp"
+
+namespace isostep::bench {
+namespace {
+
+using scenes::Scene;
+using scenes::Sight;
+using tool::lab::LabResult;
+
+constexpr int kSecond = 60;  // [frames]
+
+Scene scene_of(const PeerJob& job) {
+  std::optional<Scene> scene = scenes::find_scene(job.scene);
+  if (!scene) throw scenes::SceneError("", "no scene " + job.scene);
+  return std::move(*scene);
+}
+int frames_of(const Scene& scene) {
+  return static_cast<int>(static_cast<long long>(scene.frames) * kSecond / scene.hz);
+}
+
+std::string hash_of(const std::string& text) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx",
+                static_cast<unsigned long long>(hash_bytes(text.data(), text.size())));
+  return digits;
+}
+
+double per_kilogram(double energy, const Sight& sight) {
+  return sight.energy.mass > 0 ? energy / sight.energy.mass : 0;
+}
+
+/// What is noted while a peer runs.
+class Notes {
+ public:
+  explicit Notes(const Sight& start) : start_(per_kilogram(start.energy.total(), start)) {}
+
+  void see(const Sight& now, bool last_second, LabResult& result) {
+    const double total = per_kilogram(now.energy.total(), now);
+    result.joint_error = std::max(result.joint_error, now.joint_error);
+    result.energy_gain = std::max(result.energy_gain, total - start_);
+    result.energy_loss = start_ - total;
+    result.faults = now.faults;
+    if (!last_second) return;
+    unrest_ += per_kilogram(now.energy.kinetic, now);
+    result.unrest = unrest_ / ++counted_;
+  }
+
+ private:
+  double start_, unrest_ = 0;
+  int counted_ = 0;
+};
+
+void measure_end(const Engine& engine, const std::vector<double>& times, LabResult& result) {
+  if (times.empty()) return;
+  result.ms = median(std::vector<double>(times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end()));
+  for (const double ms : times) result.ms_mean += ms / static_cast<double>(times.size());
+  try {
+    const scenes::Overlap overlap = engine.overlap();
+    result.penetration = overlap.worst;
+    result.penetration_mean = overlap.mean;
+  } catch (const scenes::SceneError&) {  // bodies where no world of ours takes them
+    result.penetration = result.penetration_mean = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// The scene of now, and its most careful run: of a trial none, for it has a judge.
+struct Careful {
+  tool::lab::Subject subject;
+  tool::lab::Reference reference;
+};
+const Careful& careful_of(const std::string& scene, double limit) {
+  static Careful last;
+  if (last.subject.name == scene) return last;
+  last = {tool::lab::subject_of(scene), {}};
+  if (last.subject.trial == nullptr) {
+    last.reference = reference_of(last.subject, last.subject.scene.frames, limit, [] { return false; });
+  }
+  return last;
+}
+
+void judge_end(const Careful& careful, const scenes::Judge* judge, const Sight& end, LabResult& result) {
+  result.stood = stands(careful.subject, careful.reference, end);
+  if (judge == nullptr) return;
+  if (careful.subject.trial == nullptr) {
+    result.figure = judge->figure();
+    return;
+  }
+  const scenes::Verdict verdict = scenes::verdict_of(*careful.subject.trial, *judge, end);
+  result.judged = true;
+  result.survived = verdict.survived;
+  result.figure = verdict.figure;
+}
+
+/// Ends early where numbers are no numbers any more, for nothing that counts comes after.
+void run(const PeerJob& job, double limit, LabResult& result) {
+  const Careful& careful = careful_of(job.scene, limit);  // prepared
+  const Scene& scene = careful.subject.scene;
+  const scenes::Trial* trial = careful.subject.trial;
+  const std::unique_ptr<scenes::Judge> judge = trial == nullptr ? scenes::benchmark_judge(scene) : trial->judge(scene);
+  const std::unique_ptr<Engine> engine = job.maker.make(scene, {});
+  Sight sight = engine->sight();
+  Notes notes(sight);
+  if (judge) judge->see(sight);
+  std::vector<double> times;
+  double spent = 0;  // [ms]
+  const int frames = frames_of(scene);
+  for (int frame = 0; frame < frames && sight.faults == 0 && spent < 1e3 * limit; ++frame) {
+    engine->before_step(frame, true);
+    times.push_back(engine->timed_steps(1));
+    spent += times.back();
+    sight = engine->sight();
+    notes.see(sight, frame >= frames - kSecond, result);
+    if (judge && sight.faults == 0) judge->see(sight);
+    if (frame + 1 == std::min(kSecond, frames) && careful.reference.exists) {
+      result.deviation = tool::lab::deviation_of(sight, careful.reference.second);
+    }
+  }
+  result.frames = static_cast<int>(times.size());
+  measure_end(*engine, times, result);
+  if (result.frames < frames && sight.faults == 0) result.state = tool::lab::kSlow;
+  else judge_end(careful, judge.get(), sight, result);
+}
+
+}  // namespace
+
+LabRecord empty_record(const PeerJob& job) {
+  LabRecord record;
+  record.result.point = {job.scene, job.maker.name, "", "", "rigid", kSecond, 0};
+  record.result.state = tool::lab::kRefused;
+  const scenes::Trial* trial = scenes::find_trial(job.scene);
+  const std::string bar = trial == nullptr ? "" : to_text(trial->bar) + trial->measure;
+  record.version = "peers 1 " + hash_of(scenes::write_scene(scene_of(job)) + bar);
+  return record;
+}
+
+void prepare(const PeerJob& job, double limit) { careful_of(job.scene, limit); }
+
+LabRecord run_peer(const PeerJob& job, double limit) {
+  LabRecord record = empty_record(job);
+  try {
+    record.result.state = tool::lab::kDone;
+    run(job, limit, record.result);
+  } catch (const std::exception& error) {
+    record = empty_record(job);
+    record.result.reason = error.what();
+  }
+  return record;
+}
+
+}  // namespace isostep::bench

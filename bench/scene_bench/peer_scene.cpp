@@ -1,0 +1,158 @@
+// Scenes into the doubles of peers.
+// SPDX-License-Identifier: MIT
+#include "peer_scene.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "isostep/geometry/mass_properties.hpp"
+#include "scenes/build.hpp"
+#include "scenes/shapes.hpp"
+
+namespace isostep::bench {
+namespace {
+
+using scenes::SceneError;
+
+double real(const scenes::Number& number) { return scenes::value_of<double>(number, "peer"); }
+Vec3<double> real(const scenes::Vector& v) { return {real(v[0]), real(v[1]), real(v[2])}; }
+Quat<double> real(const scenes::Rotation& q) { return {real(q[0]), real(q[1]), real(q[2]), real(q[3])}; }
+
+PeerPart peer_part(const scenes::ScenePart& part) {
+  return {part.type,         real(part.half_extents), real(part.radius),   real(part.half_height),
+          real(part.normal), real(part.offset),       real(part.position), real(part.orientation)};
+}
+
+Primitive<double> primitive(const PeerPart& part) {
+  switch (part.type) {
+    case ShapeType::sphere: return primitive_of(Sphere<double>{part.radius});
+    case ShapeType::capsule: return primitive_of(Capsule<double>{part.radius, part.half_height});
+    default: return primitive_of(Box<double>{part.half_extents});
+  }
+}
+
+/// As World<double> has it of the same body.
+MassProperties<double> mass_of(const PeerBody& body, const scenes::SceneBody& of) {
+  std::vector<Child<double>> children;
+  for (const PeerPart& part : body.parts) children.push_back({primitive(part), {part.position, part.orientation}});
+  const double density = real(of.density);
+  MassProperties<double> p =
+      mass_properties<double>(std::span<const Child<double>>(children), density > 0 ? density : 1);
+  if (real(of.mass) > 0) p = with_mass(p, real(of.mass));
+  const Vec3<double> inertia = real(of.inertia);
+  return inertia == Vec3<double>::zero() ? p : from_mass_and_inertia(p.mass, inertia, p.centre);
+}
+
+/// From the scene's frame of the body to `frame` within it.
+void move_frame(PeerBody& body, const Pose<double>& frame) {
+  if (frame.is_identity()) return;
+  body.frame = frame;
+  const Quat<double> back = conjugate(frame.orientation);
+  for (PeerPart& part : body.parts) {
+    part.position = to_matrix(back) * (part.position - frame.position);
+    part.orientation = normalise(back * part.orientation);
+  }
+  body.position += to_matrix(body.orientation) * frame.position;
+  body.orientation = normalise(body.orientation * frame.orientation);
+}
+
+void set_mass(PeerBody& body, const scenes::SceneBody& of) {
+  for (const PeerPart& part : body.parts) {
+    if (part.type == ShapeType::half_space) return;
+  }
+  const MassProperties<double> p = mass_of(body, of);
+  if (body.type != BodyType::dynamic) return move_frame(body, {p.centre, Quat<double>::identity()});
+  move_frame(body, {p.centre, p.principal});
+  body.mass = p.mass;
+  body.inertia = {p.mass / p.kappa.x, p.mass / p.kappa.y, p.mass / p.kappa.z};
+  if (!is_finite(body.inertia)) throw SceneError("", "peers are given no body that cannot turn");
+}
+
+/// [kg] of the two bodies; what no force moves weighs nothing in it.
+double reduced_mass(const PeerJoint& joint, const std::vector<PeerBody>& bodies) {
+  double inverse = 0;
+  for (const int body : {joint.a, joint.b}) {
+    if (body < 0 || bodies[static_cast<std::size_t>(body)].type != BodyType::dynamic) continue;
+    inverse += 1 / bodies[static_cast<std::size_t>(body)].mass;
+  }
+  return inverse > 0 ? 1 / inverse : 0;
+}
+void set_spring(PeerJoint& joint, const scenes::SceneJoint& of, double mass) {
+  const double omega = scenes::kTurn * real(of.spring_frequency);  // [rad/s]
+  joint.rest = real(of.spring_target);
+  joint.stiffness = mass * omega * omega;
+  joint.damping = 2 * real(of.spring_damping) * mass * omega;
+}
+/// So that the world is always the first.
+void turn_round(PeerJoint& joint) {
+  std::swap(joint.a, joint.b);
+  std::swap(joint.on_a, joint.on_b);
+  if (!joint.is_limited) return;
+  std::swap(joint.lower, joint.upper);
+  joint.lower = -joint.lower;
+  joint.upper = -joint.upper;
+}
+void require_plain(const scenes::SceneJoint& joint) {
+  const std::uint32_t limit = joint_flag::kLimit, spring = joint_flag::kSpring, plain = joint_flag::kCollideConnected;
+  const bool hinge = joint.type == JointType::hinge, distance = joint.type == JointType::distance;
+  const std::uint32_t known = plain | (hinge || distance ? limit : 0u) | (distance ? spring : 0u);
+  if ((joint.flags & ~known) != 0 || (joint.flags & (limit | spring)) == (limit | spring)) {
+    throw SceneError("", "peers are given no motors, cones and limits of twist or of springs");
+  }
+}
+
+}  // namespace
+
+PeerBody peer_body(const scenes::SceneBody& of) {
+  if (of.sensor) throw SceneError("", "peers are given no sensors");
+  if (of.locks != 0) throw SceneError("", "peers are given no locked axes");
+  if (real(of.rolling_resistance) != 0 || !(real(of.surface_velocity) == Vec3<double>::zero())) {
+    throw SceneError("", "peers are given no rolling resistance and no moving surfaces");
+  }
+  PeerBody body = {};
+  body.type = of.type;
+  for (const scenes::ScenePart& part : of.parts) body.parts.push_back(peer_part(part));
+  body.position = real(of.position);
+  body.velocity = real(of.velocity);
+  body.spin = real(of.angular_velocity);
+  body.orientation = normalise(real(of.orientation));
+  body.frame = Pose<double>::identity();
+  body.friction = real(of.friction);
+  body.restitution = real(of.restitution);
+  body.gravity_scale = real(of.gravity_scale);
+  body.linear_damping = real(of.linear_damping);
+  body.angular_damping = real(of.angular_damping);
+  body.group = of.group;
+  body.collide = of.collide;
+  set_mass(body, of);
+  return body;
+}
+
+PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& bodies) {
+  require_plain(of);
+  const Quat<double> axes = normalise(real(of.orientation));
+  const auto end = [&](int body, const scenes::Vector& anchor) -> PeerEnd {
+    if (body < 0) return {real(anchor), axes};
+    const PeerBody& at = bodies[static_cast<std::size_t>(body)];
+    return {transposed_times(to_matrix(at.orientation), real(anchor) - at.position),
+            normalise(conjugate(at.orientation) * axes)};
+  };
+  PeerJoint joint = {};
+  joint.type = of.type;
+  joint.a = of.a;
+  joint.b = of.b;
+  joint.on_a = end(of.a, of.anchor);
+  joint.on_b = end(of.b, of.type == JointType::distance ? of.anchor_b : of.anchor);
+  joint.is_limited = of.type == JointType::hinge && (of.flags & joint_flag::kLimit) != 0;
+  joint.lower = real(of.lower);
+  joint.upper = real(of.upper);
+  joint.is_spring = (of.flags & joint_flag::kSpring) != 0;
+  joint.collide = (of.flags & joint_flag::kCollideConnected) != 0;
+  if (joint.is_spring) set_spring(joint, of, reduced_mass(joint, bodies));
+  if (joint.b < 0) turn_round(joint);
+  return joint;
+}
+
+Vec3<double> peer_gravity(const scenes::Scene& scene) { return real(scene.gravity); }
+
+}  // namespace isostep::bench

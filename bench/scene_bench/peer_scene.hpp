@@ -1,0 +1,54 @@
+// A scene as peers are given it: doubles, every body's frame at its centre of mass along its principal axes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "isostep/math/transform.hpp"
+#include "scenes/scene.hpp"
+
+namespace isostep::bench {
+
+struct PeerPart {
+  ShapeType type;
+  Vec3<double> half_extents;   // [m] box
+  double radius, half_height;  // [m] sphere, capsule along local y
+  Vec3<double> normal;         // [1] half-space, in the part's frame: normal . p <= offset is inside
+  double offset;               // [m] half-space
+  Vec3<double> position;       // [m] in the frame of PeerBody
+  Quat<double> orientation;
+};
+struct PeerBody {
+  BodyType type;
+  std::vector<PeerPart> parts;
+  Vec3<double> position, velocity, spin;   // [m], [m/s], [rad/s] world; of the centre of mass
+  Quat<double> orientation;                // of the principal axes
+  Pose<double> frame;                      // this frame in the scene's frame of the body
+  double mass;                             // [kg]
+  Vec3<double> inertia;                    // [kg m^2] principal
+  double friction, restitution;            // [1] pairs: root of the product, the larger
+  double gravity_scale;                    // [1]
+  double linear_damping, angular_damping;  // [1/s]
+  std::uint32_t group;                     // bodies of one group other than 0 do not collide
+  bool collide;
+};
+/// One end of a joint, in the frame of PeerBody; the world's for the world.
+using PeerEnd = Pose<double>;
+/// Hinges may have limits, distance joints may be springs; motors, cones and limits of twist are refused.
+struct PeerJoint {
+  JointType type;
+  int a, b;             // a = -1: the world
+  PeerEnd on_a, on_b;   // z is the axis
+  bool is_limited;      // a hinge
+  double lower, upper;  // [rad], 0 at the start; of distance joints [m]
+  bool is_spring;
+  double rest, stiffness, damping;  // [m], [N/m], [N s/m]
+  bool collide;                     // the two bodies with each other
+};
+
+/// Throw SceneError with the reason where peers cannot be told.
+PeerBody peer_body(const scenes::SceneBody& body);
+PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
+Vec3<double> peer_gravity(const scenes::Scene& scene);
+
+}  // namespace isostep::bench

@@ -1,0 +1,138 @@
+// Bars, and the judges of what only one scene is about.
+// SPDX-License-Identifier: MIT
+#include "bars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "build.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+constexpr Bar kBars[] = {
+    {"S1", Measure::top, 0.12, 0.02},
+    {"S1", Measure::drift, 0.01, 0.005},
+    {"S1x10", Measure::top, 0.03, 0.01},
+    {"S2", Measure::penetration, 0.004, 0.001},
+    {"S2", Measure::unrest, 1e-8, 1e-9},
+    {"S3", Measure::penetration, 0.004, 0.001},
+    {"S3", Measure::unrest, 1e-8, 1e-9},
+    {"S4", Measure::penetration, 0.04, 0.02},
+    {"S4", Measure::penetration_mean, 0.0025, 0.0015},
+    {"S4", Measure::unrest, kAny, 2e-5},
+    {"S5", Measure::penetration, 0.03, 0.02},
+    {"S5", Measure::penetration_mean, 0.0035, 0.0016},
+    {"S6", Measure::joint_error, 0.15, 0.05},
+    {"S6", Measure::energy_loss, kAny, 20},
+    {"S6v", Measure::stretch, 0.7, 0.05},
+    {"S7", Measure::joint_error, 0.12, 0.05},
+    {"S7", Measure::joint_end, 0.005, 0.001},
+    {"S8", Measure::asleep_at, 2, 1},
+    {"S8", Measure::asleep_ms, 0.002, 0.001},
+    {"S9", Measure::penetration, 0.06, 0.03},
+};
+/// Fixed point of 32 bits is for particles and small scenes, and has bars for those alone.
+constexpr Bar kSmallBars[] = {
+    {"S1x10", Measure::top, 0.05, 0.025},
+    {"S1x10", Measure::drift, 0.05, 0.025},
+    {"S2", Measure::moved, 0.25, 0.125},
+    {"S4s", Measure::penetration, 0.08, 0.04},
+    {"S4s", Measure::penetration_mean, 0.008, 0.004},
+};
+
+bool starts_with(std::string_view name, std::string_view head) { return name.substr(0, head.size()) == head; }
+
+/// Keeps the start and the last sight.
+class OwnFigure : public Judge {
+ public:
+  explicit OwnFigure(const Scene& scene) : name_(scene.name), measure_(own_measure(scene.name)) {
+    if (scene.joints.empty()) return;
+    const Vector& hook = scene.joints.front().anchor;
+    hook_ = {value_of<double>(hook[0], ""), value_of<double>(hook[1], ""), value_of<double>(hook[2], "")};
+  }
+  void see(const Sight& sight) override {
+    if (start_.empty()) start_ = sight.bodies;
+    now_ = sight.bodies;
+    joint_error_ = sight.joint_error;
+  }
+  double figure() const override {
+    switch (measure_) {
+      case Measure::top: return std::abs(now_.back().centre.y - start_.back().centre.y);
+      case Measure::moved: return furthest();
+      case Measure::stretch:
+        return std::abs(length_of(now_.back().centre - hook_) - length_of(start_.back().centre - hook_));
+      case Measure::joint_end: return joint_error_;
+      default: return count_outside(name_, now_);
+    }
+  }
+
+ private:
+  double furthest() const {
+    double most = 0;
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      const double way = length_of(now_[i].centre - start_[i].centre);
+      if (now_[i].dynamic && !(way <= most)) most = way;  // what is no number stays
+    }
+    return most;
+  }
+
+  std::string name_;
+  Measure measure_;
+  Vec3<double> hook_ = {0, 0, 0};  // [m]
+  std::vector<BodySight> start_, now_;
+  double joint_error_ = 0;
+};
+
+}  // namespace
+
+const char* name_of(Measure measure) {
+  constexpr const char* kNames[] = {
+      "height of the top", "drift",         "furthest way", "stretch",     "bodies outside",
+      "worst overlap",     "mean overlap",  "unrest",       "worst joint", "joint at the end",
+      "energy lost",       "time to sleep", "step asleep"};
+  return kNames[static_cast<int>(measure)];
+}
+
+std::vector<Bar> bars_of(std::string_view scene, bool small) {
+  std::vector<Bar> bars;
+  const std::span<const Bar> all = small ? std::span<const Bar>(kSmallBars) : std::span<const Bar>(kBars);
+  for (const Bar& bar : all) {
+    if (scene == bar.scene) bars.push_back(bar);
+  }
+  return bars;
+}
+
+int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) {
+  int outside = 0;
+  const bool pit = starts_with(scene, "S4") || scene == "S5" || scene == "S7";
+  const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
+  for (const BodySight& body : bodies) {
+    if (!body.dynamic) continue;
+    const Vec3<double> c = body.centre;
+    bool in = !floor || c.y > 0;
+    if (pit) in = in && std::abs(c.x) < 5 && std::abs(c.z) < 5;
+    if (drum) in = std::hypot(c.x, c.y - 6) < 4.5 && std::abs(c.z) < 4;
+    outside += in ? 0 : 1;
+  }
+  return outside;
+}
+
+Measure own_measure(std::string_view scene) {
+  if (starts_with(scene, "S1")) return Measure::top;
+  if (scene == "S2" || scene == "S3" || scene == "S8") return Measure::moved;
+  if (starts_with(scene, "S6")) return Measure::stretch;
+  return scene == "S7" ? Measure::joint_end : Measure::outside;
+}
+
+std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
+  constexpr std::string_view kScenes[] = {"S1",  "S1x5", "S1x10", "S1s", "S2", "S3", "S4",
+                                          "S4s", "S5",   "S6",    "S6v", "S7", "S8", "S9"};
+  if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
+  return std::make_unique<OwnFigure>(scene);
+}
+
+}  // namespace isostep::scenes

@@ -1,0 +1,37 @@
+// The list of trials, and their verdicts.
+// SPDX-License-Identifier: MIT
+#include "trial.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "families.hpp"
+
+namespace isostep::scenes {
+
+std::span<const Trial> trials() {
+  static const std::vector<Trial> all = [] {
+    std::vector<Trial> list;
+    for (const std::span<const Trial> family : trial_families()) list.insert(list.end(), family.begin(), family.end());
+    return list;
+  }();
+  return all;
+}
+
+const Trial* find_trial(std::string_view name) {
+  for (const Trial& trial : trials()) {
+    if (name == trial.name) return &trial;
+  }
+  return nullptr;
+}
+
+Verdict verdict_of(const Trial& trial, const Judge& judge, const Sight& end) {
+  const double figure = judge.figure();
+  bool finite = std::isfinite(figure) && std::isfinite(end.energy.total());
+  for (const BodySight& body : end.bodies) {
+    for (const double x : {body.centre.x, body.centre.y, body.centre.z}) finite = finite && std::isfinite(x);
+  }
+  return {finite && end.faults == 0 && figure <= trial.bar, figure};
+}
+
+}  // namespace isostep::scenes

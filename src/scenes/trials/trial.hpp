@@ -1,0 +1,52 @@
+// Trials: scenes where methods are known to fail, each with the one figure that tells, and its bar.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "scenes/scene.hpp"
+#include "scenes/sight.hpp"
+
+namespace isostep::scenes {
+
+/// Watches one run, frame by frame, and says how far from right it went. Knows nothing of the engine.
+class Judge {
+ public:
+  Judge() = default;
+  Judge(const Judge&) = delete;
+  Judge& operator=(const Judge&) = delete;
+  virtual ~Judge() = default;
+
+  /// The start, then after every frame.
+  virtual void see(const Sight& sight) = 0;
+  /// In the trial's unit: survived at or below its bar. Not a number: failed.
+  virtual double figure() const = 0;
+};
+
+struct Trial {
+  const char* name;         // of the scene
+  const char* number;       // "5", its row in the list of failure scenes; "f2": of those for fixed point
+  const char* description;  // what is there
+  const char* measure;      // what the figure is: "peak stretch over a link's length"
+  const char* unit;         // "mm", "%", "rad", "" for a plain number
+  double bar;               // the most that survives
+  Scene (*make)();
+  std::unique_ptr<Judge> (*judge)(const Scene& scene);
+};
+
+/// Every trial, family after family.
+std::span<const Trial> trials();
+/// Null for a name that no trial has.
+const Trial* find_trial(std::string_view name);
+
+/// A run that mended numbers, or has no number to show, has failed whatever the figure.
+struct Verdict {
+  bool survived;
+  double figure;
+};
+Verdict verdict_of(const Trial& trial, const Judge& judge, const Sight& end);
+
+}  // namespace isostep::scenes

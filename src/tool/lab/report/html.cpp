@@ -1,0 +1,100 @@
+// Escaping, numbers and tables.
+// SPDX-License-Identifier: MIT
+#include "html.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace isostep::tool::lab {
+namespace {
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// As Markdown's columns are wide: bytes that begin a character.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\'': out += "&#39;"; break;
+      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  char text[32];
+  std::snprintf(text, sizeof text,
+                size != 0 && (size < 1e-3 || size >= 1e6) ? "%.1e"
+                : size >= 100                             ? "%.0f"
+                                                          : "%.3g",
+                value);
+  return text;
+}
+
+std::string inlined_svg(std::string_view file, const std::string& prefix) {
+  const std::size_t start = file.find("<svg"), end = file.rfind("</svg>");
+  if (start == std::string_view::npos || end == std::string_view::npos) return {};
+  std::string text(file.substr(start, end + 6 - start));
+  for (const char* quote : {"'", "\""}) {
+    const std::string q = quote;
+    replace_all(text, " id=" + q, " id=" + q + prefix);
+    replace_all(text, "href=" + q + "#", "href=" + q + "#" + prefix);
+  }
+  replace_all(text, "url(#", "url(#" + prefix);
+  return text;
+}
+
+std::string html_table(const std::vector<std::vector<std::string>>& cells) {
+  std::string text = "<div class=\"wide\"><table>\n";
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const char* kind = n == 0 ? "th" : "td";
+    text += "<tr>";
+    for (const std::string& cell : cells[n]) {
+      text.append("<").append(kind).append(">").append(cell).append("</").append(kind).append(">");
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::string markdown_table(std::vector<std::vector<std::string>> cells) {
+  std::vector<std::size_t> widths(cells.front().size(), 3);
+  for (auto& line : cells) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      replace_all(line[i], "|", "\\|");
+      widths[i] = std::max(widths[i], width_of(line[i]));
+    }
+  }
+  std::string text;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text.append("| ").append(cells[n][i]).append(widths[i] - width_of(cells[n][i]) + 1, ' ');
+    }
+    text += "|\n";
+    if (n != 0) continue;
+    for (const std::size_t width : widths) text.append("|").append(width + 2, '-');
+    text += "|\n";
+  }
+  return text;
+}
+
+}  // namespace isostep::tool::lab

@@ -1,0 +1,26 @@
+// Text into HTML and SVG, safely, and numbers as people read them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isostep::tool::lab {
+
+/// & < > " ' become entities; control characters become spaces.
+std::string escaped(std::string_view text);
+
+/// Three digits: "0.00123", "12.3", "1240", "1.2e-09"; "-" for what is no number.
+std::string short_number(double value);
+
+/// An SVG file as part of a page: no XML head, and every id with `prefix` before it, so that two of them may stand in
+/// one page.
+std::string inlined_svg(std::string_view file, const std::string& prefix);
+
+/// The first line is the head. Cells are HTML already.
+std::string html_table(const std::vector<std::vector<std::string>>& cells);
+/// The same in Markdown: columns as wide as they must be. Cells are plain text; a bar in them is escaped.
+std::string markdown_table(std::vector<std::vector<std::string>> cells);
+
+}  // namespace isostep::tool::lab

@@ -1,0 +1,50 @@
+// Who survives what: for every trial and method the cheapest setting that does, and the one to recommend.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../result.hpp"
+
+namespace isostep::tool::lab {
+
+enum class Fate { untried, survived, failed, slow, refused };
+inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "slow", "refused"};
+
+/// What became of one trial by one method: of several settings the cheapest that survived, else the one that came
+/// nearest to its bar.
+struct MatrixCell {
+  Fate fate = Fate::untried;
+  LabResult result;  // unless untried
+};
+struct MatrixColumn {
+  std::string scalar, solver;  // of ours
+  std::string engine;          // kOwnEngine, or a peer
+
+  bool is_ours() const { return engine == kOwnEngine; }
+};
+struct MatrixRow {
+  std::string trial;
+  std::vector<MatrixCell> cells;  // one a column
+};
+struct Matrix {
+  std::vector<MatrixColumn> columns;
+  std::vector<MatrixRow> rows;
+
+  /// Of all cells of that scalar in a row, the cheapest that survived; null where none did. Empty: of every scalar. Of
+  /// times that differ by less than a tenth the first column counts, so that a clock's noise recommends nothing.
+  const LabResult* recommended(std::size_t row, const std::string& scalar) const;
+};
+
+/// Rows in the order of `trials`, columns in that of `scalars`, then `solvers`, then peers by name.
+Matrix matrix_of(const std::vector<std::string>& trials, const std::vector<std::string>& scalars,
+                 const std::vector<std::string>& solvers, const std::vector<LabResult>& results);
+
+Fate fate_of(const LabResult& result);
+/// "8" sub-steps, or where that did not do "240" steps a second.
+std::string effort_of(const LabPoint& point);
+/// Cheaper by time, then by sub-steps.
+bool is_cheaper(const LabResult& a, const LabResult& b);
+
+}  // namespace isostep::tool::lab

@@ -1,0 +1,212 @@
+// HTML, section by section.
+// SPDX-License-Identifier: MIT
+#include "page.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "advice_table.hpp"
+#include "html.hpp"
+#include "scenes/trials/trial.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+constexpr char kHead[] = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>isostep: the laboratory</title>
+<style>
+body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
+  max-width: 1240px; margin: 0 auto; padding: 1rem; }
+h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
+p, figcaption { color: #57606a; max-width: 50rem; }
+svg { max-width: 100%; height: auto; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; }
+th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; vertical-align: top; }
+th { background: #f6f8fa; }
+table.matrix td.cell { text-align: center; min-width: 1.6rem; padding: 2px 3px; }
+table.matrix th.turned { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: normal; }
+td.survived { background: #009e73; color: #fff; } td.failed { background: #d55e00; color: #fff; }
+td.slow { background: #f0c75e; } td.refused { background: #eaeef2; color: #57606a; }
+</style>
+</head>
+<body>
+)";
+
+std::string section(const char* id, const char* title, const std::string& note, const std::string& content) {
+  return std::string("<section id=\"") + id + "\">\n<h2>" + title + "</h2>\n<p>" + note + "</p>\n" + content +
+         "</section>\n";
+}
+std::string picture(const std::string& svg, const std::string& prefix) {
+  const std::string inlined = inlined_svg(svg, prefix);
+  return inlined.empty() ? "<p>No picture: gnuplot was not there.</p>\n" : "<figure>" + inlined + "</figure>\n";
+}
+
+std::string escaped_table(std::vector<std::vector<std::string>> cells) {
+  for (auto& line : cells) {
+    for (std::string& cell : line) cell = escaped(cell);
+  }
+  return html_table(cells);
+}
+
+const scenes::Trial& trial_of(const std::string& name) {
+  static const scenes::Trial unknown = {"", "", "", "", "", 0, nullptr, nullptr};
+  const scenes::Trial* trial = scenes::find_trial(name);
+  return trial == nullptr ? unknown : *trial;
+}
+
+std::string with_unit(double value, const scenes::Trial& trial) {
+  return short_number(value) + (trial.unit[0] == '\0' ? "" : " ") + trial.unit;
+}
+std::string figure_text(const LabResult& result) { return with_unit(result.figure, trial_of(result.point.scene)); }
+
+/// What hovering over a cell says.
+std::string hint_of(const MatrixCell& cell) {
+  if (cell.fate == Fate::untried) return "not run";
+  const LabResult& r = cell.result;
+  const std::string who = r.point.engine == kOwnEngine ? r.point.scalar + ", " + setting_of(r.point) : r.point.engine;
+  std::string text = who + ": " + kFateNames[static_cast<int>(cell.fate)];
+  if (cell.fate == Fate::survived || cell.fate == Fate::failed) {
+    text += ", " + figure_text(r) + " (bar " + with_unit(trial_of(r.point.scene).bar, trial_of(r.point.scene)) + "), " +
+            short_number(r.ms) + " ms";
+    if (r.faults > 0) text += ", numbers mended in " + std::to_string(r.faults) + " steps";
+  }
+  if (!r.reason.empty()) text += ": " + r.reason;
+  return text;
+}
+
+std::string cell_html(const MatrixCell& cell, bool ours) {
+  constexpr const char* kSigns[] = {"", "✓", "×", "…", "–"};
+  constexpr const char* kClasses[] = {"untried", "survived", "failed", "slow", "refused"};
+  const int fate = static_cast<int>(cell.fate);
+  const std::string sign = cell.fate == Fate::survived && ours ? effort_of(cell.result.point) : kSigns[fate];
+  return std::string("<td class=\"cell ") + kClasses[fate] + "\" title=\"" + escaped(hint_of(cell)) + "\">" + sign +
+         "</td>";
+}
+
+std::string recommendation(const LabResult* result) {
+  if (result == nullptr) return "none";
+  return setting_of(result->point) + ": " + figure_text(*result) + ", " + short_number(result->ms) + " ms";
+}
+
+std::string matrix_head(const Matrix& matrix) {
+  std::string groups = "<tr><th rowspan=\"2\">trial</th><th rowspan=\"2\">figure</th>", names = "<tr>";
+  for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+    const MatrixColumn& column = matrix.columns[i];
+    names += "<th class=\"turned\">" + escaped(column.is_ours() ? column.solver : column.engine) + "</th>";
+    if (i > 0 && matrix.columns[i - 1].scalar == column.scalar) continue;
+    const auto same = [&](const MatrixColumn& c) { return c.scalar == column.scalar; };
+    const auto count = std::count_if(matrix.columns.begin(), matrix.columns.end(), same);
+    groups += "<th colspan=\"" + std::to_string(count) + "\">" + escaped(column.is_ours() ? column.scalar : "peers") +
+              "</th>";
+  }
+  return groups + "<th rowspan=\"2\">recommended, double</th><th rowspan=\"2\">recommended, q32.32</th></tr>\n" +
+         names + "</tr>\n";
+}
+
+std::string matrix_html(const Matrix& matrix) {
+  std::string text = "<div class=\"wide\"><table class=\"matrix\">\n" + matrix_head(matrix);
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    const scenes::Trial& trial = trial_of(matrix.rows[r].trial);
+    text += "<tr><td title=\"" + escaped(trial.description) + "\">" + escaped(matrix.rows[r].trial) + "</td><td>" +
+            escaped(std::string(trial.measure) + ", at most " + with_unit(trial.bar, trial)) + "</td>";
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+      text += cell_html(matrix.rows[r].cells[i], matrix.columns[i].is_ours());
+    }
+    for (const char* scalar : {"double", "q32.32"}) {
+      text += "<td>" + escaped(recommendation(matrix.recommended(r, scalar))) + "</td>";
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+/// A line a stage, a column a scene and scalar.
+std::string stage_table(const std::vector<StageCost>& costs) {
+  std::vector<std::string> columns, stages;
+  std::map<std::string, std::map<std::string, double>> times;
+  const auto note = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const StageCost& cost : costs) {
+    const std::string column = cost.scene + " " + cost.scalar;
+    note(columns, column);
+    note(stages, cost.stage);
+    times[cost.stage][column] = cost.us;
+  }
+  if (columns.empty()) return {};
+  std::vector<std::vector<std::string>> cells(1, {"µs a step"});
+  cells[0].insert(cells[0].end(), columns.begin(), columns.end());
+  for (const std::string& stage : stages) {
+    std::vector<std::string> line = {stage};
+    for (const std::string& column : columns) line.push_back(short_number(times[stage][column]));
+    cells.push_back(std::move(line));
+  }
+  return escaped_table(std::move(cells));
+}
+
+std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
+  std::string text;
+  for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+    if (matrix.columns[i].is_ours()) continue;
+    text += (text.empty() ? "" : ", ") + matrix.columns[i].engine + " " +
+            kFateNames[static_cast<int>(matrix.rows[row].cells[i].fate)];
+  }
+  return text.empty() ? "-" : text;
+}
+
+}  // namespace
+
+std::string page_of(const ReportData& data) {
+  std::string text = kHead;
+  text += "<h1>The laboratory</h1>\n<p>" + std::to_string(data.results.size()) + " runs of " +
+          std::to_string(data.plan.scenes.size()) + " scenes and " + std::to_string(data.plan.trials.size()) +
+          " trials." + (data.is_short ? " A short set: run without --short for all of it." : "") + "</p>\n";
+  text +=
+      section("advice", "Advice",
+              "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. CPU "
+              "time of a step of 1/60 s, one thread.",
+              escaped_table(advice_cells(data)));
+  text += section("accuracy", "Speed against accuracy",
+                  "A line a scalar and solver, over sub-steps. Left is faster, down is more accurate.",
+                  picture(data.accuracy, "a-"));
+  text += section("survival", "Where methods fail",
+                  "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, too slow …, or "
+                  "cannot be said to it –. Point at a "
+                  "cell for its figure.",
+                  matrix_html(data.matrix));
+  text += section("growth", "Error growth",
+                  "How far each scalar gets from the same method in double, with the same sub-steps: root mean square "
+                  "over bodies of points half a metre from their centres.",
+                  picture(data.growth, "g-"));
+  text += section("springs", "Stability of integrators", "Stiff springs, every integrator of particles, every scalar.",
+                  picture(data.springs, "s-"));
+  text += section("stages", "What each stage costs", "CPU time of a step's stages, by soft step at 8 sub-steps.",
+                  picture(data.stage_chart, "c-") + stage_table(data.stages));
+  return text + "</body>\n</html>\n";
+}
+
+std::string summary_of(const ReportData& data) {
+  std::vector<std::vector<std::string>> cells = {{"trial", "figure", "bar", "double", "q32.32", "peers"}};
+  int both = 0;
+  for (std::size_t r = 0; r < data.matrix.rows.size(); ++r) {
+    const scenes::Trial& trial = trial_of(data.matrix.rows[r].trial);
+    const LabResult* in_double = data.matrix.recommended(r, "double");
+    const LabResult* in_fixed = data.matrix.recommended(r, "q32.32");
+    both += in_double != nullptr && in_fixed != nullptr ? 1 : 0;
+    cells.push_back({data.matrix.rows[r].trial, trial.measure, with_unit(trial.bar, trial), recommendation(in_double),
+                     recommendation(in_fixed), peer_verdicts(data.matrix, r)});
+  }
+  std::string text =
+      "# The laboratory, in short\n\nWritten by `./isostep lab --all`. Per trial the cheapest setting "
+      "that survives, its figure, and the CPU time of a step of 1/60 s.\nSurvived in double and q32.32: " +
+      std::to_string(both) + " of " + std::to_string(data.matrix.rows.size()) + ".\n\n" + markdown_table(cells) +
+      "\nPer scene the cheapest setting that holds its bars:\n\n" + markdown_table(advice_cells(data));
+  return text;
+}
+
+}  // namespace isostep::tool::lab

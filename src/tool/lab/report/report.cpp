@@ -1,0 +1,173 @@
+// The report, piece by piece: what is kept of this version is taken as it is.
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "../../commands.hpp"
+#include "../../files.hpp"
+#include "../../tool.hpp"
+#include "../gnuplot.hpp"
+#include "../sweep.hpp"
+#include "charts.hpp"
+#include "isostep/core/version.hpp"
+#include "page.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  const std::vector<std::uint8_t> bytes = read_file(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+class ReportWriter {
+ public:
+  explicit ReportWriter(const ReportOptions& options) : options_(options) {
+    data_.is_short = options.is_short;
+    data_.plan = options.is_short ? short_plan(options.limit) : whole_plan(options.limit);
+    std::error_code error;
+    fs::create_directories(options.out, error);
+    if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
+    expect_writable(in("report.html"));
+    forget_other_versions();
+  }
+
+  void run() {
+    sweep_all();
+    run_peers();
+    measure_the_rest();
+    draw_all();
+    write_file(in("report.html"), page_of(data_));
+    write_file(in("lab.md"), summary_of(data_));
+    if (!options_.is_short) renew_repository();
+    std::cout << in("report.html") << "\n";
+  }
+
+ private:
+  std::string in(const std::string& name) const { return options_.out + "/" + name; }
+
+  /// Tables that carry no version themselves go with a file that does.
+  void forget_other_versions() {
+    const std::string version = hex(behaviour_version()) + (options_.is_short ? " short" : " whole") + "\n";
+    if (!options_.fresh && text_of(in("report.version")) == version) return;
+    for (const char* name : {"lab_growth.tsv", "lab_stages.tsv", "springs.tsv", "springs.svg"}) {
+      std::error_code ignored;
+      fs::remove(in(name), ignored);
+    }
+    write_file(in("report.version"), version);
+  }
+
+  std::vector<LabResult> swept(const std::vector<LabPoint>& points, const std::string& what) {
+    std::cerr << "lab: " << points.size() << " runs of " << what << "\n";
+    SweepOptions sweep_options;
+    sweep_options.out = options_.out;
+    sweep_options.jobs = options_.jobs;
+    sweep_options.limit = data_.plan.limit;
+    sweep_options.fresh = options_.fresh;
+    return sweep(points, sweep_options);
+  }
+  void add(std::vector<LabResult> results) {
+    data_.results.insert(data_.results.end(), std::make_move_iterator(results.begin()),
+                         std::make_move_iterator(results.end()));
+  }
+
+  void sweep_all() {
+    add(swept(scene_points(data_.plan), "scenes"));
+    for (std::size_t n = 0; n < data_.plan.trial_efforts.size(); ++n) {
+      const Effort effort = data_.plan.trial_efforts[n];
+      const std::string rate = effort.rate == 1 ? "" : ", " + std::to_string(effort.rate) + " times the steps";
+      add(swept(trial_points(data_.plan, n, data_.results),
+                "trials with " + std::to_string(effort.substeps) + " sub-steps" + rate));
+    }
+  }
+
+  /// The program resumes by itself; its lines are read whether it was there or not.
+  void run_peers() {
+    if (!options_.peers.empty()) {
+      const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+      const int jobs = options_.jobs > 0 ? options_.jobs : static_cast<int>(cores);
+      const std::string command = shell_quoted(options_.peers) + " --out " + shell_quoted(in("peers.jsonl")) +
+                                  " --jobs " + std::to_string(jobs) + " --limit " + std::to_string(options_.limit);
+      const int status = std::system(command.c_str());
+      stop_if_interrupted();
+      if (status != 0) std::cerr << "isostep: " << options_.peers << " failed: peers are as far as they are kept\n";
+    }
+    std::vector<LabResult> peers;
+    for (LabRecord& record : read_records(in("peers.jsonl"))) {
+      if (is_asked(record.result.point.scene)) peers.push_back(std::move(record.result));
+    }
+    std::stable_sort(peers.begin(), peers.end(),
+                     [](const LabResult& a, const LabResult& b) { return name_of(a.point) < name_of(b.point); });
+    add(std::move(peers));
+    data_.matrix = matrix_of(data_.plan.trials, data_.plan.scalars, data_.plan.solvers, data_.results);
+  }
+
+  bool is_asked(const std::string& scene) const {
+    const auto holds = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), scene) != names.end();
+    };
+    return holds(data_.plan.scenes) || holds(data_.plan.trials);
+  }
+
+  void measure_the_rest() {
+    std::cerr << "lab: error growth, stages, springs\n";
+    if (text_of(in("lab_growth.tsv")).empty()) {
+      write_file(in("lab_growth.tsv"), growth_tsv(measure_growth(options_.is_short ? 120 : 600)));
+    }
+    if (text_of(in("lab_stages.tsv")).empty()) {
+      const bool quick = options_.is_short;
+      write_file(in("lab_stages.tsv"), stages_tsv(measure_stages(quick ? 30 : 120, quick ? 10 : 60)));
+    }
+    data_.stages = stages_of(text_of(in("lab_stages.tsv")));
+    if (text_of(in("springs.tsv")).empty()) {
+      LabSpringsOptions springs;
+      springs.quick = true;
+      springs.out = options_.out;
+      springs.quiet = true;
+      command_lab_springs(springs);
+    }
+  }
+
+  void draw_all() {
+    write_file(in("lab_accuracy.tsv"), accuracy_tsv(data_.results));
+    write_file(in("lab_survival.svg"), survival_svg(data_.matrix));
+    data_.accuracy = drawn("lab_accuracy");
+    data_.growth = drawn("lab_growth");
+    data_.stage_chart = drawn("lab_stages");
+    data_.springs = text_of(in("springs.svg"));
+  }
+  std::string drawn(const std::string& name) {
+    return draw_chart(options_.out, name) ? text_of(in(name + ".svg")) : "";
+  }
+
+  /// README's pictures, and the table that people read in the repository.
+  void renew_repository() {
+    const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
+    if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
+    if (!data_.accuracy.empty()) write_file((bench / "charts/lab_accuracy.svg").string(), data_.accuracy);
+    write_file((bench / "charts/lab_survival.svg").string(), survival_svg(data_.matrix));
+    write_file((bench / "results/lab.md").string(), summary_of(data_));
+    std::cerr << "lab: renewed charts/lab_*.svg and results/lab.md in " << bench.string() << "\n";
+  }
+
+  const ReportOptions& options_;
+  ReportData data_;
+};
+
+}  // namespace
+
+int write_lab_report(const ReportOptions& options) {
+  ReportWriter(options).run();
+  return exit_status::kOk;
+}
+
+}  // namespace isostep::tool::lab

@@ -1,0 +1,132 @@
+// The matrix of survival, drawn by hand: it is all text and squares.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
+
+#include "charts.hpp"
+#include "html.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+// [px]
+constexpr int kWide = 27, kHigh = 19, kLeft = 176, kTop = 176, kGap = 8, kMargin = 16;
+
+struct Paint {
+  const char* fill;
+  const char* ink;
+};
+/// After Okabe and Ito; signs say the same for those who see no colours.
+Paint paint_of(Fate fate) {
+  switch (fate) {
+    case Fate::survived: return {"#009e73", "#ffffff"};
+    case Fate::failed: return {"#d55e00", "#ffffff"};
+    case Fate::slow: return {"#f0c75e", "#24292f"};
+    case Fate::refused: return {"#eaeef2", "#57606a"};
+    default: return {"#ffffff", "#57606a"};
+  }
+}
+
+std::string sign_of(const MatrixCell& cell, bool ours) {
+  switch (cell.fate) {
+    case Fate::survived: return ours ? effort_of(cell.result.point) : "✓";
+    case Fate::failed: return "×";
+    case Fate::slow: return "…";
+    case Fate::refused: return "–";
+    default: return "";
+  }
+}
+
+/// Left edges, with a gap where the scalar changes.
+std::vector<int> edges_of(const Matrix& matrix) {
+  std::vector<int> edges;
+  int x = kLeft;
+  for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+    if (i > 0 && matrix.columns[i].scalar != matrix.columns[i - 1].scalar) x += kGap;
+    edges.push_back(x);
+    x += kWide;
+  }
+  edges.push_back(x);
+  return edges;
+}
+
+std::string text_at(double x, double y, const std::string& words, const char* more) {
+  char head[160];
+  std::snprintf(head, sizeof head, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, more);
+  return head + escaped(words) + "</text>\n";
+}
+std::string square(int x, int y, const MatrixCell& cell, bool ours) {
+  const Paint paint = paint_of(cell.fate);
+  char text[256];
+  std::snprintf(text, sizeof text, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + 1, y + 1,
+                kWide - 2, kHigh - 2, paint.fill);
+  const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + paint.ink + "\"";
+  return text + text_at(x + kWide / 2.0, y + kHigh / 2.0 + 4, sign_of(cell, ours), style.c_str());
+}
+
+std::string heads_of(const Matrix& matrix, const std::vector<int>& edges) {
+  std::string text;
+  for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+    const MatrixColumn& column = matrix.columns[i];
+    char turn[128];
+    const double x = edges[i] + kWide / 2.0 + 4;
+    std::snprintf(turn, sizeof turn, "transform=\"rotate(-60 %.1f %d)\" font-size=\"12\" fill=\"#24292f\"", x,
+                  kTop - 8);
+    text += text_at(x, kTop - 8, column.is_ours() ? column.solver : column.engine, turn);
+    const bool first = i == 0 || matrix.columns[i - 1].scalar != column.scalar;
+    if (!first) continue;
+    text += text_at(edges[i] + 34, kTop - 92, column.is_ours() ? column.scalar : "peers",
+                    "font-size=\"13\" font-weight=\"bold\" fill=\"#24292f\"");
+  }
+  return text;
+}
+
+std::string legend() {
+  struct Item {
+    const char *fill, *ink, *sign, *words;
+  };
+  constexpr Item kItems[] = {{"#009e73", "#ffffff", "8", "survived, with so many sub-steps"},
+                             {"#009e73", "#ffffff", "240", "or with so many steps a second"},
+                             {"#d55e00", "#ffffff", "×", "failed with any"},
+                             {"#f0c75e", "#24292f", "…", "too slow"},
+                             {"#eaeef2", "#57606a", "–", "cannot be said to it"}};
+  std::string text;
+  int x = kMargin;
+  for (const Item& item : kItems) {
+    char box[160];
+    std::snprintf(box, sizeof box, "<rect x=\"%d\" y=\"42\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x, kWide - 2,
+                  kHigh - 2, item.fill);
+    const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + item.ink + "\"";
+    text += box + text_at(x + kWide / 2.0 - 1, 55, item.sign, style.c_str());
+    text += text_at(x + kWide + 3, 55, item.words, "font-size=\"12\" fill=\"#57606a\"");
+    x += kWide + 24 + static_cast<int>(std::string(item.words).size()) * 7;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string survival_svg(const Matrix& matrix) {
+  const std::vector<int> edges = edges_of(matrix);
+  const int width = std::max(edges.back() + 70, 760);
+  const int height = kTop + static_cast<int>(matrix.rows.size()) * kHigh + kMargin;
+  char head[256];
+  std::snprintf(head, sizeof head,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
+                "font-family=\"sans-serif\">\n<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
+                width, height, width, height, width, height);
+  std::string text = head;
+  text += text_at(kMargin, 28, "Who survives where methods fail", "font-size=\"19\" fill=\"#24292f\"");
+  text += legend() + heads_of(matrix, edges);
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    const int y = kTop + static_cast<int>(r) * kHigh;
+    text += text_at(kLeft - 8, y + kHigh / 2.0 + 4, matrix.rows[r].trial,
+                    "text-anchor=\"end\" font-size=\"12\" fill=\"#24292f\"");
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+      text += square(edges[i], y, matrix.rows[r].cells[i], matrix.columns[i].is_ours());
+    }
+  }
+  return text + "</svg>\n";
+}
+
+}  // namespace isostep::tool::lab

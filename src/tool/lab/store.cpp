@@ -1,0 +1,67 @@
+// Appending to a file of lines.
+// SPDX-License-Identifier: MIT
+#include "store.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "../files.hpp"
+#include "../tool.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+/// Behind the last whole line.
+std::uintmax_t end_of_lines(const std::string& path) {
+  const std::vector<std::uint8_t> bytes = read_file(path);
+  const auto last = std::find(bytes.rbegin(), bytes.rend(), std::uint8_t{'\n'});
+  return static_cast<std::uintmax_t>(bytes.rend() - last);
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+  throw ToolError(exit_status::kOutput, path + ": " + why);
+}
+
+}  // namespace
+
+bool stands_for(const LabRecord& record, const Wanted& wanted) {
+  const LabResult& result = record.result;
+  if (record.version != wanted.version) return false;
+  if (result.state == kDone) return result.frames == wanted.frames;
+  if (result.state == kRefused) return true;
+  const double whole_run = 1e-3 * result.ms_mean * 60 / result.point.hz * wanted.frames;  // [s]
+  return result.frames < wanted.frames && whole_run > wanted.limit;
+}
+
+ResultStore::ResultStore(const std::string& directory) {
+  if (directory.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) fail(directory, error.message());
+  path_ = directory + "/" + kResultsFile;
+  for (LabRecord& record : read_records(path_)) known_.emplace(name_of(record.result.point), std::move(record));
+  if (std::filesystem::exists(path_, error)) std::filesystem::resize_file(path_, end_of_lines(path_), error);
+  if (error) fail(path_, error.message());
+  file_ = std::fopen(path_.c_str(), "ab");
+  if (file_ == nullptr) fail(path_, std::generic_category().message(errno));
+}
+
+ResultStore::~ResultStore() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+const LabResult* ResultStore::find(const LabPoint& point, const Wanted& wanted) const {
+  const auto found = known_.find(name_of(point));
+  return found != known_.end() && stands_for(found->second, wanted) ? &found->second.result : nullptr;
+}
+
+void ResultStore::append(const LabRecord& record) {
+  if (file_ == nullptr) return;
+  const std::string line = to_line(record) + "\n";
+  if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0)
+    fail(path_, std::generic_category().message(errno));
+}
+
+}  // namespace isostep::tool::lab

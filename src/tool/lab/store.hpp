@@ -1,0 +1,47 @@
+// The file of results: what is known of earlier runs, and one line more for each that ends.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "result.hpp"
+
+namespace isostep::tool::lab {
+
+inline constexpr const char* kResultsFile = "results.jsonl";
+
+/// What a run has to be for an earlier one to stand for it.
+struct Wanted {
+  std::string version;
+  int frames = 0;    // at the point's rate
+  double limit = 0;  // [s]
+};
+/// A slow run stands for one that would be slow again.
+bool stands_for(const LabRecord& record, const Wanted& wanted);
+
+/// Open for appending. Whole lines alone are in the file at any moment but within `append`; what a crash cut off
+/// there is taken away by the next that opens it.
+class ResultStore {
+ public:
+  /// Makes the directory. Empty: nothing is kept. Throws ToolError 64, 66 or 74.
+  explicit ResultStore(const std::string& directory);
+  ~ResultStore();
+  ResultStore(const ResultStore&) = delete;
+  ResultStore& operator=(const ResultStore&) = delete;
+
+  /// Null where there is none that stands for it.
+  const LabResult* find(const LabPoint& point, const Wanted& wanted) const;
+  /// Throws ToolError 74.
+  void append(const LabRecord& record);
+  /// Empty: nothing is kept.
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::FILE* file_ = nullptr;
+  std::map<std::string, LabRecord> known_;
+};
+
+}  // namespace isostep::tool::lab

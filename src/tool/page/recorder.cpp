@@ -1,0 +1,180 @@
+// Recording what is drawn.
+// SPDX-License-Identifier: MIT
+#include "recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "isostep/math/quat.hpp"
+
+namespace isostep::tool::page {
+namespace {
+
+constexpr const char* kJointKinds[] = {"ball", "hinge", "fixed", "distance"};
+constexpr const char* kSpringKinds[] = {"spring", "bungee", "stiff"};
+constexpr const char* kLinkKinds[] = {"cable", "rod"};
+
+std::array<float, 3> array_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+Quat<double> quaternion(const float (&q)[4]) { return {q[0], q[1], q[2], q[3]}; }
+std::array<float, 3> turned_back(const Quat<double>& q, Vec3<double> v) {
+  const Vec3<double> local = transposed_times(to_matrix(normalise(q)), v);
+  return {static_cast<float>(local.x), static_cast<float>(local.y), static_cast<float>(local.z)};
+}
+
+Pose rounded(const DrawnPose& pose) {
+  Pose out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double steps = std::clamp(std::round(pose.position[i] / kGrid), -2147483648.0, 2147483647.0);
+    out.at[i] = static_cast<std::int32_t>(steps);
+  }
+  out.turn = pack_turn(pose.orientation);
+  return out;
+}
+
+}  // namespace
+
+void Recorder::begin(std::uint64_t tick, std::uint64_t hash, double energy) {
+  recording_.frames.push_back({tick, hash, energy, 0, {}, {}, {}});
+  recording_.scenery.clear();
+}
+
+/// Who was not told of is gone.
+void Recorder::finish() {
+  for (std::uint32_t actor = 0; actor < casts_.size(); ++actor) {
+    if (casts_[actor].seen == now() || casts_[actor].is == Change::gone) continue;
+    casts_[actor].is = Change::gone;
+    frame().changed.push_back({actor, Change::gone});
+  }
+  std::sort(frame().moved.begin(), frame().moved.end(),
+            [](const Moved& a, const Moved& b) { return a.actor < b.actor; });
+}
+
+/// Whether it is new.
+bool Recorder::cast(std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor) {
+  if (by_slot_.size() <= slot) by_slot_.resize(slot + 1);
+  Known& known = by_slot_[slot];
+  const bool fresh = known.index == kNone || known.generation != generation;
+  if (fresh) {
+    known = {generation, static_cast<std::uint32_t>(casts_.size())};
+    casts_.emplace_back();
+    recording_.actors.push_back({slot, generation, BodyType::dynamic, false, 0, {}});
+  }
+  actor = known.index;
+  return fresh;
+}
+
+void Recorder::appear(std::uint32_t actor, const DrawnPose& drawn, Change is) {
+  Cast& known = casts_[actor];
+  const Pose pose = rounded(drawn);
+  if (known.seen == kNone || !(pose == known.pose)) frame().moved.push_back({actor, pose});
+  if (known.is != is) frame().changed.push_back({actor, is});
+  known.pose = pose;
+  known.is = is;
+  known.seen = now();
+  std::copy(drawn.position, drawn.position + 3, known.at);
+  std::copy(drawn.orientation, drawn.orientation + 4, known.turn);
+}
+
+void Recorder::body(const DrawnBody& body) {
+  std::uint32_t actor = 0;
+  parts_wanted_ = cast(body.body.slot, body.body.generation, actor);
+  recording_.actors[actor].type = body.type;
+  recording_.actors[actor].sensor = body.sensor;
+  appear(actor, body.pose, body.awake || body.type == BodyType::fixed ? Change::awake : Change::asleep);
+}
+
+void Recorder::part(const DrawnBody& body, const DrawnPart& part) {
+  if (!parts_wanted_) return;
+  const auto actor = actor_of(body.body.slot);
+  const Quat<double> q = quaternion(body.pose.orientation);
+  const Quat<double> turn = normalise(conjugate(q) * quaternion(part.pose.orientation));
+  recording_.actors[static_cast<std::size_t>(actor)].parts.push_back(
+      {part.type,
+       array_of(part.half),
+       part.radius,
+       local(actor, part.pose.position),
+       {static_cast<float>(turn.x), static_cast<float>(turn.y), static_cast<float>(turn.z), static_cast<float>(turn.w)},
+       turned_back(q, {part.normal[0], part.normal[1], part.normal[2]})});
+}
+
+void Recorder::contact(const DrawnContact& contact) {
+  ContactPoint kept = {};
+  for (std::size_t i = 0; i < 3; ++i) kept.normal[i] = static_cast<std::int8_t>(std::lround(contact.normal[i] * 127));
+  for (std::uint32_t i = 0; i < contact.count; ++i) {
+    const DrawnContact::Point& point = contact.points[i];
+    frame().depth = std::max(frame().depth, -double{point.separation});
+    kept.at = array_of(point.position);
+    const double newtons = std::max(0.0, double{point.force});
+    kept.force = static_cast<std::uint8_t>(std::min(255.0, std::round(16 * std::log2(1 + newtons))));
+    frame().points.push_back(kept);
+  }
+}
+
+void Recorder::particle(const DrawnParticle& particle) {
+  recording_.particles = true;
+  std::uint32_t actor = 0;
+  cast(particle.particle.slot, particle.particle.generation, actor);
+  recording_.actors[actor].type = particle.pinned ? BodyType::kinematic : BodyType::dynamic;
+  recording_.actors[actor].radius = particle.radius;
+  DrawnPose pose = {{}, {0, 0, 0, 1}};
+  std::copy(particle.position, particle.position + 3, pose.position);
+  appear(actor, pose, Change::awake);
+}
+
+std::int32_t Recorder::actor_of(std::uint32_t slot) const {
+  if (slot >= by_slot_.size() || by_slot_[slot].index == kNone) return Bond::kNobody;
+  return static_cast<std::int32_t>(by_slot_[slot].index);
+}
+std::array<float, 3> Recorder::local(std::int32_t actor, const float (&point)[3]) const {
+  if (actor == Bond::kNobody) return array_of(point);
+  const Cast& known = casts_[static_cast<std::size_t>(actor)];
+  const Vec3<double> from = {double{point[0]} - known.at[0], double{point[1]} - known.at[1],
+                             double{point[2]} - known.at[2]};
+  return turned_back(quaternion(known.turn), from);
+}
+
+/// The bond of that id if it is new, to be filled in; null when it was known. It is there now either way.
+template <class IdType> Bond* Recorder::bond(std::vector<Known>& all, IdType id) {
+  if (all.size() <= id.slot) all.resize(id.slot + 1);
+  Known& known = all[id.slot];
+  if (known.index != kNone && known.generation == id.generation) {
+    recording_.bonds[known.index].last = now();
+    return nullptr;
+  }
+  known = {id.generation, static_cast<std::uint32_t>(recording_.bonds.size())};
+  recording_.bonds.push_back({"", Bond::kNobody, Bond::kNobody, {}, {}, now(), now()});
+  return &recording_.bonds.back();
+}
+
+void Recorder::joint(const DrawnJoint& joint) {
+  Bond* const fresh = bond(joints_, joint.joint);
+  if (fresh == nullptr) return;
+  fresh->kind = kJointKinds[static_cast<std::size_t>(joint.type)];
+  if (joint.a) fresh->a = actor_of(joint.a.slot);
+  if (joint.b) fresh->b = actor_of(joint.b.slot);
+  fresh->at_a = local(fresh->a, joint.frame_a.position);
+  fresh->at_b = local(fresh->b, joint.frame_b.position);
+}
+void Recorder::spring(const DrawnSpring& spring) {
+  Bond* const fresh = bond(springs_, spring.spring);
+  if (fresh == nullptr) return;
+  fresh->kind = kSpringKinds[static_cast<std::size_t>(spring.type)];
+  fresh->a = actor_of(spring.a.slot);
+  if (spring.b) fresh->b = actor_of(spring.b.slot);
+  else fresh->at_b = array_of(spring.to);
+}
+void Recorder::link(const DrawnLink& link) {
+  Bond* const fresh = bond(links_, link.link);
+  if (fresh == nullptr) return;
+  fresh->kind = kLinkKinds[static_cast<std::size_t>(link.type)];
+  fresh->a = actor_of(link.a.slot);
+  if (link.b) fresh->b = actor_of(link.b.slot);
+  else fresh->at_b = array_of(link.to);
+}
+void Recorder::collider(const DrawnCollider& collider) {
+  recording_.scenery.push_back({collider.type == ColliderType::plane, array_of(collider.normal),
+                                array_of(collider.start), array_of(collider.end), collider.radius});
+}
+
+}  // namespace isostep::tool::page

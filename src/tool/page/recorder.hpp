@@ -1,0 +1,64 @@
+// Recorder: makes a recording of any world, by what a DebugDraw is told of it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/world/debug_draw.hpp"
+#include "recording.hpp"
+#include "scenes/measure.hpp"
+#include "scenes/particles/particle_measure.hpp"
+
+namespace isostep::tool::page {
+
+class Recorder : public DebugDraw {
+ public:
+  explicit Recorder(Recording& recording) : recording_(recording) {}
+
+  /// The world's moment becomes the recording's next frame.
+  template <class W> void record(const W& world) {
+    begin(world.tick(), world.hash(), scenes::measure_energy(world).total());
+    draw(world, *this);
+    finish();
+  }
+
+  void body(const DrawnBody& body) override;
+  void part(const DrawnBody& body, const DrawnPart& part) override;
+  void contact(const DrawnContact& contact) override;
+  void joint(const DrawnJoint& joint) override;
+  void particle(const DrawnParticle& particle) override;
+  void spring(const DrawnSpring& spring) override;
+  void link(const DrawnLink& link) override;
+  void collider(const DrawnCollider& collider) override;
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Cast {  // what is known of an actor
+    Pose pose = {};
+    Change is = Change::gone;
+    std::uint32_t seen = kNone;      // frame
+    float at[3] = {}, turn[4] = {};  // of that frame
+  };
+  struct Known {  // by slot
+    std::uint32_t generation = 0, index = kNone;
+  };
+
+  void begin(std::uint64_t tick, std::uint64_t hash, double energy);
+  void finish();
+  std::uint32_t now() const { return static_cast<std::uint32_t>(recording_.frames.size() - 1); }
+  Frame& frame() { return recording_.frames.back(); }
+  bool cast(std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor);
+  void appear(std::uint32_t actor, const DrawnPose& pose, Change is);
+  std::int32_t actor_of(std::uint32_t slot) const;
+  std::array<float, 3> local(std::int32_t actor, const float (&point)[3]) const;
+  template <class IdType> Bond* bond(std::vector<Known>& known, IdType id);
+
+  Recording& recording_;
+  std::vector<Cast> casts_;                      // by actor
+  std::vector<Known> by_slot_;                   // actors
+  std::vector<Known> joints_, springs_, links_;  // bonds
+  bool parts_wanted_ = false;                    // of the body told last
+};
+
+}  // namespace isostep::tool::page

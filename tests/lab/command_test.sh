@@ -1,0 +1,82 @@
+#!/bin/sh
+# isostep lab from outside: its table, JSON and CSV; going on after an interruption and after a crash; refusals.
+# SPDX-License-Identifier: MIT
+# usage: command_test.sh TOOL
+set -u
+tool=$1
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+out=$dir/lab
+
+fail() {
+  echo "$1" >&2
+  cat "$dir/out" "$dir/err" >&2
+  exit 1
+}
+lab() { "$tool" lab "$@" >"$dir/out" 2>"$dir/err"; }
+small() { lab S1x5 --scalars double,q32.32 --solvers soft_step,pgs --substeps 2,8 --frames 60 --out "$out" "$@"; }
+lines() { wc -l <"$out/results.jsonl" | tr -d ' '; }
+
+# A table with its advice.
+small --csv "$dir/runs.csv" || fail "lab S1x5 failed"
+grep -q '^S1x5, tolerance 10mm, deviation after 1 s from double, soft_step, 64 sub-steps at 60 Hz$' "$dir/out" ||
+  fail "no headline"
+grep -q '^no spheres: ' "$dir/out" || fail "no word of the models that cannot be"
+grep -Eq '^\* +[0-9.e-]+ +(double|q32\.32) ' "$dir/out" || fail "no row is marked"
+grep -Eq '^advice: (double|q32\.32), .* at 60 Hz: [0-9.e-]+ ms; (the default|that is)' "$dir/out" || fail "no advice"
+[ "$(lines)" = 8 ] || fail "expected 8 results"
+[ "$(wc -l <"$dir/runs.csv")" -eq 9 ] || fail "expected a header and 8 rows"
+
+# What is done is not done again, and the JSON is of the same runs.
+before=$(cksum <"$out/results.jsonl")
+small --json || fail "lab --json failed"
+grep -q '"advice_by_scalar"' "$dir/out" || fail "no advice for each scalar"
+[ "$(cksum <"$out/results.jsonl")" = "$before" ] || fail "runs were done again"
+
+# A line cut by a crash is run again, nothing else.
+head -c -30 "$out/results.jsonl" >"$dir/cut" && cp "$dir/cut" "$out/results.jsonl"
+small || fail "lab failed after a cut"
+[ "$(lines)" = 8 ] || fail "expected 8 results after a cut"
+
+# A list ends where its commas end, and a scene's file is a scene; nothing is kept when that is asked.
+(cd "$dir" && "$tool" scenes --write scenes >/dev/null) || fail "scenes --write failed"
+lab --substeps 4 --scalars double --solvers pgs --frames 10 --out "" "$dir/scenes/S1x5.json" || fail "lab of a file failed"
+grep -q '^advice: double, ' "$dir/out" || fail "no advice for a scene's file"
+
+# Ctrl-C ends with whole lines and says how to go on. The run is too long to end by itself.
+rm -rf "$out"
+"$tool" lab S1x5 --scalars double --solvers soft_step --substeps 8 --frames 100000000 --limit 1000 --out "$out" \
+  >"$dir/out" 2>"$dir/err" &
+lab=$!
+sleep 1
+kill -INT "$lab"
+wait "$lab"
+[ $? -eq 130 ] || fail "an interrupted lab exits with another status than 130"
+grep -q 'interrupted with 0 of 1 runs done, kept in .*: the same command goes on from there' "$dir/err" ||
+  fail "no word of how to go on"
+
+# refuses STATUS WORDS ARGUMENTS...
+refuses() {
+  wanted=$1 words=$2
+  shift 2
+  lab "$@" --out "$out"
+  status=$?
+  [ "$status" -eq "$wanted" ] && grep -q -- "$words" "$dir/err" && [ "$(wc -l <"$dir/err")" -eq 1 ] &&
+    [ ! -s "$dir/out" ] || fail "lab $* exits $status"
+}
+refuses 64 "a scene is missing"
+refuses 64 "no scene is named" nowhere
+refuses 66 "none.json" "$dir/none.json"
+refuses 64 "character 8: expected a unit" S1x5 --tolerance joint=1kg
+refuses 64 'no scalar is named "half"' S1x5 --scalars half
+refuses 64 'no solver is named "magic"' S1x5 --solvers magic
+refuses 64 "S1x5 has no spheres: as spheres" S1x5 --models spheres
+refuses 64 "of particles already" rope
+refuses 64 "substeps" S1x5 --substeps 65
+refuses 64 "hz" S1x5 --hz 5
+refuses 74 "" S1x5 --csv "$dir/none/a.csv"
+echo '{"bodies": [{"type": "dynamic"}]}' >"$dir/wrong.json"
+refuses 64 "wrong.json:/bodies/0" "$dir/wrong.json"
+mkdir -p "$out" && echo '{}' >"$out/results.jsonl"
+refuses 64 "results.jsonl:1: scene is missing" S1x5 --frames 1
+echo "the laboratory answers, goes on, and refuses"

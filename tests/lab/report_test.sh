@@ -1,0 +1,63 @@
+#!/bin/sh
+# isostep lab --all --short: its page has every section and nothing unfinished, its lines are JSON, and what is kept is
+# written again byte for byte.
+# SPDX-License-Identifier: MIT
+# usage: report_test.sh TOOL
+set -u
+tool=$1
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+out=$dir/lab
+
+fail() {
+  echo "$1" >&2
+  cat "$dir/out" "$dir/err" >&2
+  exit 1
+}
+report() { "$tool" lab --all --short --out "$out" "$@" >"$dir/out" 2>"$dir/err"; }
+
+# A peer's program of our own: it is called with where its lines go.
+cat >"$dir/peers" <<'PEERS'
+#!/bin/sh
+[ "$1" = --out ] || exit 64
+cat >>"$2" <<LINE
+{"scene":"S6v","engine":"ode","scalar":"","solver":"","model":"rigid","hz":60,"substeps":0,"state":"done","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0.2,"energy_gain":0,"energy_loss":0,"unrest":0,"deviation":-1,"faults":0,"judged":false,"survived":false,"figure":2.5,"stood":true,"version":"x"}
+LINE
+PEERS
+chmod +x "$dir/peers"
+report --peers "$dir/peers" || fail "lab --all --short failed"
+page=$out/report.html
+[ "$(cat "$dir/out")" = "$page" ] || fail "does not say where the page is"
+for section in advice accuracy survival growth springs stages; do
+  [ "$(grep -c "<section id=\"$section\">" "$page")" -eq 1 ] || fail "no section $section"
+done
+[ "$(tail -n 1 "$page")" = '</html>' ] || fail "the page does not end"
+grep -Eq '\{\{|\}\}|%s|nan|TODO' "$page" && fail "something in the page is unfinished"
+grep -Eq '(src|href)="https?:|@import|<script' "$page" && fail "the page wants a network or a script"
+grep -q 'ode: 0.05 ms' "$page" || fail "the peer is not in the page"
+if command -v gnuplot >/dev/null 2>&1; then
+  [ "$(grep -c '<svg' "$page")" -eq 4 ] || fail "not every picture is in the page"
+fi
+
+# Lines as programs read them.
+if command -v python3 >/dev/null 2>&1; then
+  python3 -c 'import json, sys
+for line in open(sys.argv[1]): json.loads(line)' "$out/results.jsonl" || fail "results.jsonl is no JSON Lines"
+fi
+
+# From what is kept, the same again.
+cp "$page" "$dir/before"
+before=$(cksum <"$out/results.jsonl")
+report || fail "lab --all --short failed the second time"
+cmp -s "$page" "$dir/before" || fail "the same results make another page"
+[ "$(cksum <"$out/results.jsonl")" = "$before" ] || fail "runs were done again"
+
+refuses() {
+  words=$1
+  shift
+  "$tool" lab "$@" >"$dir/out" 2>"$dir/err"
+  [ $? -eq 64 ] && grep -q -- "$words" "$dir/err" || fail "lab $* is not refused"
+}
+refuses "of every scene" S1 --all
+refuses "needs a directory" --all --out ''
+echo "the report is whole"

@@ -1,0 +1,9 @@
+// The rigid world of one scalar, compiled once more: src/instantiate/world.cpp for double alone.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/world.inl"
+
+namespace isostep {
+
+template class World<double>;
+
+}  // namespace isostep

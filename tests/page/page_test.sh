@@ -1,0 +1,70 @@
+#!/bin/sh
+# page_test.sh TOOL: pages of small scenes, opened in headless Chromium: what they play is what the tool ran.
+# SPDX-License-Identifier: MIT
+set -u
+tool=$1
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+
+fail() {
+  echo "$1" >&2
+  exit 1
+}
+skip() {
+  echo "skipped: $1"
+  exit 77
+}
+
+browser=''
+for name in chromium chromium-browser google-chrome; do
+  if command -v "$name" >/dev/null 2>&1; then browser=$name; fi
+done
+
+"$tool" run S1x5 --frames 2 --html "$dir/try.html" >"$dir/out" 2>"$dir/err"
+status=$?
+if [ "$status" = 69 ]; then skip "$(cat "$dir/err")"; fi
+[ "$status" = 0 ] || fail "run --html ends with $status: $(cat "$dir/err")"
+[ -n "$browser" ] || skip "no Chromium"
+
+# open NAME ADDRESS WORDS...: Chromium without a screen, a network or a sandbox of its own, on that page.
+open() {
+  name=$1 address=$2
+  shift 2
+  timeout 120 "$browser" --headless --no-sandbox --disable-dev-shm-usage --use-angle=swiftshader \
+    --enable-unsafe-swiftshader --host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir="$dir/profile" \
+    --hide-scrollbars --window-size=800,600 --virtual-time-budget=3000 "$@" "file://$dir/$name.html#$address" \
+    2>"$dir/browser.err"
+}
+
+# check NAME FRAMES HASHES...: the page itself says that it has so many frames, ends at these hashes, and drew something.
+check() {
+  name=$1 frames=$2
+  shift 2
+  open "$name" '' --dump-dom | grep -o '<pre id="check"[^<]*' >"$dir/check"
+  said=$(cat "$dir/check")
+  case $said in
+    *"ready frames $frames last $* parted "*" errors 0") ;;
+    *) fail "$name: the page says: $said; expected $frames frames and $*; $(tail -n 3 "$dir/browser.err")" ;;
+  esac
+  shades=$(sed 's/.* shades \([0-9]*\) .*/\1/' "$dir/check")
+  [ "$shades" -ge 10 ] || fail "$name: $shades colours in the picture"
+}
+last_of() { tail -n 1 "$1" | cut -d ' ' -f 2; }
+
+"$tool" run S1x5 --frames 60 --hashes "$dir/stack" --html "$dir/stack.html" >/dev/null || fail "stack"
+check stack 61 "$(last_of "$dir/stack")"
+
+# Bodies that come and go, every fourth step; two scalars.
+"$tool" run mixed --frames 118 --hashes "$dir/a" --html "$dir/mixed.html" --html-every 4 --beside q32.32 >"$dir/out" ||
+  fail "mixed"
+"$tool" run mixed --frames 118 --scalar q32.32 --hashes "$dir/b" >/dev/null || fail "mixed in q32.32"
+check mixed '31 31' "$(last_of "$dir/a") $(last_of "$dir/b")"
+parted=$(sed -n 's/.*parts from it at frame \([0-9]*\),.*/\1/p' "$dir/out")
+grep -q "parted ${parted:-never} " "$dir/check" || fail "mixed: the tool says '$parted': $(cat "$dir/check")"
+
+# Particles, and a picture.
+"$tool" run cloth --frames 60 --hashes "$dir/cloth" --html "$dir/cloth.html" >/dev/null || fail "cloth"
+check cloth 61 "$(last_of "$dir/cloth")"
+open cloth 'frame=60' --screenshot="$dir/cloth.png" >/dev/null
+bytes=$(wc -c <"$dir/cloth.png")
+[ "$bytes" -ge 20000 ] || fail "cloth: a picture of $bytes bytes is blank"

@@ -1,0 +1,166 @@
+// The laboratory's record and its file: numbers that come back, lines that were cut, results that stand for runs.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lab_results.hpp"
+#include "tool/lab/store.hpp"
+#include "tool/tool.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+// ---- the record
+
+LabResult full_result() {
+  LabResult r;
+  r.point = {"a \"file\", of mine.json", "bullet", "q32.32", "direct", "particles", 120, 3};
+  r.state = kSlow;
+  r.reason = "line\nand, \"quote\"";
+  r.frames = 7;
+  r.ms = 0.1;
+  r.ms_mean = 1.0 / 3;
+  r.penetration = 5e-324;
+  r.penetration_mean = 1.7976931348623157e308;
+  r.joint_error = 0.2;
+  r.energy_gain = -0.0;
+  r.energy_loss = -3e-7;
+  r.unrest = 2e-9;
+  r.deviation = 123456.789;
+  r.faults = 2;
+  r.judged = r.survived = true;
+  r.figure = -1;
+  r.stood = false;
+  return r;
+}
+
+TEST(LabRecord, ReadsBackAsItWasWritten) {
+  const LabResult written = full_result();
+  const LabRecord read = from_line(to_line({written, "v1"}));
+  EXPECT_EQ(read.version, "v1");
+  EXPECT_EQ(read.result.point, written.point);
+  EXPECT_EQ(read.result.state, written.state);
+  EXPECT_EQ(read.result.reason, written.reason);
+  EXPECT_EQ(read.result.frames, 7);
+  for (const auto member : {&LabResult::ms, &LabResult::ms_mean, &LabResult::penetration, &LabResult::penetration_mean,
+                            &LabResult::joint_error, &LabResult::energy_gain, &LabResult::energy_loss,
+                            &LabResult::unrest, &LabResult::deviation, &LabResult::figure})
+    EXPECT_EQ(read.result.*member, written.*member);
+  EXPECT_EQ(read.result.faults, 2);
+  EXPECT_TRUE(read.result.judged && read.result.survived);
+  EXPECT_FALSE(read.result.stood);
+}
+
+TEST(LabRecord, IsOneLineWhateverItsTexts) { EXPECT_EQ(to_line({full_result(), "v"}).find('\n'), std::string::npos); }
+
+TEST(LabRecord, WritesWhatIsNoNumberAsNull) {
+  LabResult r = result("float", "pgs", 1, 1, std::numeric_limits<double>::infinity());
+  const std::string line = to_line({r, "v"});
+  EXPECT_NE(line.find("\"penetration\":null"), std::string::npos);
+  EXPECT_TRUE(std::isnan(from_line(line).result.penetration));
+}
+
+TEST(LabRecord, RefusesLinesThatAreNone) {
+  EXPECT_THROW(from_line("not json"), std::runtime_error);
+  EXPECT_THROW(from_line("[1]"), std::runtime_error);
+  EXPECT_THROW(from_line("{}"), std::runtime_error);
+  std::string line = to_line({full_result(), "v"});
+  line.replace(line.find("\"frames\":7"), 10, "\"frames\":\"7\"");
+  EXPECT_THROW(from_line(line), std::runtime_error);
+}
+
+TEST(LabRecord, MakesATableWithQuotesWhereCommasAre) {
+  const std::string csv = csv_of({full_result()});
+  EXPECT_EQ(csv.find("scene,engine,scalar,solver,model,hz,substeps,state,reason,frames,ms,"), 0u);
+  EXPECT_NE(csv.find("\n\"a \"\"file\"\", of mine.json\",bullet,q32.32,direct,particles,120,3,slow,"),
+            std::string::npos);
+}
+
+// ---- the store
+
+class LabStore : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = testing::TempDir() + "isostep-" + testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string file() const { return folder_ + "/" + kResultsFile; }
+  void add_text(const std::string& text) const { std::ofstream(file(), std::ios::app | std::ios::binary) << text; }
+
+  std::string folder_;
+};
+
+TEST_F(LabStore, KnowsWhatAnEarlierOneKept) {
+  const LabResult r = result("float", "pgs", 4, 0.5, 0.01);
+  ResultStore(folder_).append({r, "v1"});
+  const ResultStore store(folder_);
+  const LabResult* found = store.find(r.point, {"v1", 600, 20});
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->penetration, 0.01);
+  EXPECT_EQ(store.find(r.point, {"v2", 600, 20}), nullptr) << "another version";
+  EXPECT_EQ(store.find(r.point, {"v1", 60, 20}), nullptr) << "another length";
+  EXPECT_EQ(store.find(point("float", "pgs", 8), {"v1", 600, 20}), nullptr) << "another point";
+}
+
+TEST_F(LabStore, TakesAwayALineThatWasCut) {
+  const LabResult first = result("float", "pgs", 4, 0.5, 0.01), second = result("float", "pgs", 8, 1, 0.02);
+  ResultStore(folder_).append({first, "v1"});
+  add_text(to_line({second, "v1"}).substr(0, 40));
+  {
+    ResultStore store(folder_);
+    EXPECT_NE(store.find(first.point, {"v1", 600, 20}), nullptr);
+    EXPECT_EQ(store.find(second.point, {"v1", 600, 20}), nullptr);
+    store.append({second, "v1"});
+  }
+  EXPECT_EQ(read_records(file()).size(), 2u);
+}
+
+TEST_F(LabStore, TheLastOfOnePointCounts) {
+  ResultStore store(folder_);
+  store.append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
+  store.append({result("float", "pgs", 8, 0.5, 0.01), "v1"});
+  store.append({result("float", "pgs", 4, 0.5, 0.03), "v2"});
+  const std::vector<LabRecord> records = read_records(file());
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0].result.penetration, 0.03);
+  EXPECT_EQ(records[0].version, "v2");
+}
+
+TEST_F(LabStore, NamesALineThatIsWrong) {
+  ResultStore(folder_).append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
+  add_text("{}\n");
+  try {
+    ResultStore store(folder_);
+    FAIL();
+  } catch (const ToolError& error) {
+    EXPECT_EQ(error.status(), exit_status::kUsage);
+    EXPECT_NE(std::string(error.what()).find("results.jsonl:2: scene is missing"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(LabStore, ASlowRunStandsForOneThatWouldBeSlowAgain) {
+  LabResult r = result("float", "pgs", 4, 100, 0.01);  // 60 s for 600 frames
+  r.state = kSlow;
+  r.frames = 200;
+  EXPECT_TRUE(stands_for({r, "v"}, {"v", 600, 20}));
+  EXPECT_FALSE(stands_for({r, "v"}, {"v", 600, 70})) << "there is time for all of it";
+  EXPECT_FALSE(stands_for({r, "v"}, {"v", 100, 20})) << "so far it came";
+  r.point.hz = 120;  // 600 frames are 5 s of simulation: 30 s
+  EXPECT_FALSE(stands_for({r, "v"}, {"v", 600, 40}));
+}
+
+TEST_F(LabStore, WithoutADirectoryNothingIsKept) {
+  ResultStore store("");
+  store.append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
+  EXPECT_TRUE(store.path().empty());
+}
+
+}  // namespace
+}  // namespace isostep::tool::lab
