@@ -105,7 +105,8 @@ const Trial kTrials[] = {
      bouncing_balls, judge_bouncing},
     {"rallies", "24", "balls of restitution 1 fly to and fro between walls at up to 50 m/s", "change of energy", "%", 2,
      rallies, judge_rallies},
-    {"newtons_cradle", "24", "Newton's cradle of five balls for ten knocks", "change of energy", "%", 2, cradle, judge_cradle},
+    {"newtons_cradle", "24", "Newton's cradle of five balls for ten knocks", "change of energy", "%", 2, cradle,
+     judge_cradle},
 };
 
 }  // namespace

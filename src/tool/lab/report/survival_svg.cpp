@@ -10,7 +10,7 @@ namespace isostep::tool::lab {
 namespace {
 
 // [px]
-constexpr int kWide = 27, kHigh = 19, kLeft = 176, kTop = 176, kGap = 8, kMargin = 16;
+constexpr int kWide = 27, kHigh = 19, kLeft = 176, kTop = 190, kGap = 8, kMargin = 16;
 
 struct Paint {
   const char* fill;
@@ -90,15 +90,20 @@ std::string legend() {
                              {"#d55e00", "#ffffff", "×", "failed with any"},
                              {"#f0c75e", "#24292f", "…", "too slow"},
                              {"#eaeef2", "#57606a", "–", "cannot be said to it"}};
+  constexpr int kRow = 22, kEnd = 560;  // [px] from row to row; where one is full
   std::string text;
-  int x = kMargin;
+  int x = kMargin, y = 38;
   for (const Item& item : kItems) {
+    if (x > kEnd) {
+      x = kMargin;
+      y += kRow;
+    }
     char box[160];
-    std::snprintf(box, sizeof box, "<rect x=\"%d\" y=\"42\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x, kWide - 2,
-                  kHigh - 2, item.fill);
+    std::snprintf(box, sizeof box, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x, y,
+                  kWide - 2, kHigh - 2, item.fill);
     const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + item.ink + "\"";
-    text += box + text_at(x + kWide / 2.0 - 1, 55, item.sign, style.c_str());
-    text += text_at(x + kWide + 3, 55, item.words, "font-size=\"12\" fill=\"#57606a\"");
+    text += box + text_at(x + kWide / 2.0 - 1, y + 13, item.sign, style.c_str());
+    text += text_at(x + kWide + 3, y + 13, item.words, "font-size=\"12\" fill=\"#57606a\"");
     x += kWide + 24 + static_cast<int>(std::string(item.words).size()) * 7;
   }
   return text;
