@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/scalar/scalar.hpp"
@@ -43,6 +44,8 @@ template <class Visit> bool any_scalar(Visit&& visit) {
 #undef ISO_VISIT
   return found;
 }
+/// The names of this build's scalars, in their order.
+std::vector<std::string> scalar_names();
 /// visit(ScalarTag<S>{}) for the scalar of that name; false when this build has none.
 template <class Visit> bool with_scalar(std::string_view name, Visit&& visit) {
   return any_scalar([&](auto tag) {

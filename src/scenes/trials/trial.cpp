@@ -25,6 +25,11 @@ const Trial* find_trial(std::string_view name) {
   return nullptr;
 }
 
+bool is_over(const Scene& scene, const Sight& sight) {
+  const double whole = static_cast<double>(scene.frames) / scene.hz;  // [s]
+  return sight.time > whole - 1e-6;
+}
+
 Verdict verdict_of(const Trial& trial, const Judge& judge, const Sight& end) {
   const double figure = judge.figure();
   bool finite = std::isfinite(figure) && std::isfinite(end.energy.total());

@@ -42,6 +42,9 @@ std::span<const Trial> trials();
 /// Null for a name that no trial has.
 const Trial* find_trial(std::string_view name);
 
+/// Whether a run that looks so has been through all of a trial, whatever the rate of its steps.
+bool is_over(const Scene& scene, const Sight& sight);
+
 /// A run that mended numbers, or has no number to show, has failed whatever the figure.
 struct Verdict {
   bool survived;

@@ -9,8 +9,8 @@ namespace isostep::scenes {
 
 class TrialRun {
  public:
-  TrialRun(const Trial& trial, const Scene& scene)
-      : trial_(&trial), judge_(trial.judge(scene)), seconds_(static_cast<double>(scene.frames) / scene.hz) {}
+  /// The scene outlives the run.
+  TrialRun(const Trial& trial, const Scene& scene) : trial_(&trial), scene_(&scene), judge_(trial.judge(scene)) {}
 
   /// The world as the scene was built, then after every step with that step's report.
   template <class S> void see(const World<S>& world, const StepReport& step = {}) {
@@ -22,13 +22,12 @@ class TrialRun {
   const Trial& trial() const { return *trial_; }
   /// As if the run ended now.
   Verdict verdict() const { return verdict_of(*trial_, *judge_, now_); }
-  /// Whether it has been through all of the trial, whatever the rate of its steps.
-  bool over() const { return now_.time > seconds_ - 1e-6; }
+  bool over() const { return is_over(*scene_, now_); }
 
  private:
   const Trial* trial_;
+  const Scene* scene_;
   std::unique_ptr<Judge> judge_;
-  double seconds_;  // [s] the trial's length
   int faults_ = 0;
   Sight now_;
 };

@@ -15,14 +15,6 @@ namespace {
 
 const std::vector<int> kSubsteps = {1, 2, 4, 8, 16, 32};
 
-std::vector<std::string> own_scalars() {
-  std::vector<std::string> names;
-  any_scalar([&](auto tag) {
-    names.emplace_back(ScalarTraits<typename decltype(tag)::Type>::kName);
-    return false;
-  });
-  return names;
-}
 std::vector<std::string> solvers_of(const std::string& model) {
   if (model == "particles") return {std::begin(kParticleSolverNames), std::end(kParticleSolverNames)};
   return {std::begin(kSolverNames), std::end(kSolverNames)};
@@ -72,13 +64,13 @@ std::vector<LabPoint> grid(const std::string& scene, const GridOptions& options)
   for (const std::string& name : solvers_of("particles")) {
     if (!contains(solvers, name)) solvers.push_back(name);
   }
-  require_known(options.scalars, own_scalars(), "scalar");
+  require_known(options.scalars, scalar_names(), "scalar");
   require_known(options.solvers, solvers, "solver");
   const std::vector<int> substeps = options.substeps.empty() ? kSubsteps : options.substeps;
   const std::vector<int> rates = options.hz.empty() ? std::vector<int>{subject.scene.hz} : options.hz;
   std::vector<LabPoint> points;
   for (const std::string& model : models_of(subject, options)) {
-    for (const std::string& scalar : options.scalars.empty() ? own_scalars() : options.scalars) {
+    for (const std::string& scalar : options.scalars.empty() ? scalar_names() : options.scalars) {
       for (const std::string& solver : solvers_of(model)) {
         if (!options.solvers.empty() && !contains(options.solvers, solver)) continue;
         for (const int hz : rates) {

@@ -102,8 +102,7 @@ template <class Run> class Watch {
       result_.figure = judge_->figure();
       return;
     }
-    const double whole = static_cast<double>(subject_.scene.frames) / subject_.scene.hz;  // [s]
-    if (end.time < whole - 1e-6) return;                                                  // the trial is not over
+    if (!scenes::is_over(subject_.scene, end)) return;
     const scenes::Verdict verdict = verdict_of(*subject_.trial, *judge_, end);
     result_.judged = true;
     result_.survived = verdict.survived;

@@ -7,20 +7,13 @@
 #include <string>
 
 #include "unit/dynamics/direct_world.hpp"
+#include "unit/dynamics/scalar_name.hpp"
 
 namespace isostep {
 namespace {
 
 template <class S> class Direct : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
-struct ScalarName {
-  template <class S> static std::string GetName(int) {
-    return std::is_same_v<S, float>    ? "float"
-           : std::is_same_v<S, double> ? "double"
-           : std::is_same_v<S, Q16_16> ? "Q16_16"
-                                       : "Q32_32";
-  }
-};
 TYPED_TEST_SUITE(Direct, Scalars, ScalarName);
 
 /// Of scalars of 32 and of 64 bits.

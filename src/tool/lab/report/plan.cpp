@@ -30,14 +30,6 @@ constexpr SceneView kViews[] = {
     {"S9", "drum of 600: worst overlap", Measure::penetration, 1e3, "mm", true},
 };
 
-std::vector<std::string> all_scalars() {
-  std::vector<std::string> names;
-  any_scalar([&](auto tag) {
-    names.push_back(ScalarTraits<typename decltype(tag)::Type>::kName);
-    return false;
-  });
-  return names;
-}
 std::vector<std::string> all_solvers() { return {std::begin(kSolverNames), std::end(kSolverNames)}; }
 
 /// Steps times bodies: what a run costs, roughly.
@@ -107,7 +99,7 @@ Plan whole_plan(double limit) {
                {2, 4, 8, 16, 32},
                {2, 4, 8, 16},
                {{1, 4}, {1, 8}, {1, 16}, {1, 32}, {4, 8}, {8, 8}},
-               all_scalars(),
+               scalar_names(),
                all_solvers(),
                limit};
   for (const SceneView& view : kViews) plan.scenes.push_back(view.scene);
@@ -117,7 +109,7 @@ Plan whole_plan(double limit) {
 
 Plan short_plan(double limit) {
   constexpr std::size_t kTrials = 16;
-  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, all_scalars(), all_solvers(), std::min(limit, 2.0)};
+  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, scalar_names(), all_solvers(), std::min(limit, 2.0)};
   std::vector<std::pair<double, std::string>> by_size;
   for (const scenes::Trial& trial : scenes::trials()) by_size.push_back({size_of(trial), trial.name});
   std::stable_sort(by_size.begin(), by_size.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
