@@ -1,17 +1,17 @@
 # The flags behind "same inputs, same bits": what each is for is measured and told in README.
 
-# Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Private: a user's own
-# code is compiled as the user likes, and nothing of ours is inlined into it but integer code and exact leaves.
+# Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Without errno a square
+# root is the instruction and never a call of the C library. Private: a user's own code is compiled as the user likes,
+# and nothing of ours is inlined into it but integer code and exact leaves.
 set(isostep_exact_flags
-  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math;-ffp-contract=off>
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math;-ffp-contract=off;-fno-math-errno>
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:MSVC>:/fp:precise>)
-# clang 14's SLP vectoriser changes bits of the joints in WebAssembly with SIMD, though that has no fused instruction.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "wasm" OR EMSCRIPTEN)
-  list(APPEND isostep_exact_flags -fno-vectorize -fno-slp-vectorize)
-endif()
 set(isostep_warnings
-  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow>)
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow>
+  $<$<CXX_COMPILER_ID:MSVC>:/W4;/permissive->)
+# The libraries' code also says every conversion that may lose something, which clang extends to signs.
+set(isostep_library_warnings ${isostep_warnings} $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wconversion>)
 
 # For games that keep float arithmetic of their own in step: link it, and their code gets the same flags.
 add_library(isostep_deterministic_flags INTERFACE)
@@ -24,10 +24,13 @@ function(isostep_library target export_name include_dir)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${include_dir}>
     $<INSTALL_INTERFACE:include>)
-  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_warnings})
+  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_library_warnings})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON)
   if(ISOSTEP_NO_INT128)
     target_compile_definitions(${target} PUBLIC ISOSTEP_NO_INT128)
+  endif()
+  if(NOT ISOSTEP_SIMD)
+    target_compile_definitions(${target} PUBLIC ISOSTEP_NO_SIMD)
   endif()
   foreach(scalar float double Q16_16 Q32_32)
     if(NOT scalar IN_LIST ISOSTEP_SCALARS)

@@ -1,5 +1,6 @@
 # What is built. Inside another project only the library is.
 option(ISOSTEP_TOOL "The command line tool" ${PROJECT_IS_TOP_LEVEL})
+option(ISOSTEP_PROVER "The program that proves a build by recordings" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_EXAMPLES "Examples, which tests run and README quotes" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_TESTS "Tests" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; tool, examples and tests bring it anyway" OFF)
@@ -8,6 +9,7 @@ option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)
 option(ISOSTEP_NO_INT128 "Do without the compiler's __int128, as targets that lack it must" OFF)
+option(ISOSTEP_SIMD "Kernels of several lanes; without them the build is smaller and quicker, the results are the same" ON)
 set(ISOSTEP_SCALARS "float;double;Q16_16;Q32_32" CACHE STRING "Scalars the library holds")
 
 if(PROJECT_IS_TOP_LEVEL)

@@ -20,7 +20,7 @@ class StageClock {
   double last() const { return last_; }
 
  private:
-  static void after(void* user, Stage stage) {
+  static void after(void* user, Stage stage, const StageView&) {
     StageClock& clock = *static_cast<StageClock*>(user);
     const double now = thread_milliseconds();
     clock.times_[static_cast<std::uint32_t>(stage)].push_back(now - clock.last_);

@@ -7,27 +7,6 @@
 namespace isostep::scenes {
 namespace {
 
-/// Two spheres on a capsule.
-SceneBody dumbbell(Point at) {
-  SceneBody body = body_of(capsule_part(0.08, 0.3), at);
-  for (const double y : {0.3, -0.3}) {
-    ScenePart end = sphere_part(0.2);
-    end.position = {0, y, 0};
-    body.parts.push_back(end);
-  }
-  return body;
-}
-/// Two boxes, one of them turned: its centre of mass and principal axes are not the frame's.
-SceneBody bracket(Point at) {
-  SceneBody body = body_of(box_part({0.4, 0.1, 0.15}), at);
-  ScenePart arm = box_part({0.1, 0.3, 0.15});
-  const SinCos<double> half = sin_cos(0.2);
-  arm.position = {0.35, 0.3, 0.05};
-  arm.orientation = {0, 0, half.sin, half.cos};
-  body.parts.push_back(arm);
-  return body;
-}
-
 void add_rope(Scene& scene, Point top) {
   int last = -1;
   for (int i = 0; i < 4; ++i) {
@@ -71,6 +50,25 @@ void add_machine(Scene& scene, Point at) {
 }
 
 }  // namespace
+
+SceneBody dumbbell(Point at) {
+  SceneBody body = body_of(capsule_part(0.08, 0.3), at);
+  for (const double y : {0.3, -0.3}) {
+    ScenePart end = sphere_part(0.2);
+    end.position = {0, y, 0};
+    body.parts.push_back(end);
+  }
+  return body;
+}
+SceneBody bracket(Point at) {
+  SceneBody body = body_of(box_part({0.4, 0.1, 0.15}), at);
+  ScenePart arm = box_part({0.1, 0.3, 0.15});
+  const SinCos<double> half = sin_cos(0.2);
+  arm.position = {0.35, 0.3, 0.05};
+  arm.orientation = {0, 0, half.sin, half.cos};
+  body.parts.push_back(arm);
+  return body;
+}
 
 SceneBody mixed_body(Draws& draws) {
   const int kind = static_cast<int>(draws.next() >> 16) % 5;

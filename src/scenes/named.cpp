@@ -53,6 +53,7 @@ constexpr NamedScene kScenes[] = {
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
     {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},
     {"mixed_direct", "the same, all contacts at once", mixed_direct},
+    {"medley", "the fewest bodies that ask for every part of the engine", medley},
 };
 
 }  // namespace

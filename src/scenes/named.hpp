@@ -29,6 +29,7 @@ Scene chain(bool hanging);
 Scene ragdolls();
 Scene mixer();
 Scene mixed();
+Scene medley();
 
 /// The n-th body of the mixer, the first 600 inside the drum, later ones created in its middle.
 SceneBody mixer_body(int n);

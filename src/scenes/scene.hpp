@@ -91,8 +91,8 @@ struct SceneJoint {
 };
 
 /// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
-enum class Script : std::uint32_t { none, mixer, mixed, hit };
-inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed", "hit"};
+enum class Script : std::uint32_t { none, mixer, mixed, hit, medley };
+inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed", "hit", "medley"};
 
 struct Scene {
   std::string name = "scene";

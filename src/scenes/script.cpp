@@ -1,9 +1,10 @@
-// The scripts: S9's exchange of bodies, the many commands of `mixed`, and one hit.
+// The scripts: S9's exchange of bodies, the many commands of `mixed` and the few of `medley`, and one hit.
 // SPDX-License-Identifier: MIT
 #include "script.hpp"
 
 #include "build.hpp"
 #include "isostep/world/state.hpp"
+#include "medley.hpp"
 #include "mixed.hpp"
 #include "named.hpp"
 #include "shapes.hpp"
@@ -143,12 +144,54 @@ template <class S> void hit(World<S>& world) {
   world.set_velocity(last, vector<S>(0, -20, 0), vector<S>(0, 0, 0));
 }
 
+template <class S> BodyId numbered(const World<S>& world, std::uint64_t user_data) {
+  for (const BodyId body : world.bodies()) {
+    if (world.user_data(body) == user_data) return body;
+  }
+  return {};
+}
+
+/// One kind of command a tick, each on a body of its own.
+template <class S> void play_medley(World<S>& world) {
+  const auto heap = [&](int n) { return numbered(world, medley_body::kHeap + static_cast<std::uint64_t>(n)); };
+  switch (world.tick()) {
+    case 12: world.apply_impulse(heap(0), vector<S>(0.25, 1, 0), vector<S>(0, 0.125, 0)); break;
+    case 20: world.apply_force_at(heap(1), vector<S>(2, 4, -2), vector<S>(0.5, 1, 0.25)); break;
+    case 28: add_body(world, dumbbell({0.25, 3, -0.25}), medley_body::kGuest, kPlace); break;
+    case 36: {
+      const Vec3<S> middle = (world.centre(heap(2)) + world.centre(heap(3))) * scalar<S>(0.5);
+      world.create(world.joint_at(JointType::ball, heap(2), heap(3), {middle, Quat<Unit<S>>::identity()}));
+      break;
+    }
+    case 44: world.set_motion(heap(4), scalar<S>(0.5), scalar<S>(0.1), scalar<S>(0.2), body_flag::kLockAngularX); break;
+    case 52: world.set_velocity(heap(5), vector<S>(1, 2, -1), vector<S>(0, 3, 1)); break;
+    case 60: {
+      JointProperties<S> motor = *world.joint(world.joints().front());
+      motor.motor_speed = -motor.motor_speed;
+      world.set_joint(world.joints().front(), motor);
+      break;
+    }
+    case 68: destroy_with_shape(world, heap(6)); break;
+    case 76: world.set_gravity(vector<S>(1, -9.5, 0.5)); break;
+    case 84: world.set_gravity(vector<S>(0, -10, 0)); break;
+    case 92: world.set_pose(heap(7), {vector<S>(0.5, 3, -0.5), Quat<Unit<S>>::identity()}); break;
+    case 100: world.destroy(world.joints().back()); break;
+    case 108: world.set_filter(heap(0), Filter{1, 0xffffffffu, 7}); break;
+    case 116:
+      world.set_material(heap(1), Material<S>{.friction = scalar<S>(0.125), .restitution = scalar<S>(0.5)});
+      break;
+    case 124: world.apply_impulse(numbered(world, medley_body::kStackTop), vector<S>(1, 0.5, 0)); break;  // asleep
+    default: break;
+  }
+}
+
 }  // namespace
 
 template <class S> void before_step(Script script, World<S>& world) {
   if (script == Script::mixer) stir(world);
   if (script == Script::mixed) Mixing<S>(world).run();
   if (script == Script::hit) hit(world);
+  if (script == Script::medley) play_medley(world);
 }
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);

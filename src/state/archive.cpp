@@ -7,7 +7,7 @@
 namespace isostep {
 
 void Writer::write_count(std::size_t count) {
-  if (count > 0xffffffffu) __builtin_trap();
+  if (count > 0xffffffffu) ISO_TRAP();
   write(static_cast<std::uint32_t>(count));
 }
 

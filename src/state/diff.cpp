@@ -22,6 +22,12 @@ const char* unit_of(LeafFormat format) {
 
 }  // namespace
 
+std::string path_text(const PathPart& path) {
+  ShortText<160> text;
+  append_path(path, text);
+  return std::string(text.view());
+}
+
 std::string describe(const Difference& d) {
   std::string text(d.path.view());
   text.append(": ").append(d.a.view()).append(" | ").append(d.b.view());

@@ -217,7 +217,7 @@ const std::vector<ReplayAncillary>& ReplayReader::ancillaries() const { return a
 std::size_t ReplayReader::offset_of(Bytes view) const { return static_cast<std::size_t>(view.data() - file_.data()); }
 
 ReplayFrame ReplayReader::frame(std::uint64_t i) const {
-  if (i >= frame_count_) __builtin_trap();
+  if (i >= frame_count_) ISO_TRAP();
   std::size_t low = 0;
   std::size_t high = blocks_.size();
   while (high - low > 1) {

@@ -38,13 +38,22 @@ VerifyResult verify_file(const ReplayReader& replay) {
   return result;
 }
 
-VerifyResult verify_end(const ReplayReader& replay) {
+VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared) {
   VerifyResult result{};
-  result.frames = replay.frame_count();
+  result.frames = compared;
   if (replay.status() == ReplayStatus::complete) return result;
   result.outcome = VerifyOutcome::truncated;
+  result.frames = replay.frame_count();
   result.offset = replay.place();
   result.error = replay.error();
+  return result;
+}
+
+VerifyResult too_short(const ReplayReader& replay) {
+  VerifyResult result = verify_end(replay, replay.frame_count());
+  if (result.outcome == VerifyOutcome::truncated) return result;
+  result.outcome = VerifyOutcome::truncated;
+  result.error = {ErrorCode::truncated, "the replay has no more frames", "span"};
   return result;
 }
 

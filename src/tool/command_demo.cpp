@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 
+#include "checked_file.hpp"
 #include "commands.hpp"
 #include "demo_match.hpp"
 #include "files.hpp"
 #include "games.hpp"
 #include "isostep/core/version.hpp"
-#include "replay_check.hpp"
+#include "recorded_game.hpp"
 #include "run_report.hpp"
 
 namespace isostep::tool {
@@ -32,9 +32,8 @@ struct Recording {
 
 template <class Game> Recording record(const DemoScene& demo, const typename Game::Scene& scene) {
   Recording recording;
-  Game game(scene);
-  TapeRecorder<typename Game::World> recorder(game.world, sink_to(recording.bytes));
-  expect_written(recorder.begin(demo.name));
+  RecordedGame<Game> recorded(scene, GameOptions{}, sink_to(recording.bytes));
+  Game& game = *recorded.game;
   std::vector<double> ms;
   for (int i = 0; i < demo.frames; ++i) {
     stop_if_interrupted();
@@ -44,9 +43,9 @@ template <class Game> Recording record(const DemoScene& demo, const typename Gam
     ms.push_back(thread_milliseconds() - before);
     game.after_step(game.world);
     recording.hash = game.world.hash();
-    expect_written(recorder.end_frame(recording.hash));
+    expect_written(recorded.recorder->end_frame(recording.hash));
   }
-  expect_written(recorder.finish());
+  expect_written(recorded.recorder->finish());
   recording.milliseconds = summarise(ms).median;
   recording.simd = game.world.simd_name();
   return recording;
@@ -61,11 +60,11 @@ bool show(const DemoScene& demo, const std::string& scalar, const std::string& o
   const std::string path = out + "/" + demo.name + "." + scalar + ".replay";
   write_file(path, Bytes(recording.bytes));
   recording.bytes = read_file(path);
-  const CheckedFile checked = check_replay(recording.bytes, Simd::scalar);
+  const CheckedReplay checked = check_replay(recording.bytes, {.simd = Simd::scalar});
   std::printf("%9.4f %8.1f  %s  %-7s %s\n", recording.milliseconds, static_cast<double>(recording.bytes.size()) / 1024,
-              hex(recording.hash).c_str(), recording.simd, text_of(checked).c_str());
+              hex(recording.hash).c_str(), recording.simd, describe(checked.result).c_str());
   std::fflush(stdout);
-  return status_of(checked) == exit_status::kOk;
+  return checked.result.outcome == VerifyOutcome::verified;
 }
 
 }  // namespace

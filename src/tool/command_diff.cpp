@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "diff_bundles.hpp"
+#include "diff_replays.hpp"
 #include "stage_trace.hpp"
 
 namespace isostep::tool {
@@ -49,16 +50,6 @@ template <class W> int report_frame(Player<W>& a, Player<W>& b, std::uint64_t fr
   return exit_status::kDifferent;
 }
 
-/// Played here they agree, so at least one was recorded by something that behaves otherwise.
-int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::uint64_t here) {
-  const char* verdict = a == here   ? "B was made by something that behaves otherwise"
-                        : b == here ? "A was made by something that behaves otherwise"
-                                    : "neither was made by something that behaves as this does";
-  std::printf("frame %llu: recorded as %s and %s, both come out as %s here: %s\n",
-              static_cast<unsigned long long>(frame), hex(a).c_str(), hex(b).c_str(), hex(here).c_str(), verdict);
-  return exit_status::kDifferent;
-}
-
 template <class W> int diff_as(const Input& input_a, const Input& input_b) {
   Player<W> a(input_a), b(input_b);
   DiffReport start(kShown);
@@ -85,31 +76,9 @@ template <class W> int diff_as(const Input& input_a, const Input& input_b) {
   return exit_status::kOk;
 }
 
-/// Of HEAD, once the file is known to be whole blocks with a start.
-struct Kind {
-  std::string world;
-  std::uint64_t scalar;  // its number
-};
-Kind kind_of(const Input& input) {
-  const ReplayReader replay(input.bytes);
-  if (replay.status() == ReplayStatus::corrupt) refuse(input.path, VerifyOutcome::corrupt, replay.error());
-  if (replay.status() == ReplayStatus::incompatible) refuse(input.path, VerifyOutcome::incompatible, replay.error());
-  if (!replay.has_state()) refuse(input.path, VerifyOutcome::truncated, replay.error());
-  if (replay.status() == ReplayStatus::truncated) {
-    std::fprintf(stderr, "isostep: %s is cut off: what is left of it is compared\n", input.path.c_str());
-  }
-  const Result<std::uint64_t> id = replay.header().number("scalar_id");
-  if (!id) refuse(input.path, VerifyOutcome::incompatible, id.error());
-  const ReplayField* world = replay.header().find(kWorldKey);
-  return {world == nullptr ? "" : std::string(world->value.view()), id.value()};
-}
-
 int diff_replays(const Input& a, const Input& b) {
-  const Kind kind = kind_of(a), other = kind_of(b);
-  if (kind.world != other.world || kind.scalar != other.scalar) {
-    std::printf("the %s differ\n", kind.world != other.world ? "kinds of world" : "scalars");
-    return exit_status::kDifferent;
-  }
+  const ReplayKind kind = kind_of(a);
+  if (!are_comparable(kind, kind_of(b))) return exit_status::kDifferent;
   int status = exit_code(VerifyOutcome::incompatible);
   const bool bundles = is_bundle(a) || is_bundle(b);
   const std::string_view missing = with_world(kind.world, kind.scalar, [&](auto tag) {
@@ -147,6 +116,8 @@ int diff_snapshots(const Input& a, const Input& b) {
 }  // namespace
 
 int command_diff(const DiffOptions& options) {
+  if (options.stages) return diff_stages(options);
+  if (options.b.empty()) throw ToolError(exit_status::kUsage, "diff compares two files; one alone only with --stages");
   const Input a(options.a), b(options.b);
   if (a.is_replay() != b.is_replay())
     throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");

@@ -25,6 +25,11 @@ template <std::size_t N> std::vector<std::string> names_in(const char* const (&n
   return {std::begin(names), std::end(names)};
 }
 
+/// A word that is there and says nothing: a variable of somebody's script that is not set.
+std::string refuse_blank(const std::string& word) {
+  return word.find_first_not_of(" \t\n") == std::string::npos ? "is empty" : "";
+}
+
 /// Every command's options, and what to do when it is chosen.
 class CommandLine {
  public:
@@ -41,7 +46,7 @@ class CommandLine {
     add_relay();
     add_demo();
     add_lab();
-    add("selfcheck", "is this build and machine sound", [] { return tool::command_selfcheck(); });
+    add_selfcheck();
   }
   int execute() const {
     if (!chosen_) throw tool::ToolError(tool::exit_status::kUsage, "a command is missing (isostep --help)");
@@ -84,7 +89,7 @@ class CommandLine {
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
-        ->check(CLI::IsMember({"best", "scalar", "sse2", "avx2", "avx512", "neon", "wasm"}))
+        ->check(CLI::IsMember(names_in(isostep::kSimdNames)))
         ->capture_default_str();
     command->add_option("--load", run_.load, "begin with this portable snapshot");
     command->add_option("--save", run_.save, "write a portable snapshot of the end");
@@ -118,7 +123,13 @@ class CommandLine {
         add("diff", "what differs first in two replays, desync bundles or snapshots: frame, stage, field",
             [this] { return tool::command_diff(diff_); });
     command->add_option("a", diff_.a, "a replay, a desync bundle or a portable snapshot")->required();
-    command->add_option("b", diff_.b, "another of the same kind")->required();
+    command->add_option("b", diff_.b, "another of the same kind; with --stages it may be left out: a once more");
+    CLI::Option* stages = command->add_flag("--stages", diff_.stages,
+                                            "of replays: look at what every stage leaves, prepared numbers too");
+    command->add_option("--prover-a", diff_.prover_a, "command line of a prover that plays a, in place of this program")
+        ->needs(stages)
+        ->check(refuse_blank, "");
+    command->add_option("--prover-b", diff_.prover_b, "the same for b")->needs(stages)->check(refuse_blank, "");
   }
   void add_selftest() {
     CLI::App* command =
@@ -134,10 +145,17 @@ class CommandLine {
         ->capture_default_str();
   }
   void add_rebake() {
-    rebake_.directory = ISOSTEP_GOLDENS_DIR;
     CLI::App* command =
         add("rebake", "rewrite the golden hashes, on purpose", [this] { return tool::command_rebake(rebake_); });
-    command->add_option("--dir", rebake_.directory, "where to");
+    command->add_option("--dir", rebake_.directory, "where to [the repository]")->check(refuse_blank, "");
+    command->add_flag("--recordings", rebake_.record, "instead the self-check's recordings, of this build's behaviour");
+    command->footer("./isostep rebake does both, and builds in between: the behaviour is a digest of the lists.");
+  }
+  void add_selfcheck() {
+    CLI::App* command =
+        add("selfcheck", "is this build and machine sound", [this] { return tool::command_selfcheck(selfcheck_); });
+    command->add_flag("--verbose", selfcheck_.verbose, "a table of what was replayed");
+    command->add_flag("--json", selfcheck_.json, "one JSON object");
   }
   void add_peer() {
     CLI::App* command =
@@ -259,6 +277,7 @@ class CommandLine {
   tool::DiffOptions diff_;
   tool::SelftestOptions selftest_;
   tool::RebakeOptions rebake_;
+  tool::SelfcheckOptions selfcheck_;
   tool::PeerOptions peer_;
   tool::RelayOptions relay_;
   tool::DemoOptions demo_;

@@ -1,13 +1,15 @@
-// isostep rebake: the golden hashes anew, each list run again with one lane before it is written.
+// isostep rebake: the golden hashes anew, each list run again with one lane before it is written; and the recordings
+// of the self-check, which carry the behaviour version that the lists make.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
 
+#include "checked_file.hpp"
 #include "commands.hpp"
 #include "files.hpp"
 #include "games.hpp"
 #include "goldens.hpp"
-#include "replay_check.hpp"
+#include "selfcheck_set.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -18,8 +20,9 @@ int golden_frames(const std::string& scene) {
     const char* scene;
     int frames;
   };
-  constexpr Row kRows[] = {{"S1s", 240},   {"S3", 30},      {"S5", 60},         {"S8", 120},        {"S9", 100},
-                           {"mixed", 300}, {"bridge", 300}, {"ballistic", 240}, {"fireworks", 240}, {"springs", 300}};
+  constexpr Row kRows[] = {{"S1s", 240},       {"S3", 30},         {"S5", 60},      {"S8", 120},
+                           {"S9", 100},        {"mixed", 300},     {"medley", 180}, {"bridge", 300},
+                           {"ballistic", 240}, {"fireworks", 240}, {"springs", 300}};
   for (const Row& row : kRows) {
     if (scene == row.scene) return row.frames;
   }
@@ -27,7 +30,7 @@ int golden_frames(const std::string& scene) {
 }
 
 struct Baked {
-  std::string name, text;
+  std::string name, text;  // of a recording its bytes
 };
 
 template <class Game> Baked bake(const typename Game::Scene& scene) {
@@ -50,9 +53,32 @@ std::string present(const std::string& path) {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace
+/// Files that are rewritten only where they differ.
+class Directory {
+ public:
+  explicit Directory(const std::string& path) : path_(path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) throw ToolError(exit_status::kOutput, path + ": " + error.message());
+  }
+  void put(const std::string& name, std::string_view content) {
+    ++files_;
+    const std::string path = path_ + "/" + name;
+    if (present(path) == content) return;
+    ++changed_;
+    write_file(path, content);
+  }
+  void tell(const char* what) const {
+    std::printf("%d of %d %s changed in %s\n", changed_, files_, what, path_.c_str());
+  }
+  bool is_changed() const { return changed_ != 0; }
 
-int command_rebake(const RebakeOptions& options) {
+ private:
+  std::string path_;
+  int files_ = 0, changed_ = 0;
+};
+
+std::vector<Baked> bake_all() {
   std::vector<Baked> all;
   for (const SceneRow& row : scene_rows()) {
     any_scalar([&](auto scalar) {
@@ -64,21 +90,30 @@ int command_rebake(const RebakeOptions& options) {
       return false;
     });
   }
-  std::error_code error;
-  std::filesystem::create_directories(options.directory, error);
-  if (error) throw ToolError(exit_status::kOutput, options.directory + ": " + error.message());
-  int changed = 0;
-  for (const Baked& baked : all) {
-    const std::string path = options.directory + "/" + baked.name;
-    if (present(path) == baked.text) continue;
-    ++changed;
-    write_file(path, baked.text);
-  }
-  std::printf("%d of %zu lists changed in %s\n", changed, all.size(), options.directory.c_str());
-  if (changed != 0)
-    std::printf(
-        "Build again: the behaviour version is their digest. Commit them by themselves, with a RESULT line in "
-        "CHANGELOG.\n");
+  return all;
+}
+
+int record(const RebakeOptions& options) {
+  std::vector<Baked> all;  // or nothing: half a set renewed is none
+  record_selfcheck([&](const std::string& name, const std::vector<std::uint8_t>& bytes) {
+    all.push_back({name, {bytes.begin(), bytes.end()}});
+  });
+  Directory directory(options.directory.empty() ? ISOSTEP_SELFCHECK_DIR : options.directory);
+  for (const Baked& baked : all) directory.put(baked.name, baked.text);
+  directory.tell("recordings");
+  return exit_status::kOk;
+}
+
+}  // namespace
+
+int command_rebake(const RebakeOptions& options) {
+  if (options.record) return record(options);
+  const std::vector<Baked> all = bake_all();  // all or nothing
+  Directory directory(options.directory.empty() ? ISOSTEP_GOLDENS_DIR : options.directory);
+  for (const Baked& baked : all) directory.put(baked.name, baked.text);
+  directory.tell("lists");
+  if (directory.is_changed())
+    std::printf("Commit them with their recordings and nothing else, and with a RESULT line in CHANGELOG.\n");
   return exit_status::kOk;
 }
 

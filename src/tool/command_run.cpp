@@ -13,6 +13,7 @@
 #include "page/camera.hpp"
 #include "page/page.hpp"
 #include "particle_watch.hpp"
+#include "recorded_game.hpp"
 #include "run_watch.hpp"
 #include "threads/tbb_runner.hpp"
 #include "worlds.hpp"
@@ -40,22 +41,24 @@ template <class Game> class Run {
   using Scene = typename Game::Scene;
   using Watch = decltype(watch_of(std::declval<const World&>()));
 
-  Run(const RunOptions& options, const Scene& scene) : options_(options), scene_(scene), game_(scene, options.game) {
-    if (!options.load.empty()) load_snapshot(game_.world, options);
-    use_lanes(game_.world, simd_named(options.simd));
-    if (options.threads > 1) use_threads(game_.world, threads_.emplace(options.threads).runner());
+  Run(const RunOptions& options, const Scene& scene) : options_(options), scene_(scene) {
+    if (!options.record.empty() && frames_of(options, scene) == 0)
+      throw ToolError(exit_status::kUsage, "--record: a recording needs a frame");
+    build();
+    if (options.load.empty()) return;
+    load_snapshot(game_->world, options);
+    open_recording(game_->world);
   }
 
   /// `camera`: for a page, or null.
   int run(page::Camera* camera) {
-    open_recording();
     const int frames = frames_of(options_, scene_);
-    watch_.emplace(watch_of(game_.world));
+    watch_.emplace(watch_of(game_->world));
     if (options_.load.empty()) judge();
-    if (camera != nullptr) camera->begin(game_.world);
+    if (camera != nullptr) camera->begin(game_->world);
     for (int i = 0; i < frames && !interrupted(); ++i) {
       step(i, i + 60 >= frames);
-      if (camera != nullptr) camera->stepped(game_.world, i + 1, i + 1 == frames);
+      if (camera != nullptr) camera->stepped(game_->world, i + 1, i + 1 == frames);
     }
     finish(frames);
     return interrupted() ? exit_status::kInterrupted : exit_status::kOk;
@@ -66,26 +69,37 @@ template <class Game> class Run {
   void judge() {
     if constexpr (std::is_same_v<Scene, scenes::Scene>) {
       const scenes::Trial* const trial = scenes::find_trial(options_.scene);
-      if (trial != nullptr) watch_->judge(*trial, scene_, game_.world);
+      if (trial != nullptr) watch_->judge(*trial, scene_, game_->world);
     }
   }
 
-  void open_recording() {
+  /// A recording begins with the empty world, so that whoever verifies it builds the scene as well; or with what is
+  /// loaded.
+  void build() {
+    const bool recorded_empty = !options_.record.empty() && options_.load.empty();
+    if (recorded_empty) static_cast<void>(Game(scene_, options_.game));  // a scene that is refused leaves no file
+    game_.emplace(scene_, options_.game, [&](World& empty) {
+      use_lanes(empty, simd_named(options_.simd).value());
+      if (options_.threads > 1) use_threads(empty, threads_.emplace(options_.threads).runner());
+      if (recorded_empty) open_recording(empty);
+    });
+  }
+
+  void open_recording(World& world) {
     if (options_.record.empty()) return;
     file_.emplace(options_.record);
-    recorder_.emplace(game_.world, file_->sink());
-    expect_written(recorder_->begin(scene_.name));
+    begin_recording(recorder_, world, file_->sink(), scene_.name);
   }
 
   void step(int frame, bool last_second) {
-    game_.before_step(game_.world);
+    game_->before_step(game_->world);
     const double before = now();
-    const auto stepped = game_.world.step();
+    const auto stepped = game_->world.step();
     ms_.push_back(now() - before);
-    game_.after_step(game_.world);
-    watch_->stepped(game_.world, stepped, frame, last_second);
+    game_->after_step(game_->world);
+    watch_->stepped(game_->world, stepped, frame, last_second);
     if (!recorder_ && options_.hashes.empty()) return;
-    hashes_.push_back(game_.world.hash());
+    hashes_.push_back(game_->world.hash());
     if (recorder_) expect_written(recorder_->end_frame(hashes_.back()));
   }
   /// [ms] Of one thread its own time; what several save shows in real time alone.
@@ -93,15 +107,16 @@ template <class Game> class Run {
 
   void finish(int frames) {
     if (recorder_) {
+      if (!ms_.empty()) expect_written(recorder_->keyframe());  // none when interrupted before the first frame
       expect_written(recorder_->finish());
       file_->close();
     }
     if (!options_.hashes.empty()) write_file(options_.hashes, hash_lines(hashes_));
-    if (!options_.dump.empty()) write_file(options_.dump, dump_of(game_.world));
+    if (!options_.dump.empty()) write_file(options_.dump, dump_of(game_->world));
     if (!options_.save.empty()) {
       std::vector<std::uint8_t> bytes;
       Writer writer(bytes);
-      game_.world.write_portable(writer);
+      game_->world.write_portable(writer);
       write_file(options_.save, Bytes(bytes));
     }
     if (interrupted()) {
@@ -113,12 +128,12 @@ template <class Game> class Run {
   }
 
   typename Watch::Report complete_report() {
-    typename Watch::Report report = watch_->report(game_.world);
+    typename Watch::Report report = watch_->report(game_->world);
     report.scene = scene_.name;
     report.scalar = ScalarTraits<typename World::Scalar>::kName;
     report.threads = options_.threads;
     report.frames = static_cast<int>(ms_.size());
-    report.hash = game_.world.hash();
+    report.hash = game_->world.hash();
     report.ms = summarise(ms_);
     return report;
   }
@@ -126,7 +141,7 @@ template <class Game> class Run {
   const RunOptions& options_;
   std::optional<threads::TbbRunner> threads_;  // outlives the world
   const Scene& scene_;
-  Game game_;
+  std::optional<Game> game_;
   std::optional<ReplayFile> file_;
   std::optional<TapeRecorder<World>> recorder_;
   std::optional<Watch> watch_;

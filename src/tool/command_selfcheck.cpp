@@ -1,69 +1,75 @@
-// isostep selfcheck: the floating-point environment, and a short golden list in every scalar with every set of lanes.
+// isostep selfcheck: the library's answer to whether this build and machine are sound, as a line, a table or JSON.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "goldens.hpp"
 #include "isostep/core/version.hpp"
-#include "isostep/scalar/environment.hpp"
-#include "replay_check.hpp"
-#include "scene_game.hpp"
+#include "isostep/world/selfcheck.hpp"
+#include "tool.hpp"
 
 namespace isostep::tool {
 namespace {
 
-constexpr const char kScene[] = "S1x5";
+using nlohmann::ordered_json;
 
-bool check_environment() {
-  const std::uint32_t found = probe_environment() | probe_environment_here();
-  if (found == 0) {
-    std::printf("arithmetic     as IEEE 754 has it\n");
-    return true;
-  }
-  std::printf("arithmetic     NOT as IEEE 754 has it:");
-  for (int i = 0; i < kDeviationCount; ++i) {
-    if ((found >> i & 1u) != 0) std::printf(" %s", kDeviationNames[i]);
-  }
-  std::printf("\n");
-  return false;
+void print_table(const SelfcheckResult& result) {
+  const auto arithmetic = [](const char* whose, std::uint32_t deviations) {
+    std::printf("%-14s %s\n", whose, deviations == 0 ? "as IEEE 754 has it" : deviation_names(deviations).c_str());
+  };
+  arithmetic("engine", result.engine);
+  arithmetic("this program", result.caller);
+  for (const SelfcheckPart& part : result.parts)
+    std::printf("%-7s %-6s %u of %u recordings, %llu frames\n", part.scalar, part.lanes, part.recordings - part.failed,
+                part.recordings, static_cast<unsigned long long>(part.frames));
 }
 
-const GoldenText* golden_of(const std::string& name) {
-  for (const GoldenText& golden : golden_texts()) {
-    if (name == golden.name) return &golden;
+ordered_json json_of(const SelfcheckFailure& failure) {
+  ordered_json json = {{"recording", failure.recording},
+                       {"scalar", failure.scalar},
+                       {"lanes", failure.lanes},
+                       {"result", describe(failure.result)}};
+  if (failure.result.outcome == VerifyOutcome::diverged) {
+    json["frame"] = failure.result.frames;
+    json["expected"] = hex(failure.result.expected);
+    json["actual"] = hex(failure.result.actual);
   }
-  return nullptr;
+  return json;
 }
-
-template <class S> bool check_scalar() {
-  const std::string name = golden_name(kScene, ScalarTraits<S>::kName);
-  const GoldenText* golden = golden_of(name);
-  if (golden == nullptr) {
-    std::printf("%-14s no golden list in this build\n", ScalarTraits<S>::kName);
-    return false;
-  }
-  bool sound = true;
-  for (const char* lanes : {"scalar", "sse2", "avx2", "avx512", "neon", "wasm"}) {
-    if (!World<S>().use_simd(simd_named(lanes))) continue;
-    const CheckedFile checked = check_golden(name, golden->text, simd_named(lanes));
-    std::printf("%-7s %-6s %s: %s\n", ScalarTraits<S>::kName, lanes, kScene, text_of(checked).c_str());
-    sound = sound && status_of(checked) == exit_status::kOk;
-  }
-  return sound;
+ordered_json json_of(const SelfcheckResult& result, double milliseconds) {
+  ordered_json parts = ordered_json::array();
+  for (const SelfcheckPart& part : result.parts)
+    parts.push_back({{"scalar", part.scalar},
+                     {"lanes", part.lanes},
+                     {"recordings", part.recordings},
+                     {"failed", part.failed},
+                     {"frames", part.frames}});
+  return {{"sound", result.sound()},
+          {"version", kVersionText},
+          {"compiler", compiler_name()},
+          {"architecture", architecture_name()},
+          {"behaviour", hex(behaviour_version())},
+          {"engine", deviation_names(result.engine)},
+          {"caller", deviation_names(result.caller)},
+          {"frames", result.frames()},
+          {"parts", parts},
+          {"failure", result.failure ? json_of(*result.failure) : ordered_json()},
+          {"milliseconds", milliseconds}};
 }
 
 }  // namespace
 
-int command_selfcheck() {
-  std::printf("isostep %s, %s, %s, behaviour %s\n", kVersionText, compiler_name(), architecture_name(),
-              hex(behaviour_version()).c_str());
-  bool sound = check_environment();
-  any_scalar([&](auto tag) {
-    sound = check_scalar<typename decltype(tag)::Type>() && sound;
-    return false;
-  });
-  std::printf("%s\n", sound ? "sound" : "NOT SOUND");
-  return sound ? exit_status::kOk : exit_status::kDifferent;
+int command_selfcheck(const SelfcheckOptions& options) {
+  const double before = real_milliseconds();
+  const SelfcheckResult result = selfcheck();
+  const double milliseconds = real_milliseconds() - before;
+  if (options.json) {
+    std::printf("%s\n", json_of(result, milliseconds).dump().c_str());
+  } else {
+    if (options.verbose) print_table(result);
+    std::printf("%s; %.0f ms\n", describe(result).c_str(), milliseconds);
+  }
+  return result.sound() ? exit_status::kOk : exit_status::kDifferent;
 }
 
 }  // namespace isostep::tool

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "commands.hpp"
-#include "replay_check.hpp"
+#include "checked_file.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {

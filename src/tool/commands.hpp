@@ -39,9 +39,12 @@ struct VerifyOptions {
 int command_verify(const VerifyOptions& options);
 
 struct DiffOptions {
-  std::string a, b;
+  std::string a, b;                // with `stages` b may be empty: a again
+  bool stages = false;             // what every stage left, scratch too
+  std::string prover_a, prover_b;  // command lines that play a and b instead; of `stages`
 };
 int command_diff(const DiffOptions& options);
+int diff_stages(const DiffOptions& options);
 
 struct SelftestOptions {
   std::string scene;
@@ -53,7 +56,8 @@ struct SelftestOptions {
 int command_selftest(const SelftestOptions& options);
 
 struct RebakeOptions {
-  std::string directory;
+  std::string directory;  // empty: the repository's
+  bool record = false;    // the self-check's recordings instead of the lists
 };
 int command_rebake(const RebakeOptions& options);
 
@@ -120,7 +124,10 @@ struct LabSpringsOptions {
 };
 int command_lab_springs(const LabSpringsOptions& options);
 
-int command_selfcheck();
+struct SelfcheckOptions {
+  bool verbose = false, json = false;
+};
+int command_selfcheck(const SelfcheckOptions& options);
 
 /// The whole program: an exit status for these words.
 int run_command_line(int argc, const char* const* argv);

@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "files.hpp"
-#include "replay_check.hpp"
+#include "checked_file.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {
@@ -70,9 +70,9 @@ bool DemoMatch::show() {
   std::string outcomes;
   for (int i = 0; i < 2; ++i) {
     said[i] = nlohmann::json::parse(read_file(path(kPeers[i], "json")));
-    const CheckedFile checked = check_replay(read_file(path(kPeers[i], "replay")), Simd::best);
-    verified = verified && status_of(checked) == exit_status::kOk;
-    outcomes += (i == 0 ? "" : ", ") + text_of(checked);
+    const CheckedReplay checked = check_replay(read_file(path(kPeers[i], "replay")));
+    verified = verified && checked.result.outcome == VerifyOutcome::verified;
+    outcomes += (i == 0 ? "" : ", ") + describe(checked.result);
   }
   const bool equal = read_file(path("host", "hashes")) == read_file(path("client", "hashes")) &&
                      said[0]["frames"] == frames_ && said[1]["frames"] == frames_;

@@ -32,7 +32,10 @@ template <class S> struct ParticleSceneGame : scenes::ParticleGame<S> {
   using Scene = scenes::ParticleScene;
 
   explicit ParticleSceneGame(const Scene& scene, const GameOptions& options = {})
-      : scenes::ParticleGame<S>(scene, settings_of(scene, options)) {}
+      : ParticleSceneGame(scene, options, [](World&) {}) {}
+  template <class Begin>
+  ParticleSceneGame(const Scene& scene, const GameOptions& options, Begin&& begin)
+      : scenes::ParticleGame<S>(scene, settings_of(scene, options), begin) {}
 
   static ParticleSettings<S> settings_of(const Scene& scene, const GameOptions& options) {
     const ParticleSettings<S> settings = asked_of(scenes::script_of<S>(scene.id).settings, options);

@@ -1,4 +1,4 @@
-// Scenes from files, and lanes by name.
+// Scenes from files.
 // SPDX-License-Identifier: MIT
 #include "scene_game.hpp"
 
@@ -34,16 +34,6 @@ scenes::Scene load_scene_file(const std::string& name_or_file) {
 void require_rigid_methods(const GameOptions& options) {
   if (!options.integrator.empty() || !options.stepping.empty())
     throw ToolError(exit_status::kUsage, "--integrator and --stepping are for scenes of particles");
-}
-
-Simd simd_named(const std::string& name) {
-  if (name == "scalar") return Simd::scalar;
-  if (name == "sse2") return Simd::sse2;
-  if (name == "avx2") return Simd::avx2;
-  if (name == "avx512") return Simd::avx512;
-  if (name == "neon") return Simd::neon;
-  if (name == "wasm") return Simd::wasm;
-  return Simd::best;
 }
 
 }  // namespace isostep::tool

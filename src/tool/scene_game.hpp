@@ -1,4 +1,4 @@
-// SceneGame<S>: a rigid scene's world with its script; scenes from files; lanes and threads for any world.
+// SceneGame<S>: a rigid scene's world with its script; scenes from files; threads for any world.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "game_options.hpp"
+#include "isostep/core/simd_choice.hpp"
 #include "isostep/world/recorder.hpp"
 #include "isostep/world/world.hpp"
 #include "scenes/build.hpp"
@@ -21,21 +22,8 @@ scenes::Scene load_scene_file(const std::string& name_or_file);
 /// As a ToolError 64 that names the file.
 [[noreturn]] void fail_scene(const std::string& name_or_file, const scenes::SceneError& error);
 
-Simd simd_named(const std::string& name);
 /// Throws ToolError 64 for methods that rigid bodies have not got.
 void require_rigid_methods(const GameOptions& options);
-/// These lanes, or the widest narrower ones that processor, build and scalar have. Some worlds have no choice.
-template <class W> void use_lanes(W& world, Simd simd) {
-  if constexpr (requires { world.use_simd(simd); }) {
-    if (world.use_simd(simd)) return;
-    if (simd == Simd::avx512 && world.use_simd(Simd::avx2)) return;
-    for (const Simd narrow : {Simd::sse2, Simd::neon, Simd::wasm}) {
-      if (world.use_simd(narrow)) return;
-    }
-    world.use_simd(Simd::scalar);
-  }
-}
-
 /// Some worlds stay on the calling thread: for those a ToolError 64.
 template <class W> void use_threads(W& world, const TaskRunner& runner) {
   if constexpr (requires { world.use_threads(runner); }) {
@@ -68,14 +56,17 @@ template <class S> bool is_as_asked(const Settings<S>& own, const GameOptions& o
   return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver;
 }
 
-/// What every kind of game has: World, Scene; `world`, which its constructor builds from a scene; and `before_step` and
-/// `after_step` for any world of that scene, whatever it went through.
+/// What every kind of game has: World, Scene; `world`, which its constructor builds from a scene, once `begin(world)`
+/// has seen it empty; and `before_step` and `after_step` for any world of that scene, whatever it went through.
 template <class S> struct SceneGame {
   using World = isostep::World<S>;
   using Scene = scenes::Scene;
 
-  explicit SceneGame(const Scene& scene, const GameOptions& options = {})
+  explicit SceneGame(const Scene& scene, const GameOptions& options = {}) : SceneGame(scene, options, [](World&) {}) {}
+  template <class Begin>
+  SceneGame(const Scene& scene, const GameOptions& options, Begin&& begin)
       : script(scene.script), world(settings_of(scene, options)) {
+    begin(world);
     scenes::build(scene, world);
   }
   static Settings<S> settings_of(const Scene& scene, const GameOptions& options) {

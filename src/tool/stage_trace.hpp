@@ -72,7 +72,7 @@ template <class W> class PlayedFrame {
       std::size_t left;
       std::optional<StateOf<W>> state;
     } watch{world_, place.index, {}};
-    const auto look = [](void* user, auto) {
+    const auto look = [](void* user, auto...) {
       Watch& w = *static_cast<Watch*>(user);
       if (w.left-- == 0) w.state = w.world.state();
     };

@@ -8,12 +8,14 @@ endif()
 execute_process(COMMAND ${TOOL} verify --jobs 2 ${REPLAYS} RESULT_VARIABLE result OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
-  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `isostep rebake` and a RESULT line in "
-    "CHANGELOG.md\n${output}")
+  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `./isostep rebake` and a RESULT line in "
+    "CHANGELOG.md; recordings of another behaviour need the same\n${output}")
 endif()
 string(REGEX MATCHALL "VERIFIED" verified "${output}")
 list(LENGTH goldens expected)
+list(LENGTH recordings recorded)
+math(EXPR expected "${expected} + ${recorded}")
 list(LENGTH verified count)
 if(count LESS expected)
-  message(FATAL_ERROR "${count} verified of ${expected} golden lists\n${output}")
+  message(FATAL_ERROR "${count} verified of ${expected} golden lists and recordings\n${output}")
 endif()

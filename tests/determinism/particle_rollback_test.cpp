@@ -185,7 +185,7 @@ TYPED_TEST(ParticleRollback, a_trace_names_every_stage_of_a_step_and_is_the_same
   std::vector<ParticleStage> stages;
   ParticleStageObserver observer;
   observer.user = &stages;
-  observer.after = [](void* user, ParticleStage stage) {
+  observer.after = [](void* user, ParticleStage stage, const StageView&) {
     static_cast<std::vector<ParticleStage>*>(user)->push_back(stage);
   };
   w.trace_to(&trace);

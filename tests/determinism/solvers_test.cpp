@@ -1,10 +1,10 @@
 // Every solver by name: exact rollback, the portable form, recordings, lanes and threads, in every scalar.
 // SPDX-License-Identifier: MIT
 
-#include <array>
 #include <set>
 #include <tuple>
 
+#include "determinism/solver_cases.hpp"
 #include "determinism/solver_scene.hpp"
 #include "examples/thread_pool.hpp"
 #include "isostep/state/verify.hpp"
@@ -40,20 +40,7 @@ template <class Case> class Solvers : public ::testing::Test {
   }
 };
 
-template <std::size_t I>
-using CaseAt = std::tuple<std::tuple_element_t<I / kSolvers, std::tuple<float, double, Q16_16, Q32_32>>,
-                          std::integral_constant<SolverName, SolverName{I % kSolvers}>>;
-template <class Indices> struct CasesOf;
-template <std::size_t... I> struct CasesOf<std::index_sequence<I...>> { using Type = ::testing::Types<CaseAt<I>...>; };
-struct CaseNames {
-  template <class Case> static std::string GetName(int) {
-    std::string scalar = ScalarTraits<std::tuple_element_t<0, Case>>::kName;
-    std::replace(scalar.begin(), scalar.end(), '.', '_');
-    return scalar + "_" + kSolverNames[static_cast<std::size_t>(std::tuple_element_t<1, Case>::value)];
-  }
-};
-using Cases = CasesOf<std::make_index_sequence<4 * kSolvers>>::Type;
-TYPED_TEST_SUITE(Solvers, Cases, CaseNames);
+TYPED_TEST_SUITE(Solvers, SolverCases, SolverCaseNames);
 
 TYPED_TEST(Solvers, are_given_something_to_do) {
   using S = typename TestFixture::Number;

@@ -139,7 +139,7 @@ template <class S> void use_state(World<S>& world) {
     keep(verify(replay, world, SameHeader{header.value()}).outcome);
   }
   WorldRecorder<S> commands(world, sink_to(file));
-  keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.finish());
+  keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.keyframe()), keep(commands.finish());
   std::vector<std::uint8_t> tape;
   Writer tape_writer(tape);
   using Few = std::variant<SetPose<S>, AddShape<S>>;  // names of the whole list fill pages
@@ -286,6 +286,13 @@ void use_the_rest() {
   keep(text.view().size()), keep(fault_text(Fault::none)[0]), keep(hash_bytes("x", 1));
   const FloatEnvironment environment;
   Lcg lcg{1};
+  const auto look = [](auto tag) {
+    typename decltype(tag)::Type world;
+    use_lanes(world, simd_named("best").value());
+    keep(read_whole(world, {}).ok()), keep(world.tick());
+  };
+  keep(with_world("", std::string_view("float"), look).size()), keep(with_world("", std::uint64_t{1}, look).size());
+  keep(with_portable_world(1, look)), keep(check_replay({}).result.frames);
   keep(random_below(lcg, 6)), keep(kVersionText[0]), keep(probe_environment_here());
 }
 

@@ -1,10 +1,8 @@
-// Looks into object files: weak symbols that a linker could take from a user's file, and fused instructions.
+// Looks into object files for weak symbols that a linker could take from a user's file.
 // SPDX-License-Identifier: MIT
 //
 // symbols consumer NM OBJDUMP OBJECT...   a user's files leave no weak function of ours behind
 // symbols library NM OBJECT...            no weak function of ours is in two objects; kernels' objects have none at all
-// symbols fused OBJDUMP FILE...           exits 0 when no instruction multiplies and adds in one
-// symbols notfused OBJDUMP FILE...        exits 0 when one does: shows that `fused` can see them
 
 #include <cxxabi.h>
 
@@ -16,7 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "command.hpp"
+
 namespace {
+
+using isostep_lint::quoted;
+using isostep_lint::run;
 
 int findings = 0;
 void report(const std::string& where, const std::string& what) {
@@ -24,23 +27,6 @@ void report(const std::string& where, const std::string& what) {
   ++findings;
 }
 
-/// Calls `each(line)` for every line that a command prints; false when it fails.
-template <class Each> bool run(const std::string& command, Each&& each) {
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return false;
-  std::string line;
-  for (int c; (c = std::fgetc(pipe)) != EOF;) {
-    if (c == '\n') {
-      each(line);
-      line.clear();
-    } else {
-      line += static_cast<char>(c);
-    }
-  }
-  return pclose(pipe) == 0;
-}
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 struct Symbol {
@@ -154,32 +140,6 @@ void check_library(const std::string& nm, const std::vector<std::string>& object
   }
 }
 
-void check_fused(const std::string& objdump, const std::vector<std::string>& files, bool wanted) {
-  static const std::regex fused("\\t(v?fn?m(add|sub)\\w*|vfm(addsub|subadd)\\w*|fn?m(add|sub)|fml[as])\\s");
-  static const std::regex header("^[0-9a-f]+ <(.*)>:$");
-  std::size_t instructions = 0, found = 0;
-  std::string function;
-  for (const std::string& file : files) {
-    const bool ok = run(quoted(objdump) + " -d -C --no-show-raw-insn " + quoted(file), [&](const std::string& line) {
-      std::smatch match;
-      if (line.find('\t') != std::string::npos) {
-        ++instructions;
-        if (line.find("\tvf") == std::string::npos && line.find("\tf") == std::string::npos) return;
-        if (!std::regex_search(line, match, fused)) return;
-        ++found;
-        if (!wanted && found <= 20) std::printf("%s: %s in %s\n", file.c_str(), match.str(1).c_str(), function.c_str());
-      } else if (!line.empty() && line.back() == ':' && std::regex_match(line, match, header)) {
-        function = match[1];
-      }
-    });
-    if (!ok) report(file, "objdump fails");
-  }
-  std::printf("%zu instructions, %zu fused\n", instructions, found);
-  if (instructions == 0) report("all", "no instruction was read");
-  if (!wanted && found != 0) report("all", "the exact flags do not hold");
-  if (wanted && found == 0) report("all", "the control has no fused instruction, so the test would see none anywhere");
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -187,8 +147,6 @@ int main(int count, char** arguments) {
   const std::string mode = words.empty() ? "" : words[0];
   if (mode == "consumer" && count > 4) check_consumer(words[1], words[2], {words.begin() + 3, words.end()});
   else if (mode == "library" && count > 3) check_library(words[1], {words.begin() + 2, words.end()});
-  else if (mode == "fused" && count > 3) check_fused(words[1], {words.begin() + 2, words.end()}, false);
-  else if (mode == "notfused" && count > 3) check_fused(words[1], {words.begin() + 2, words.end()}, true);
-  else return std::fprintf(stderr, "symbols consumer|library|fused|notfused TOOL... FILE...\n"), 64;
+  else return std::fprintf(stderr, "symbols consumer|library TOOL... FILE...\n"), 64;
   return findings == 0 ? 0 : 1;
 }

@@ -36,15 +36,15 @@ template <class T> class [[nodiscard]] Result {
   ISO_INLINE bool ok() const { return value_.has_value(); }
   ISO_INLINE explicit operator bool() const { return ok(); }
   ISO_INLINE const T& value() const {
-    if (!ok()) __builtin_trap();
+    if (!ok()) ISO_TRAP();
     return *value_;
   }
   ISO_INLINE T& value() {
-    if (!ok()) __builtin_trap();
+    if (!ok()) ISO_TRAP();
     return *value_;
   }
   ISO_INLINE const Error& error() const {
-    if (ok()) __builtin_trap();
+    if (ok()) ISO_TRAP();
     return error_;
   }
 
@@ -61,7 +61,7 @@ template <> class [[nodiscard]] Result<void> {
   ISO_INLINE bool ok() const { return ok_; }
   ISO_INLINE explicit operator bool() const { return ok_; }
   ISO_INLINE const Error& error() const {
-    if (ok_) __builtin_trap();
+    if (ok_) ISO_TRAP();
     return error_;
   }
 

@@ -19,20 +19,22 @@ bool processor_has(Simd simd);
 
 namespace detail {
 /// A table of kernels for one instruction set: a strong symbol of the one file that is compiled for it, null where this
-/// build has none.
+/// build has none. Under ISOSTEP_NO_SIMD there are the files of one lane alone.
 template <class Kernels, Simd simd> const Kernels* kernel_table();
 
 template <class Kernels> ISO_INLINE const Kernels* kernel_table_of(Simd simd) {
   switch (simd) {
+#if !defined(ISOSTEP_NO_SIMD)
     case Simd::sse2: return kernel_table<Kernels, Simd::sse2>();
     case Simd::avx2: return kernel_table<Kernels, Simd::avx2>();
     case Simd::avx512: return kernel_table<Kernels, Simd::avx512>();
     case Simd::neon: return kernel_table<Kernels, Simd::neon>();
     case Simd::wasm: return kernel_table<Kernels, Simd::wasm>();
+#endif
     case Simd::best:
-    case Simd::scalar: break;
+    case Simd::scalar: return kernel_table<Kernels, Simd::scalar>();
+    default: return nullptr;
   }
-  return kernel_table<Kernels, Simd::scalar>();
 }
 }  // namespace detail
 

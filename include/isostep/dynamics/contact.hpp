@@ -68,6 +68,13 @@ template <class S> struct MixedMaterial {
   S restitution;             // [1]
   S rolling_resistance;      // [m]
   Vec3<S> surface_velocity;  // [m/s] of b's surface against a's, world
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("friction", self.friction);
+    visit("restitution", self.restitution);
+    visit("rolling_resistance", self.rolling_resistance);
+    visit("surface_velocity", self.surface_velocity);
+  }
 };
 
 /// Friction by the root of the product, the rest by the larger.
@@ -85,6 +92,12 @@ template <class S> struct ContactGeometry {
   struct Point {
     Vec3<S> arm_a, arm_b;  // [m] from each centre of mass, world
     S separation;          // [m] negative: overlap
+
+    template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+      visit("arm_a", self.arm_a);
+      visit("arm_b", self.arm_b);
+      visit("separation", self.separation);
+    }
   } points[kMaxContactPoints];
   MixedMaterial<S> material;
 };

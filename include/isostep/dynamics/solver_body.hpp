@@ -17,12 +17,21 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   V pad1;
 
   static ISO_INLINE constexpr MotionRow zero() { return {Vec3<V>::zero(), V(0), Vec3<V>::zero(), V(0)}; }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("linear", self.linear);
+    visit("angular", self.angular);
+  }
 };
 
 /// What turns an impulse into a change of velocity.
 template <class S> struct SolverMass {
   S mass;         // [kg]; 0: immovable
   Mat3<S> kappa;  // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("mass", self.mass);
+    visit("kappa", self.kappa);
+  }
 };
 
 /// Row 0 stands for everything that does not move; the awake bodies follow in order.
@@ -38,6 +47,11 @@ template <class S> struct SolverBodies {
 /// neither moves. Ratios instead of inverse masses, so that grams and tons are equally exact in fixed point.
 template <class S> struct MassShare {
   S a, b;  // [1]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+  }
 };
 template <class S> ISO_INLINE constexpr MassShare<S> mass_share(S mass_a, S mass_b) {
   if (!(mass_a > S(0))) return {S(0), mass_b > S(0) ? S(1) : S(0)};

@@ -27,6 +27,11 @@ template <class S> struct Transform {
   Vec3<S> position;  // [m]
   Mat3<Unit<S>> rotation;
 
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("position", self.position);
+    visit("rotation", self.rotation);
+  }
+
   static ISO_INLINE constexpr Transform of(const Pose<S>& pose) { return {pose.position, to_matrix(pose.orientation)}; }
 };
 

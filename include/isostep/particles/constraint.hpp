@@ -39,6 +39,29 @@ template <class S> struct ParticleConstraint {
   Velocity<S> impulse_seen;            // [m/s] largest of the step
   Velocity<S> approach;                // [m/s] lowest n.(v_b - v_a) at which they met in the step, <= 0
   SumOf<Velocity<S>, Velocity<S>> work;  // [m^2/s^2] by which impulses of the step changed the square of its speed
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("kind", self.kind);
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("normal", self.normal);
+    visit("separation", self.separation);
+    visit("radius", self.radius);
+    visit("other", self.other);
+    visit("share_a", self.share_a);
+    visit("share_b", self.share_b);
+    visit("friction", self.friction);
+    visit("restitution", self.restitution);
+    visit("surface_velocity", self.surface_velocity);
+    visit("surface_gain", self.surface_gain);
+    visit("surface_moved", self.surface_moved);
+    visit("total", self.total);
+    visit("impulse", self.impulse);
+    visit("friction_impulse", self.friction_impulse);
+    visit("impulse_seen", self.impulse_seen);
+    visit("approach", self.approach);
+    visit("work", self.work);
+  }
 };
 
 }  // namespace isostep

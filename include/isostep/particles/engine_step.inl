@@ -10,7 +10,7 @@ namespace isostep {
 template <class S> ParticleReport ParticleEngine<S>::step(const ParticleStageObserver& observer) {
   const FloatEnvironment environment;
   const auto after = [&](ParticleStage stage) {
-    if (observer.after != nullptr) observer.after(observer.user, stage);
+    if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
     if (trace_ != nullptr) trace_->push_back(hash());
   };
   if (trace_ != nullptr) trace_->push_back(hash());
@@ -33,6 +33,11 @@ template <class S> ParticleReport ParticleEngine<S>::step(const ParticleStageObs
   return report_;
 }
 
+template <class S> StageView ParticleEngine<S>::view(std::uint32_t stage) {
+  const auto hash = [](const void* engine) { return static_cast<const ParticleEngine*>(engine)->hash(); };
+  return {{this, hash, &ParticleEngine::walk_leaves}, stage};
+}
+
 template <class S> void ParticleEngine<S>::begin_step() {
   events_.clear();
   report_ = {};
@@ -49,12 +54,15 @@ template <class S> void ParticleEngine<S>::solve_substeps() {
   const bool joined = has_forces() || !rows_.empty();
   const Integrator integrator = state_.settings.integrator;
   const bool plain = integrator == Integrator::semi_implicit_euler || integrator == Integrator::explicit_euler;
-  if (!joined && plain) return fly_free();
+  // The book's resolver stands between velocities and positions, which rounds once more: then everywhere, so that what
+  // flies alone does not know whether others touch.
+  const bool resolves = !is_soft() && state_.settings.stepping == Stepping::fixed;
+  if (!joined && plain && !resolves) return fly_free();
   scratch_.now = state_.position;
   find_cohering();
   for (std::int32_t i = 0; i < state_.settings.substeps; ++i) {
     hurry_surfaces();
-    if (rows_.empty()) integrate();
+    if (rows_.empty() && !resolves) integrate();
     else if (is_soft()) soften_substep();
     else if (state_.settings.stepping == Stepping::time_division) divide_substep();
     else resolve_substep();

@@ -47,9 +47,10 @@ template <class S> bool ParticleEngine<S>::is_touching(const ParticleConstraint<
 template <class S> void ParticleEngine<S>::resolve_rows() {
   const auto count = static_cast<std::uint32_t>(rows_.size());
   const std::uint32_t asked = state_.settings.iterations;
-  const std::uint32_t most = asked == 0 ? WorstFirst<S>::default_iterations(count) : asked;
+  std::optional<std::uint32_t> shared;
+  if (asked != 0) shared = asked;
   report_.unresolved +=
-      worst_first_.resolve(rows_.data(), count, state_.velocity, scratch_.displacement, scratch_.gained, most);
+      worst_first_.resolve(rows_.data(), count, state_.velocity, scratch_.displacement, scratch_.gained, shared);
   for (ParticleConstraint<S>& row : rows_) row.impulse_seen = max(row.impulse_seen, row.impulse);
 }
 

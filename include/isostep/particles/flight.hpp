@@ -18,6 +18,13 @@ template <class S> struct FlightRow {
   S linear_drag;     // [N s/m]
   S quadratic_drag;  // [N s^2/m^2]
   Step<S> keep;      // [1] of the velocity, a sub-step
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("gravity", self.gravity);
+    visit("linear_drag", self.linear_drag);
+    visit("quadratic_drag", self.quadratic_drag);
+    visit("keep", self.keep);
+  }
 };
 
 /// Particles first <= slot < end, and what a sub-step reads and writes of them.

@@ -99,7 +99,7 @@ template <class S> class ParticleGrid {
   std::vector<std::uint32_t> ranks_[3];   // and their new numbers
   std::vector<std::uint64_t> found_;      // index << 32 | index, in the order of the walk
   std::vector<std::uint64_t> scratch_;
-  std::uint64_t found_count_ = 0;
+  std::size_t found_count_ = 0;
   std::uint32_t max_pairs_ = 0;
   std::uint64_t tests_ = 0;
 };

@@ -247,7 +247,7 @@ template <class S> ISO_INLINE void ParticleGrid<S>::test_range(const Item& one, 
   tests_ += length;
   if (found_.size() < found_count_ + length) found_.resize(2u * (found_count_ + length));
   std::uint64_t* const found = found_.data();
-  std::uint64_t count = found_count_;
+  std::size_t count = found_count_;
   const Item self = one;
   for (const Item* other = from; other != to; ++other) {
     const Vec3<S> apart = other->position - self.position;

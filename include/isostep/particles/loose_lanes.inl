@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstring>
+
 #include "isostep/particles/axes.hpp"
 #include "isostep/scalar/lanes.hpp"
 
@@ -10,13 +12,13 @@ namespace {
 
 template <int W, class Isa, class T> ISO_INLINE Lanes<T, W, Isa> load_loose(const T* from) {
   alignas(kLaneAlignment<T, W>) T copy[W];
-  __builtin_memcpy(copy, from, sizeof copy);
+  std::memcpy(copy, from, sizeof copy);
   return Lanes<T, W, Isa>::load(copy);
 }
 template <class T, int W, class Isa> ISO_INLINE void store_loose(Lanes<T, W, Isa> value, T* to) {
   alignas(kLaneAlignment<T, W>) T copy[W];
   value.store(copy);
-  __builtin_memcpy(to, copy, sizeof copy);
+  std::memcpy(to, copy, sizeof copy);
 }
 template <int W, class Isa, class T> ISO_INLINE Vec3<Lanes<T, W, Isa>> load_loose(AxesView<T> from, std::uint32_t i) {
   return {load_loose<W, Isa>(from.x + i), load_loose<W, Isa>(from.y + i), load_loose<W, Isa>(from.z + i)};

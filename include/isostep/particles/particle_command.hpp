@@ -17,34 +17,34 @@ namespace isostep {
 /// Registers a record: a material, spring, force, cohesion, link or collider.
 template <class Record> struct AddRecord {
   Record record;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("record", self.record);
   }
 };
 template <class Record, class IdType> struct SetRecord {
   IdType id;
   Record record;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("id", self.id);
     visit("record", self.record);
   }
 };
 template <class IdType> struct RemoveRecord {
   IdType id;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("id", self.id);
   }
 };
 
 template <class S> struct CreateParticle {
   ParticleDefinition<S> definition;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("definition", self.definition);
   }
 };
 struct DestroyParticle {
   ParticleId particle;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
   }
 };
@@ -53,7 +53,7 @@ template <class S> struct SetParticleMotion {
   ParticleId particle;
   Vec3<S> position;  // [m]
   Vec3<S> velocity;  // [m/s]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
     visit("position", self.position);
     visit("velocity", self.velocity);
@@ -63,7 +63,7 @@ template <class S> struct SetParticleMass {
   ParticleId particle;
   S mass;  // [kg]
   bool pinned;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
     visit("mass", self.mass);
     visit("pinned", self.pinned);
@@ -72,7 +72,7 @@ template <class S> struct SetParticleMass {
 struct SetParticleMaterial {
   ParticleId particle;
   ParticleMaterialId material;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
     visit("material", self.material);
   }
@@ -81,7 +81,7 @@ struct SetParticleMaterial {
 template <class S> struct PushParticle {
   ParticleId particle;
   Vec3<S> force;  // [N]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
     visit("force", self.force);
   }
@@ -90,7 +90,7 @@ template <class S> struct PushParticle {
 template <class S> struct KickParticle {
   ParticleId particle;
   Vec3<S> impulse;  // [kg m/s]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("particle", self.particle);
     visit("impulse", self.impulse);
   }
@@ -98,13 +98,13 @@ template <class S> struct KickParticle {
 /// A contact of the next step.
 template <class S> struct TouchParticle {
   ParticleTouch<S> touch;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("touch", self.touch);
   }
 };
 template <class S> struct SetParticleGravity {
   Vec3<S> gravity;  // [m/s^2]
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("gravity", self.gravity);
   }
 };

@@ -16,6 +16,7 @@
 #include "isostep/particles/scenery.hpp"
 #include "isostep/particles/solvers/worst_first.hpp"
 #include "isostep/particles/stiff_spring.hpp"
+#include "isostep/state/leaves.hpp"
 
 namespace isostep {
 
@@ -49,6 +50,11 @@ template <class S> class ParticleEngine {
 
   // engine_step.inl
   ParticleReport step(const ParticleStageObserver& observer);
+  StageView view(std::uint32_t stage);
+
+  // engine_leaves.inl
+  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink* sink,
+                          const LeafEditor* editor);
 
   // engine_state.inl
   void load(const ParticleState<S>& from);
@@ -173,6 +179,9 @@ template <class S> class ParticleEngine {
   std::uint32_t next_contact(Unit<S>& when) const;
   Unit<S> time_to(const ParticleConstraint<S>& row) const;
   void travel(Unit<S> share);
+
+  // engine_leaves.inl
+  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
 
   // engine_step.inl
   void begin_step();

@@ -17,12 +17,26 @@ template <class S> struct ParticleExpired {
   ParticleMaterialId material;
   Vec3<S> position;  // [m]
   Vec3<S> velocity;  // [m/s]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("particle", self.particle);
+    visit("material", self.material);
+    visit("position", self.position);
+    visit("velocity", self.velocity);
+  }
 };
 /// A particle began to press on another, or on scenery. Ascending by slots.
 template <class S> struct ParticleContactBegin {
   ParticleId a, b;      // b null: the collider
   ColliderId collider;  // null: b
   S speed;              // [m/s] at which they closed
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("collider", self.collider);
+    visit("speed", self.speed);
+  }
 };
 
 template <class S> struct ParticleEvents {
@@ -51,6 +65,15 @@ struct ParticleReport {
   ISO_INLINE constexpr bool clean() const {
     return clamped_speed == 0 && clamped_position == 0 && stopped == 0 && unresolved == 0 && undivided == 0 &&
            unsolved == 0 && lost_pairs == 0;
+  }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("clamped_speed", self.clamped_speed);
+    visit("clamped_position", self.clamped_position);
+    visit("stopped", self.stopped);
+    visit("unresolved", self.unresolved);
+    visit("undivided", self.undivided);
+    visit("unsolved", self.unsolved);
+    visit("lost_pairs", self.lost_pairs);
   }
 };
 

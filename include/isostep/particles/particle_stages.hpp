@@ -20,9 +20,11 @@ inline constexpr const char* kParticleStageNames[kParticleStages] = {
     "find_contacts",      "solve_substeps", "restitution",     "store_impulses",
     "finalise_particles", "yield_springs",  "expire_particles"};
 
-/// Called after each stage of a step; sees the world, changes nothing.
+class StageView;  // state/leaves.hpp
+
+/// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
 struct ParticleStageObserver {
-  void (*after)(void* user, ParticleStage stage) = nullptr;
+  void (*after)(void* user, ParticleStage stage, const StageView& left) = nullptr;
   void* user = nullptr;
 };
 

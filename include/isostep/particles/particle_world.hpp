@@ -143,6 +143,8 @@ template <class S> class ParticleWorld {
 
   /// The arrays behind the world, for tools that compare, describe and measure: see particle_state.hpp.
   const ParticleState<S>& state() const;
+  /// The same leaf by leaf, by name: what an observer of stages is given, without what a stage leaves.
+  StageView leaves() const;
 
  private:
   std::unique_ptr<ParticleEngine<S>> engine_;

@@ -260,5 +260,6 @@ template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
       input, [&](const ParticleCommand<S>& command) { return apply(command); }, [&] { step(); });
 }
 template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }
+template <class S> StageView ParticleWorld<S>::leaves() const { return engine_->view(kParticleStages); }
 
 }  // namespace isostep

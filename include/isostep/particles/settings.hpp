@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kParticleSolvers = 2;
 
 /// fixed          every sub-step has one length
 /// time_division  a sub-step ends at the first contact within it, which is resolved before the rest goes on, so that
-///                nothing tunnels (Millington, ch. 7.4.2)
+///                nothing tunnels (Millington, ch. 7.4.2); the sub-step of the whole world, so what is far off shows
 enum class Stepping : std::uint32_t { fixed, time_division };
 inline constexpr const char* kSteppingNames[] = {"fixed", "time_division"};
 inline constexpr std::uint32_t kSteppings = 2;
@@ -44,7 +44,7 @@ template <class S> struct ParticleSettings {
   Integrator integrator = Integrator::semi_implicit_euler;
   ParticleSolver solver = ParticleSolver::soft_step;
   Stepping stepping = Stepping::fixed;
-  std::uint32_t iterations = 0;  // of worst_first a sub-step; 0: twice the number of constraints
+  std::uint32_t iterations = 0;  // of worst_first a sub-step, of all; 0: two a constraint, each island its own
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("hz", self.hz);

@@ -12,6 +12,13 @@ namespace isostep {
 template <class S> struct OscillatorStep {
   Unit<S> dd, dv, vv;  // [1]
   S vd;                // [1/s]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("dd", self.dd);
+    visit("dv", self.dv);
+    visit("vv", self.vv);
+    visit("vd", self.vd);
+  }
 };
 
 /// Of d'' = -k w d - c w d', where w [1/kg] is the sum of both ends' 1/m.

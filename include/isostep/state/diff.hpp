@@ -32,6 +32,9 @@ struct PathPart {
   std::size_t index;
 };
 
+/// "bodies[17].velocity.x"
+std::string path_text(const PathPart& path);
+
 /// Counts every difference, keeps the first few.
 class DiffReport {
  public:

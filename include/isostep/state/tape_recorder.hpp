@@ -83,6 +83,14 @@ template <TapedWorld W> class TapeRecorder {
     return result;
   }
   ISO_INLINE Result<void> end_frame() { return end_frame(world_.hash()); }
+  /// After `end_frame`, with nothing told to the world since: whoever verifies the recording compares this state byte
+  /// for byte with its own.
+  ISO_INLINE Result<void> keyframe() {
+    const char* flaw = start_.flaw(world_, tape_);
+    if (flaw == nullptr && !tape_.empty()) flaw = "a keyframe stands between two frames";
+    if (flaw != nullptr) return Error{ErrorCode::invalid, flaw, "recorder"};
+    return recorder_.keyframe(world_);
+  }
   ISO_INLINE Result<void> finish() { return recorder_.finish(); }
 
  private:

@@ -20,12 +20,21 @@ struct VerifyResult {
 
   VerifyOutcome outcome;
   Where where;              // diverged: at the initial state, after a frame, or a stored keyframe is not the state
-  std::uint64_t frames;     // frames whose hashes agreed; so the frame that diverged, or the first that is missing
+  std::uint64_t frames;     // verified: compared; else the frame that diverged, or the first that is missing
   std::uint64_t expected;   // diverged: the replay's hash
   std::uint64_t actual;     // diverged: ours
   std::size_t offset;       // truncated, corrupt: the place in the file [bytes]
   HeaderMismatch mismatch;  // incompatible
   Error error;              // truncated, corrupt
+};
+
+inline constexpr std::uint64_t kAllFrames = ~std::uint64_t{0};
+
+/// What of a replay is played.
+struct VerifySpan {
+  std::uint64_t first = 0;           // frames before it
+  std::uint64_t count = kAllFrames;  // at most
+  Bytes state = {};  // portable, after `first` frames; empty: the replay's own start, where `first` is 0
 };
 
 /// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.
@@ -36,29 +45,45 @@ std::string describe(const VerifyResult& result);
 namespace detail {
 /// What the file itself says before any simulation runs; `verified` when it says nothing against.
 VerifyResult verify_file(const ReplayReader& replay);
-/// The answer when every frame that is there agreed.
-VerifyResult verify_end(const ReplayReader& replay);
+/// The answer when every frame that was to be compared agreed, so many.
+VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared);
+VerifyResult too_short(const ReplayReader& replay);
 VerifyResult diverged(VerifyResult::Where where, std::uint64_t frames, std::uint64_t expected, std::uint64_t actual);
 VerifyResult corrupt(std::uint64_t frames, std::size_t offset, const Error& error);
 VerifyResult incompatible(const HeaderMismatch& mismatch);
 bool same_bytes(Bytes a, Bytes b);
 
-/// Steps through what the reader holds. A keyframe must be, byte for byte, the state that was reached.
-template <ReplayableSimulation Sim> ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim) {
-  Reader reader(replay.state());
+/// `sim` becomes the span's start, which must be the state that the replay has there; `verified` if it is.
+template <ReplayableSimulation Sim>
+ISO_INLINE VerifyResult verify_start(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
+  const bool own = span.state.empty();
+  if (span.first > replay.frame_count()) return too_short(replay);
+  Reader reader(own ? replay.state() : span.state);
   Result<void> read = sim.read_portable(reader);
   if (read) {
     reader.expect_end();
-    read = reader.result("INIT");
+    read = reader.result(own ? "INIT" : "state");
   }
-  if (!read) return corrupt(0, replay.state_offset() + reader.offset(), read.error());
-  const std::uint64_t start = sim.hash();
-  if (start != replay.state_hash()) return diverged(VerifyResult::Where::start, 0, replay.state_hash(), start);
+  if (!read) return corrupt(span.first, (own ? replay.state_offset() : 0) + reader.offset(), read.error());
+  const std::uint64_t expected = span.first == 0 ? replay.state_hash() : replay.frame(span.first - 1).hash;
+  const std::uint64_t hash = sim.hash();
+  if (hash != expected) return diverged(VerifyResult::Where::start, span.first, expected, hash);
+  return {};
+}
 
+/// Steps through what the reader holds. A keyframe must be, byte for byte, the state that was reached.
+template <ReplayableSimulation Sim>
+ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
+  const VerifyResult start = verify_start(replay, sim, span);
+  if (start.outcome != VerifyOutcome::verified) return start;
+
+  const std::uint64_t left = replay.frame_count() - span.first;
+  const std::uint64_t count = left < span.count ? left : span.count;
   std::vector<std::uint8_t> written;
   std::size_t next_key = 0;
   const std::vector<ReplayKeyframe>& keys = replay.keyframes();
-  for (std::uint64_t i = 0;; ++i) {
+  while (next_key < keys.size() && keys[next_key].frames < span.first) ++next_key;
+  for (std::uint64_t i = span.first;; ++i) {
     for (; next_key < keys.size() && keys[next_key].frames == i; ++next_key) {
       const std::uint64_t hash = sim.hash();
       written.clear();
@@ -68,7 +93,7 @@ template <ReplayableSimulation Sim> ISO_INLINE VerifyResult verify_frames(const 
         return diverged(VerifyResult::Where::keyframe, i, keys[next_key].hash, hash);
       }
     }
-    if (i == replay.frame_count()) return verify_end(replay);
+    if (i == span.first + count) return verify_end(replay, count);
     const ReplayFrame frame = replay.frame(i);
     const Result<void> stepped = sim.step_recorded(frame.input);
     if (!stepped) return corrupt(i, replay.offset_of(frame.input), stepped.error());
@@ -82,15 +107,15 @@ template <ReplayableSimulation Sim> ISO_INLINE VerifyResult verify_frames(const 
 /// matter. A damaged file is never stepped; a cut one is, as far as it goes, and may turn out to diverge.
 template <ReplayableSimulation Sim, class Check>
 requires requires(Check& check, const ReplayHeader& header) { HeaderMismatch(check(header)); }
-ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& check) {
+ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& check, const VerifySpan& span = {}) {
   const VerifyResult file = detail::verify_file(replay);
   if (file.outcome != VerifyOutcome::verified) return file;
   if (replay.has_header()) {
     const HeaderMismatch mismatch = check(replay.header());
     if (!mismatch.key.empty()) return detail::incompatible(mismatch);
   }
-  if (!replay.has_state()) return detail::verify_end(replay);
-  return detail::verify_frames(replay, sim);
+  if (!replay.has_state()) return detail::verify_end(replay, 0);
+  return detail::verify_frames(replay, sim, span);
 }
 
 /// Accepts what has the same required fields as `here`.

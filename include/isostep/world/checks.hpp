@@ -108,7 +108,7 @@ template <class S> bool overspins(Vec3<Velocity<S>> spin, const Aabb<S>& box) {
 }
 
 /// An exact sum as an S, held at the ends of the format instead of wrapping.
-template <class S, class Sum> S saturate_to(Sum sum, S highest) {
+template <class S, class Sum> S saturate_at(Sum sum, S highest) {
   const auto bound = product(highest, S(1));
   return bound < sum ? highest : sum < -bound ? -highest : round_to<S>(sum);
 }
@@ -120,7 +120,7 @@ template <class S> Fault fault_of_place(Vec3<S> point) {
 
 /// The moment of a force that a user gave, whatever its size.
 template <class S> Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
-  const auto part = [](S a, S b, S c, S d) { return saturate_to<S>(product(a, b) - product(c, d), highest<S>()); };
+  const auto part = [](S a, S b, S c, S d) { return saturate_at<S>(product(a, b) - product(c, d), highest<S>()); };
   return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z),
           part(arm.x, force.y, arm.y, force.x)};
 }

@@ -10,8 +10,9 @@
 
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
-#include "isostep/dynamics/island.hpp"
+#include "isostep/core/disjoint_sets.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
+#include "isostep/state/leaves.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/state.hpp"
@@ -28,6 +29,10 @@ struct Location {
   std::uint32_t index = 0;
 
   bool is_frozen() const { return set < kAwake; }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("set", self.set);
+    visit("index", self.index);
+  }
 };
 
 /// A record of a woken island, to be sorted into the awake image.
@@ -64,6 +69,7 @@ template <class S> class WorldEngine {
 
   // engine_step.inl
   StepReport step(const StageObserver& observer);
+  StageView view(std::uint32_t stage);
 
   // engine_bodies.inl
   const BodyState<S>* state_of(BodyId body) const;
@@ -76,6 +82,10 @@ template <class S> class WorldEngine {
   Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body) const;
   Pose<S> centre_pose_at(std::uint32_t slot) const;
   S joint_error(JointId joint) const;
+
+  // engine_leaves.inl
+  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink* sink,
+                          const LeafEditor* editor);
 
   // engine_queries.inl
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
@@ -201,6 +211,10 @@ template <class S> class WorldEngine {
   void finalise_bodies();
   void finish_body(std::size_t index);
   void discard_bad_impulses();
+
+  // engine_leaves.inl
+  template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
+  template <class Visit> void visit_joints(const Visit& visit, bool solved);
 
   // engine_sleep.inl
   void update_sleep();

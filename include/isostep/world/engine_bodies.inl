@@ -135,15 +135,15 @@ template <class S> void WorldEngine<S>::restless(std::uint32_t slot) {
 /// them up.
 template <class S> void WorldEngine<S>::wake_touching(std::uint32_t slot) {
   if (!proxies_.present(slot)) return;
-  std::vector<std::uint64_t> met;
+  std::vector<std::uint32_t> met;
   proxies_.tree().query(proxies_.tree().box(slot), [&](std::uint32_t other) {
     if (locations_[other].is_frozen()) met.push_back(other);
     else if (other != slot) restless(other);
     return true;
   });
-  std::vector<std::uint64_t> scratch(met.size());
+  std::vector<std::uint32_t> scratch(met.size());
   stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
-  for (const std::uint64_t other : met) {
+  for (const std::uint32_t other : met) {
     const Location at = locations_[other];
     if (at.is_frozen()) unlist(at.set);
   }

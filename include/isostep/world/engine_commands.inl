@@ -22,7 +22,7 @@ template <class S> Vec3<S> bounded_quotient(Vec3<S> v, S divisor, S limit) {
           bounded_quotient(v.z, divisor, limit)};
 }
 template <class S> Vec3<S> bounded_product(const Mat3<S>& m, Vec3<S> v, S limit) {
-  const auto row = [&](int i) { return saturate_to<S>(dot_sum(m.rows[i], v), limit); };
+  const auto row = [&](int i) { return saturate_at<S>(dot_sum(m.rows[i], v), limit); };
   return {row(0), row(1), row(2)};
 }
 template <class S> Vec3<S> bounded_sum(Vec3<S> a, Vec3<S> b, S limit) {
@@ -69,8 +69,8 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
   std::vector<ShapeRecord>& shapes = state_.shapes.change();
   std::vector<Child<S>>& pool = state_.children.change();
   const ShapeRecord gone = shapes[slot];
-  const auto first = pool.begin() + gone.first_child;
-  pool.erase(first, first + gone.child_count);
+  const auto first = pool.begin() + static_cast<std::ptrdiff_t>(gone.first_child);
+  pool.erase(first, first + static_cast<std::ptrdiff_t>(gone.child_count));
   for (ShapeRecord& record : shapes) {
     if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
   }

@@ -61,8 +61,9 @@ template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
   if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
   const std::uint32_t slot = command.joint.slot;
   const std::uint32_t index = wake_joint(command.joint);
-  state_.joints.states.erase(state_.joints.states.begin() + index);
-  state_.joints.properties.erase(state_.joints.properties.begin() + index);
+  const auto at = static_cast<std::ptrdiff_t>(index);
+  state_.joints.states.erase(state_.joints.states.begin() + at);
+  state_.joints.properties.erase(state_.joints.properties.begin() + at);
   joint_locations_[slot] = Location{};
   relabel_joints(state_.joints, Location::kAwake, index);
   state_.joint_slots.give_back(slot);

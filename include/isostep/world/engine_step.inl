@@ -12,7 +12,7 @@ namespace isostep {
 template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
   const FloatEnvironment environment;
   const auto after = [&](Stage stage) {
-    if (observer.after != nullptr) observer.after(observer.user, stage);
+    if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
     if (trace_ != nullptr) trace_->push_back(hash());
   };
   if (trace_ != nullptr) trace_->push_back(hash());
@@ -37,6 +37,11 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   ++state_.tick;
   woke_reported_ = events_.woke.size();
   return report_;
+}
+
+template <class S> StageView WorldEngine<S>::view(std::uint32_t stage) {
+  const auto hash = [](const void* engine) { return static_cast<const WorldEngine*>(engine)->hash(); };
+  return {{this, hash, &WorldEngine::walk_leaves}, stage};
 }
 
 /// From colour_constraints to store_impulses. Where nobody looks in between, stages are given to the threads as one: to

@@ -17,12 +17,29 @@ template <class S> struct ContactBegin {
   BodyId a, b;
   S impulse;  // [kg m/s] that all points together gave over the step along their normals; held at the format's end
   Vec3<Unit<S>> normal;  // [1] from a to b, of the first parts in contact
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("impulse", self.impulse);
+    visit("normal", self.normal);
+  }
 };
 struct ContactEnd {
   BodyId a, b;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+  }
 };
 struct SensorEvent {
   BodyId sensor, other;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("sensor", self.sensor);
+    visit("other", self.other);
+  }
 };
 
 template <class S> struct Events {
@@ -51,6 +68,11 @@ struct StepReport {
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
   ISO_INLINE constexpr bool clean() const { return clamped_speed == 0 && clamped_position == 0 && stopped == 0; }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("clamped_speed", self.clamped_speed);
+    visit("clamped_position", self.clamped_position);
+    visit("stopped", self.stopped);
+  }
 };
 
 }  // namespace isostep

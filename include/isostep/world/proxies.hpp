@@ -23,7 +23,7 @@ template <class S> class Proxies {
   std::size_t slots() const { return keys_.size(); }
   bool present(std::uint32_t slot) const { return slot < keys_.size() && keys_[slot].present; }
 
-  const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
+  ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
   const AabbTree<S>& tree() const { return tree_; }
 
  private:

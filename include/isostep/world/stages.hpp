@@ -28,9 +28,11 @@ inline constexpr const char* kStageNames[kStages] = {
 /// Of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;
 
-/// Called after each stage of a step; sees the world, changes nothing.
+class StageView;  // state/leaves.hpp
+
+/// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
 struct StageObserver {
-  void (*after)(void* user, Stage stage) = nullptr;
+  void (*after)(void* user, Stage stage, const StageView& left) = nullptr;
   void* user = nullptr;
 };
 

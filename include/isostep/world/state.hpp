@@ -23,7 +23,7 @@ struct ShapeRecord {
   std::uint32_t first_child;
   std::uint32_t child_count;
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("first_child", self.first_child);
     visit("child_count", self.child_count);
   }
@@ -33,6 +33,13 @@ struct ShapeRecord {
 template <class S> struct BodySet {
   std::vector<BodyState<S>> states;
   std::vector<BodyProperties<S>> properties;
+
+  // As the compiler makes them, but no weak functions in each of the files that copy what is Shared.
+  ISO_INLINE BodySet() = default;
+  ISO_INLINE BodySet(const BodySet&) = default;
+  ISO_INLINE BodySet(BodySet&&) = default;
+  ISO_INLINE BodySet& operator=(const BodySet&) = default;
+  ISO_INLINE BodySet& operator=(BodySet&&) = default;
 };
 /// Joints side by side, ascending by slot.
 template <class S> struct JointSet {
@@ -66,7 +73,7 @@ struct SensorOverlap {
   friend constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
     return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
   }
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("sensor", self.sensor);
     visit("other", self.other);
   }

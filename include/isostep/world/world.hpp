@@ -205,6 +205,8 @@ template <class S> class World {
 
   /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.
   const WorldState<S>& state() const;
+  /// The same leaf by leaf, by name: what an observer of stages is given, without what a stage leaves.
+  StageView leaves() const;
 
  private:
   std::unique_ptr<WorldEngine<S>> engine_;

@@ -8,10 +8,13 @@ namespace isostep::scenes {
 
 /// All that it remembers is in `world`: saving and loading that between frames is enough.
 template <class S> struct ParticleGame {
-  explicit ParticleGame(const ParticleScene& scene) : ParticleGame(scene, script_of<S>(scene.id).settings) {}
-  /// With another rate or method than the scene's.
-  ParticleGame(const ParticleScene& scene, const ParticleSettings<S>& settings)
+  explicit ParticleGame(const ParticleScene& scene)
+      : ParticleGame(scene, script_of<S>(scene.id).settings, [](ParticleWorld<S>&) {}) {}
+  /// With another rate or method than the scene's. `begin(world)` sees the world while it is empty.
+  template <class Begin>
+  ParticleGame(const ParticleScene& scene, const ParticleSettings<S>& settings, Begin&& begin)
       : script(script_of<S>(scene.id)), world(settings) {
+    begin(world);
     script.build(world);
   }
 

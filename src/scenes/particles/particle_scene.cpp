@@ -27,6 +27,7 @@ constexpr ParticleScene kScenes[] = {
     {Id::velocity_verlet, "velocity_verlet", "a small cloth by velocity Verlet", 300},
     {Id::rk4, "rk4", "a small cloth by Runge and Kutta", 300},
     {Id::implicit_euler, "implicit_euler", "a small cloth too stiff for the others", 120},
+    {Id::patchwork, "patchwork", "the fewest particles that meet springs, links, scenery and each other", 120},
 };
 
 }  // namespace
@@ -59,6 +60,7 @@ template <class S> ParticleScript<S> script_of(ParticleSceneId id) {
     case Id::velocity_verlet: return particle_scripts::small_cloth<S>(Integrator::velocity_verlet);
     case Id::rk4: return particle_scripts::small_cloth<S>(Integrator::rk4);
     case Id::implicit_euler: return particle_scripts::small_cloth<S>(Integrator::implicit_euler);
+    case Id::patchwork: return particle_scripts::patchwork<S>();
   }
   throw SceneError("", "no such particle scene");
 }

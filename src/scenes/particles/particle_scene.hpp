@@ -34,7 +34,8 @@ enum class ParticleSceneId : std::uint32_t {
   explicit_euler,
   velocity_verlet,
   rk4,
-  implicit_euler
+  implicit_euler,
+  patchwork
 };
 
 struct ParticleScene {
@@ -64,6 +65,7 @@ template <class S> ParticleScript<S> springs();
 template <class S> ParticleScript<S> cradle();
 template <class S> ParticleScript<S> billiards();
 template <class S> ParticleScript<S> bullets();
+template <class S> ParticleScript<S> patchwork();
 }  // namespace particle_scripts
 
 #define ISO_EXTERN(S) extern template ParticleScript<S> script_of<S>(ParticleSceneId);

@@ -5,6 +5,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <isostep/world/recorder.hpp>
+#include <isostep/world/selfcheck.hpp>
 #include <isostep/world/world.hpp>
 #include <vector>
 
@@ -25,6 +26,8 @@ bool write_file(const char* path, const std::vector<std::uint8_t>& bytes) {
 
 int main(int count, char** arguments) {
   if (count != 2) return 64;
+  if (const iso::SelfcheckResult check = iso::selfcheck(); !check.sound())
+    return std::fprintf(stderr, "%s\n", iso::describe(check).c_str()), 2;
   World world;
   std::vector<std::uint8_t> replay;
   iso::WorldRecorder<Number> recorder(world, iso::sink_to(replay));

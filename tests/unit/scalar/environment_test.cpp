@@ -19,31 +19,35 @@ __attribute__((noinline)) std::uint32_t probe_here() { return probe_environment_
 __attribute__((noinline)) std::uint64_t sums() {
   volatile float one = 1, bit = 0x1p-25f, small = 0x1p-126f, half = 0.5f, three = 3;
   volatile double third = 1 / double(three);
-  const float up = one + bit, down = -one - bit, flushed = small * half;
+  volatile std::int64_t odd = (std::int64_t(1) << 40) + 1;  // 24 bits do not hold it; i686 converts in another unit
+  const float up = one + bit, down = -one - bit, flushed = small * half, converted = static_cast<float>(odd);
   std::uint64_t hash = std::bit_cast<std::uint64_t>(double(third));
-  for (const float x : {up, down, flushed}) hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(x);
+  for (const float x : {up, down, flushed, converted}) {
+    hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(x);
+  }
   return hash;
 }
 
 /// The states a caller may have: the control bits of one kind each, and all together.
 std::vector<std::uint64_t> hostile_states(std::uint64_t sound) {
 #if defined(__SSE2__)
-  return {sound | 0x8000,
-          sound | 0x0040,
-          sound | 0x8040,
-          sound | 0x2000,
-          sound | 0x4000,
-          sound | 0x6000,
-          sound | 0xe040,
-          sound | 0x3f,
-          sound & ~std::uint64_t{0x3f},
-          (sound & ~std::uint64_t{0x3f}) | 0xe040 | 0x1};
+  return {
+#if defined(__i386__)
+    sound | 0x0800'0000'0000,        // x87: up
+        sound & ~std::uint64_t{0x0100'0000'0000},  // x87: sums of 53 bits
+        sound | 0x0020'0000'0000'0000, sound & ~std::uint64_t{0x007f'0000'0000'0000},  // x87: flags
+#endif
+        sound | 0x8000, sound | 0x0040, sound | 0x8040, sound | 0x2000, sound | 0x4000, sound | 0x6000, sound | 0xe040,
+        sound | 0x3f, sound & ~std::uint64_t{0x3f}, (sound & ~std::uint64_t{0x3f}) | 0xe040 | 0x1
+  };
 #elif defined(__aarch64__) || (defined(__arm__) && defined(__ARM_FP))
   return {sound | 1u << 24, sound | 1u << 22, sound | 2u << 22, sound | 3u << 22, sound | 7u << 22};
 #elif defined(__riscv_flen)
   return {sound | 1u << 5, sound | 2u << 5, sound | 3u << 5, sound | 0x1f, sound & ~std::uint64_t{0x1f}};
 #elif defined(__s390x__)
   return {sound | 1, sound | 2, sound | 3};
+#elif defined(__powerpc__)
+  return {sound | 1, sound | 2, sound | 3, sound | 0x06000000, sound & ~std::uint64_t{0x06000000}};
 #else
   static_cast<void>(sound);
   return {};
@@ -151,6 +155,26 @@ TEST_F(FloatEnvironmentTest, ExceptionsAreMaskedInside) {
   }
   State::write(before_);
   SUCCEED();
+}
+#endif
+
+#if defined(__i386__)
+/// The x87 traps at the instruction after: a flag that a guarded conversion left would end a caller who has no mask.
+TEST_F(FloatEnvironmentTest, ConversionsInsideDoNotTrapOutside) {
+  constexpr std::uint64_t kInexactMask = 0x0020'0000'0000, kInexactFlag = 0x0020'0000'0000'0000;
+  const std::uint64_t unmasked = before_ & ~(kInexactMask | kInexactFlag);
+  State::write(unmasked);
+  std::uint64_t inside = 0;
+  {
+    FloatEnvironment guard;
+    sums();
+    inside = State::read();
+  }
+  __asm__ volatile("fwait");
+  const std::uint64_t left = State::read();
+  State::write(before_);
+  EXPECT_NE(inside & kInexactFlag, 0u) << "the x87 rounded nothing, so the test shows nothing";
+  EXPECT_EQ(left, unmasked);
 }
 #endif
 

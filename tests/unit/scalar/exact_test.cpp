@@ -80,6 +80,7 @@ TYPED_TEST(ExactNumber, AbsMinAndMaxHaveOneAnswer) {
   EXPECT_EQ(min(E(1), E(2)), E(1));
   EXPECT_EQ(max(E(1), E(2)), E(2));
   EXPECT_EQ(to_bits(min(E(T(0)), E(T(-0.0))).value()), to_bits(T(0))) << "equal numbers: the first";
+  EXPECT_EQ(to_bits(max(E(T(-0.0)), E(T(0))).value()), to_bits(T(-0.0))) << "also where one is a constant";
 }
 
 TYPED_TEST(ExactNumber, ConvertsAsItsNumberDoes) {

@@ -72,7 +72,7 @@ TEST(ParticleSceneList, NamesAreFoundAndDiffer) {
     EXPECT_EQ(find_particle_scene(scene.name), &scene);
     EXPECT_GT(scene.frames, 0);
   }
-  EXPECT_EQ(names.size(), 17u);
+  EXPECT_EQ(names.size(), 18u);
   EXPECT_EQ(find_particle_scene("no such"), nullptr);
 }
 

@@ -142,6 +142,35 @@ TEST(TapeRecorder, WhatItWritesIsPlayedAndVerified) {
   EXPECT_EQ(again.tick(), world.tick());
 }
 
+TEST(TapeRecorder, AKeyframeIsTheStateAfterTheLastFrame) {
+  ToyWorld world;
+  Buffer file;
+  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  ASSERT_TRUE(recorder.begin("a toy").ok());
+  for (std::uint32_t frame = 0; frame < 5; ++frame) {
+    world.apply(Push{frame, Q32_32(0.5)});
+    world.step();
+    ASSERT_TRUE(recorder.end_frame().ok());
+    if (frame == 2) {
+      ASSERT_TRUE(recorder.keyframe().ok());
+    }
+  }
+  ASSERT_TRUE(recorder.keyframe().ok() && recorder.finish().ok());
+  const ReplayReader replay(file);
+  ASSERT_EQ(replay.keyframes().size(), 2u);
+  EXPECT_EQ(replay.keyframes()[0].frames, 3u);
+  EXPECT_EQ(replay.keyframes()[1].hash, world.hash());
+  const ReplayHeader here = header_of_world(world.settings(), "a toy", 0).value();
+  ToyWorld again;
+  EXPECT_EQ(verify(replay, again, SameHeader{here}).outcome, VerifyOutcome::verified);
+
+  Buffer other;
+  TapeRecorder<ToyWorld> early(world, sink_to(other));
+  ASSERT_TRUE(early.begin("a toy").ok());
+  world.apply(Push{1, 1});
+  EXPECT_FALSE(early.keyframe().ok()) << "in the middle of a frame";
+}
+
 TEST(TapeRecorder, TheGamesFirstFrameIsInTheHeader) {
   ToyWorld world;
   Buffer file;

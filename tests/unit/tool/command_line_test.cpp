@@ -5,13 +5,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "isostep/core/crc32c.hpp"
 #include "isostep/state/replay_format.hpp"
+#include "isostep/world/replay_check.hpp"
 #include "tool/commands.hpp"
+#include "tool/files.hpp"
+#include "tool/goldens.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -45,12 +50,13 @@ class CommandLine : public testing::Test {
     std::string out = testing::internal::GetCapturedStdout();
     return {status, std::move(out), testing::internal::GetCapturedStderr()};
   }
-  std::string read(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
+  static std::string content_of(const fs::path& place) {
+    std::ifstream file(place, std::ios::binary);
     std::stringstream text;
     text << file.rdbuf();
     return text.str();
   }
+  std::string read(const std::string& name) const { return content_of(path(name)); }
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(path(name), std::ios::binary) << bytes;
   }
@@ -297,6 +303,49 @@ TEST_F(CommandLine, TellsTheOutcomesOfVerifyApart) {
   EXPECT_EQ(run({"verify", path("good.replay"), path("diverged.replay")}).status, 1);
 }
 
+/// What was true of them when they were written: every frame's hash is the golden list's, and the scene is built by the
+/// commands of frame 0.
+TEST_F(CommandLine, RecordsFromTheEmptyWorldOnWhatTheGoldenListsSay) {
+  int seen = 0;
+  for (const std::string scene : {"mixed", "S6", "springs", "ballistic"}) {
+    for (const GoldenText& golden : golden_texts()) {
+      const std::optional<GoldenName> name = parse_golden_name(golden.name);
+      if (name->scene != scene || (scene == "S6" && name->scalar != "double")) continue;
+      ++seen;
+      ASSERT_EQ(run({"run", scene, "--scalar", name->scalar, "--frames", "60", "--record", path("r")}).status, 0);
+      const std::vector<std::uint8_t> file = read_file(path("r"));
+      const ReplayReader replay(file);
+      ASSERT_EQ(replay.frame_count(), 60u);
+      const auto expected = parse_hash_lines(golden.text).value();
+      for (std::size_t i = 0; i < 60; ++i) ASSERT_EQ(replay.frame(i).hash, expected[i]) << golden.name << " " << i;
+      EXPECT_EQ(replay.keyframes().size(), 1u);
+      EXPECT_EQ(replay.keyframes().at(0).frames, 60u);
+      EXPECT_LT(replay.state().size(), 400u) << "settings and nothing else";
+      EXPECT_GT(replay.frame(0).input.size(), 150u);
+    }
+  }
+  EXPECT_GE(seen, 4);
+}
+
+TEST_F(CommandLine, RecordsNothingOfNoFrames) {
+  expect_one_line(run({"run", "S1x5", "--frames", "0", "--record", path("r")}), 64, "a recording needs a frame");
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(CommandLine, RecordsFromALoadedStateOn) {
+  ASSERT_EQ(run({"run", "mixed", "--frames", "20", "--save", path("s")}).status, 0);
+  ASSERT_EQ(run({"run", "mixed", "--load", path("s"), "--frames", "20", "--record", path("r")}).status, 0);
+  ASSERT_EQ(run({"run", "mixed", "--frames", "40", "--hashes", path("h")}).status, 0);
+  const std::vector<std::uint8_t> file = read_file(path("r"));
+  const ReplayReader replay(file);
+  const Bytes start = replay.state();
+  EXPECT_EQ(std::vector<std::uint8_t>(start.begin(), start.end()), read_file(path("s")));
+  const auto hashes = parse_hash_lines(read("h")).value();
+  ASSERT_EQ(replay.frame_count(), 20u);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(replay.frame(i).hash, hashes[20 + i]);
+  EXPECT_EQ(check_replay(file).result.outcome, VerifyOutcome::verified);
+}
+
 TEST_F(CommandLine, VerifiesGoldenLists) {
   ASSERT_EQ(run({"run", "S1x5", "--frames", "20", "--scalar", "q16.16", "--hashes", path("S1x5.q16.16.txt")}).status,
             0);
@@ -359,6 +408,49 @@ TEST_F(CommandLine, BlamesTheRecordingThatIsNotReproduced) {
   EXPECT_NE(answer.out.find("B was made by something that behaves otherwise"), std::string::npos);
 }
 
+TEST_F(CommandLine, StagesThatAgreeDoNotHideHashesThatWereRecordedOtherwise) {
+  record("a.replay");
+  write("b.replay", with_changed_hash(read("a.replay")));
+  const Answer two = run({"diff", "--stages", path("a.replay"), path("b.replay")});
+  EXPECT_EQ(two.status, 1);
+  EXPECT_EQ(two.out, run({"diff", path("a.replay"), path("b.replay")}).out);
+  const Answer one = run({"diff", "--stages", path("b.replay")});
+  EXPECT_EQ(one.status, 1);
+  EXPECT_EQ(one.out.rfind("frame 0: recorded as ", 0), 0u) << one.out;
+  EXPECT_NE(one.out.find(" here: it was made by something that behaves otherwise\n"), std::string::npos) << one.out;
+  EXPECT_EQ(run({"diff", "--stages", path("a.replay")}).out, "the same: 70 frames, stage by stage\n");
+}
+
+TEST_F(CommandLine, StagesOfOtherScalarsOrWorldsAreNotCompared) {
+  record("float");
+  record("double", {"--scalar", "double"});
+  ASSERT_EQ(run({"run", "springs", "--frames", "2", "--record", path("springs")}).status, 0);
+  const Answer scalars = run({"diff", "--stages", path("float"), path("double")});
+  EXPECT_EQ(std::to_string(scalars.status) + " " + scalars.out, "1 the scalars differ\n");
+  const Answer worlds = run({"diff", "--stages", path("float"), path("springs")});
+  EXPECT_EQ(std::to_string(worlds.status) + " " + worlds.out, "1 the kinds of world differ\n");
+}
+
+TEST_F(CommandLine, SaysThatARecordingIsCutOffBeforeItComparesStages) {
+  record("whole");
+  const std::string whole = read("whole");
+  write("cut", whole.substr(0, whole.size() - 20));
+  const Answer answer = run({"diff", "--stages", path("cut")});
+  EXPECT_NE(answer.err.find("cut is cut off: what is left of it is compared\n"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.out, "the same: 70 frames, stage by stage\n");
+  EXPECT_EQ(answer.status, 0);
+}
+
+TEST_F(CommandLine, RefusesEmptyWordsThatNameAProverOrADirectory) {
+  record("a");
+  for (const std::string& blank : std::vector<std::string>{"", " \t"}) {
+    expect_one_line(run({"diff", "--stages", "--prover-a", blank, path("a")}), 64, "--prover-a");
+    expect_one_line(run({"diff", "--stages", "--prover-b", blank, path("a")}), 64, "--prover-b");
+    expect_one_line(run({"rebake", "--recordings", "--dir", blank}), 64, "--dir");
+  }
+  expect_one_line(run({"rebake", "nonsense"}), 64, "nonsense");
+}
+
 TEST_F(CommandLine, HoldsTheLawOfRestoring) {
   for (const char* scalar : {"float", "double", "q16.16", "q32.32"}) {
     const Answer answer =
@@ -369,7 +461,31 @@ TEST_F(CommandLine, HoldsTheLawOfRestoring) {
 
 TEST_F(CommandLine, ChecksItself) {
   const Answer answer = run({"selfcheck"});
-  EXPECT_EQ(answer.out.find("NOT as IEEE 754"), std::string::npos) << answer.out;
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_EQ(answer.out.rfind("sound: isostep ", 0), 0u) << answer.out;
+  EXPECT_EQ(answer.out.find('\n'), answer.out.size() - 1) << answer.out;
+  const Answer table = run({"selfcheck", "--verbose"});
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nq32\\.32 +scalar +8 of 8 recordings, "))) << table.out;
+  EXPECT_NE(table.out.find("\nsound: isostep "), std::string::npos) << table.out;
+  const auto json = nlohmann::json::parse(run({"selfcheck", "--json"}).out);
+  EXPECT_TRUE(json.at("sound").get<bool>());
+  EXPECT_TRUE(json.at("failure").is_null());
+  EXPECT_GE(json.at("parts").size(), 4u);
+}
+
+/// Recorded anew they are the files that the library carries, byte for byte, whoever records.
+TEST_F(CommandLine, RecordsTheSetOfTheSelfCheckAsItIsCommitted) {
+  const Answer answer = run({"rebake", "--recordings", "--dir", path("set")});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(ISOSTEP_SOURCE_DIR) / "replays" / "selfcheck")) {
+    ++files;
+    const std::string name = entry.path().filename().string();
+    ASSERT_TRUE(fs::exists(fs::path(path("set")) / name)) << name << ": renew the set by ./isostep rebake";
+    EXPECT_TRUE(read("set/" + name) == content_of(entry.path())) << name << ": renew it by ./isostep rebake";
+  }
+  EXPECT_NE(answer.out.find(std::to_string(files) + " of " + std::to_string(files) + " recordings"), std::string::npos)
+      << answer.out;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ template <class S> struct Peer {
       play_frame(arena, frame, input_of(frame), frame == kFault ? steps : steps_of(frame), [&] {
         const bool faulty = frame == kFault && step++ == fault_step;
         if (faulty && between) between(arena);
-        const auto after = [](void* user, Stage stage) {
+        const auto after = [](void* user, Stage stage, const StageView&) {
           Peer& peer = *static_cast<Peer*>(user);
           peer.inside(peer.arena, stage);
         };

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
+#include "tool/checked_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/diff_bundles.hpp"
-#include "tool/replay_check.hpp"
 #include "unit/state/toy_world.hpp"
 
 namespace toy {
@@ -20,7 +20,7 @@ std::string owner_of(const ToyWorld::State&, std::string_view) { return "the toy
 
 }  // namespace toy
 
-namespace isostep::tool {
+namespace isostep {
 
 template <> struct WorldTraits<toy::ToyWorld> {
   static constexpr std::string_view kName = "toys";
@@ -28,6 +28,7 @@ template <> struct WorldTraits<toy::ToyWorld> {
   static constexpr std::span<const char* const> kStages = toy::kToyStages;
 };
 
+namespace tool {
 namespace {
 
 using toy::Buffer;
@@ -117,9 +118,10 @@ TEST_F(OtherWorld, HasItsRecordingsCompared) {
 
 TEST_F(OtherWorld, ThatThisBuildLacksIsNamed) {
   const Buffer bytes = recording(1);
-  const CheckedFile checked = check_replay(bytes);
+  const CheckedReplay checked = check_replay(bytes);
   EXPECT_EQ(checked.result.outcome, VerifyOutcome::incompatible);
-  EXPECT_EQ(text_of(checked), "INCOMPATIBLE: world is \"toys\" in the replay, \"rigid bodies, particles\" here");
+  EXPECT_EQ(describe(checked.result),
+            "INCOMPATIBLE: world is \"toys\" in the replay, \"rigid bodies, particles\" here");
   const std::string toys = file("toys.replay", bytes), rigid = (folder_ / "rigid.replay").string();
   output(0, {"isostep", "run", "S1x5", "--frames", "2", "--record", rigid.c_str()});
   EXPECT_NE(output(2, {"isostep", "verify", toys.c_str()}).find("0 of 1 verified"), std::string::npos);
@@ -129,4 +131,5 @@ TEST_F(OtherWorld, ThatThisBuildLacksIsNamed) {
 }
 
 }  // namespace
-}  // namespace isostep::tool
+}  // namespace tool
+}  // namespace isostep

@@ -229,7 +229,7 @@ TYPED_TEST(WorldQuestions, a_trace_is_the_hash_before_a_step_and_after_each_stag
     const World<TypeParam>* world;
     std::vector<std::uint64_t> hashes;
   } seen{&this->world, {this->world.hash()}};
-  this->world.step({[](void* user, Stage) {
+  this->world.step({[](void* user, Stage, const StageView&) {
                       Seen& s = *static_cast<Seen*>(user);
                       s.hashes.push_back(s.world->hash());
                     },
@@ -246,7 +246,9 @@ TYPED_TEST(WorldQuestions, the_stages_of_a_step_are_reported_once_each_in_order)
   std::vector<Stage> seen;
   StageObserver observer;
   observer.user = &seen;
-  observer.after = [](void* user, Stage stage) { static_cast<std::vector<Stage>*>(user)->push_back(stage); };
+  observer.after = [](void* user, Stage stage, const StageView&) {
+    static_cast<std::vector<Stage>*>(user)->push_back(stage);
+  };
   const std::uint64_t before = this->world.hash();
   this->world.step(observer);
   EXPECT_NE(this->world.hash(), before);

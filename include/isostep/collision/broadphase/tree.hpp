@@ -152,6 +152,7 @@ template <class S> class AabbTree {
   struct Centre {
     Vec3<S> twice;    // [m] low + high
     RawBits<S> item;  // an index, as wide as S: copying a struct with a padded tail made the build twice as slow
+    ISO_INLINE std::uint32_t index() const { return static_cast<std::uint32_t>(item); }
   };
   struct Range {
     std::uint32_t begin, end, node, depth;

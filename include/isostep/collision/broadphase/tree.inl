@@ -200,7 +200,7 @@ template <class S> void AabbTree<S>::build() {
     const Range range = ranges_.back();
     ranges_.pop_back();
     if (range.end - range.begin == 1) {
-      place(range.node, items_[centres_[range.begin].item]);
+      place(range.node, items_[centres_[range.begin].index()]);
       continue;
     }
     std::uint32_t middle = range.begin + (range.end - range.begin) / 2u;
@@ -241,7 +241,7 @@ template <class S> std::uint32_t AabbTree<S>::split_off_giants() {
   const Sum<S> large = half_area(region);
   std::uint32_t giants = 0;
   for (std::uint32_t i = 0; i < count && giants < kMaxGiants; ++i) {
-    if (half_area(items_[centres_[i].item].box) < large) continue;
+    if (half_area(items_[centres_[i].index()].box) < large) continue;
     const Centre giant = centres_[i];
     centres_[i] = centres_[giants];
     centres_[giants++] = giant;

@@ -15,6 +15,7 @@ void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primit
   detail::BoxPair<S> pair;
   pair.half_a = a.half;
   pair.half_b = b.half;
+  pair.offset = Vec3<S>::zero();  // for compilers that do not see that only a pair whose axis is known is read
   const detail::BestAxis<S> best = detail::best_axis(pair, ta, tb, margin + a.radius + b.radius);
   if (best.axis < 0) return;
   if (best.axis >= 6) {

@@ -28,12 +28,33 @@ template <class S> struct BodyFrame {
   PartKind kind;      // of the only part, if plain
   bool plain;         // one part, not moved
   bool sensor, frozen;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("half", self.half);
+    visit("radius", self.radius);
+    visit("centre", self.centre);
+    visit("origin", self.origin);
+    visit("child_count", self.child_count);
+    visit("slot", self.slot);
+    visit("row", self.row);
+    visit("kind", self.kind);
+    visit("plain", self.plain);
+    visit("sensor", self.sensor);
+    visit("frozen", self.frozen);
+  }
 };
 
 /// Two bodies' parts that might touch. Frames are indices.
 struct PartPair {
   std::uint32_t frame_a, frame_b;
   std::uint32_t child_a, child_b;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("frame_a", self.frame_a);
+    visit("frame_b", self.frame_b);
+    visit("child_a", self.child_a);
+    visit("child_b", self.child_b);
+  }
 };
 
 /// Where b's frame lies for the narrow phase: everything relative to a's centre of mass, axes as the world's, so that

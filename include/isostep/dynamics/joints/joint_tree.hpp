@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "isostep/dynamics/island.hpp"
+#include "isostep/core/disjoint_sets.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
 

@@ -26,6 +26,9 @@ template <class S> class BodyRows {
   /// Velocities back into input.states.
   void store(const SolverInput<S>& input, std::size_t first, std::size_t end) const;
 
+  /// See solver_input.hpp.
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
+
   ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }
   ISO_INLINE SolverBodies<S>& rows() { return rows_; }
   ISO_INLINE const SolverBodies<S>& rows() const { return rows_; }

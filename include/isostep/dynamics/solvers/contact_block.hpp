@@ -17,6 +17,15 @@ template <class S, int W> struct AngularRow {
   S spin_a[3][W], spin_b[3][W];
   S effective_mass[W];
   Velocity<S> impulse[W];  // [m/s] accumulated
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("jacobian_a", self.jacobian_a);
+    visit("jacobian_b", self.jacobian_b);
+    visit("spin_a", self.spin_a);
+    visit("spin_b", self.spin_b);
+    visit("effective_mass", self.effective_mass);
+    visit("impulse", self.impulse);
+  }
 };
 
 template <class S, int W> struct NormalRow {
@@ -24,12 +33,25 @@ template <class S, int W> struct NormalRow {
   Velocity<S> separation[W];     // [m] when the step began; overlaps deepened, see Schedule::lift
   Velocity<S> approach[W];       // [m/s] normal speed when the step began, for restitution
   Velocity<S> total_impulse[W];  // [m/s] given over the step, but for the sub-step that runs
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("row", self.row);
+    visit("separation", self.separation);
+    visit("approach", self.approach);
+    visit("total_impulse", self.total_impulse);
+  }
 };
 
 template <class S, int W> struct FrictionRow {
   AngularRow<S, W> row;
   S direction[3][W];       // [1] tangent
   Velocity<S> surface[W];  // [m/s] speed of b's surface against a's along the tangent
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("row", self.row);
+    visit("direction", self.direction);
+    visit("surface", self.surface);
+  }
 };
 
 /// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. W numbers of one
@@ -50,6 +72,11 @@ template <class S, int W, int P> struct ContactBlock {
 template <class S, int W> struct RollingRows {
   AngularRow<S, W> rows[2];
   S lever[W];  // [1] resisting torque per normal impulse, over the rows' radius
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("rows", self.rows);
+    visit("lever", self.lever);
+  }
 };
 template <class S, int W, int P> struct RollingBlock {
   RollingRows<S, W> rolling;

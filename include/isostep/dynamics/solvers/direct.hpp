@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/dynamics/island.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/direct_system.hpp"
 #include "isostep/dynamics/solvers/solver_input.hpp"
@@ -39,6 +39,7 @@ template <class S> class DirectSolver {
   void restitute(const SolverInput<S>& input);
   void store_impulses(const SolverInput<S>& input);
   ISO_INLINE void run(const SolverInput<S>&) {}
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
 
  private:
   using System = LinearSystem<S>;

@@ -39,7 +39,7 @@ template <class N> void DirectSystem<N>::step_within_bounds() {
     const bool begins_beyond = wanted == DirectState::at_low ? from < limit : limit < from;  // by less than the slack
     const N share = begins_beyond ? N(0) : D::quotient(limit - from, of.answer - from);
     if (share < most || side == DirectState::free) {
-      most = share < N(0) ? N(0) : share;
+      most = max(share, N(0));
       stop = r;
       side = wanted;
     }

@@ -16,8 +16,8 @@ template <class N> N DirectSystem<N>::clamped(const DirectRow<N>& row, N x) {
   switch (row.bound) {
     case DirectBound::absent: return N(0);
     case DirectBound::equal: return D::bounded(x);
-    case DirectBound::above: return D::bounded(x < N(0) ? N(0) : x);
-    case DirectBound::below: return D::bounded(N(0) < x ? N(0) : x);
+    case DirectBound::above: return D::bounded(max(x, N(0)));
+    case DirectBound::below: return D::bounded(min(x, N(0)));
     case DirectBound::boxed: return x < -row.limit ? -row.limit : row.limit < x ? row.limit : x;
   }
   return x;

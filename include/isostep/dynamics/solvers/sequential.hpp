@@ -31,6 +31,7 @@ template <class S> class Sequential {
   void restitute(const SolverInput<S>& input);
   void store_impulses(const SolverInput<S>& input);
   void run(const SolverInput<S>& input);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
 
  private:
   /// Consecutive entries of order_ that one kernel solves.

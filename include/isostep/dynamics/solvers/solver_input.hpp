@@ -20,6 +20,11 @@ namespace isostep {
 template <class S> struct Acceleration {
   Vec3<S> linear;   // [m/s^2]
   Vec3<S> angular;  // [rad/s^2]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("linear", self.linear);
+    visit("angular", self.angular);
+  }
 };
 
 /// No body turns by more than a radian about an axis in a step of integration [rad/s]: beyond, a turn is no longer
@@ -57,6 +62,10 @@ template <class S> struct SolverInput {
 //   void restitute(const SolverInput<S>&);
 //   void store_impulses(const SolverInput<S>&);      into input.contacts, step_impulses, joints, states' velocities
 //   void run(const SolverInput<S>&);
+//   void visit_scratch(const Visit&, SolverStage, const SolverInput<S>&);   what this stage left for the next ones, by
+//                                                                           name: state/leaves.hpp
+
+enum class SolverStage : std::uint32_t { colour, prepare, solve, restitute, store };
 
 namespace detail {
 template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);         // [m/s] overlap ends no faster

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/island_purses.hpp"
 #include "isostep/core/knockout_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/solver_input.hpp"
@@ -35,10 +36,10 @@ template <class S> class WorstFirstResolver {
   using V = Velocity<S>;
 
  public:
-  /// Rows resolved in a pass at most: as many as the book allows.
+  /// Rows resolved in a pass at most, of an island that has so many: as many as the book allows.
   static ISO_INLINE std::uint32_t most_iterations(std::uint32_t rows) { return rows > 0x7fffffffu ? ~0u : 2u * rows; }
-  /// Looks at rows in a pass at most: 64 a row and a hundredth of a second of them. A falling wall (S2) takes 60 a row;
-  /// a crowd in one place would take the cube of its number.
+  /// Looks at an island's rows in a pass at most: 64 a row and a hundredth of a second of them. A falling wall (S2)
+  /// takes 60 a row; a crowd in one place would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t rows) { return (1u << 17) + std::uint64_t{64} * rows; }
 
   void gather_bodies(const SolverInput<S>& input);
@@ -49,12 +50,18 @@ template <class S> class WorstFirstResolver {
   void restitute(const SolverInput<S>&) {}  // done with the impacts
   void store_impulses(const SolverInput<S>& input);
   void run(const SolverInput<S>&) {}
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
 
  private:
   using Motion = MotionRow<V>;
   using Point = PointRow<S>;
   struct Ends {
     std::uint32_t a, b;  // of SolverBodies, 0 for what does not move
+
+    template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+      visit("a", self.a);
+      visit("b", self.b);
+    }
   };
 
   // worst_first.inl
@@ -63,6 +70,7 @@ template <class S> class WorstFirstResolver {
   void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, Point& row);
   void list_neighbours();
   template <class Look, class Apply> void resolve(const Look& look, const Apply& apply);
+  void leave_island(std::uint32_t row);
   template <class Look>
   void look_again(const Look& look, std::uint32_t index, std::uint32_t body, std::uint32_t not_of);
   ISO_INLINE auto before() const {
@@ -100,6 +108,7 @@ template <class S> class WorstFirstResolver {
   std::vector<Ends> ends_;                 // of points, then of joints
   std::vector<std::uint32_t> first_;       // by row of the bodies, and more: its rows in neighbours_
   std::vector<std::uint32_t> neighbours_;  // rows that can move a body, ascending
+  IslandPurses purses_;                    // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
   KnockoutTree worst_;                     // of urgency_
 };

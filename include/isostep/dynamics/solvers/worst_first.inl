@@ -37,6 +37,11 @@ template <class S> void WorstFirstResolver<S>::colour_constraints(const SolverIn
   }
   urgency_.resize(ends_.size());
   list_neighbours();
+  const auto moved = [](std::uint32_t body) ISO_INLINE_LAMBDA { return body == 0 ? IslandPurses::kNobody : body; };
+  purses_.find(static_cast<std::uint32_t>(bodies.mass.size()), static_cast<std::uint32_t>(ends_.size()),
+               [&](std::uint32_t row) ISO_INLINE_LAMBDA -> IslandPurses::Ends {
+                 return {moved(ends_[row].a), moved(ends_[row].b)};
+               });
 }
 
 template <class S>
@@ -144,6 +149,15 @@ void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, st
   }
 }
 
+/// Its purse is empty: nothing of it is urgent any more.
+template <class S> void WorstFirstResolver<S>::leave_island(std::uint32_t row) {
+  for (std::uint32_t i = purses_.purse_of(row).first_row; i != IslandPurses::kNobody; i = purses_.next_of(i)) {
+    if (urgency_[i] == V(0)) continue;
+    urgency_[i] = V(0);
+    worst_.replay(i, before());
+  }
+}
+
 template <class S>
 template <class Look, class Apply>
 void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
@@ -151,12 +165,14 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
   if (count == 0) return;
   for (std::uint32_t i = 0; i < count; ++i) urgency_[i] = look(i);
   worst_.plant(count, before());
-  std::uint64_t looks = 0;
-  const std::uint64_t most = most_looks(count);
-  for (std::uint32_t left = most_iterations(count); left > 0 && looks < most; --left) {
+  purses_.fill([](IslandPurses::Purse& purse) ISO_INLINE_LAMBDA {
+    purse.iterations = most_iterations(purse.rows);
+    purse.looks = most_looks(purse.rows);
+  });
+  for (;;) {
     const std::uint32_t worst = worst_.first();
     const V was = urgency_[worst];
-    if (was == V(0)) break;
+    if (was == V(0)) return;
     apply(worst);
     const V is = look(worst);
     urgency_[worst] = is < was ? is : V(0);
@@ -164,7 +180,10 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
     const Ends ends = ends_[worst];
     look_again(look, worst, ends.a, 0);
     look_again(look, worst, ends.b, ends.a);
-    looks += (first_[ends.a + 1] - first_[ends.a]) + (first_[ends.b + 1] - first_[ends.b]);
+    const std::uint64_t looks = (first_[ends.a + 1] - first_[ends.a]) + (first_[ends.b + 1] - first_[ends.b]);
+    IslandPurses::Purse& purse = purses_.purse_of(worst);
+    purse.looks -= min(looks, purse.looks);
+    if (--purse.iterations == 0 || purse.looks == 0) leave_island(worst);
   }
 }
 

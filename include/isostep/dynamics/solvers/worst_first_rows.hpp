@@ -18,6 +18,16 @@ template <class S> struct TangentPair {
   S sliding;               // [1] inverse of a bound of its largest eigenvalue
   Velocity<S> surface[2];  // [m/s] speed of b's surface against a's along the rows
   Velocity<S> impulse[2];  // [m/s] accumulated
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("rows", self.rows);
+    visit("xx", self.xx);
+    visit("xy", self.xy);
+    visit("yy", self.yy);
+    visit("sliding", self.sliding);
+    visit("surface", self.surface);
+    visit("impulse", self.impulse);
+  }
 };
 
 /// A point of a contact. Impulses are velocity changes of the pair's reduced mass, as in Contact.
@@ -39,6 +49,26 @@ template <class S> struct PointRow {
   V least_gap;      // [m] what this sub-step's projection aims at
   V impulse;        // [m/s] of this sub-step
   V total_impulse;  // [m/s] of the sub-steps before
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("contact", self.contact);
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("rolling", self.rolling);
+    visit("share", self.share);
+    visit("normal", self.normal);
+    visit("friction", self.friction);
+    visit("mass", self.mass);
+    visit("mu", self.mu);
+    visit("restitution", self.restitution);
+    visit("lever", self.lever);
+    visit("separation", self.separation);
+    visit("least_speed", self.least_speed);
+    visit("target", self.target);
+    visit("least_gap", self.least_gap);
+    visit("impulse", self.impulse);
+    visit("total_impulse", self.total_impulse);
+  }
 };
 inline constexpr std::uint32_t kNoPair = 0xffffffffu;
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/core/island_purses.hpp"
 #include "isostep/core/knockout_tree.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/constraint.hpp"
@@ -33,22 +35,23 @@ template <class S> class WorstFirst {
   using V = Velocity<S>;
 
  public:
-  /// As many as the book allows.
+  /// As many as the book allows, of an island of so many rows.
   static ISO_INLINE std::uint32_t default_iterations(std::uint32_t count) {
     return count > 0x7fffffffu ? 0xffffffffu : 2u * count;
   }
 
-  /// Looks at rows in one call: half a second of them, and 64 a row. A pile takes 50; a crowd in one place would take
-  /// the cube of its number.
+  /// Looks at an island's rows in one call: half a second of them, and 64 a row. A pile takes 50; a crowd in one place
+  /// would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
 
   /// After the integration of a sub-step, or between its velocity and its position. Answers how many rows are still
-  /// unsettled when the iterations have run out. `displacement` [m] is the way since the rows' separation was measured,
-  /// the integration's part too; it is moved, separation stays. `gained` [m/s] is what forces have added to velocity in
-  /// this sub-step, 0 of pinned particles. Rows' impulses are those of this call, approach is lowered.
+  /// unsettled when the iterations have run out: `shared` by all islands, or else default_iterations() for each.
+  /// `displacement` [m] is the way since the rows' separation was measured, the integration's part too; it is moved,
+  /// separation stays. `gained` [m/s] is what forces have added to velocity in this sub-step, 0 of pinned particles.
+  /// Rows' impulses are those of this call, approach is lowered.
   /// Where positions are integrated first, gravity's way along a slope, g h^2 a sub-step, is not friction's to undo.
   std::uint32_t resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity, Axes<V>& displacement,
-                        const Axes<V>& gained, std::uint32_t max_iterations);
+                        const Axes<V>& gained, std::optional<std::uint32_t> shared);
 
   /// Of the last call: rows resolved, and looks at rows for their urgency.
   ISO_INLINE std::uint32_t iterations() const { return iterations_; }
@@ -79,6 +82,8 @@ template <class S> class WorstFirst {
   void look(const Row& row, std::uint32_t index);
   void look_at_neighbours(const Row* rows, std::uint32_t index, std::uint32_t point);
   void apply(Row& row, std::uint32_t index);
+  void share_out(const Row* rows, std::uint32_t count);
+  std::uint32_t leave_island(std::uint32_t row);
 
   ISO_INLINE Vec3<V> velocity_of_b(const Row& row, Sides sides) const;
   ISO_INLINE V separating_speed(const Row& row, Sides sides) const;
@@ -108,6 +113,7 @@ template <class S> class WorstFirst {
   std::vector<std::uint32_t> neighbours_;  // rows that can move a point, ascending
   std::vector<std::uint8_t> touched_;      // by row
   std::vector<Urgency> urgency_;           // by row
+  IslandPurses purses_;                    // of a call
   KnockoutTree worst_;                     // of urgency_
   std::uint32_t iterations_ = 0;
   std::uint64_t looks_ = 0;

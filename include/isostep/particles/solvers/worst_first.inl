@@ -135,7 +135,8 @@ template <class S> void WorstFirst<S>::look_at_neighbours(const Row* rows, std::
 
 template <class S>
 std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity,
-                                     Axes<V>& displacement, const Axes<V>& gained, std::uint32_t max_iterations) {
+                                     Axes<V>& displacement, const Axes<V>& gained,
+                                     std::optional<std::uint32_t> shared) {
   iterations_ = 0;
   looks_ = 0;
   if (count == 0) return 0;
@@ -148,20 +149,51 @@ std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t 
     look(rows[i], i);
   }
   worst_.plant(count, before());
-  const std::uint64_t most = most_looks(count);
-  while (iterations_ < max_iterations && looks_ < most) {
+  share_out(rows, count);
+  std::uint32_t unsettled = 0;
+  while (!shared || iterations_ < *shared) {
     const std::uint32_t worst = worst_.first();
     if (urgency_[worst].need == Need::nothing) break;
     ++iterations_;
+    const std::uint64_t before_it = looks_;
     apply(rows[worst], worst);
     look(rows[worst], worst);
     worst_.replay(worst, before());
     look_at_neighbours(rows, worst, sides_[worst].a);
     look_at_neighbours(rows, worst, sides_[worst].b);
+    IslandPurses::Purse& purse = purses_.purse_of(worst);
+    purse.looks -= min(looks_ - before_it, purse.looks);
+    --purse.iterations;
+    const bool spent = !shared && purse.iterations == 0;
+    if (spent || purse.looks == 0) unsettled += leave_island(worst);
   }
   scatter(velocity, displacement);
-  std::uint32_t unsettled = 0;
   for (std::uint32_t i = 0; i < count; ++i) unsettled += urgency_[i].need != Need::nothing;
+  return unsettled;
+}
+
+/// The first look at each row is paid.
+template <class S> void WorstFirst<S>::share_out(const Row* rows, std::uint32_t count) {
+  const auto ends_of = [&](std::uint32_t i) ISO_INLINE_LAMBDA -> IslandPurses::Ends {
+    const Sides sides = sides_[i];
+    const bool moves_a = rows[i].share_a != Unit<S>(0), moves_b = rows[i].share_b != Unit<S>(0);
+    return {moves_a ? sides.a : IslandPurses::kNobody, moves_b ? sides.b : IslandPurses::kNobody};
+  };
+  purses_.find(static_cast<std::uint32_t>(points_.size()), count, ends_of);
+  purses_.fill([](IslandPurses::Purse& purse) ISO_INLINE_LAMBDA {
+    purse.iterations = default_iterations(purse.rows);
+    purse.looks = most_looks(purse.rows) - purse.rows;
+  });
+}
+/// Its purse is empty: nothing of it is urgent any more. Answers how many rows are left unsettled.
+template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) {
+  std::uint32_t unsettled = 0;
+  for (std::uint32_t i = purses_.purse_of(row).first_row; i != IslandPurses::kNobody; i = purses_.next_of(i)) {
+    if (urgency_[i].need == Need::nothing) continue;
+    ++unsettled;
+    urgency_[i] = {Need::nothing, V(0)};
+    worst_.replay(i, before());
+  }
   return unsettled;
 }
 

@@ -20,14 +20,27 @@ namespace detail {
 struct FloatState {
 #if defined(__SSE2__) || defined(_M_X64) || (defined(_M_IX86_FP) && _M_IX86_FP == 2)
   // Intel SDM vol. 1, 10.2.3: DAZ 6, exception masks 7-12, rounding 13-14, FTZ 15; flags 0-5.
+#if defined(__GNUC__) && defined(__i386__)
+  // Vol. 1, 8.1.5, in the high half: the x87 control word, by which 32-bit code converts 64-bit integers though it
+  // calculates with SSE. Masks 0-5, precision 8-9 (both set: 64 bits), rounding 10-11. Above it, from bit 48, the flags
+  // of the x87 status word (8.1.3): one that a conversion raised would trap in a caller who does not mask it.
+  static constexpr std::uint64_t kForced = 0x0f3f'0000'ffc0, kMasks = 0x033f'0000'1f80;
+#else
   static constexpr std::uint64_t kForced = 0xffc0, kMasks = 0x1f80;
+#endif
   static ISO_INLINE std::uint64_t read() {
 #if defined(_MSC_VER) && !defined(__clang__)
     return _mm_getcsr();
 #else
     std::uint32_t word;
     __asm__ volatile("stmxcsr %0" : "=m"(word) : : "memory");
+#if defined(__i386__)
+    std::uint16_t control, status;
+    __asm__ volatile("fnstcw %0\n\tfnstsw %1" : "=m"(control), "=m"(status) : : "memory");
+    return word | std::uint64_t(control) << 32 | std::uint64_t(status & kFlags) << 48;
+#else
     return word;
+#endif
 #endif
   }
   static ISO_INLINE void write(std::uint64_t state) {
@@ -36,8 +49,24 @@ struct FloatState {
     _mm_setcsr(word);
 #else
     __asm__ volatile("ldmxcsr %0" : : "m"(word) : "memory");
+#if defined(__i386__)
+    write_x87(static_cast<std::uint32_t>(state >> 32 & 0xffff), static_cast<std::uint32_t>(state >> 48));
+#endif
 #endif
   }
+#if defined(__GNUC__) && defined(__i386__)
+  // Flags are written only with the whole environment of 28 bytes (8.1.10): control in its first word, status in its
+  // second, where bits 7 and 15 say that a flag has no mask. The stack of registers stays.
+  static constexpr std::uint32_t kFlags = 0x7f, kPending = 0x8080;
+  static ISO_INLINE void write_x87(std::uint32_t control, std::uint32_t flags) {
+    std::uint32_t environment[7];
+    __asm__ volatile("fnstenv %0" : "=m"(environment) : : "memory");
+    environment[0] = (environment[0] & 0xffff0000u) | control;
+    const std::uint32_t pending = (flags & ~control & 0x3fu) != 0 ? kPending : 0;
+    environment[1] = (environment[1] & ~(kFlags | kPending)) | flags | pending;
+    __asm__ volatile("fldenv %0" : : "m"(environment) : "memory");
+  }
+#endif
 #elif defined(__GNUC__) && defined(__aarch64__)
   // Arm ARM, FPCR: FIZ 0, AH 1, NEP 2, traps 8-12 and 15, FZ16 19, rounding 22-23, FZ 24, DN 25. FPSR in the high half.
   static constexpr std::uint64_t kForced = 0x03c89f07, kMasks = 0;
@@ -84,6 +113,18 @@ struct FloatState {
   static ISO_INLINE void write(std::uint64_t state) {
     const auto word = static_cast<std::uint32_t>(state);
     __asm__ volatile("lfpc %0" : : "Q"(word) : "memory");
+  }
+#elif defined(__GNUC__) && defined(__powerpc__) && !defined(_SOFT_FLOAT)
+  // Power ISA, FPSCR, counted from the right: rounding 0-1, NI 2 (denormals to zero), enables of exceptions 3-7; all
+  // else are flags. It comes and goes through a floating-point register.
+  static constexpr std::uint64_t kForced = 0xff, kMasks = 0;
+  static ISO_INLINE std::uint64_t read() {
+    double word;
+    __asm__ volatile("mffs %0" : "=f"(word) : : "memory");
+    return std::bit_cast<std::uint64_t>(word) & 0xffffffffu;
+  }
+  static ISO_INLINE void write(std::uint64_t state) {
+    __asm__ volatile("mtfsf 255,%0" : : "f"(std::bit_cast<double>(state)) : "memory");
   }
 #else
   static constexpr std::uint64_t kForced = 0, kMasks = 0;  // wasm has no such state; elsewhere the probe must do
@@ -187,6 +228,15 @@ ISO_INLINE std::uint32_t probe_environment_here() {
   volatile float bit = 0x1p-25f, more = 0x1.8p-24f, next = 1 + 0x1p-23f;
   volatile float up = one + bit, down = -one - bit, zero = one + more;
   check(up != 1 || down != -1 || zero != next, Deviation::rounding);
+  // Conversions, which i686 does in another unit: its rounding; its precision, where 53 bits make a tie of the last.
+  volatile std::int64_t odd = (std::int64_t(1) << 40) + 1, most = (std::int64_t(1) << 40) + (3 << 15);
+  const float over = static_cast<float>(odd), under = static_cast<float>(-odd), cut = static_cast<float>(most);
+  check(over != 0x1p40f || under != -0x1p40f || cut != 0x1.000002p40f, Deviation::rounding);
+#if defined(__i386__)
+  volatile std::uint64_t above_half = (std::uint64_t(1) << 63) + (std::uint64_t(1) << 39) + 1;
+  f = static_cast<float>(above_half);
+  check(f != 0x1.000002p63f, Deviation::double_rounding);
+#endif
 
   volatile float va = 1 + 0x1p-12f, vc = -(1 + 0x1p-11f);
   const float a = va, c = vc;
@@ -206,8 +256,8 @@ ISO_INLINE std::uint32_t probe_environment_here() {
   const double dg = vdg, dh = done;
   d = (dg + dh) - dg;
   check(d != 0, Deviation::excess_double);
-  volatile double above_half = 0x1.002p-53;  // 64 bits make it a tie, which then goes to even
-  d = done + above_half;
+  volatile double above_tie = 0x1.002p-53;  // 64 bits make it a tie, which then goes to even
+  d = done + above_tie;
   check(d != 1 + 0x1p-52, Deviation::double_rounding);
 
   volatile float three = 3;

@@ -76,8 +76,8 @@ template <class T> ISO_INLINE constexpr Exact<T> abs(Exact<T> a) {
   const T x = a.value();
   return x < T(0) ? -x : x + T(0);  // + 0 turns -0 into 0
 }
-template <class T> ISO_INLINE constexpr Exact<T> min(Exact<T> a, Exact<T> b) { return b < a ? b : a; }
-template <class T> ISO_INLINE constexpr Exact<T> max(Exact<T> a, Exact<T> b) { return a < b ? b : a; }
+template <class T> ISO_INLINE constexpr Exact<T> min(Exact<T> a, Exact<T> b) { return min(a.value(), b.value()); }
+template <class T> ISO_INLINE constexpr Exact<T> max(Exact<T> a, Exact<T> b) { return max(a.value(), b.value()); }
 // Single instructions or integer arithmetic compiled in the library: nothing to fuse.
 template <class T> ISO_INLINE Exact<T> sqrt(Exact<T> a) { return isostep::sqrt(a.value()); }
 template <class T> ISO_INLINE Exact<T> sin(Exact<T> a) { return isostep::sin(a.value()); }

@@ -21,21 +21,21 @@ namespace detail {
 template <Overflow P, class W> ISO_INLINE constexpr W add_wide(W a, W b) {
   const W sum = wrapping_add(a, b);
   if constexpr (P == Overflow::trap) {
-    if ((a < W(0)) == (b < W(0)) && (sum < W(0)) != (a < W(0))) __builtin_trap();
+    if ((a < W(0)) == (b < W(0)) && (sum < W(0)) != (a < W(0))) ISO_TRAP();
   }
   return sum;
 }
 template <Overflow P, class W> ISO_INLINE constexpr W subtract_wide(W a, W b) {
   const W difference = wrapping_subtract(a, b);
   if constexpr (P == Overflow::trap) {
-    if ((a < W(0)) != (b < W(0)) && (difference < W(0)) != (a < W(0))) __builtin_trap();
+    if ((a < W(0)) != (b < W(0)) && (difference < W(0)) != (a < W(0))) ISO_TRAP();
   }
   return difference;
 }
 template <Overflow P, class W> ISO_INLINE constexpr W shift_left_wide(W value, int n) {
   const W shifted = value << n;
   if constexpr (P == Overflow::trap) {
-    if (!((shifted >> n) == value)) __builtin_trap();
+    if (!((shifted >> n) == value)) ISO_TRAP();
   }
   return shifted;
 }
@@ -130,7 +130,7 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
   static ISO_INLINE constexpr Rep narrow(Wide<Rep> wide) {
     const Rep result = static_cast<Rep>(static_cast<std::int64_t>(wide));
     if constexpr (Policy == Overflow::trap) {
-      if (!(Wide<Rep>(result) == wide)) __builtin_trap();
+      if (!(Wide<Rep>(result) == wide)) ISO_TRAP();
     }
     return result;
   }
@@ -141,7 +141,7 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
     const bool above = whole > 0 && static_cast<std::uint64_t>(whole) > static_cast<std::uint64_t>(most);
     const bool below = whole < 0 && static_cast<std::int64_t>(whole) < -most - 1;
     if constexpr (Policy == Overflow::trap) {
-      if (above || below) __builtin_trap();
+      if (above || below) ISO_TRAP();
     }
     if (above) return kHighestRaw;
     if (below) return kLowestRaw;

@@ -149,11 +149,11 @@ template <class S, int W, class Isa> struct Lanes {
     return a;
   }
   friend ISO_INLINE Lanes min(Lanes a, Lanes b) {
-    ISO_UNROLL for (int i = 0; i < W; ++i) a.v[i] = b.v[i] < a.v[i] ? b.v[i] : a.v[i];
+    ISO_UNROLL for (int i = 0; i < W; ++i) a.v[i] = isostep::min(a.v[i], b.v[i]);
     return a;
   }
   friend ISO_INLINE Lanes max(Lanes a, Lanes b) {
-    ISO_UNROLL for (int i = 0; i < W; ++i) a.v[i] = a.v[i] < b.v[i] ? b.v[i] : a.v[i];
+    ISO_UNROLL for (int i = 0; i < W; ++i) a.v[i] = isostep::max(a.v[i], b.v[i]);
     return a;
   }
   friend ISO_INLINE Lanes abs(Lanes a) {

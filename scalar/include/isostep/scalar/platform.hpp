@@ -4,6 +4,10 @@
 
 #include <cfloat>
 
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "isostep: -ffast-math changes results between builds; compile without it"
@@ -11,6 +15,17 @@
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
 #error "isostep: floating point must be evaluated in its own precision; on i686 add -msse2 -mfpmath=sse"
 #endif
+// x = *p, *p = y, then x in every lane: clang 14 makes one v128.load32_splat of the first and the last and puts it
+// behind the store, so that y is in the lanes, at every level of optimisation but -O0.
+#if defined(__wasm_simd128__) && defined(__clang_major__) && __clang_major__ < 16
+#error "isostep: clang before 16 reorders loads and stores of WebAssembly's SIMD; leave -msimd128 out, or take clang 16"
+#endif
+
+#if defined(min) || defined(max)
+#error "isostep: min and max are macros; define NOMINMAX before <windows.h>"
+#endif
+// No macro tells of gcc's -fsingle-precision-constant, which rounds our defaults to float.
+static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-precision-constant");
 
 /// A function that touches a scalar must never leave a weak copy of itself in a user's object: that copy may have been
 /// compiled with -mfma and the linker may keep it for the whole program. Always inlining leaves nothing to keep.
@@ -23,9 +38,16 @@
 #define ISO_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
+/// Ends the program: to go on would be to compute nonsense.
+#if defined(_MSC_VER) && !defined(__clang__)
+#define ISO_TRAP() __debugbreak()
+#else
+#define ISO_TRAP() __builtin_trap()
+#endif
+
 /// Caller's bug: checked in builds that define ISOSTEP_ASSERTS, free elsewhere.
 #if defined(ISOSTEP_ASSERTS)
-#define ISO_ASSERT(condition) ((condition) ? void(0) : __builtin_trap())
+#define ISO_ASSERT(condition) ((condition) ? void(0) : ISO_TRAP())
 #else
 #define ISO_ASSERT(condition) void(0)
 #endif

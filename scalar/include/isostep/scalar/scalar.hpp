@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "isostep/scalar/fixed.hpp"
 
@@ -99,9 +100,24 @@ concept Scalar = requires(S a, Unit<S> u, Step<S> h) {
   S(1);
 };
 
-// One answer on every machine: min and max by comparison (never fmin), abs by negation.
-template <class S> ISO_INLINE constexpr S min(S a, S b) { return b < a ? b : a; }
-template <class S> ISO_INLINE constexpr S max(S a, S b) { return a < b ? b : a; }
+namespace detail {
+/// A comparison that the compiler cannot see behind. clang before 17 makes IEEE 754's maximum of `x < 0 ? 0 : x`, for
+/// which +0 is above -0, where the target has one (64-bit Arm, WebAssembly) and one side is known to be no NaN. What
+/// x86 has decides as the comparison does.
+template <class S> ISO_INLINE constexpr bool decided(bool less) {
+#if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
+  if constexpr (std::floating_point<S>) {
+    if (!std::is_constant_evaluated()) __asm__("" : "+r"(less));
+  }
+#endif
+  return less;
+}
+}  // namespace detail
+
+// One answer on every machine: min and max by comparison (never fmin), abs by negation. Of equals the first, so that
+// max(-0.0, 0.0) is -0.0.
+template <class S> ISO_INLINE constexpr S min(S a, S b) { return detail::decided<S>(b < a) ? b : a; }
+template <class S> ISO_INLINE constexpr S max(S a, S b) { return detail::decided<S>(a < b) ? b : a; }
 template <class S> ISO_INLINE constexpr S clamp(S x, S low, S high) { return min(max(x, low), high); }
 template <class S> ISO_INLINE constexpr S abs(S a) { return a < S(0) ? -a : a; }
 /// The same bits (-0.0 and NaN keep their signs) as a maximum, which compilers turn into no branch.

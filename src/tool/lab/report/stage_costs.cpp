@@ -16,7 +16,7 @@ struct Watch {
   double last = 0;  // [ms]
   std::vector<double> times[kStages];
 
-  static void after(void* user, Stage stage) {
+  static void after(void* user, Stage stage, const StageView&) {
     Watch& watch = *static_cast<Watch*>(user);
     const double now = thread_milliseconds();
     watch.times[static_cast<std::size_t>(stage)].push_back(now - watch.last);

@@ -1,4 +1,4 @@
-// Islands: bodies that contacts and joints tie together, found by union-find in canonical order.
+// DisjointSets: union-find in canonical order, for islands of bodies that contacts and joints tie together.
 // SPDX-License-Identifier: MIT
 #pragma once
 

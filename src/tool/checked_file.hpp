@@ -4,26 +4,21 @@
 
 #include <string>
 
-#include "isostep/core/simd.hpp"
-#include "isostep/state/verify.hpp"
+#include "isostep/world/replay_check.hpp"
 
 namespace isostep::tool {
 
-struct CheckedFile {
-  std::string path;
-  std::string scene, scalar;  // empty where the file does not tell
-  VerifyResult result{};
-  std::string missing;  // why the file could not be read; empty: it was
+struct CheckedFile : CheckedReplay {
+  std::string path = {};
+  std::string missing = {};  // why the file could not be read; empty: it was
 };
 /// 0..4 as `verify` exits, or 66.
 int status_of(const CheckedFile& file);
 std::string text_of(const CheckedFile& file);
 
-/// By the world and the scalar that its header names; needs none of the game's code.
-CheckedFile check_replay(Bytes bytes, Simd simd = Simd::best);
 /// The named scene again, as many frames as there are lines.
 CheckedFile check_golden(const std::string& name, std::string_view text, Simd simd = Simd::best);
-/// Either, by the path's end.
+/// That, or a replay, by the path's end.
 CheckedFile check_file(const std::string& path);
 
 }  // namespace isostep::tool

@@ -1,0 +1,130 @@
+// What each rigid solver leaves behind from stage to stage, by name: visit_scratch of solver_input.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "isostep/dynamics/solvers/contact_leaves.inl"
+#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/sequential.hpp"
+#include "isostep/dynamics/solvers/worst_first.hpp"
+
+namespace isostep {
+
+template <class S>
+template <class Visit>
+void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
+  if (stage == SolverStage::prepare || stage == SolverStage::store) return;
+  visit("solver_velocity", rows_.velocity);
+  visit("solver_displacement", rows_.displacement);
+  if (stage != SolverStage::colour) return;
+  visit("solver_mass", rows_.mass);
+  visit("solver_start", start_);
+  for (std::size_t i = 0; i < inertia_.size(); ++i) {  // the rest are those of other steps
+    const Vec3<S> kappa = input.properties[i].kappa;
+    if (input.properties[i].type != BodyType::dynamic || (kappa.x == kappa.y && kappa.y == kappa.z)) continue;
+    visit.one("solver_inertia", i, [&](const auto& of_body) { of_body("moments", inertia_[i]); });
+  }
+}
+
+// ---- soft step and projected Gauss-Seidel
+
+/// Colours are seen in the order of the contacts; how many lanes a run is cut into and how many threads share it are
+/// this machine's own.
+template <class S>
+template <class Visit>
+void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
+  bodies_.visit_scratch(visit, stage, input);
+  if (stage == SolverStage::store) return;
+  if (stage == SolverStage::colour) {
+    visit("colours", bucket_);
+    visit("order", order_);
+    return;
+  }
+  const auto prepared = [&](const Run& run, std::uint32_t k) {
+    const auto width = static_cast<std::uint32_t>(run.kernels->width);
+    const auto points = static_cast<std::int32_t>(run.variant % kMaxContactPoints) + 1;
+    const bool rolling = run.variant >= kMaxContactPoints;
+    const std::size_t block = (k / width) * width * block_bytes<S, 1>(points, rolling);
+    LaneOfBlock<S> lane(memory_.data()->bytes + run.offset + block, width, k % width, points, rolling);
+    visit.one("prepared", order_[run.first + k],
+              [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
+    if (visit.edits()) lane.write_back();
+  };
+  for (const Run& run : runs_) {
+    for (std::uint32_t k = 0; k < run.count; ++k) prepared(run, k);
+  }
+}
+
+// ---- worst first
+
+template <class S>
+template <class Visit>
+void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
+  bodies_.visit_scratch(visit, stage, input);
+  if (stage == SolverStage::colour) {
+    visit("points", points_);
+    visit("rolling", rolling_);
+    visit("held_joints", joints_);
+    visit("ends", ends_);
+    visit("neighbours", std::span(neighbours_.data(), first_[bodies_.rows().mass.size()]));
+  }
+  if (stage != SolverStage::solve) return;  // impacts are done with the sub-steps
+  visit.each("points", points_.size(), [&](const auto& of_point, std::size_t i) {
+    Point& point = points_[i];
+    of_point("contact", point.contact);
+    of_point("impulse", point.impulse);
+    of_point("total_impulse", point.total_impulse);
+    of_point("least_speed", point.least_speed);
+    of_point("target", point.target);
+    of_point("friction_impulse", point.friction.impulse);
+  });
+}
+
+// ---- direct
+
+template <class S>
+template <class Visit>
+void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
+  bodies_.visit_scratch(visit, stage, input);
+  if (stage == SolverStage::store) return;
+  if (stage != SolverStage::colour) {
+    for (std::uint32_t c = 0; c < input.contacts.size(); ++c) {
+      const auto points = static_cast<std::int32_t>(input.contacts[c].count);
+      const bool rolling = input.geometry[c].material.rolling_resistance > S(0);
+      LaneOfBlock<S> lane(memory_[c].bytes, 1, 0, points, rolling);
+      visit.one("prepared", c, [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
+      if (visit.edits()) lane.write_back();
+    }
+  }
+  if (stage == SolverStage::prepare) return;
+  visit.each("islands", island_count_, [&](const auto& of_island, std::size_t i) {
+    Island& island = islands_[i];
+    if (stage == SolverStage::colour) {
+      of_island("joints", island.joints);
+      of_island("contacts", island.contacts);
+      of_island("bodies", island.bodies);
+      of_island("joint_blocks", island.joint_blocks);
+      of_island("contact_blocks", island.contact_blocks);
+      return;
+    }
+    of_island("exponent", island.exponent);
+    of_island.each("blocks", island.system.block_count(), [&](const auto& of_block, std::size_t block) {
+      of_block("a", island.ends[block].a);
+      of_block("b", island.ends[block].b);
+      of_block.each("rows", 3, [&](const auto& of_row, std::size_t r) {
+        DirectRow<N>& row = island.system.row(static_cast<std::uint32_t>(3 * block + r));
+        of_row("bound", row.bound);
+        if (row.bound == DirectBound::absent) return;
+        of_row("state", row.state);
+        of_row("exponent", row.exponent);
+        of_row("limit", row.limit);
+        of_row("answer", row.answer);
+      });
+    });
+  });
+}
+
+}  // namespace isostep

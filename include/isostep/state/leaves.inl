@@ -1,0 +1,141 @@
+// The visitor that takes engines apart into leaves. For files that instantiate an engine's walk; all of it has internal
+// linkage, so no two objects share a symbol of it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "isostep/state/leaves.hpp"
+
+namespace isostep {
+namespace {
+
+/// A vector, a span, an array in pages.
+template <class T>
+concept LeafList = requires(T& list) {
+  list.size();
+  list[0];
+};
+
+/// A copy of a part of T, to be written only where T may be.
+template <class T, class Part> using ConstAs = std::conditional_t<std::is_const_v<T>, const Part, Part>;
+
+class LeafVisitor;
+template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& visit, T& value);
+
+/// visit("name", value) for a leaf, a struct with `fields`, an array or a list of such.
+class LeafVisitor {
+ public:
+  LeafVisitor(const PathPart* outer, const LeafSink* sink, const LeafEditor* editor)
+      : outer_(outer), sink_(sink), editor_(editor) {}
+  LeafVisitor(const PathPart& outer, const LeafVisitor& other) : LeafVisitor(&outer, other.sink_, other.editor_) {}
+
+  bool edits() const { return sink_ == nullptr; }
+
+  template <class T> void operator()(const char* name, T&& value) const {
+    walk_leaves(PathPart{outer_, name, 0}, *this, value);
+  }
+  /// For items that are made only to be looked at, or of which not all is there: each(visitor of the item, index).
+  template <class Each> void each(const char* name, std::size_t count, Each&& each) const {
+    const PathPart list{outer_, name, 0};
+    tell_count(list, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const PathPart item{&list, nullptr, i};
+      each(LeafVisitor(item, *this), i);
+    }
+  }
+  /// An item by itself, under the index that it has elsewhere.
+  template <class Each> void one(const char* name, std::size_t index, Each&& each) const {
+    const PathPart list{outer_, name, 0};
+    const PathPart item{&list, nullptr, index};
+    each(LeafVisitor(item, *this));
+  }
+  void tell_count(const PathPart& list, std::size_t count) const {
+    const auto words = static_cast<std::uint64_t>(count);
+    leaf(PathPart{&list, "count", 0}, words);
+  }
+
+  template <class T> void leaf(const PathPart& path, T& value) const {
+    using Bare = std::remove_const_t<T>;
+    constexpr LeafFormat format = kLeafFormat<Bare>;
+    const std::uint64_t bits = leaf_bits(value);
+    const std::uint64_t wanted = told<T>(path, format, bits);
+    if constexpr (!std::is_const_v<T>) {
+      if (wanted != bits) value = leaf_from_bits<Bare>(static_cast<LeafBits<Bare>>(wanted));
+    }
+  }
+  /// A format of fixed point that is no Scalar by itself: steps of time.
+  template <class T> void fixed_leaf(const PathPart& path, T& value) const {
+    using Bare = std::remove_const_t<T>;
+    using Raw = typename Bare::Raw;
+    const std::uint64_t bits = leaf_bits(value.raw());
+    const std::uint64_t wanted = told<T>(path, {LeafKind::scalar, sizeof(Raw), ScalarTraits<Bare>::kId}, bits);
+    if constexpr (!std::is_const_v<T>) {
+      if (wanted != bits) value = Bare::from_raw(leaf_from_bits<Raw>(static_cast<LeafBits<Raw>>(wanted)));
+    }
+  }
+  /// As a part of what is visited.
+  template <class Inside> void within(const char* name, const Inside& inside) const {
+    const PathPart part{outer_, name, 0};
+    inside(LeafVisitor(part, *this));
+  }
+
+ private:
+  /// The bits that the leaf is to have.
+  template <class T> std::uint64_t told(const PathPart& path, LeafFormat format, std::uint64_t bits) const {
+    if (sink_ != nullptr) sink_->leaf(sink_->user, path, format, bits);
+    else if (!std::is_const_v<T>) return editor_->leaf(editor_->user, path, format, bits);
+    return bits;
+  }
+
+  const PathPart* outer_;
+  const LeafSink* sink_;
+  const LeafEditor* editor_;
+};
+
+template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& visit, T& value) {
+  using Bare = std::remove_const_t<T>;
+  if constexpr (std::is_bounded_array_v<Bare>) {
+    if constexpr (std::extent_v<Bare> == 1) {  // a block of one lane
+      walk_leaves(path, visit, value[0]);
+    } else {
+      for (std::size_t i = 0; i < std::extent_v<Bare>; ++i) {
+        walk_leaves(PathPart{&path, nullptr, i}, visit, value[i]);
+      }
+    }
+  } else if constexpr (HasFields<Bare>) {
+    Bare::fields(LeafVisitor(path, visit), value);
+  } else if constexpr (Leaf<Bare>) {
+    visit.leaf(path, value);
+  } else if constexpr (LeafList<Bare>) {
+    visit.tell_count(path, value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) walk_leaves(PathPart{&path, nullptr, i}, visit, value[i]);
+  } else if constexpr (requires { typename Bare::Raw; }) {
+    visit.fixed_leaf(path, value);
+  } else if constexpr (requires { value.value(); }) {  // Exact
+    ConstAs<T, decltype(value.value())> bare = value.value();
+    visit.leaf(path, bare);
+    if constexpr (!std::is_const_v<T>) value = Bare(bare);
+  } else if constexpr (sizeof(value.raw) <= 8) {  // a sum of products
+    visit.leaf(path, value.raw);
+  } else {
+    ConstAs<T, UInt128Parts> words = parts(value.raw);
+    visit.leaf(PathPart{&path, "high", 0}, words.high);
+    visit.leaf(PathPart{&path, "low", 0}, words.low);
+    if constexpr (!std::is_const_v<T>) value.raw = int128_from(words);
+  }
+}
+
+/// Slots as the root hash takes them.
+template <class Slots> void walk_slots(const LeafVisitor& visit, const char* name, const Slots& slots) {
+  const PathPart none{nullptr, name, 0};
+  const std::uint32_t first_free = slots.first_free();
+  walk_leaves(PathPart{&none, "first_free", 0}, visit, first_free);
+  visit(name, slots.entries());
+}
+
+}  // namespace
+}  // namespace isostep

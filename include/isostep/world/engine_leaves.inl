@@ -1,0 +1,143 @@
+// WorldEngine: its state and what each stage leaves behind, leaf by leaf.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "isostep/dynamics/solvers/solver_leaves.inl"
+#include "isostep/state/leaves.inl"
+#include "isostep/world/engine.hpp"
+
+namespace isostep {
+namespace {
+
+/// As hash() takes them. Fixed bodies and islands asleep are never written: worlds share them, and what copies them is
+/// a symbol that another object has as well.
+template <class State> void visit_world_state(const LeafVisitor& visit, State& state) {
+  visit("settings", state.settings);
+  visit("tick", state.tick);
+  walk_slots(visit, "body_slots", state.body_slots);
+  walk_slots(visit, "shape_slots", state.shape_slots);
+  walk_slots(visit, "joint_slots", state.joint_slots);
+  if constexpr (std::is_const_v<State>) {
+    State::sections(visit, state);
+  } else {
+    visit("shapes", state.shapes.change());
+    visit("children", state.children.change());
+    State::own_sections(visit, state);
+  }
+  visit.each("frozen", state.frozen.size(), [&](const LeafVisitor& of_island, std::size_t i) {
+    const auto& island = *state.frozen[i];
+    std::remove_cvref_t<decltype(island)>::sections(of_island, island);
+  });
+}
+
+}  // namespace
+
+/// Joints as prepared; once solved, their impulses alone are asked for again.
+template <class S> template <class Visit> void WorldEngine<S>::visit_joints(const Visit& visit, bool solved) {
+  visit.each("joint_constraints", joint_constraints_.size(), [&](const auto& of_joint, std::size_t i) {
+    JointConstraint<S>& joint = joint_constraints_[i];
+    if (!solved) {
+      of_joint("row_a", joint.row_a);
+      of_joint("row_b", joint.row_b);
+      of_joint("share", joint.share);
+      of_joint("pose_a", joint.pose_a);
+      of_joint("pose_b", joint.pose_b);
+      of_joint("radius", joint.radius);
+      of_joint("motor_force", joint.motor_force);
+      of_joint("block_count", joint.block_count);
+      of_joint("drive_count", joint.drive_count);
+      of_joint("holds", joint.holds);
+    }
+    of_joint("point_impulse", joint.blocks[0].impulse);
+    of_joint("angular_impulse", joint.blocks[1].impulse);
+    of_joint.each("drives", joint.drive_count, [&](const auto& of_drive, std::size_t k) {
+      JointDrive<S>& drive = joint.drives[k];
+      if (!solved) {
+        of_drive("radius", drive.radius);
+        of_drive("bounded_below", drive.bounded_below);
+        of_drive("bounded_above", drive.bounded_above);
+        of_drive("sprung", drive.sprung);
+        of_drive("driven", drive.driven);
+      }
+      of_drive("motor_impulse", drive.motor_impulse);
+      of_drive("spring_impulse", drive.spring_impulse);
+      of_drive("lower_impulse", drive.lower_impulse);
+      of_drive("upper_impulse", drive.upper_impulse);
+    });
+  });
+}
+
+/// Of the broad phase the pairs: its trees are functions of the state and of what came before, and differ between
+/// worlds that agree.
+template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(const Visit& visit, Stage stage) {
+  const auto visit_solver = [&](SolverStage solver_stage) {
+    SolverInput<S> input = {};
+    input.properties = state_.awake.properties;
+    input.contacts = state_.contacts;
+    input.geometry = geometry_;
+    with_solver(solvers_, state_.settings.solver,
+                [&](auto& solver) { solver.visit_scratch(visit, solver_stage, input); });
+  };
+  const auto visit_places = [&] {
+    visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
+    visit("joint_locations", std::span(joint_locations_.data(), state_.joint_slots.entries().size()));
+  };
+  switch (stage) {
+    case Stage::find_pairs:
+      visit("pairs", const_cast<std::vector<std::uint64_t>&>(proxies_.pairs()));  // a drill's to write
+      return visit_places();
+    case Stage::apply_forces:
+      visit("accelerations", accelerations_);
+      visit("start_poses", start_poses_);
+      return visit("start_slots", start_slots_);
+    case Stage::update_manifolds:
+      visit("frames", frames_);
+      visit("materials", materials_);
+      visit("parts", parts_);
+      visit("old_contacts", old_contacts_);
+      visit("new_overlaps", new_overlaps_);
+      return visit.each("geometry", geometry_.size(), [&](const auto& of_contact, std::size_t i) {
+        ContactGeometry<S>& g = geometry_[i];
+        of_contact("row_a", g.row_a);
+        of_contact("row_b", g.row_b);
+        of_contact("normal", g.normal);
+        of_contact("points", std::span(g.points, state_.contacts[i].count));
+        of_contact("material", g.material);
+      });
+    case Stage::colour_constraints: visit_joints(visit, false); return visit_solver(SolverStage::colour);
+    case Stage::prepare: return visit_solver(SolverStage::prepare);
+    case Stage::solve_substeps: visit_joints(visit, true); return visit_solver(SolverStage::solve);
+    case Stage::restitution: return visit_solver(SolverStage::restitute);
+    case Stage::store_impulses: visit("step_impulses", step_impulses_); return visit_solver(SolverStage::store);
+    case Stage::finalise_bodies: return visit("report", report_);
+    case Stage::update_sensors:
+      visit("sensor_begin", events_.sensor_begin);
+      return visit("sensor_end", events_.sensor_end);
+    case Stage::emit_events:
+      visit("contact_begin", events_.contact_begin);
+      return visit("contact_end", events_.contact_end);
+    case Stage::update_sleep:
+      visit("fell_asleep", events_.fell_asleep);
+      visit("woke", events_.woke);
+      return visit_places();
+  }
+}
+
+template <class S>
+void WorldEngine<S>::walk_leaves(void* self, LeafPart part, std::uint32_t stage, const LeafSink* sink,
+                                 const LeafEditor* editor) {
+  WorldEngine& engine = *static_cast<WorldEngine*>(self);
+  const LeafVisitor visit(nullptr, sink, editor);
+  if (part == LeafPart::scratch) {
+    if (stage < kStages) engine.visit_scratch(visit, static_cast<Stage>(stage));
+  } else if (visit.edits()) {
+    visit_world_state(visit, engine.state_);
+  } else {
+    visit_world_state(visit, std::as_const(engine.state_));
+  }
+}
+
+}  // namespace isostep

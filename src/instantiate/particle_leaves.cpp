@@ -1,0 +1,12 @@
+// The leaves of ParticleWorld<S> for every shipped scalar: apart from its own file, for a step has nothing of them.
+// SPDX-License-Identifier: MIT
+#include "isostep/particles/engine_leaves.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S) \
+  template void ParticleEngine<S>::walk_leaves(void*, LeafPart, std::uint32_t, const LeafSink*, const LeafEditor*);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep

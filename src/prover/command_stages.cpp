@@ -1,0 +1,74 @@
+// isostep_prover trace and leaves: what `isostep diff --stages` asks of a build that is not its own.
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include "commands.hpp"
+#include "isostep/core/short_text.hpp"
+#include "isostep/state/replay_format.hpp"
+#include "isostep/world/staged_replay.hpp"
+#include "streams.hpp"
+
+namespace isostep::prover {
+namespace {
+
+StagedReplay how(const Request& request) {
+  return {request.simd, request.frames, request.fault ? &*request.fault : nullptr};
+}
+
+/// "invalid" is what the words ask for; all else is the file's fault.
+int status_of(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::invalid: return exit_status::kUsage;
+    case ErrorCode::incompatible: return exit_code(VerifyOutcome::incompatible);
+    case ErrorCode::truncated: return exit_code(VerifyOutcome::truncated);
+    default: return exit_code(VerifyOutcome::corrupt);
+  }
+}
+int answer(const Result<void>& played) {
+  if (played) return exit_status::kOk;
+  return refuse(status_of(played.error()), played.error().message.view(), played.error().place.view());
+}
+
+/// All that is there has been traced; that more was asked for is told as `verify` tells it.
+int end_of(Bytes file, std::uint64_t frames) {
+  const ReplayReader replay(file);
+  if (replay.status() != ReplayStatus::truncated || frames <= replay.frame_count()) return exit_status::kOk;
+  return answer(replay.error());
+}
+
+}  // namespace
+
+int command_trace(const Request& request) {
+  std::vector<std::uint8_t> file;
+  if (const std::string error = read_file(request.operands[0], file); !error.empty()) {
+    return refuse(exit_status::kNoInput, error, request.operands[0]);
+  }
+  const TraceSink sink = {[](void*, const TracedStage& traced) {
+                            ShortText<96> line;
+                            line.append_number(traced.frame).append(" ").append_number(traced.step).append(" ");
+                            line.append(traced.stage).append(" ").append_hex(traced.hash).append("\n");
+                            print(line.view());
+                          },
+                          nullptr};
+  const int status = answer(trace_stages(file, how(request), sink));
+  return status == exit_status::kOk ? end_of(file, request.frames) : status;
+}
+
+int command_leaves(const Request& request) {
+  std::vector<std::uint8_t> file;
+  if (const std::string error = read_file(request.operands[0], file); !error.empty()) {
+    return refuse(exit_status::kNoInput, error, request.operands[0]);
+  }
+  StagePoint at;
+  if (!read_stage_step(request.operands[1], at)) {
+    return refuse(exit_status::kUsage, "FRAME[.STEP] is no number", request.operands[1]);
+  }
+  at.stage = request.operands[2];
+  const LeafSink sink = {[](void*, const PathPart& path, LeafFormat format, std::uint64_t bits) {
+                           print(leaf_line({path_text(path), format, bits}) + "\n");
+                         },
+                         nullptr};
+  return answer(visit_stage(file, how(request), at, sink));
+}
+
+}  // namespace isostep::prover

@@ -1,0 +1,32 @@
+// What the prover is asked for: its words, read.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "isostep/core/simd.hpp"
+#include "isostep/state/verify.hpp"
+#include "isostep/world/staged_replay.hpp"
+#include "programs/exit_status.hpp"
+
+namespace isostep::prover {
+
+struct Request {
+  std::string_view command;
+  std::vector<std::string_view> operands;
+  Simd simd = Simd::best;
+  std::uint64_t frames = kAllFrames;  // at most; one or more
+  std::optional<StageFault> fault;    // a drill of trace and leaves
+};
+
+/// Options, "--name value", stand anywhere; the first other word is the command. 0, or the exit status after a line on
+/// stderr.
+int read_request(int count, const char* const* words, Request& request);
+
+/// "isostep_prover: what (detail)" on stderr; returns `status`.
+int refuse(int status, std::string_view what, std::string_view detail = {});
+
+}  // namespace isostep::prover

@@ -1,0 +1,32 @@
+// A game recorded from the empty world on: its settings are the start, and frame 0's commands build the scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "files.hpp"
+#include "game_options.hpp"
+#include "isostep/state/tape_recorder.hpp"
+
+namespace isostep::tool {
+
+/// Throws ToolError 74 when the start cannot be written.
+template <class W>
+void begin_recording(std::optional<TapeRecorder<W>>& recorder, W& world, const ReplaySink& sink,
+                     const std::string& scene) {
+  recorder.emplace(world, sink);
+  expect_written(recorder->begin(scene));
+}
+
+template <class Game> struct RecordedGame {
+  std::optional<Game> game;
+  std::optional<TapeRecorder<typename Game::World>> recorder;  // goes before the world that it listens to
+
+  RecordedGame(const typename Game::Scene& scene, const GameOptions& options, const ReplaySink& sink) {
+    game.emplace(scene, options,
+                 [&](typename Game::World& empty) { begin_recording(recorder, empty, sink, scene.name); });
+  }
+};
+
+}  // namespace isostep::tool

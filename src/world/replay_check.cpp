@@ -1,0 +1,88 @@
+// Which world a replay needs, and whether it passes through the replay's hashes.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/replay_check.hpp"
+
+#include "isostep/core/scalar_names.hpp"
+#include "isostep/world/world_kinds.hpp"
+
+namespace isostep {
+namespace {
+
+std::string worlds_here() {
+  std::string names;
+  any_world([&](auto tag) {
+    const std::string_view kind = WorldTraits<typename decltype(tag)::Type>::kName;
+    const std::string_view name = kind.empty() ? std::string_view("rigid bodies") : kind;
+    if (names.find(name) != std::string::npos) return false;
+    if (!names.empty()) names += ", ";
+    names += name;
+    return false;
+  });
+  return names;
+}
+
+/// The header that this build would write for the world in the file; without one, for what the file claims.
+template <class W> Result<ReplayHeader> header_here(const ReplayReader& replay, const ReplayIdentity& claimed) {
+  ReplayIdentity here = claimed;
+  if (replay.has_state()) {
+    W world;
+    Reader reader(replay.state());
+    if (world.read_portable(reader)) here = identity_of_world(world.settings(), claimed.scene);
+  }
+  here.behaviour = behaviour_version();
+  here.scalar = ScalarTraits<typename W::Scalar>::kName;
+  here.scalar_id = ScalarTraits<typename W::Scalar>::kId;
+  here.world = WorldTraits<W>::kName;
+  here.hash_algorithm = kHashName;
+  return make_replay_header(here);
+}
+
+template <class W>
+void check_as(const ReplayReader& replay, const ReplayIdentity& claimed, const ReplayCheck& check,
+              CheckedReplay& checked) {
+  const Result<ReplayHeader> here = header_here<W>(replay, claimed);
+  if (!here) {
+    const Error error = {ErrorCode::corrupt, "the header's scene or solver cannot be read", ""};
+    checked.result = detail::corrupt(0, 0, error);
+    return;
+  }
+  W world;
+  use_lanes(world, check.simd);
+  checked.lanes = world.simd_name();
+  checked.result = verify(replay, world, SameHeader{here.value()}, check.span);
+  if (check.reached == nullptr || checked.result.outcome != VerifyOutcome::verified) return;
+  check.reached->clear();
+  Writer writer(*check.reached);
+  world.write_portable(writer);
+}
+
+}  // namespace
+
+CheckedReplay check_replay(Bytes file, const ReplayCheck& check) {
+  CheckedReplay checked;
+  const ReplayReader replay(file);
+  checked.result = detail::verify_file(replay);
+  if (checked.result.outcome != VerifyOutcome::verified) return checked;
+  if (!replay.has_header()) {
+    checked.result = detail::verify_end(replay, 0);
+    return checked;
+  }
+  const Result<ReplayIdentity> identity = identity_of(replay.header());
+  if (!identity) {
+    checked.result = detail::incompatible({identity.error().place.view(), {}, "a field that can be read"});
+    return checked;
+  }
+  const ReplayIdentity& claimed = identity.value();
+  checked.scene = claimed.scene;
+  checked.scalar = claimed.scalar;
+  const std::string_view missing = with_world(claimed.world, claimed.scalar, [&](auto tag) {
+    check_as<typename decltype(tag)::Type>(replay, claimed, check, checked);
+  });
+  if (missing.empty()) return checked;
+  const bool kind = missing == kWorldKey;
+  const std::string known = kind ? worlds_here() : joined_scalar_names(", ");
+  checked.result = detail::incompatible({missing, kind ? claimed.world : claimed.scalar, std::string_view(known)});
+  return checked;
+}
+
+}  // namespace isostep

@@ -1,0 +1,149 @@
+// Which world a replay needs, played with somebody who watches.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/staged_replay.hpp"
+
+#include <optional>
+
+#include "isostep/core/number_text.hpp"
+#include "isostep/core/simd_choice.hpp"
+#include "isostep/state/replay_format.hpp"
+#include "isostep/state/tape.hpp"
+#include "isostep/world/world_kinds.hpp"
+
+namespace isostep {
+namespace {
+
+/// What is done at a point: look(point's step and stage, what was left there).
+struct Watch {
+  const StagedReplay& how;
+  const TraceSink* trace;  // or, for the leaves of one point:
+  const StagePoint* at;
+  const LeafSink* leaves;
+  std::uint64_t frame = 0;
+  bool struck = false, visited = false;
+
+  bool is_at(const StagePoint& point, std::uint32_t step, std::string_view stage) const {
+    return point.frame == frame && point.step == step && point.stage == stage;
+  }
+  void look(std::uint32_t step, const char* stage, const StageView& view) {
+    const StageFault* const fault = how.fault;
+    const bool faulty = fault != nullptr && is_at(fault->at, step, stage);
+    if (faulty) struck = FaultDrill(fault->path, fault->bit).strike(view);
+    tell(step, stage, view);
+    if (faulty && fault->heals) FaultDrill(fault->path, fault->bit).strike(view);
+  }
+  void tell(std::uint32_t step, const char* stage, const StageView& view) {
+    if (trace != nullptr) trace->stage(trace->user, {frame, step, stage, view.hash()});
+    if (at == nullptr || !is_at(*at, step, stage)) return;
+    view.visit(*leaves);
+    visited = true;
+  }
+  /// Others are played as ever.
+  bool watches() const {
+    return trace != nullptr || at->frame == frame || (how.fault != nullptr && how.fault->at.frame == frame);
+  }
+};
+
+template <class W> struct Watched {
+  Watch& watch;
+  std::uint32_t number;
+
+  template <class Stage> static void after(void* user, Stage stage, const StageView& left) {
+    const Watched& step = *static_cast<const Watched*>(user);
+    step.watch.look(step.number, WorldTraits<W>::kStages[static_cast<std::size_t>(stage)], left);
+  }
+  void play(W& world) {
+    watch.look(number, kCommandsStage, world.leaves());
+    world.step({&Watched::after, this});
+  }
+};
+
+template <class W> Result<void> play_frame(W& world, Bytes tape, Watch& watch) {
+  if (!watch.watches()) return world.step_recorded(tape);
+  Watched<W> step = {watch, 0};
+  const Result<void> played = play_tape<typename W::Command>(
+      tape, [&](const typename W::Command& command) { return world.apply(command); },
+      [&] {
+        ++step.number;
+        step.play(world);
+      });
+  if (played) watch.look(step.number + 1, kCommandsStage, world.leaves());
+  return played;
+}
+
+template <class W> Result<void> play_as(const ReplayReader& replay, Watch& watch) {
+  W world;
+  use_lanes(world, watch.how.simd);
+  Reader reader(replay.state());
+  const Result<void> read = world.read_portable(reader);
+  if (!read) return read;
+  for (; watch.frame < replay.frame_count() && watch.frame < watch.how.frames; ++watch.frame) {
+    const Result<void> played = play_frame(world, replay.frame(watch.frame).input, watch);
+    if (!played) return played;
+    if (watch.visited) break;
+  }
+  return {};
+}
+
+Result<void> play(Bytes file, Watch& watch) {
+  const ReplayReader replay(file);
+  if (!replay.has_state() || replay.status() == ReplayStatus::corrupt || replay.status() == ReplayStatus::incompatible)
+    return replay.error();
+  const Result<std::uint64_t> scalar = replay.header().number("scalar_id");
+  if (!scalar) return scalar.error();
+  const ReplayField* const kind = replay.header().find(kWorldKey);
+  Result<void> played;
+  const std::string_view missing =
+      with_world(kind == nullptr ? std::string_view() : kind->value.view(), scalar.value(),
+                 [&](auto tag) { played = play_as<typename decltype(tag)::Type>(replay, watch); });
+  if (!missing.empty()) return Error{ErrorCode::incompatible, "of a world that this build lacks", missing};
+  return played;
+}
+
+/// A drill that has not struck is no drill.
+Result<void> end_of(const Watch& watch) {
+  const StageFault* const fault = watch.how.fault;
+  const bool reached = fault != nullptr && (watch.at == nullptr || fault->at.frame <= watch.at->frame);
+  if (!reached || watch.struck) return {};
+  return Error{ErrorCode::invalid, "the fault strikes nothing: no such stage, or no such leaf that may be written",
+               std::string_view(fault->path)};
+}
+
+}  // namespace
+
+bool read_stage_step(std::string_view text, StagePoint& point) {
+  const std::size_t dot = text.find('.');
+  std::uint64_t step = 1;
+  if (dot != std::string_view::npos && !read_number(text.substr(dot + 1), step)) return false;
+  if (step == 0 || step > kFrameStepCap + 1) return false;
+  point.step = static_cast<std::uint32_t>(step);
+  return read_number(text.substr(0, dot), point.frame);
+}
+
+bool read_stage_fault(std::string_view text, StageFault& fault) {
+  const std::size_t first = text.find(':'), last = text.rfind(':');
+  const std::size_t second = first == std::string_view::npos ? first : text.find(':', first + 1);
+  std::uint64_t bit = 0;
+  if (second == std::string_view::npos || second == last) return false;
+  if (!read_stage_step(text.substr(0, first), fault.at) || !read_number(text.substr(last + 1), bit)) return false;
+  fault.at.stage = text.substr(first + 1, second - first - 1);
+  fault.path = text.substr(second + 1, last - second - 1);
+  fault.bit = static_cast<std::uint32_t>(bit < 64 ? bit : 64);
+  return true;
+}
+
+Result<void> trace_stages(Bytes file, const StagedReplay& how, const TraceSink& sink) {
+  Watch watch = {how, &sink, nullptr, nullptr};
+  const Result<void> played = play(file, watch);
+  return played ? end_of(watch) : played;
+}
+
+Result<void> visit_stage(Bytes file, const StagedReplay& how, const StagePoint& at, const LeafSink& sink) {
+  Watch watch = {how, nullptr, &at, &sink};
+  const Result<void> played = play(file, watch);
+  if (!played) return played;
+  if (!watch.visited) return Error{ErrorCode::invalid, "the recording has no such stage", std::string_view(at.stage)};
+  return end_of(watch);
+}
+
+}  // namespace isostep

@@ -1,0 +1,142 @@
+// What never touches does not know of each other: in whatever order islands were made, beside whatever else, every body
+// moves bit for bit as it does when its island is alone.
+// SPDX-License-Identifier: MIT
+
+#include "determinism/islands.hpp"
+
+#include <numeric>
+#include <tuple>
+
+#include "determinism/mess.hpp"
+#include "determinism/solver_cases.hpp"
+#include "examples/thread_pool.hpp"
+
+namespace isostep::test {
+namespace {
+
+constexpr int kIslands = 12;
+
+/// Enough to fall asleep and be woken; twice with the solvers that take their time over each.
+constexpr int frames_of(SolverName solver) {
+  return solver == SolverName::soft_step || solver == SolverName::pgs ? 240 : 110;
+}
+
+/// How a world comes to its islands.
+struct Circumstances {
+  std::vector<int> turns;  // an island makes its next body, again and again
+  std::uint32_t past = 0;  // bodies that were there before and left their slots
+  Simd simd = Simd::best;
+  TaskRunner runner = {};
+};
+using Motions = std::vector<std::vector<std::uint64_t>>;  // by island, by frame
+
+/// Slots come back in the order of `past`, some of them: those of an island stay in order among each other.
+template <class S> void live_before(World<S>& w, ShapeId shape, std::uint32_t past) {
+  std::vector<BodyId> former;
+  for (std::uint32_t i = 0; i < past; ++i) former.push_back(w.create(moving<S>(shape, {30, 1.0 + i, 30})));
+  for (int i = 0; i < 20; ++i) w.step();
+  for (std::size_t i = former.size(); i-- > 0;) w.destroy(former[i]);
+}
+
+struct Seen {
+  std::uint32_t contacts = 0, begins = 0, asleep = 0, woke = 0;
+  bool apart = true;
+};
+
+template <class S> Motions motions_of(SolverName solver, const Circumstances& how, Seen* seen = nullptr) {
+  Settings<S> s = settings<S>(-10, 60, 4);
+  s.solver = solver;
+  World<S> w(s);
+  w.use_simd(how.simd);
+  w.use_threads(how.runner);
+  add_ground(w);
+  const IslandShapes shapes = IslandShapes::of(w);
+  live_before(w, shapes.box, how.past);
+  std::vector<Island<S>> islands;
+  for (int i = 0; i < kIslands; ++i) islands.emplace_back(i, shapes);
+  std::vector<int> there;
+  for (const int turn : how.turns) {
+    if (std::find(there.begin(), there.end(), turn) == there.end()) there.push_back(turn);
+    islands[static_cast<std::size_t>(turn)].make_next(w);
+  }
+  for (const int i : there) {
+    while (islands[static_cast<std::size_t>(i)].make_next(w)) {}
+  }
+  Motions motions(kIslands);
+  for (int frame = 0; frame < frames_of(solver); ++frame) {
+    for (const int i : there) islands[static_cast<std::size_t>(i)].play(w, frame);
+    w.step();
+    for (const int i : there) {
+      const auto at = static_cast<std::size_t>(i);
+      motions[at].push_back(islands[at].hash(w));
+      if (seen != nullptr) seen->apart = seen->apart && islands[at].keeps_apart(w);
+    }
+    if (seen == nullptr) continue;
+    seen->contacts = std::max(seen->contacts, w.counts().contacts);
+    seen->asleep = std::max(seen->asleep, w.counts().asleep);
+    seen->begins += static_cast<std::uint32_t>(w.events().contact_begin.size());
+    seen->woke += static_cast<std::uint32_t>(w.events().woke.size());
+  }
+  return motions;
+}
+
+/// Of islands that were there.
+void expect_equal(const Motions& now, const Motions& expected, const char* what) {
+  for (std::size_t i = 0; i < kIslands; ++i) {
+    for (std::size_t f = 0; f < now[i].size(); ++f) {
+      ASSERT_EQ(now[i][f], expected[i][f]) << what << ": island " << i << " at frame " << f;
+    }
+  }
+}
+
+std::vector<int> in_order() {
+  std::vector<int> turns(kIslands);
+  std::iota(turns.begin(), turns.end(), 0);
+  return turns;
+}
+std::vector<int> in_turn(std::uint64_t seed) {
+  Dice dice(seed);
+  std::vector<int> turns;
+  for (int i = 0; i < 400; ++i) turns.push_back(static_cast<int>(dice.below(kIslands)));
+  return turns;
+}
+
+template <class Case> class Islands : public ::testing::Test {
+ protected:
+  using Number = std::tuple_element_t<0, Case>;
+  static constexpr SolverName kSolver = std::tuple_element_t<1, Case>::value;
+  static const Motions& expected() {
+    static const Motions motions = motions_of<Number>(kSolver, {in_order()});
+    return motions;
+  }
+};
+TYPED_TEST_SUITE(Islands, SolverCases, SolverCaseNames);
+
+TYPED_TEST(Islands, are_busy_and_apart_and_sleep_and_wake) {
+  Seen seen;
+  const Motions motions = motions_of<typename TestFixture::Number>(this->kSolver, {in_order()}, &seen);
+  EXPECT_EQ(motions, this->expected());
+  EXPECT_TRUE(seen.apart) << "islands met";
+  EXPECT_GT(seen.contacts, 60u);
+  EXPECT_GT(seen.begins, 80u);
+  EXPECT_GT(seen.asleep, 0u);
+  EXPECT_GT(seen.woke, 0u);
+}
+
+TYPED_TEST(Islands, move_as_each_does_alone) {
+  for (int i = 0; i < Island<float>::kKinds; ++i) {
+    expect_equal(motions_of<typename TestFixture::Number>(this->kSolver, {{i}}), this->expected(), "alone");
+  }
+}
+
+TYPED_TEST(Islands, move_the_same_in_whatever_order_they_were_made) {
+  using S = typename TestFixture::Number;
+  std::vector<int> backwards = in_order();
+  std::reverse(backwards.begin(), backwards.end());
+  expect_equal(motions_of<S>(this->kSolver, {backwards}), this->expected(), "backwards");
+  expect_equal(motions_of<S>(this->kSolver, {in_turn(1)}), this->expected(), "in turn");
+  expect_equal(motions_of<S>(this->kSolver, {in_turn(2), 17, Simd::scalar}), this->expected(), "in slots used before");
+}
+
+}  // namespace
+}  // namespace isostep::test

@@ -1,0 +1,16 @@
+# cmake -DTOOL= -DREPLAYS= -P portable.cmake: every scene of the golden lists, in its scalar, is saved, loaded, written and
+# rebuilt early, halfway and late, and goes on as it would have.
+file(GLOB goldens RELATIVE ${REPLAYS}/goldens ${REPLAYS}/goldens/*.txt)
+list(LENGTH goldens count)
+if(count LESS 100)
+  message(FATAL_ERROR "${count} golden lists")
+endif()
+foreach(golden ${goldens})
+  string(REGEX MATCH "^([^.]+)\\.(.+)\\.txt$" parts ${golden})
+  execute_process(COMMAND ${TOOL} selftest ${CMAKE_MATCH_1} --scalar ${CMAKE_MATCH_2} --frames 45 --every 20 --rollback 10
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0 OR NOT output MATCHES "3 times saved")
+    message(FATAL_ERROR "${golden}: selftest ends with ${result}\n${output}")
+  endif()
+endforeach()
+message("${count} scenes go on as they would have")

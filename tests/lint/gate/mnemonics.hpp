@@ -1,0 +1,23 @@
+// Which instructions are of concern, by the names that GNU's and LLVM's objdump print.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "concern.hpp"
+
+namespace isostep_lint {
+
+/// Of a disassembler's "file format" line: "elf64-x86-64", "pe-x86-64", "elf64-littleaarch64", "wasm", ...
+InstructionSet instruction_set_of(std::string_view format);
+
+/// What is the matter with an instruction; `operands` as the disassembler prints them (x86: AT&T's order and suffixes).
+Concern concern_of(InstructionSet set, std::string_view mnemonic, std::string_view operands);
+
+/// A part of the instruction that follows it: "rep", "lock".
+bool is_prefix(InstructionSet set, std::string_view mnemonic);
+
+/// Data that a compiler keeps between instructions: a constant pool's word, the offsets of a jump table.
+bool is_data(InstructionSet set, std::string_view mnemonic, std::string_view operands);
+
+}  // namespace isostep_lint

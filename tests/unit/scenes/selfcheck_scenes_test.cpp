@@ -1,0 +1,140 @@
+// The scenes of the self-check are small, and nothing of the engines is missing from them.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "isostep/world/state.hpp"
+#include "scenes/build.hpp"
+#include "scenes/named.hpp"
+#include "scenes/particles/particle_game.hpp"
+#include "scenes/particles/words.hpp"
+#include "scenes/script.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+template <class S> class SelfcheckScenes : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double, Q16_16, Q32_32>;
+TYPED_TEST_SUITE(SelfcheckScenes, Scalars);
+
+constexpr int kFrames = 180;
+
+/// What a run of the medley met.
+template <class S> struct Sights {
+  std::set<JointType> joints;
+  std::set<ShapeType> shapes;               // of bodies in contact
+  std::set<BodyType> types;                 // likewise
+  bool compound = false, conveyed = false;  // touched
+  bool motor = false, spring = false;       // gave impulses
+  bool lower = false, upper = false, swing = false;
+  std::size_t contact_begin = 0, contact_end = 0, sensor_begin = 0, sensor_end = 0, fell_asleep = 0, woke = 0;
+
+  void see(const World<S>& world) {
+    const WorldState<S>& state = world.state();
+    for (const JointProperties<S>& joint : state.joints.properties) joints.insert(joint.type);
+    for (const JointState<S>& joint : state.joints.states) {
+      motor = motor || joint.motor != Velocity<S>(0);
+      spring = spring || joint.spring != Velocity<S>(0);
+      lower = lower || joint.lower != Velocity<S>(0);
+      upper = upper || joint.upper != Velocity<S>(0);
+      swing = swing || joint.swing != Velocity<S>(0);
+    }
+    for (const Contact<S>& contact : state.contacts) {
+      touch(world.view(state.body_slots.template id_of<BodyId>(contact.key.body_a)));
+      touch(world.view(state.body_slots.template id_of<BodyId>(contact.key.body_b)));
+    }
+    const Events<S>& events = world.events();
+    contact_begin += events.contact_begin.size();
+    contact_end += events.contact_end.size();
+    sensor_begin += events.sensor_begin.size();
+    sensor_end += events.sensor_end.size();
+    fell_asleep += events.fell_asleep.size();
+    woke += events.woke.size();
+  }
+  void touch(const BodyView<S>& body) {
+    for (const Child<S>& child : body.children) shapes.insert(child.primitive.type);
+    types.insert(body.properties->type);
+    compound = compound || body.children.size() > 1;
+    conveyed = conveyed || body.properties->material.surface_velocity.x != S(0);
+  }
+};
+
+TYPED_TEST(SelfcheckScenes, MedleyAsksForEveryPartOfTheRigidEngine) {
+  using S = TypeParam;
+  const Scene scene = *find_scene("medley");
+  World<S> world(settings_of<S>(scene));
+  build(scene, world);
+  EXPECT_LE(world.counts().bodies, 24u);
+  Sights<S> sights;
+  for (int i = 0; i < kFrames; ++i) {
+    before_step(scene.script, world);
+    ASSERT_EQ(world.fault(), Fault::none) << i << ": " << fault_text(world.fault());
+    ASSERT_TRUE(world.step().clean()) << i;
+    sights.see(world);
+  }
+  EXPECT_EQ(sights.joints.size(), 4u);
+  EXPECT_EQ(sights.shapes.size(), 4u);
+  EXPECT_EQ(sights.types.size(), 3u);
+  EXPECT_TRUE(sights.compound && sights.conveyed);
+  EXPECT_TRUE(sights.motor && sights.spring);
+  EXPECT_TRUE(sights.lower);
+  EXPECT_TRUE(sights.upper);
+  EXPECT_TRUE(sights.swing);
+  EXPECT_GT(sights.contact_begin, 10u);
+  EXPECT_GT(sights.contact_end, 0u);
+  EXPECT_GT(sights.sensor_begin, 0u);
+  EXPECT_GT(sights.sensor_end, 0u);
+  EXPECT_GE(sights.fell_asleep, 3u);
+  EXPECT_GE(sights.woke, 3u);
+}
+
+/// The set's rigid recordings by other solvers are the first 30 frames: contacts and joints are at work by then.
+TYPED_TEST(SelfcheckScenes, MedleyByEverySolverHasContactsAndPulledJointsWithinThirtyFrames) {
+  using S = TypeParam;
+  for (std::uint32_t solver = 0; solver < kSolvers; ++solver) {
+    Scene scene = *find_scene("medley");
+    scene.solver = static_cast<SolverName>(solver);
+    World<S> world(settings_of<S>(scene));
+    build(scene, world);
+    for (int i = 0; i < 30; ++i) {
+      before_step(scene.script, world);
+      ASSERT_TRUE(world.step().clean()) << kSolverNames[solver] << ' ' << i;
+    }
+    EXPECT_GE(world.state().contacts.size(), 6u) << kSolverNames[solver];
+    const auto& joints = world.state().joints.states;
+    EXPECT_TRUE(std::any_of(joints.begin(), joints.end(), [](const JointState<S>& joint) {
+      return joint.point.y != Velocity<S>(0);
+    })) << kSolverNames[solver];
+  }
+}
+
+TYPED_TEST(SelfcheckScenes, PatchworkPullsEveryLinkAndTouchesEverything) {
+  using S = TypeParam;
+  ParticleGame<S> game(*find_particle_scene("patchwork"));
+  const std::size_t links = game.world.counts().links;
+  std::set<std::size_t> pulled;
+  bool plane = false, line = false, pair = false;
+  for (int i = 0; i < 120; ++i) {
+    game.advance();
+    ASSERT_EQ(game.world.fault(), Fault::none) << i;
+    const ParticleState<S>& state = game.world.state();
+    for (std::size_t slot = 0; slot < state.link_impulses.size(); ++slot) {
+      if (state.link_impulses[slot] != Velocity<S>(0)) pulled.insert(slot);
+    }
+    for (const auto& begin : game.world.events().contact_begin) {
+      pair = pair || bool(begin.b);
+      const Collider<S>* const collider = game.world.find(begin.collider);
+      plane = plane || (collider != nullptr && collider->type == ColliderType::plane);
+      line = line || (collider != nullptr && collider->type == ColliderType::line);
+    }
+  }
+  EXPECT_EQ(links, 5u);
+  EXPECT_EQ(pulled.size(), links);
+  EXPECT_TRUE(pair && plane && line);
+  EXPECT_GT(game.world.counts().springs, 20u);
+}
+
+}  // namespace
+}  // namespace isostep::scenes

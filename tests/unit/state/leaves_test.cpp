@@ -1,0 +1,89 @@
+// A drill strikes what may be written, and says of anything else that it struck nothing.
+// SPDX-License-Identifier: MIT
+#include "isostep/state/leaves.inl"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "isostep/scalar/exact.hpp"
+#include "isostep/scalar/fixed.hpp"
+
+namespace isostep {
+namespace {
+
+/// A leaf of every way in which leaves are reached: bare, in an Exact, as a sum of products narrow and wide.
+struct Numbers {
+  std::uint32_t count = 5;
+  float number = 1.5f;
+  Exact<float> exact = Exact<float>(2.5f);
+  FixedSum<std::int32_t, 16> narrow = {7};
+  FixedSum<std::int64_t, 32> wide = {Wide<std::int64_t>(9)};
+
+  template <class Visitor, class Self> static void fields(Visitor&& visit, Self&& self) {
+    visit("count", self.count);
+    visit("number", self.number);
+    visit("exact", self.exact);
+    visit("narrow", self.narrow);
+    visit("wide", self.wide);
+  }
+};
+struct Engine {
+  Numbers own, shared;
+
+  static std::uint64_t hash(const void*) { return 0; }
+  static void walk(void* engine, LeafPart part, std::uint32_t, const LeafSink* sink, const LeafEditor* editor) {
+    if (part != LeafPart::state) return;
+    Engine& e = *static_cast<Engine*>(engine);
+    const LeafVisitor visit(nullptr, sink, editor);
+    visit("own", e.own);
+    visit("shared", std::as_const(e.shared));
+  }
+  StageView view() { return StageView({this, &hash, &walk}, 0); }
+};
+
+std::vector<NamedLeaf> leaves_of(Engine& engine) {
+  std::vector<NamedLeaf> leaves;
+  const LeafSink sink = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
+                           static_cast<std::vector<NamedLeaf>*>(user)->push_back({path_text(path), format, bits});
+                         },
+                         &leaves};
+  engine.view().visit(sink);
+  return leaves;
+}
+
+TEST(Leaves, ADrillTurnsTheOneBitAndNoOther) {
+  Engine engine;
+  const std::vector<NamedLeaf> before = leaves_of(engine);
+  int struck = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].path.rfind("own.", 0) != 0) continue;
+    ++struck;
+    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view())) << before[i].path;
+    const std::vector<NamedLeaf> after = leaves_of(engine);
+    for (std::size_t j = 0; j < before.size(); ++j)
+      EXPECT_EQ(after[j].bits, before[j].bits ^ (i == j ? 8u : 0u)) << before[i].path << " at " << before[j].path;
+    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view()));  // back
+  }
+  EXPECT_EQ(struck, 6) << "two words of the wide sum";
+}
+
+TEST(Leaves, ADrillOnWhatIsSharedStrikesNothing) {
+  Engine engine;
+  int tried = 0;
+  for (const NamedLeaf& leaf : leaves_of(engine)) {
+    if (leaf.path.rfind("shared.", 0) != 0) continue;
+    ++tried;
+    EXPECT_FALSE(FaultDrill(leaf.path, 3).strike(engine.view())) << leaf.path;
+  }
+  EXPECT_EQ(tried, 6);
+}
+
+TEST(Leaves, ADrillOnWhatIsNotThereStrikesNothing) {
+  Engine engine;
+  EXPECT_FALSE(FaultDrill("own.cuont", 3).strike(engine.view()));
+  EXPECT_FALSE(FaultDrill("own.count", 32).strike(engine.view()));
+}
+
+}  // namespace
+}  // namespace isostep

@@ -1,0 +1,511 @@
+// `isostep diff --stages`: whatever bit of whatever array is turned after whatever stage, it names the frame, the stage
+// and the leaf, in rigid worlds with every solver and in worlds of particles.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "determinism/particle_mess.hpp"
+#include "determinism/solver_scene.hpp"
+#include "isostep/particles/recorder.hpp"
+#include "isostep/world/recorder.hpp"
+#include "tool/commands.hpp"
+#include "unit/tool/drills.hpp"
+
+namespace isostep::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Arrays = std::vector<std::string>;
+
+/// A file of this test alone.
+class Recorded : public testing::Test {
+ protected:
+  void SetUp() override {
+    const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("isostep-stages-") + info.name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string file(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
+    const std::string path = (folder_ / name).string();
+    tool::write_file(path, Bytes(bytes));
+    return path;
+  }
+  static std::string output(int expected, const std::vector<std::string>& words) {
+    std::vector<const char*> pointers = {"isostep", "diff", "--stages"};
+    for (const std::string& word : words) pointers.push_back(word.c_str());
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(tool::run_command_line(static_cast<int>(pointers.size()), pointers.data()), expected);
+    std::fflush(stdout);
+    return testing::internal::GetCapturedStdout();
+  }
+
+  fs::path folder_;
+};
+
+/// The solvers' scene; a ball that flies through a sensor, a box that falls asleep and is woken.
+template <class S> std::vector<std::uint8_t> rigid_recording(SolverName solver, int frames) {
+  World<S> w(solver_settings<S>(solver));
+  SolverScene<S> scene(w);
+  BodyDefinition<S> d = still<S>(add_box(w, 0.5, 0.5, 0.5), {10, 1, 1.5});
+  d.sensor = true;
+  w.create(d);
+  w.create(moving<S>(add_ball(w, 0.25), {10, 1, 0}, {0, 1, 6}));
+  const BodyId sleeper = w.create(moving<S>(add_box(w, 0.5, 0.25, 0.5), {14, 0.25, 0}));
+  std::vector<std::uint8_t> bytes;
+  WorldRecorder<S> recorder(w, sink_to(bytes));
+  EXPECT_TRUE(recorder.begin("stages").ok());
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame == frames - 4) w.wake(sleeper);
+    scene.play(w, static_cast<std::uint64_t>(frame));
+    EXPECT_TRUE(recorder.end_frame().ok());
+  }
+  EXPECT_TRUE(recorder.finish().ok());
+  return bytes;
+}
+template <class S> std::vector<std::uint8_t> particle_recording(std::uint32_t way, int frames) {
+  ParticleWorld<S> w(settings_of_way<S>(way));
+  build_particle_mess(w);
+  std::vector<std::uint8_t> bytes;
+  ParticleRecorder<S> recorder(w, sink_to(bytes));
+  EXPECT_TRUE(recorder.begin("stages").ok());
+  for (int frame = 0; frame < frames; ++frame) {
+    play(w, static_cast<std::uint64_t>(frame));
+    EXPECT_TRUE(recorder.end_frame().ok());
+  }
+  EXPECT_TRUE(recorder.finish().ok());
+  return bytes;
+}
+
+/// Arrays that are leaves of more than one: "prepared" stands for "prepared[].normals[]", too.
+bool is_part_of(const std::string& array, const std::string& name) {
+  return array == name || (array.rfind(name, 0) == 0 && (array[name.size()] == '[' || array[name.size()] == '.'));
+}
+
+/// `owners`: of arrays that belong to somebody, whose the printed slot must be. `state`: whether the state's arrays are
+/// struck as well, or just what stages leave in scratch.
+template <class W>
+void strike_everything(const tool::Input& input, const std::map<std::string, Arrays>& scratch,
+                       const std::map<std::string, std::string>& owners, bool state) {
+  const OrderlySide orderly(input);
+  const Survey survey = Surveyor<W>().survey(input.bytes);
+  std::set<std::pair<std::string, std::string>> missing;
+  for (const auto& [stage, arrays] : scratch) {
+    for (const std::string& array : arrays) missing.insert({stage, array});
+  }
+  for (const auto& [place, found] : survey) {
+    const auto& [stage, array] = place;
+    bool wanted = state;
+    for (auto name = missing.begin(); name != missing.end();) {
+      const bool match = name->first == stage && is_part_of(array, name->second);
+      wanted = wanted || match;
+      name = match ? missing.erase(name) : std::next(name);
+    }
+    if (scratch.count(stage) != 0) {
+      for (const std::string& name : scratch.at(stage)) wanted = wanted || is_part_of(array, name);
+    }
+    if (!wanted) continue;
+    const auto owner = owners.find(array.substr(0, array.find('[')));
+    SCOPED_TRACE("stage " + stage + ", " + found.leaf.path);
+    expect_named(input, orderly, stage, found, owner == owners.end() ? "" : owner->second);
+  }
+  for (const auto& [stage, array] : missing) ADD_FAILURE() << "stage " << stage << " never left " << array;
+}
+
+const std::map<std::string, std::string> kRigidOwners = {
+    {"bodies", "body slot "},
+    {"properties", "body slot "},
+    {"fixed", "body slot "},
+    {"fixed_properties", "body slot "},
+    {"contacts", "body slots "},
+    {"joints", "joint slot "},
+    {"joint_properties", "joint slot "},
+    {"forces", "body slot "},
+    {"overlaps", "body slots "},
+    {"pairs", "body slots "},
+    {"locations", "body slot "},
+    {"joint_locations", "joint slot "},
+    {"accelerations", "body slot "},
+    {"start_poses", "body slot "},
+    {"start_slots", "body slot "},
+    {"frames", "body slot "},
+    {"materials", "body slot "},
+    {"parts", "body slots "},
+    {"old_contacts", "body slots "},
+    {"new_overlaps", "body slots "},
+    {"geometry", "body slots "},
+    {"joint_constraints", "joint slot "},
+    {"solver_velocity", "body slot "},
+    {"solver_displacement", "body slot "},
+    {"solver_mass", "body slot "},
+    {"solver_start", "body slot "},
+    {"solver_inertia", "body slot "},
+    {"colours", "body slots "},
+    {"order", "body slots "},
+    {"prepared", "body slots "},
+    {"step_impulses", "body slots "},
+    {"sensor_begin", "body slots "},
+    {"sensor_end", "body slots "},
+    {"contact_begin", "body slots "},
+    {"contact_end", "body slots "},
+    {"fell_asleep", "body slot "},
+    {"woke", "body slot "},
+    {"points", "body slots "},
+    {"ends", "body slot"},
+    {"held_joints", "joint slot "},
+    {"islands", "*"},
+};
+Arrays with(Arrays arrays, const Arrays& more) {
+  arrays.insert(arrays.end(), more.begin(), more.end());
+  return arrays;
+}
+/// What does not depend on the solver, and what its stages add.
+std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& prepare, const Arrays& solve,
+                                            const Arrays& restitute) {
+  const Arrays rows = {"solver_velocity", "solver_displacement"}, joints = {"joint_constraints"};
+  return {
+      {"find_pairs", {"pairs", "locations", "joint_locations"}},
+      {"apply_forces", {"accelerations", "start_poses", "start_slots"}},
+      {"update_manifolds", {"frames", "materials", "parts", "old_contacts", "new_overlaps", "geometry"}},
+      {"colour_constraints", with(with(with(rows, joints), {"solver_mass", "solver_start", "solver_inertia"}), colour)},
+      {"prepare", prepare},
+      {"solve_substeps", with(with(rows, joints), solve)},
+      {"restitution", with(rows, restitute)},
+      {"store_impulses", {"step_impulses"}},
+      {"finalise_bodies", {"report"}},
+      {"update_sensors", {"sensor_begin", "sensor_end"}},
+      {"emit_events", {"contact_begin", "contact_end"}},
+      {"update_sleep", {"locations", "joint_locations", "fell_asleep", "woke"}}};
+}
+
+const Arrays kBlocks = {"prepared", "prepared[].tangents", "prepared[].normals", "prepared[].rolling"};
+
+TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithSoftStep) {
+  const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 44)));
+  strike_everything<World<float>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
+                                  true);
+}
+TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithGaussSeidel) {
+  const tool::Input input(file("a", rigid_recording<Q32_32>(SolverName::pgs, 44)));
+  strike_everything<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
+                                   false);
+}
+TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithWorstFirst) {
+  const tool::Input input(file("a", rigid_recording<Q16_16>(SolverName::worst_first, 44)));
+  strike_everything<World<Q16_16>>(
+      input, rigid_scratch({"points", "rolling", "held_joints", "ends", "neighbours"}, {}, {"points"}, {}),
+      kRigidOwners, false);
+}
+TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithTheDirectSolver) {
+  const tool::Input input(file("a", rigid_recording<double>(SolverName::direct, 44)));
+  const Arrays islands = {"islands[].joints", "islands[].contacts", "islands[].bodies", "islands[].joint_blocks",
+                          "islands[].contact_blocks"};
+  const Arrays rows = with(kBlocks, {"islands[].blocks", "islands[].blocks[].rows"});
+  strike_everything<World<double>>(input, rigid_scratch(islands, kBlocks, rows, rows), kRigidOwners, false);
+}
+
+const std::map<std::string, std::string> kParticleOwners = {
+    {"position.x", "particle slot "},
+    {"position.y", "particle slot "},
+    {"position.z", "particle slot "},
+    {"velocity.x", "particle slot "},
+    {"velocity.y", "particle slot "},
+    {"velocity.z", "particle slot "},
+    {"inverse_mass", "particle slot "},
+    {"material", "particle slot "},
+    {"contacts", "particle slot"},
+    {"old_contacts", "particle slot"},
+    {"pushes", "particle slot "},
+    {"touches", "particle slot "},
+    {"lifetimes", "particle slot "},
+    {"colliding", "particle slot "},
+    {"reaches", "particle slot "},
+    {"pairs", "particle slots "},
+    {"rows", "particle slot"},
+    {"displacement.x", "particle slot "},
+    {"displacement.y", "particle slot "},
+    {"displacement.z", "particle slot "},
+    {"contact_begin", "particle slot"},
+    {"expired", "particle slot "},
+    {"spring_rows.a", "particle slot"},
+    {"spring_rows.b", "particle slot"},
+    {"spring_rows.stiffness", "particle slot"},
+    {"spring_rows.damping", "particle slot"},
+    {"spring_rows.rest_length", "particle slot"},
+    {"spring_rows.least_extension", "particle slot"},
+    {"spring_rows.of_a", "particle slot"},
+    {"spring_rows.of_b", "particle slot"},
+};
+const std::map<std::string, Arrays> kParticleScratch = {
+    {"find_contacts",
+     {"h", "rate", "contact_softness", "link_softness", "flight_rows", "colliding", "reaches", "pairs", "old_contacts",
+      "first_contact", "first_touch", "rows"}},
+    {"solve_substeps",
+     {"displacement.x", "displacement.y", "displacement.z", "spring_rows.a", "spring_rows.b", "spring_rows.stiffness",
+      "spring_rows.damping", "spring_rows.rest_length", "spring_rows.least_extension", "spring_rows.of_a",
+      "spring_rows.of_b", "spring_rows.anchors", "springs_yield", "oscillators", "rows"}},
+    {"restitution", {"rows"}},
+    {"store_impulses", {"contact_begin", "touch_impulses"}},
+    {"finalise_particles", {"report"}},
+    {"yield_springs", {"yielded"}},
+    {"expire_particles", {"expired"}}};
+
+TEST_F(Recorded, EveryArrayOfEveryStageOfParticlesIsNamed) {
+  const tool::Input input(file("a", particle_recording<float>(0, 130)));
+  strike_everything<ParticleWorld<float>>(input, kParticleScratch, kParticleOwners, true);
+}
+TEST_F(Recorded, EveryArrayOfEveryStageOfParticlesIsNamedInFixedPoint) {
+  const tool::Input input(file("a", particle_recording<Q32_32>(6, 130)));
+  strike_everything<ParticleWorld<Q32_32>>(input, kParticleScratch, kParticleOwners, false);
+}
+
+/// Slots that the tool names, from the world itself.
+TEST_F(Recorded, OwnersAreThoseOfTheWorld) {
+  const std::vector<std::uint8_t> bytes = rigid_recording<float>(SolverName::soft_step, 10);
+  const tool::Input input(file("a", bytes));
+  const tool::LeafList leaves = tool::played_here(input)->leaves({9, 1, "solve_substeps"});
+  const ReplayReader replay(input.bytes);
+  World<float> w;
+  Reader reader(replay.state());
+  ASSERT_TRUE(w.read_portable(reader).ok());
+  for (std::uint64_t i = 0; i < 10; ++i) ASSERT_TRUE(w.step_recorded(replay.frame(i).input).ok());
+  const auto& [states, properties] = w.state().awake;
+  const auto& contacts = w.state().contacts;
+  ASSERT_GT(contacts.size(), 8u);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::string slot = "body slot " + std::to_string(states[i].slot);
+    EXPECT_EQ(tool::owner_of(leaves, "bodies[" + std::to_string(i) + "].spin.z"), slot);
+    EXPECT_EQ(tool::owner_of(leaves, "solver_velocity[" + std::to_string(i + 1) + "].linear.x"), slot);
+  }
+  EXPECT_EQ(tool::owner_of(leaves, "solver_velocity[0].linear.x"), "") << "what does not move";
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactKey key = contacts[i].key;
+    const std::string slots = "body slots " + std::to_string(key.body_a) + " and " + std::to_string(key.body_b);
+    EXPECT_EQ(tool::owner_of(leaves, "prepared[" + std::to_string(i) + "].normals[0].impulse"), slots);
+  }
+  const std::string joint = "joint slot " + std::to_string(w.state().joints.states[2].slot);
+  EXPECT_EQ(tool::owner_of(leaves, "joint_constraints[2].point_impulse.x"), joint);
+}
+
+/// What it says of one stage is not the hash of the leaves that it shows.
+class OtherHash : public tool::StageSide {
+ public:
+  OtherHash(const OrderlySide& side, std::size_t point) : side_(side), point_(point) {}
+  std::vector<tool::TracePoint> trace() const override {
+    std::vector<tool::TracePoint> points = side_.trace();
+    points.at(point_).hash ^= 1;
+    return points;
+  }
+  tool::LeafList leaves(const StagePoint& at) const override { return side_.leaves(at); }
+
+ private:
+  const OrderlySide& side_;
+  std::size_t point_;
+};
+TEST_F(Recorded, AHashThatDiffersWhileNoLeafDoesIsSaidToBeThat) {
+  const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 6)));
+  const OrderlySide orderly(input);
+  const auto points = orderly.trace();
+  const auto at = std::find_if(points.begin(), points.end(), [](const tool::TracePoint& point) {
+    return point.at == StagePoint{4, 1, "prepare"};
+  });
+  ASSERT_NE(at, points.end());
+  const std::string out = said(input, orderly, OtherHash(orderly, static_cast<std::size_t>(at - points.begin())), 1);
+  EXPECT_EQ(out.rfind("frame 4, stage prepare\n  the hashes differ though none of ", 0), 0u) << out;
+  EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 2) << out;
+}
+
+/// What is looked at does not depend on this machine's lanes.
+TEST_F(Recorded, TracesAreEqualOnAllLanes) {
+  const tool::Input rigid(file("a", rigid_recording<float>(SolverName::soft_step, 20)));
+  StagedReplay narrow;
+  narrow.simd = Simd::scalar;
+  EXPECT_EQ(said(rigid, *tool::played_here(rigid), *tool::played_here(rigid, narrow), 0),
+            "the same: 20 frames, stage by stage\n");
+  const tool::Input particles(file("b", particle_recording<float>(1, 20)));
+  EXPECT_EQ(said(particles, *tool::played_here(particles), *tool::played_here(particles, narrow), 0),
+            "the same: 20 frames, stage by stage\n");
+}
+
+/// A fault that stays is named where it is made, not where it shows: in state it shows some stages later.
+TEST_F(Recorded, AFaultThatStaysIsNamedByTheStageThatMadeIt) {
+  const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 12)));
+  const StageFault fault = {{8, 1, "prepare"}, "prepared[5].normals[0].row.effective_mass", 20};
+  StagedReplay how;
+  how.fault = &fault;
+  const std::string out = said(input, *tool::played_here(input), *tool::played_here(input, how), 1);
+  EXPECT_EQ(out.rfind("frame 8, stage prepare\n  prepared[5].normals[0].row.effective_mass: ", 0), 0u) << out;
+  EXPECT_NE(out.find("1048576 ulp apart [body slots "), std::string::npos) << out;
+  EXPECT_NE(out.find("\n  1 of "), std::string::npos) << out;
+}
+
+TEST_F(Recorded, AFaultBetweenStepsIsTheCommandsStage) {
+  const tool::Input input(file("a", rigid_recording<double>(SolverName::soft_step, 6)));
+  for (const std::uint32_t step : {1u, 2u}) {  // before the frame's step, and after it
+    const StageFault fault = {{3, step, "commands"}, "bodies[4].centre.y", 0};
+    StagedReplay how;
+    how.fault = &fault;
+    const std::string out = said(input, *tool::played_here(input), *tool::played_here(input, how), 1);
+    const std::string where = step == 1 ? "frame 3, stage commands\n" : "frame 3, stage commands after the step\n";
+    EXPECT_EQ(out.rfind(where + "  bodies[4].centre.y: ", 0), 0u) << out;
+    EXPECT_NE(out.find("1 ulp apart [body slot "), std::string::npos) << out;
+  }
+}
+
+TEST_F(Recorded, OtherCommandsAndOtherLengthsAreNamed) {
+  std::vector<std::uint8_t> bytes[3];
+  std::uint32_t slot = 0;
+  for (int i = 0; i < 3; ++i) {
+    World<float> w(solver_settings<float>(SolverName::soft_step));
+    const SolverScene<float> scene(w);
+    slot = scene.bodies()[2].slot;
+    WorldRecorder<float> recorder(w, sink_to(bytes[i]));
+    ASSERT_TRUE(recorder.begin("stages").ok());
+    for (int frame = 0; frame < (i == 2 ? 5 : 7); ++frame) {
+      if (i == 1 && frame == 4) w.apply_impulse(scene.bodies()[2], vec<float>(1, 0, 0));
+      for (int step = 0; step < (frame == 3 ? 2 : 1); ++step) w.step();
+      ASSERT_TRUE(recorder.end_frame().ok());
+    }
+    ASSERT_TRUE(recorder.finish().ok());
+  }
+  const std::string a = file("a", bytes[0]), b = file("b", bytes[1]), c = file("c", bytes[2]);
+  const std::string other = output(1, {a, b});
+  const std::string place = "frame 4, stage commands\n  the commands or steps of this frame differ\n  bodies[";
+  EXPECT_EQ(other.rfind(place, 0), 0u) << other;
+  EXPECT_NE(other.find("].velocity.x: "), std::string::npos) << other;
+  EXPECT_NE(other.find(" apart [body slot " + std::to_string(slot) + "]\n  1 of "), std::string::npos) << other;
+  EXPECT_EQ(output(1, {a, c}), "the same as far as both go: 7 and 5 frames\n");
+  EXPECT_EQ(output(0, {a}), "the same: 7 frames, stage by stage\n");
+  const tool::Input input(a);
+  const StageFault fault = {{3, 2, "finalise_bodies"}, "bodies[2].spin.x", 3};
+  StagedReplay how;
+  how.fault = &fault;
+  EXPECT_EQ(said(input, *tool::played_here(input), *tool::played_here(input, how), 1)
+                .rfind("frame 3, step 2 of the frame, stage finalise_bodies\n  bodies[2].spin.x: ", 0),
+            0u);
+}
+
+TEST_F(Recorded, DrillsThatStrikeNothingAreErrors) {
+  const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 3)));
+  StageFault fault;
+  for (const char* text :
+       {"1:prepare:prepared[5].normals[0].row.efective_mass:3", "1:prepare:tick:64", "9:prepare:tick:1",
+        "1.3:prepare:tick:1", "1:repair:tick:1", "1:commands:body_slots.first_free:0"}) {
+    ASSERT_TRUE(read_stage_fault(text, fault)) << text;
+    StagedReplay how;
+    how.fault = &fault;
+    EXPECT_THROW(tool::played_here(input, how)->trace(), tool::ToolError) << text;
+  }
+  for (const char* text :
+       {"", "1", "1:prepare", "1:prepare:tick", "x:prepare:tick:1", "1.0:prepare:tick:1", "1:prepare:tick:one"}) {
+    EXPECT_FALSE(read_stage_fault(text, fault)) << text;
+  }
+  EXPECT_THROW(tool::played_here(input)->leaves({1, 1, "repair"}), tool::ToolError);
+}
+
+/// Of a path that another program made up.
+TEST(LeafOwners, NobodyOwnsWhatIsInNoArray) {
+  tool::LeafList leaves;
+  for (const char* path : {"body_slots.first_free", "bodies[x].slot", "bodies[].slot", "bodies[7", "bodies[7].slot",
+                           "bodies[99999999999999999999].slot"}) {
+    leaves.add({path, kLeafFormat<std::uint32_t>, 3});
+    const bool body = std::string_view(path) == "bodies[7].slot";
+    EXPECT_EQ(tool::owner_of(leaves, path), body ? "body slot 3" : "") << path;
+  }
+}
+
+TEST(LeafLines, ReadBackAsTheyWere) {
+  const NamedLeaf leaves[] = {{"a", kLeafFormat<bool>, 1},
+                              {"b[3].c", kLeafFormat<std::int32_t>, 0xfffffffeu},
+                              {"tick", kLeafFormat<std::uint64_t>, 77},
+                              {"x", kLeafFormat<float>, 0x3fc00000},
+                              {"y", kLeafFormat<double>, 0x3ff8000000000000},
+                              {"z", kLeafFormat<Q16_16>, 0xffff0000u},
+                              {"w", kLeafFormat<Unit<Q32_32>>, 3}};
+  for (const NamedLeaf& leaf : leaves) {
+    NamedLeaf read;
+    ASSERT_TRUE(read_leaf_line(leaf_line(leaf), read)) << leaf_line(leaf);
+    EXPECT_EQ(read.path, leaf.path);
+    EXPECT_EQ(read.bits, leaf.bits);
+    EXPECT_EQ(value_text(read.format, read.bits), value_text(leaf.format, leaf.bits));
+  }
+  EXPECT_EQ(leaf_line(leaves[3]), "x\tf32.24\t0x3fc00000");
+  NamedLeaf read;
+  for (const char* text :
+       {"", "x", "x\tf32.24", "\tf32.24\t0x3fc00000", "x\tf32.24\t0x3fc0000", "x\tf33.24\t0x3fc00000",
+        "x\tf32\t0x3fc00000", "x\tv32\t0x3fc00000", "x\tu32.1\t0x3fc00000", "x\tu32\t0x3fcG0000"}) {
+    EXPECT_FALSE(read_leaf_line(text, read)) << text;
+  }
+}
+
+#if defined(ISOSTEP_PROVER)
+/// The programs themselves: this tool on one side, a prover with a fault on the other.
+TEST_F(Recorded, AnotherProgramIsCompared) {
+  const std::string prover = "'" ISOSTEP_PROVER "'";
+  const std::string rigid = file("it's a replay", rigid_recording<Q32_32>(SolverName::direct, 8));
+  const std::string particles = file("b", particle_recording<double>(2, 8));
+  EXPECT_EQ(output(0, {"--prover-b", prover, rigid}), "the same: 8 frames, stage by stage\n");
+  const struct {
+    const std::string& file;
+    const char *stage, *path, *apart;
+  } faults[] = {{rigid, "colour_constraints", "islands[0].bodies[0]", "4 apart [body slot "},
+                {rigid, "restitution", "solver_velocity[3].angular.y", "4 lsb apart [body slot "},
+                {particles, "solve_substeps", "rows[6].separation", "4 ulp apart [particle slot"},
+                {particles, "commands", "velocity.y[7]", "4 ulp apart [particle slot 7]\n"}};
+  for (const auto& fault : faults) {
+    const std::string word = std::string("5:") + fault.stage + ":" + fault.path + ":2";
+    const std::string out =
+        output(1, {"--prover-a", prover, "--prover-b", prover + " --fault '" + word + "'", fault.file});
+    EXPECT_EQ(out.rfind(std::string("frame 5, stage ") + fault.stage + "\n  " + fault.path + ": ", 0), 0u) << out;
+    EXPECT_NE(out.find(fault.apart), std::string::npos) << out;
+    EXPECT_NE(out.find("\n  1 of "), std::string::npos) << out;
+  }
+}
+TEST_F(Recorded, AnotherProgramPlaysWhatIsCutOffAsFarAsItGoes) {
+  std::vector<std::uint8_t> bytes = rigid_recording<float>(SolverName::soft_step, 4);
+  bytes.resize(bytes.size() - 20);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(output(0, {"--prover-b", "'" ISOSTEP_PROVER "'", file("a", bytes)}),
+            "the same: 4 frames, stage by stage\n");
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("a is cut off"), std::string::npos);
+}
+TEST_F(Recorded, AProgramThatIsNoProverIsRefused) {
+  const std::string rigid = file("a", rigid_recording<float>(SolverName::soft_step, 2));
+  testing::internal::CaptureStderr();
+  output(70, {"--prover-b", "echo", rigid});
+  output(70, {"--prover-b", "isostep-no-such-program 2>/dev/null", rigid});
+  output(70, {"--prover-b", "'" ISOSTEP_PROVER "' --fault 1:prepare:tick:99", rigid});
+  output(70, {"--prover-b", "exit 1 #", rigid});  // nothing of this is "different"
+  output(70, {"--prover-b", "kill -9 $$ #", rigid});
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("echo: not a prover's answer"), std::string::npos) << said;
+  for (const char* end : {": ended with exit status 127\n", ": ended with exit status 64\n",
+                          ": ended with exit status 1\n", ": did not come to its end\n"})
+    EXPECT_NE(said.find(end), std::string::npos) << end << said;
+}
+TEST_F(Recorded, ATraceThatNoRecordingHasIsRefused) {
+  const std::string rigid = file("a", rigid_recording<float>(SolverName::soft_step, 4));
+  const auto said_of = [&](int status, const std::string& lines) {
+    testing::internal::CaptureStderr();
+    output(status, {"--prover-b", "'" ISOSTEP_PROVER "'", "--prover-a", "printf '" + lines + "' #", rigid});
+    return testing::internal::GetCapturedStderr();
+  };
+  std::string frames;
+  for (const char* frame : {"0", "1", "2", "3"}) frames += std::string(frame) + " 1 commands 0\\n";
+  for (const std::string& lines : std::vector<std::string>{
+           frames + "4 1 commands 0\\n", "18446744073709551615 1 commands 0\\n", "0 1 commands 0\\n0 -1 prepare 0\\n",
+           "1 1 commands 0\\n", "0 2 commands 0\\n", "0 1 prepare 0\\n", "0 1 commands 0\\n2 1 commands 0\\n",
+           "0 1 commands 0\\n0 66 commands 0\\n", "0 1 commands 0\\n0 1 prepare 0\\n1 1 commands 0\\n",
+           "0 1 commands 0x1\\n", "0 1 commands\\n", "0 1 commands 0 0\\n", "0 4294967297 commands 0\\n"}) {
+    const std::string said = said_of(70, lines);
+    EXPECT_NE(said.find("not a prover's answer"), std::string::npos) << lines << said;
+  }
+  const std::string unknown = said_of(70, "0 1 commands 0\\n0 1 find_piars 0\\n");
+  EXPECT_NE(unknown.find("this build has no stage find_piars"), std::string::npos) << unknown;
+}
+#endif
+
+}  // namespace
+}  // namespace isostep::test

@@ -1,0 +1,149 @@
+// Drills of `isostep diff --stages`: a recording, a survey of everything that stages leave in it, a bit of any of that.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "isostep/state/replay_format.hpp"
+#include "isostep/world/world_kinds.hpp"
+#include "tool/stage_side.hpp"
+
+namespace isostep::test {
+
+/// "prepared[3].normals[0].row.impulse" -> "prepared[].normals[]"; "report.stopped" -> "report".
+inline std::string array_of(const std::string& path) {
+  std::string array;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == '[') {
+      array += "[]";
+      i = path.find(']', i);
+      end = array.size();
+    } else {
+      array += path[i];
+    }
+  }
+  return end != 0 ? array.substr(0, end) : array.substr(0, array.find('.'));
+}
+
+/// What no drill may write: it is shared, or how much there is to look at.
+inline bool is_read_only(const std::string& path) {
+  const auto begins = [&](const char* name) { return path.rfind(name, 0) == 0; };
+  const bool length = path.size() > 6 && path.compare(path.size() - 6, 6, ".count") == 0;
+  const bool slots = path.find("_slots") != std::string::npos && !begins("start_slots");
+  return length || slots || path == "settings.solver" || begins("frozen[") || begins("fixed") || begins("particles");
+}
+
+struct Found {
+  std::uint64_t frame;
+  NamedLeaf leaf;
+};
+/// Of every stage every array: where it first has a leaf, and the last one that it has then.
+using Survey = std::map<std::pair<std::string, std::string>, Found>;
+
+template <class W> class Surveyor {
+ public:
+  Survey survey(Bytes file) {
+    const ReplayReader replay(file);
+    Reader reader(replay.state());
+    EXPECT_TRUE(world_.read_portable(reader).ok());
+    for (frame_ = 0; frame_ < replay.frame_count(); ++frame_) {
+      const Result<void> played = play_tape<typename W::Command>(
+          replay.frame(frame_).input, [&](const typename W::Command& command) { return world_.apply(command); },
+          [&] {
+            look("commands", world_.leaves());
+            world_.step({&Surveyor::after, this});
+          });
+      EXPECT_TRUE(played.ok());
+    }
+    return survey_;
+  }
+
+ private:
+  template <class Stage> static void after(void* user, Stage stage, const StageView& left) {
+    static_cast<Surveyor*>(user)->look(WorldTraits<W>::kStages[static_cast<std::size_t>(stage)], left);
+  }
+  void look(const char* stage, const StageView& view) {
+    stage_ = stage;
+    const LeafSink sink = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
+                             static_cast<Surveyor*>(user)->take({path_text(path), format, bits});
+                           },
+                           this};
+    view.visit(sink);
+  }
+  void take(NamedLeaf leaf) {
+    if (is_read_only(leaf.path)) return;
+    const auto [place, fresh] = survey_.try_emplace({stage_, array_of(leaf.path)}, Found{frame_, leaf});
+    if (place->second.frame == frame_) place->second.leaf = std::move(leaf);
+  }
+
+  W world_;
+  Survey survey_;
+  std::uint64_t frame_ = 0;
+  std::string stage_;
+};
+
+/// The side that is in order: its trace is the same whatever is done to the other.
+class OrderlySide : public tool::StageSide {
+ public:
+  explicit OrderlySide(const tool::Input& input) : side_(tool::played_here(input)), trace_(side_->trace()) {}
+  std::vector<tool::TracePoint> trace() const override { return trace_; }
+  tool::LeafList leaves(const StagePoint& at) const override { return side_->leaves(at); }
+
+ private:
+  std::unique_ptr<tool::StageSide> side_;
+  std::vector<tool::TracePoint> trace_;
+};
+
+/// A bit whose turning moves any value by a power of two of steps: not the sign's.
+inline std::uint32_t bit_of(const NamedLeaf& leaf) {
+  if (leaf.format.kind == LeafKind::boolean) return 0;
+  return static_cast<std::uint32_t>((leaf.bits ^ leaf.bits >> 17 ^ leaf.path.size()) % (8 * leaf.format.size - 1));
+}
+/// "bodies[3].velocity.x: 1.5 | 1.25 (0x3fc00000 | 0x3fa00000), 2097152 ulp apart"
+inline std::string difference_of(const NamedLeaf& leaf, std::uint32_t bit) {
+  const std::uint64_t other = leaf.bits ^ std::uint64_t{1} << bit;
+  const char* unit = leaf.format.kind != LeafKind::scalar ? "" : leaf.format.scalar_id >> 16 == 1 ? " ulp" : " lsb";
+  return leaf.path + ": " + value_text(leaf.format, leaf.bits) + " | " + value_text(leaf.format, other) + " (" +
+         bits_text(leaf.format, leaf.bits) + " | " + bits_text(leaf.format, other) + "), " +
+         std::to_string(std::uint64_t{1} << bit) + unit + " apart";
+}
+
+inline std::string said(const tool::Input& input, const tool::StageSide& a, const tool::StageSide& b, int expected) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(tool::print_first_difference(input, a, input, b), expected);
+  std::fflush(stdout);
+  return testing::internal::GetCapturedStdout();
+}
+
+/// Turns a bit of what the survey found, looks, turns it back: exactly this leaf must be named, after this stage.
+/// `owner_kind`: how what stands in brackets begins; empty: there is none; "*": whatever there is.
+inline void expect_named(const tool::Input& input, const OrderlySide& orderly, const std::string& stage,
+                         const Found& found, const std::string& owner_kind) {
+  const StageFault fault = {{found.frame, 1, stage}, found.leaf.path, bit_of(found.leaf), true};
+  StagedReplay how;
+  how.frames = found.frame + 1;
+  how.fault = &fault;
+  const std::string out = said(input, orderly, *tool::played_here(input, how), 1);
+  const std::string expected =
+      "frame " + std::to_string(found.frame) + ", stage " + stage + "\n  " + difference_of(found.leaf, fault.bit);
+  EXPECT_EQ(out.substr(0, expected.size()), expected);
+  if (out.size() < expected.size()) return;
+  const std::string rest = out.substr(expected.size());
+  if (owner_kind != "*") {
+    EXPECT_EQ(rest.rfind(owner_kind.empty() ? "\n" : " [" + owner_kind, 0), 0u) << out;
+  }
+  EXPECT_NE(rest.find("\n  1 of "), std::string::npos) << out;
+  EXPECT_EQ(rest.find('\n', rest.find(" leaves differ")), rest.size() - 1) << out;
+}
+
+}  // namespace isostep::test
