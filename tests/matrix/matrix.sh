@@ -1,0 +1,178 @@
+# isostep matrix: is every build of the library the same? Builds the prover for many targets and lets each replay what
+# the reference build recorded. Sourced by ./isostep, whose functions it uses; README.md here tells the rest.
+# SPDX-License-Identifier: MIT
+
+tables=${ISOSTEP_MATRIX_TABLES:-$root/tests/matrix}
+project=${ISOSTEP_MATRIX_PROJECT:-$root}
+goldens=${ISOSTEP_MATRIX_GOLDENS:-$root/replays/goldens}
+matrix=${ISOSTEP_BUILD_DIR:-$root/build}/matrix
+recordings=$matrix/recordings
+all_scalars='float double Q16_16 Q32_32'
+export WINEPREFIX="$matrix/wine" WINEDEBUG=-all  # the world of Windows programs, made when the first one runs
+for part in children targets packages reference recordings build run gate target controls table; do
+  . "$root/tests/matrix/$part.sh"
+done
+
+usage='usage: ./isostep matrix [--fast | --full] [--target NAME]... [--list] [--invert] [--markdown FILE] [--jobs N]'
+matrix_usage() { fail 64 "$1; $usage"; }
+
+# deliver: standard input, to the caller; output that is lost is no success.
+deliver() { cat 2>/dev/null || { say "isostep: standard output cannot be written${1:+: $1}"; return 74; }; }
+
+# add_target NAME: to `chosen`, once. A name has no blanks and is no pattern, for the shell takes the list apart.
+add_target() {
+  case $1 in '' | *[!A-Za-z0-9+._-]*) no_target "$1" ;; esac
+  case " $chosen " in *" $1 "*) ;; *) chosen="$chosen $1" ;; esac
+}
+no_target() { fail 64 "no target '$1': ./isostep matrix --list"; }
+
+# read_words WORDS...: into set, chosen, listing, inverted, markdown, workers.
+read_words() {
+  set=fast chosen='' listing='' inverted='' markdown='' workers=$(jobs)
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --fast) set=fast ;;
+      --full) set=full ;;
+      --list) listing=yes ;;
+      --invert) inverted=yes ;;
+      --help | -h) printf '%s\n' "$usage" | deliver; exit ;;
+      --target | --markdown | --jobs)
+        [ $# -gt 1 ] || matrix_usage "$1 wants a word"
+        case $1 in
+          --target) add_target "$2" ;;
+          --markdown)
+            [ -n "$2" ] || matrix_usage "--markdown wants a file"
+            case $2 in /*) markdown=$2 ;; *) markdown=$PWD/$2 ;; esac
+            ;;
+          --jobs)
+            case $2 in '' | 0* | *[!0-9]* | ????*) matrix_usage "--jobs wants a number from 1 to 999" ;; esac
+            workers=$2
+            ;;
+        esac
+        shift
+        ;;
+      *) matrix_usage "no option '$1'" ;;
+    esac
+    shift
+  done
+}
+
+# choose: the names of targets and of controls that are to be worked on.
+choose() {
+  if [ -z "$chosen" ]; then
+    column=5
+    [ "$set" = fast ] || column=6
+    targets=$(names_of targets "$column")
+    controls=$(names_of controls)
+  else
+    targets='' controls=''
+    for name in $chosen; do
+      if row_of targets "$name" >/dev/null; then
+        targets="$targets $name"
+      elif row_of controls "$name" >/dev/null; then
+        controls="$controls $name"
+      else
+        no_target "$name"
+      fi
+    done
+  fi
+  [ -z "$inverted" ] || targets=''
+  [ -n "$targets$controls" ] || fail 64 "--invert is for controls"
+}
+
+# list_all: the tables, as far as they choose.
+list_all() {
+  {
+    printf 'target\tmachine\tcompiler\tflags\tscalars of --fast\tof --full\toptions\n'
+    rows targets
+    rows controls | awk -F '\t' -v OFS='\t' '{print $1, $2, $3, $4 " " $6, $5, $5, "control"}'
+  } | aligned
+}
+
+# run_all NAMES...: so many at once as there are workers, each of which takes the next one that nobody has. What is
+# emulated comes first: it takes longest.
+run_all() {
+  claims=$matrix/claims
+  rm -rf "$claims"
+  mkdir -p "$claims"
+  build_jobs=$((workers / $#))
+  [ "$build_jobs" -gt 0 ] || build_jobs=1
+  crew='' hands=$workers
+  [ "$hands" -le $# ] || hands=$#
+  while [ "$(echo $crew | wc -w)" -lt "$hands" ]; do
+    (
+      obey_signals
+      for name in $(slow_first "$@"); do
+        if mkdir "$claims/$name" 2>/dev/null; then work_on "$name"; fi
+      done
+    ) &
+    crew="$crew $!"
+  done
+  # shellcheck disable=SC2086
+  wait $crew
+}
+
+slow_first() {
+  for name in "$@"; do
+    load "$name"
+    if [ "$floats" = short ]; then echo "0 $name"; else echo "1 $name"; fi
+  done | sort -s -k 1,1 | cut -d ' ' -f 2
+}
+
+load() { load_target "$1" || load_control "$1"; }
+work_on() { if row_of targets "$1" >/dev/null; then work_on_target "$1"; else work_on_control "$1"; fi; }
+
+# interrupt: Ctrl-C reaches this shell alone; what it started ends with it.
+interrupt() {
+  trap '' INT TERM HUP
+  # shellcheck disable=SC2086
+  [ -z "${crew:-}" ] || kill -TERM $crew 2>/dev/null
+  end_child
+  wait
+  [ -z "${beside:-}" ] || rm -f "$beside"
+  say "isostep: interrupted; the same command goes on with the builds as they are"
+  exit 130
+}
+
+# verdict NAMES...: 0 when every row is green; inverted controls must all be red, and that is never 0.
+verdict() {
+  red=$(all_rows "$@" | awk -F '\t' 'NR > 1 && $11 ~ /^RED/' | wc -l)
+  if [ -n "$inverted" ]; then
+    [ "$red" -eq $# ] || { say "isostep: inverted, and still green: a control that proves nothing"; return 2; }
+    say "inverted: all $# controls are red, as they must be"
+    return 1
+  fi
+  [ "$red" -eq 0 ]
+}
+
+matrix() {
+  read_words "$@"
+  choose
+  if [ -n "$listing" ]; then list_all | deliver; exit; fi
+  [ -z "$markdown" ] || takes_table || fail 74 "--markdown $markdown: $reason"
+  cd "$root" || exit 70
+  begun=$(date +%s)
+  mkdir -p "$matrix" || exit 70
+  if have flock; then
+    exec 8>"$matrix/.lock" && flock -w 10 8 || fail 70 "another matrix is at work in $matrix"
+  fi
+  make_reference
+  # shellcheck disable=SC2086
+  set -- $targets $controls
+  trap interrupt INT TERM HUP
+  bring_packages "$@"
+  [ -z "$chosen" ] || [ -z "$(missing_of "$@")" ] || exit 69
+  make_recordings || exit 70
+  for name in "$@"; do rm -f "$matrix/$name/row"; done
+  run_all "$@"
+  print_table "$@" >"$matrix/table.txt"
+  deliver "the table is in $matrix/table.txt" <"$matrix/table.txt"
+  lost=$?
+  if [ -n "$markdown" ]; then
+    print_markdown "$@" >"$matrix/table.md"
+    put_table || { lost=74; say "isostep: --markdown $markdown: $reason: the table is in $matrix/table.md"; }
+  fi
+  [ "$lost" = 0 ] || exit 74
+  verdict "$@"
+  exit
+}
