@@ -12,9 +12,9 @@ fail() {
   failures=$((failures + 1))
 }
 
-# Commands of sh blocks. demo and test build everything and are CI's own first and last word; bench measures for minutes.
+# Commands of sh blocks. demo, test and matrix build everything and are CI's own words; bench measures for minutes.
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
-  grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench')
+  grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix')
 [ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || fail "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do
@@ -37,8 +37,8 @@ done
 # The C++ blocks are the parts of the examples between their marks, less the indentation.
 quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
 shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' hello.cpp \
-  lockstep_game.cpp cloth.cpp | sed 's/^  //')
-[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp and cloth.cpp"
+  lockstep_game.cpp cloth.cpp selfcheck.cpp | sed 's/^  //')
+[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
 
 for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
   [ -e "$repository/$link" ] || fail "links to $link, which does not exist"
