@@ -12,6 +12,7 @@
 #include "isostep/core/scalar_names.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/state/replay_format.hpp"
+#include "own_folder.hpp"
 #include "tool/commands.hpp"
 #include "tool/files.hpp"
 
@@ -29,17 +30,8 @@ struct Answer {
   std::string out, err;
 };
 
-class Prover : public testing::Test {
+class Prover : public OwnFolder {
  protected:
-  void SetUp() override {
-    const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("isostep-prover-") + info.name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::string text(const std::string& name) const {
     const Buffer bytes = read_file(path(name));
     return {bytes.begin(), bytes.end()};
@@ -77,8 +69,6 @@ class Prover : public testing::Test {
     }
     EXPECT_GE(seen, 2);
   }
-
-  fs::path folder_;
 };
 
 std::vector<std::string> split(const std::string& text, char at) {

@@ -13,13 +13,12 @@
 #include "isostep/state/value_text.hpp"
 #include "isostep/world/desync_bundle.hpp"
 #include "isostep/world/session_recorder.hpp"
+#include "own_folder.hpp"
 #include "tool/commands.hpp"
 #include "tool/files.hpp"
 #include "unit/world/played_session.hpp"
 
 namespace isostep::test {
-
-namespace fs = std::filesystem;
 
 inline constexpr Frame kFault = 37;
 
@@ -72,17 +71,8 @@ template <class S> struct Peer {
   }
 };
 
-class Desync : public testing::Test {
+class Desync : public OwnFolder {
  protected:
-  void SetUp() override {
-    const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("isostep-desync-") + info.name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
   template <class S> void bundle(const Peer<S>& peer, const std::string& name, BundleSettings settings) {
     std::vector<std::uint8_t> bytes;
     ASSERT_TRUE(write_bundle(sink_to(bytes), peer.history, "arena", settings).ok());
@@ -105,8 +95,6 @@ class Desync : public testing::Test {
     EXPECT_EQ(answer, status) << out;
     return out;
   }
-
-  fs::path folder_;
 };
 
 inline void expect_part(const std::string& text, const std::string& part) {

@@ -9,30 +9,17 @@
 #include "determinism/solver_scene.hpp"
 #include "isostep/particles/recorder.hpp"
 #include "isostep/world/recorder.hpp"
+#include "own_folder.hpp"
 #include "tool/commands.hpp"
 #include "unit/tool/drills.hpp"
 
 namespace isostep::test {
 namespace {
 
-namespace fs = std::filesystem;
 using Arrays = std::vector<std::string>;
 
-/// A file of this test alone.
-class Recorded : public testing::Test {
+class Recorded : public OwnFolder {
  protected:
-  void SetUp() override {
-    const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("isostep-stages-") + info.name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string file(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    const std::string path = (folder_ / name).string();
-    tool::write_file(path, Bytes(bytes));
-    return path;
-  }
   static std::string output(int expected, const std::vector<std::string>& words) {
     std::vector<const char*> pointers = {"isostep", "diff", "--stages"};
     for (const std::string& word : words) pointers.push_back(word.c_str());
@@ -41,8 +28,6 @@ class Recorded : public testing::Test {
     std::fflush(stdout);
     return testing::internal::GetCapturedStdout();
   }
-
-  fs::path folder_;
 };
 
 /// The solvers' scene; a ball that flies through a sensor, a box that falls asleep and is woken.

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
 
+#include "own_folder.hpp"
 #include "tool/checked_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/diff_bundles.hpp"
@@ -61,18 +61,8 @@ Buffer recording(std::uint32_t other) {
   return file;
 }
 
-class OtherWorld : public testing::Test {
+class OtherWorld : public OwnFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "isostep-other-world";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string file(const std::string& name, const Buffer& bytes) const {
-    const std::string path = (folder_ / name).string();
-    write_file(path, Bytes(bytes));
-    return path;
-  }
   static std::string output(int expected, const std::vector<const char*>& words) {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -81,8 +71,6 @@ class OtherWorld : public testing::Test {
     const std::string out = testing::internal::GetCapturedStdout();
     return out + testing::internal::GetCapturedStderr();
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(OtherWorld, IsPlayedStageByStageWithStagesOfItsOwn) {
@@ -122,7 +110,7 @@ TEST_F(OtherWorld, ThatThisBuildLacksIsNamed) {
   EXPECT_EQ(checked.result.outcome, VerifyOutcome::incompatible);
   EXPECT_EQ(describe(checked.result),
             "INCOMPATIBLE: world is \"toys\" in the replay, \"rigid bodies, particles\" here");
-  const std::string toys = file("toys.replay", bytes), rigid = (folder_ / "rigid.replay").string();
+  const std::string toys = file("toys.replay", bytes), rigid = path("rigid.replay");
   output(0, {"isostep", "run", "S1x5", "--frames", "2", "--record", rigid.c_str()});
   EXPECT_NE(output(2, {"isostep", "verify", toys.c_str()}).find("0 of 1 verified"), std::string::npos);
   EXPECT_NE(output(2, {"isostep", "diff", toys.c_str(), toys.c_str()}).find("of a world that this build lacks"),

@@ -1,0 +1,217 @@
+// The command line's recordings: written, verified, refused, compared.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "isostep/core/crc32c.hpp"
+#include "isostep/state/replay_format.hpp"
+#include "isostep/world/replay_check.hpp"
+#include "tool/files.hpp"
+#include "tool/goldens.hpp"
+#include "unit/tool/command_line.hpp"
+
+namespace isostep::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(CommandLine, VerifiesWhatItRecorded) {
+  record("a.replay");
+  fs::create_directories(folder_ / "deep");
+  fs::copy(path("a.replay"), path("deep/b.replay"));
+  const Answer answer = run({"verify", folder_.string()});
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_NE(answer.out.find("VERIFIED 70 frames"), std::string::npos);
+  EXPECT_NE(answer.out.find("2 of 2 verified"), std::string::npos);
+  const Answer json = run({"verify", "--json", "--jobs", "2", folder_.string()});
+  EXPECT_EQ(json.out.rfind("{\"files\":[{\"path\":", 0), 0u);
+  EXPECT_NE(json.out.find("\"verified\":2,\"exit\":0}\n"), std::string::npos);
+}
+
+/// A chunk's checksum follows its payload; so a changed hash needs a new one to be believed at all.
+std::string with_changed_hash(std::string bytes) {
+  const std::size_t chunk = bytes.find("HASH");
+  bytes[chunk + 12 + 12] = static_cast<char>(bytes[chunk + 12 + 12] ^ 1);
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  const std::size_t size = 12 + load_le<std::uint32_t>(data + chunk + 4);
+  std::uint8_t crc[4];
+  store_le(crc, crc32c(Bytes(data + chunk, size)));
+  bytes.replace(chunk + size, 4, reinterpret_cast<const char*>(crc), 4);
+  const std::size_t done = bytes.size() - 32;
+  data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  std::uint8_t digest[8];
+  store_le(digest, hash_bytes(data, done));
+  bytes.replace(done + 12 + 8, 8, reinterpret_cast<const char*>(digest), 8);
+  store_le(crc, crc32c(Bytes(reinterpret_cast<const std::uint8_t*>(bytes.data()) + done, 28)));
+  bytes.replace(done + 28, 4, reinterpret_cast<const char*>(crc), 4);
+  return bytes;
+}
+
+TEST_F(CommandLine, TellsTheOutcomesOfVerifyApart) {
+  record("good.replay");
+  const std::string good = read("good.replay");
+  write("diverged.replay", with_changed_hash(good));
+  std::string other = good;
+  other[8] = 9;
+  write("incompatible.replay", other);
+  write("truncated.replay", good.substr(0, good.size() - 20));
+  other = good;
+  other[good.size() / 2] = static_cast<char>(other[good.size() / 2] ^ 1);
+  write("corrupt.replay", other);
+  write("empty.replay", "");
+
+  EXPECT_EQ(run({"verify", path("good.replay")}).status, 0);
+  EXPECT_EQ(run({"verify", path("diverged.replay")}).status, 1);
+  EXPECT_NE(run({"verify", path("diverged.replay")}).out.find("DIVERGED at frame 0"), std::string::npos);
+  const int preamble = run({"verify", path("incompatible.replay")}).status;
+  EXPECT_TRUE(preamble == 2 || preamble == 4) << preamble;  // the version is under a checksum of its own
+  EXPECT_EQ(run({"verify", path("truncated.replay")}).status, 3);
+  EXPECT_EQ(run({"verify", path("corrupt.replay")}).status, 4);
+  EXPECT_EQ(run({"verify", path("empty.replay")}).status, 3);
+  EXPECT_EQ(run({"verify", path("good.replay"), path("diverged.replay"), path("corrupt.replay")}).status, 4);
+  EXPECT_EQ(run({"verify", path("good.replay"), path("diverged.replay")}).status, 1);
+}
+
+/// What was true of them when they were written: every frame's hash is the golden list's, and the scene is built by the
+/// commands of frame 0.
+TEST_F(CommandLine, RecordsFromTheEmptyWorldOnWhatTheGoldenListsSay) {
+  int seen = 0;
+  for (const std::string scene : {"mixed", "S6", "springs", "ballistic"}) {
+    for (const GoldenText& golden : golden_texts()) {
+      const std::optional<GoldenName> name = parse_golden_name(golden.name);
+      if (name->scene != scene || (scene == "S6" && name->scalar != "double")) continue;
+      ++seen;
+      ASSERT_EQ(run({"run", scene, "--scalar", name->scalar, "--frames", "60", "--record", path("r")}).status, 0);
+      const std::vector<std::uint8_t> file = read_file(path("r"));
+      const ReplayReader replay(file);
+      ASSERT_EQ(replay.frame_count(), 60u);
+      const auto expected = parse_hash_lines(golden.text).value();
+      for (std::size_t i = 0; i < 60; ++i) ASSERT_EQ(replay.frame(i).hash, expected[i]) << golden.name << " " << i;
+      EXPECT_EQ(replay.keyframes().size(), 1u);
+      EXPECT_EQ(replay.keyframes().at(0).frames, 60u);
+      EXPECT_LT(replay.state().size(), 400u) << "settings and nothing else";
+      EXPECT_GT(replay.frame(0).input.size(), 150u);
+    }
+  }
+  EXPECT_GE(seen, 4);
+}
+
+TEST_F(CommandLine, RecordsNothingOfNoFrames) {
+  expect_one_line(run({"run", "S1x5", "--frames", "0", "--record", path("r")}), 64, "a recording needs a frame");
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(CommandLine, RecordsFromALoadedStateOn) {
+  ASSERT_EQ(run({"run", "mixed", "--frames", "20", "--save", path("s")}).status, 0);
+  ASSERT_EQ(run({"run", "mixed", "--load", path("s"), "--frames", "20", "--record", path("r")}).status, 0);
+  ASSERT_EQ(run({"run", "mixed", "--frames", "40", "--hashes", path("h")}).status, 0);
+  const std::vector<std::uint8_t> file = read_file(path("r"));
+  const ReplayReader replay(file);
+  const Bytes start = replay.state();
+  EXPECT_EQ(std::vector<std::uint8_t>(start.begin(), start.end()), read_file(path("s")));
+  const auto hashes = parse_hash_lines(read("h")).value();
+  ASSERT_EQ(replay.frame_count(), 20u);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(replay.frame(i).hash, hashes[20 + i]);
+  EXPECT_EQ(check_replay(file).result.outcome, VerifyOutcome::verified);
+}
+
+TEST_F(CommandLine, VerifiesGoldenLists) {
+  ASSERT_EQ(run({"run", "S1x5", "--frames", "20", "--scalar", "q16.16", "--hashes", path("S1x5.q16.16.txt")}).status,
+            0);
+  EXPECT_EQ(run({"verify", path("S1x5.q16.16.txt")}).status, 0);
+  std::string text = read("S1x5.q16.16.txt");
+  text[5 * 19 + 4] = text[5 * 19 + 4] == '0' ? '1' : '0';
+  write("S1x5.q16.16.txt", text);
+  const Answer answer = run({"verify", path("S1x5.q16.16.txt")});
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_NE(answer.out.find("DIVERGED at frame 5"), std::string::npos);
+  write("S1x5.q16.16.txt", text + "junk\n");
+  EXPECT_EQ(run({"verify", path("S1x5.q16.16.txt")}).status, 4);
+  write("S0.float.txt", "");
+  EXPECT_EQ(run({"verify", path("S0.float.txt")}).status, 2);
+}
+
+TEST_F(CommandLine, FindsTheFieldInWhichSnapshotsDiffer) {
+  write("scene.json", R"({"gravity": [0, 0, 0], "bodies": [
+    {"type": "dynamic", "velocity": [1, 2, 3], "shapes": [{"type": "sphere", "radius": 0.5}]}]})");
+  ASSERT_EQ(run({"run", path("scene.json"), "--frames", "0", "--save", path("a")}).status, 0);
+  std::string other = read("scene.json");
+  other.replace(other.find("2, 3"), 1, "4");
+  write("scene.json", other);
+  ASSERT_EQ(run({"run", path("scene.json"), "--frames", "0", "--save", path("b")}).status, 0);
+  EXPECT_EQ(run({"diff", path("a"), path("a")}).status, 0);
+  const Answer answer = run({"diff", path("a"), path("b")});
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_EQ(
+      answer.out.rfind("  bodies[0].velocity.y: 2 | 4 (0x40000000 | 0x40800000), 8388608 ulp apart [body slot 0]\n", 0),
+      0u)
+      << answer.out;
+}
+
+/// One scene with and without the script that replaces a body at frame 4.
+TEST_F(CommandLine, FindsTheFrameInWhichReplaysPart) {
+  ASSERT_EQ(run({"scenes", "--write", path("scenes")}).status, 0);
+  std::string plain = read("scenes/S9.json");
+  const std::string script = ", \"script\": \"mixer\"";
+  ASSERT_NE(plain.find(script), std::string::npos);
+  plain.erase(plain.find(script), script.size());
+  write("plain.json", plain);
+  ASSERT_EQ(run({"run", "S9", "--frames", "6", "--record", path("a.replay")}).status, 0);
+  ASSERT_EQ(run({"run", path("plain.json"), "--frames", "6", "--record", path("b.replay")}).status, 0);
+  EXPECT_EQ(run({"diff", path("a.replay"), path("a.replay")}).out, "the same: 6 frames\n");
+  const Answer answer = run({"diff", path("a.replay"), path("b.replay")});
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_EQ(answer.out.rfind("frame 4, stage commands\n  the commands or steps of this frame differ\n"
+                             "  body_slots[1].generation: 2 | 1 ",
+                             0),
+            0u)
+      << answer.out;
+}
+
+TEST_F(CommandLine, BlamesTheRecordingThatIsNotReproduced) {
+  record("a.replay");
+  write("b.replay", with_changed_hash(read("a.replay")));
+  const Answer answer = run({"diff", path("a.replay"), path("b.replay")});
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_EQ(answer.out.rfind("frame 0: recorded as ", 0), 0u);
+  EXPECT_NE(answer.out.find("B was made by something that behaves otherwise"), std::string::npos);
+}
+
+TEST_F(CommandLine, StagesThatAgreeDoNotHideHashesThatWereRecordedOtherwise) {
+  record("a.replay");
+  write("b.replay", with_changed_hash(read("a.replay")));
+  const Answer two = run({"diff", "--stages", path("a.replay"), path("b.replay")});
+  EXPECT_EQ(two.status, 1);
+  EXPECT_EQ(two.out, run({"diff", path("a.replay"), path("b.replay")}).out);
+  const Answer one = run({"diff", "--stages", path("b.replay")});
+  EXPECT_EQ(one.status, 1);
+  EXPECT_EQ(one.out.rfind("frame 0: recorded as ", 0), 0u) << one.out;
+  EXPECT_NE(one.out.find(" here: it was made by something that behaves otherwise\n"), std::string::npos) << one.out;
+  EXPECT_EQ(run({"diff", "--stages", path("a.replay")}).out, "the same: 70 frames, stage by stage\n");
+}
+
+TEST_F(CommandLine, StagesOfOtherScalarsOrWorldsAreNotCompared) {
+  record("float");
+  record("double", {"--scalar", "double"});
+  ASSERT_EQ(run({"run", "springs", "--frames", "2", "--record", path("springs")}).status, 0);
+  const Answer scalars = run({"diff", "--stages", path("float"), path("double")});
+  EXPECT_EQ(std::to_string(scalars.status) + " " + scalars.out, "1 the scalars differ\n");
+  const Answer worlds = run({"diff", "--stages", path("float"), path("springs")});
+  EXPECT_EQ(std::to_string(worlds.status) + " " + worlds.out, "1 the kinds of world differ\n");
+}
+
+TEST_F(CommandLine, SaysThatARecordingIsCutOffBeforeItComparesStages) {
+  record("whole");
+  const std::string whole = read("whole");
+  write("cut", whole.substr(0, whole.size() - 20));
+  const Answer answer = run({"diff", "--stages", path("cut")});
+  EXPECT_NE(answer.err.find("cut is cut off: what is left of it is compared\n"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.out, "the same: 70 frames, stage by stage\n");
+  EXPECT_EQ(answer.status, 0);
+}
+
+}  // namespace
+}  // namespace isostep::tool
