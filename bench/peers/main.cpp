@@ -7,6 +7,7 @@
 
 #include "peer_run.hpp"
 #include "processes.hpp"
+#include "scene_bench/program.hpp"
 #include "scenes/named.hpp"
 #include "scenes/trials/trial.hpp"
 
@@ -111,14 +112,5 @@ int main(int count, char** words) {
       ->capture_default_str();
   app.add_option("--jobs", arguments.jobs, "Runs at a time")->check(CLI::Range(1, 256))->capture_default_str();
   app.add_flag("--fresh", arguments.fresh, "Run again what the file holds");
-  try {
-    app.parse(count, words);
-    isostep::bench::run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 64;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 70;
-  }
+  return isostep::bench::run_program(app, count, words, [&] { isostep::bench::run(arguments); });
 }

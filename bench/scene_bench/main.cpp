@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "program.hpp"
 #include "report.hpp"
 #include "scenes/named.hpp"
 
@@ -159,14 +160,5 @@ int main(int count, char** words) {
   app.add_flag("--rollback", arguments.rollback, "The rollback table too");
   app.add_option("--results", arguments.results, "Directory for scenes.json, scenes.md and the points of the chart")
       ->check(CLI::ExistingDirectory);
-  try {
-    app.parse(count, words);
-    isostep::bench::run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 64;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 70;
-  }
+  return isostep::bench::run_program(app, count, words, [&] { isostep::bench::run(arguments); });
 }

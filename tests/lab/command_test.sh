@@ -4,15 +4,9 @@
 # usage: command_test.sh TOOL
 set -u
 tool=$1
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
+. "$(dirname "$0")/../scratch.sh"
 out=$dir/lab
 
-fail() {
-  echo "$1" >&2
-  cat "$dir/out" "$dir/err" >&2
-  exit 1
-}
 lab() { "$tool" lab "$@" >"$dir/out" 2>"$dir/err"; }
 small() { lab S1x5 --scalars double,q32.32 --solvers soft_step,pgs --substeps 2,8 --frames 60 --out "$out" "$@"; }
 lines() { wc -l <"$out/results.jsonl" | tr -d ' '; }

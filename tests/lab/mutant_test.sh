@@ -4,8 +4,7 @@
 # SPDX-License-Identifier: MIT
 # usage: mutant_test.sh TOOL REBUILT MUTATED
 set -u
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
+. "$(dirname "$0")/../scratch.sh"
 
 # figures TOOL NAME: every column but the times, of the stack in double with 4 sub-steps.
 figures() {

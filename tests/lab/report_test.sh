@@ -5,15 +5,9 @@
 # usage: report_test.sh TOOL
 set -u
 tool=$1
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
+. "$(dirname "$0")/../scratch.sh"
 out=$dir/lab
 
-fail() {
-  echo "$1" >&2
-  cat "$dir/out" "$dir/err" >&2
-  exit 1
-}
 report() { "$tool" lab --all --short --out "$out" "$@" >"$dir/out" 2>"$dir/err"; }
 
 # A peer's program of our own: it is called with where its lines go.

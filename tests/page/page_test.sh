@@ -3,17 +3,7 @@
 # SPDX-License-Identifier: MIT
 set -u
 tool=$1
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-
-fail() {
-  echo "$1" >&2
-  exit 1
-}
-skip() {
-  echo "skipped: $1"
-  exit 77
-}
+. "$(dirname "$0")/../scratch.sh"
 
 browser=''
 for name in chromium chromium-browser google-chrome; do

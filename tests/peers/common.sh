@@ -1,13 +1,6 @@
-# What the tests of peers share: a host in the background, and a folder that goes away.
+# What the tests of peers share: a host in the background.
 # SPDX-License-Identifier: MIT
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-
-fail() {
-  echo "$1" >&2
-  cat "$dir"/*.err >&2
-  exit 1
-}
+. "$(dirname "$0")/../scratch.sh"
 
 # start_host NAME WORDS...: sets `host` to its process and `port` to the port that it was given.
 start_host() {

@@ -3,18 +3,8 @@
 # SPDX-License-Identifier: MIT
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
+. "$here/../../scratch.sh"
 cd "$dir" || exit 1
-
-fail() {
-  echo "$1" >&2
-  exit 1
-}
-skip() {
-  echo "skipped: $1"
-  exit 77
-}
 
 command -v node >/dev/null 2>&1 || skip "no node"
 for compiler in clang++ clang++-16 none; do
