@@ -13,6 +13,9 @@ set(isostep_warnings
 # The libraries' code also says every conversion that may lose something, which clang extends to signs.
 set(isostep_library_warnings ${isostep_warnings} $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wconversion>)
 
+# Where the library does the work, code is compiled more often than it is run.
+set(isostep_quick_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
+
 # For games that keep float arithmetic of their own in step: link it, and their code gets the same flags.
 add_library(isostep_deterministic_flags INTERFACE)
 add_library(isostep::deterministic_flags ALIAS isostep_deterministic_flags)

@@ -14,6 +14,15 @@
 #define EIGEN_STACK_ALLOCATION_LIMIT 16384  // bytes of a working row; more is not for a thread's stack
 #include "isostep/math/sparse_cholesky.hpp"
 
+#include "isostep/scalar/math.hpp"
+
+// What Eigen takes for std: its search for an order of elimination asks for the root of a double, and unoptimised that
+// is a call of libm.
+namespace isostep_eigen::std {
+using namespace ::std;
+ISO_INLINE double sqrt(double x) { return isostep::sqrt(x); }
+}  // namespace isostep_eigen::std
+
 #include <Eigen/SparseCholesky>
 
 #include "isostep/scalar/eigen.hpp"

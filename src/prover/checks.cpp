@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "checks.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <initializer_list>
@@ -42,7 +43,8 @@ Proof prove(std::string_view path, const ReplayCheck& check) {
   const VerifyResult& result = proof.checked.result;
   proof.compared = result.frames;
   if (result.outcome != VerifyOutcome::verified) {
-    proof.compared = result.frames > check.span.first ? result.frames - check.span.first : 0;
+    const std::uint64_t reached = result.frames > check.span.first ? result.frames - check.span.first : 0;
+    proof.compared = std::min(reached, check.span.count);  // the file may end behind what was asked for
   }
   return proof;
 }

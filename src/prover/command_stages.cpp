@@ -36,13 +36,17 @@ int end_of(Bytes file, std::uint64_t frames) {
   return answer(replay.error());
 }
 
+/// The first operand's, into `file`; 0, or the exit status.
+int read_recording(const Request& request, std::vector<std::uint8_t>& file) {
+  const std::string error = read_file(request.operands[0], file);
+  return error.empty() ? exit_status::kOk : refuse(exit_status::kNoInput, error, request.operands[0]);
+}
+
 }  // namespace
 
 int command_trace(const Request& request) {
   std::vector<std::uint8_t> file;
-  if (const std::string error = read_file(request.operands[0], file); !error.empty()) {
-    return refuse(exit_status::kNoInput, error, request.operands[0]);
-  }
+  if (const int status = read_recording(request, file); status != exit_status::kOk) return status;
   const TraceSink sink = {[](void*, const TracedStage& traced) {
                             ShortText<96> line;
                             line.append_number(traced.frame).append(" ").append_number(traced.step).append(" ");
@@ -56,9 +60,7 @@ int command_trace(const Request& request) {
 
 int command_leaves(const Request& request) {
   std::vector<std::uint8_t> file;
-  if (const std::string error = read_file(request.operands[0], file); !error.empty()) {
-    return refuse(exit_status::kNoInput, error, request.operands[0]);
-  }
+  if (const int status = read_recording(request, file); status != exit_status::kOk) return status;
   StagePoint at;
   if (!read_stage_step(request.operands[1], at)) {
     return refuse(exit_status::kUsage, "FRAME[.STEP] is no number", request.operands[1]);
@@ -68,7 +70,11 @@ int command_leaves(const Request& request) {
                            print(leaf_line({path_text(path), format, bits}) + "\n");
                          },
                          nullptr};
-  return answer(visit_stage(file, how(request), at, sink));
+  const Result<void> visited = visit_stage(file, how(request), at, sink);
+  if (!visited && visited.error().code == ErrorCode::invalid && at.frame >= ReplayReader(file).frame_count()) {
+    return refuse(exit_code(VerifyOutcome::truncated), "the recording is shorter than that", request.operands[1]);
+  }
+  return answer(visited);
 }
 
 }  // namespace isostep::prover

@@ -14,7 +14,8 @@ struct Command {
   const char* operands;
   std::size_t least, most;  // of operands
   int (*run)(const Request& request);
-  bool drills = false;  // takes --fault
+  bool takes_frames = false;
+  bool takes_fault = false;
 };
 
 int command_about(const Request& request);
@@ -28,11 +29,11 @@ int command_selfcheck(const Request& request);
 inline constexpr std::size_t kAny = ~std::size_t{0};
 inline constexpr Command kCommands[] = {
     {"about", "", 0, 0, command_about},
-    {"verify", "FILE...", 1, kAny, command_verify},
+    {"verify", "FILE...", 1, kAny, command_verify, true},
     {"snapshot", "FILE FRAME", 2, 2, command_snapshot},
-    {"continue", "FILE FRAME", 2, 2, command_continue},
-    {"trace", "FILE", 1, 1, command_trace, true},
-    {"leaves", "FILE FRAME[.STEP] STAGE", 3, 3, command_leaves, true},
+    {"continue", "FILE FRAME", 2, 2, command_continue, true},
+    {"trace", "FILE", 1, 1, command_trace, true, true},
+    {"leaves", "FILE FRAME[.STEP] STAGE", 3, 3, command_leaves, false, true},
     {"selfcheck", "", 0, 0, command_selfcheck},
 };
 

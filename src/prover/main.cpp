@@ -25,7 +25,9 @@ int run(const Request& request) {
     if (request.operands.size() < command.least || request.operands.size() > command.most) {
       return refuse(exit_status::kUsage, std::string("usage: ").append(command.name).append(" ") + command.operands);
     }
-    if (request.fault && !command.drills) return refuse(exit_status::kUsage, "--fault is for trace and leaves");
+    if (request.frames != kAllFrames && !command.takes_frames)
+      return refuse(exit_status::kUsage, "--frames is for verify, continue and trace");
+    if (request.fault && !command.takes_fault) return refuse(exit_status::kUsage, "--fault is for trace and leaves");
     return command.run(request);
   }
   return refuse_command(request);

@@ -89,16 +89,23 @@ int diff_replays(const Input& a, const Input& b) {
   return status;
 }
 
+std::uint32_t portable_id_of(const Input& input) {
+  std::uint32_t id = 0;
+  Reader(input.bytes).read(id);
+  return id;
+}
+bool is_snapshot(const Input& input) {
+  return with_portable_world(portable_id_of(input), [](auto) {});
+}
+
 template <class W> void load(W& world, const Input& input) {
   const Result<void> read = read_whole(world, input.bytes);
   if (!read) refuse(input.path, VerifyOutcome::corrupt, read.error());
 }
 
 int diff_snapshots(const Input& a, const Input& b) {
-  std::uint32_t id = 0;
-  Reader(a.bytes).read(id);
   int status = exit_status::kOk;
-  const bool found = with_portable_world(id, [&](auto tag) {
+  with_portable_world(portable_id_of(a), [&](auto tag) {
     typename decltype(tag)::Type world_a, world_b;
     load(world_a, a);
     load(world_b, b);
@@ -106,10 +113,6 @@ int diff_snapshots(const Input& a, const Input& b) {
     if (!differ) std::printf("the same: %s\n", hex(world_a.hash()).c_str());
     status = differ ? exit_status::kDifferent : exit_status::kOk;
   });
-  if (!found) {
-    throw ToolError(exit_code(VerifyOutcome::corrupt),
-                    a.path + ": neither a replay nor a portable snapshot of a scalar of this build");
-  }
   return status;
 }
 
@@ -119,6 +122,11 @@ int command_diff(const DiffOptions& options) {
   if (options.stages) return diff_stages(options);
   if (options.b.empty()) throw ToolError(exit_status::kUsage, "diff compares two files; one alone only with --stages");
   const Input a(options.a), b(options.b);
+  for (const Input* input : {&a, &b}) {
+    if (input->is_replay() || is_snapshot(*input)) continue;
+    throw ToolError(exit_code(VerifyOutcome::corrupt),
+                    input->path + ": neither a replay nor a portable snapshot of a scalar of this build");
+  }
   if (a.is_replay() != b.is_replay())
     throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");
   return a.is_replay() ? diff_replays(a, b) : diff_snapshots(a, b);

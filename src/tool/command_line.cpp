@@ -62,6 +62,10 @@ class CommandLine {
   static void add_scalar(CLI::App* command, std::string& scalar) {
     command->add_option("--scalar", scalar, "the number type")->check(CLI::IsMember(kScalars))->capture_default_str();
   }
+  /// Of a file or a directory: a name.
+  static CLI::Option* add_path(CLI::App* command, const char* name, std::string& path, const char* what) {
+    return command->add_option(name, path, what)->check(refuse_blank, "");
+  }
   static void add_frames(CLI::App* command, int& frames) {
     command->add_option("--frames", frames, "how many; the scene's own count otherwise")
         ->check(CLI::Range(0, kMostFrames));
@@ -70,7 +74,7 @@ class CommandLine {
   void add_scenes() {
     CLI::App* command = add("scenes", "list the named scenes", [this] { return tool::command_scenes(scenes_); });
     command->add_flag("--json", scenes_.json, "one JSON object");
-    command->add_option("--write", scenes_.write, "write each as a scene file into this directory");
+    add_path(command, "--write", scenes_.write, "write each as a scene file into this directory");
   }
   void add_run() {
     CLI::App* command = add("run", "run a scene and measure it", [this] { return tool::command_run(run_); });
@@ -91,12 +95,12 @@ class CommandLine {
     command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
         ->check(CLI::IsMember(names_in(isostep::kSimdNames)))
         ->capture_default_str();
-    command->add_option("--load", run_.load, "begin with this portable snapshot");
-    command->add_option("--save", run_.save, "write a portable snapshot of the end");
-    command->add_option("--record", run_.record, "write a replay");
-    command->add_option("--hashes", run_.hashes, "write the hash after each frame");
-    command->add_option("--dump", run_.dump, "write the last frame's bodies as JSON");
-    CLI::Option* html = command->add_option("--html", run_.html, "write a page that plays the run in a browser");
+    add_path(command, "--load", run_.load, "begin with this portable snapshot");
+    add_path(command, "--save", run_.save, "write a portable snapshot of the end");
+    add_path(command, "--record", run_.record, "write a replay");
+    add_path(command, "--hashes", run_.hashes, "write the hash after each frame");
+    add_path(command, "--dump", run_.dump, "write the last frame's bodies as JSON");
+    CLI::Option* html = add_path(command, "--html", run_.html, "write a page that plays the run in a browser");
     command->add_option("--html-every", run_.html_every, "steps from one frame of the page to the next")
         ->check(CLI::Range(1, kMostFrames))
         ->needs(html)
@@ -147,7 +151,7 @@ class CommandLine {
   void add_rebake() {
     CLI::App* command =
         add("rebake", "rewrite the golden hashes, on purpose", [this] { return tool::command_rebake(rebake_); });
-    command->add_option("--dir", rebake_.directory, "where to [the repository]")->check(refuse_blank, "");
+    add_path(command, "--dir", rebake_.directory, "where to [the repository]");
     command->add_flag("--recordings", rebake_.record, "instead the self-check's recordings, of this build's behaviour");
     command->footer("./isostep rebake does both, and builds in between: the behaviour is a digest of the lists.");
   }
@@ -162,7 +166,7 @@ class CommandLine {
         add("peer", "one machine of a match over UDP, played by a bot", [this] { return tool::command_peer(peer_); });
     command->add_option("--listen", peer_.listen, "host on this UDP port (0: any)")->check(CLI::Range(0, 65535));
     command->add_option("--connect", peer_.connect, "HOST:PORT of the host");
-    command->add_option("--port-file", peer_.port_file, "write the host's port here");
+    add_path(command, "--port-file", peer_.port_file, "write the host's port here");
     command->add_option("--players", peer_.players, "of the match")->check(CLI::Range(1, 8))->capture_default_str();
     command->add_flag("--spectate", peer_.spectate, "watch; a host that watches is a dedicated one");
     command->add_flag("--lockstep", peer_.lockstep, "wait for inputs instead of guessing them");
@@ -179,14 +183,14 @@ class CommandLine {
     command->add_option("--pile", peer_.pile, "bodies in the arena")->check(CLI::Range(0, 4000))->capture_default_str();
     command->add_option("--match-seed", peer_.match_seed, "of the arena")->capture_default_str();
     command->add_option("--bot", peer_.bot, "seed of this peer's player")->capture_default_str();
-    command->add_option("--inputs", peer_.inputs,
-                        "inputs instead of the bot's: push_x push_z buttons aim, a line a frame");
+    add_path(command, "--inputs", peer_.inputs,
+             "inputs instead of the bot's: push_x push_z buttons aim, a line a frame");
     command->add_option(
         "--profile", peer_.profile,
         "what this peer's line does: a name (lan wifi mobile severe ...) or latency=100,jitter=30,loss=5");
-    command->add_option("--hashes", peer_.hashes, "write the hash after each frame");
-    command->add_option("--record", peer_.record, "write a replay");
-    command->add_option("--bundle", peer_.bundle, "on a desync, write what `isostep diff` needs");
+    add_path(command, "--hashes", peer_.hashes, "write the hash after each frame");
+    add_path(command, "--record", peer_.record, "write a replay");
+    add_path(command, "--bundle", peer_.bundle, "on a desync, write what `isostep diff` needs");
     command->add_flag("--trace", peer_.trace, "hash every stage, so that a bundle can name it");
     command->add_option("--fault", peer_.fault, "a drill: before this frame one bit of one body flips on this peer");
     command->add_option("--patience", peer_.patience, "seconds without a host before the peer gives up")
@@ -205,12 +209,12 @@ class CommandLine {
     command->add_option("--profile", relay_.profile, "a name, or items like latency=100,jitter=30,loss=5")
         ->capture_default_str();
     command->add_option("--seed", relay_.seed, "of everything that goes wrong")->capture_default_str();
-    command->add_option("--port-file", relay_.port_file, "write the port here");
+    add_path(command, "--port-file", relay_.port_file, "write the port here");
   }
   void add_demo() {
     CLI::App* command = add("demo", "a match over a bad line and a few scenes, in every scalar",
                             [this] { return tool::command_demo(demo_); });
-    command->add_option("--out", demo_.out, "keep the recordings in this directory");
+    add_path(command, "--out", demo_.out, "keep the recordings in this directory");
   }
   void add_lab() {
     CLI::App* lab =
@@ -265,7 +269,7 @@ class CommandLine {
     lab->add_option("--out", lab_.out, "directory of results.jsonl, where what is done is not done again")
         ->capture_default_str();
     lab->add_flag("--fresh", lab_.fresh, "run again what is done");
-    lab->add_option("--csv", lab_.csv, "write every run as a table");
+    add_path(lab, "--csv", lab_.csv, "write every run as a table");
     lab->add_flag("--json", lab_.json, "one JSON object");
   }
 
@@ -293,20 +297,24 @@ int fail(int status, std::string message) {
   return status;
 }
 
+/// `status`, where all that was printed has arrived.
+int delivered(int status) {
+  std::cout.flush();
+  const bool written = std::cout.good() && std::fflush(stdout) == 0;
+  return written ? status : fail(tool::exit_status::kOutput, "standard output cannot be written");
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Deterministic 3D physics: the same inputs give the same bits.", "isostep");
   CommandLine commands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) return delivered(app.exit(error));
     return fail(tool::exit_status::kUsage, std::string(error.what()) + " (isostep --help)");
   }
   tool::catch_interrupt();
-  const int status = commands.execute();
-  std::cout.flush();
-  const bool written = std::cout.good() && std::fflush(stdout) == 0;
-  return written ? status : fail(tool::exit_status::kOutput, "standard output cannot be written");
+  return delivered(commands.execute());
 }
 
 }  // namespace

@@ -8,10 +8,11 @@
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
-#include "commands.hpp"
 #include "checked_file.hpp"
+#include "commands.hpp"
 #include "tool.hpp"
 
 namespace isostep::tool {
@@ -34,8 +35,9 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
       continue;
     }
     std::vector<std::string> found;
+    std::error_code none;  // a link that leads nowhere is a file that cannot be read
     for (fs::recursive_directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
-      if (it->is_regular_file(error) && is_checkable(it->path())) found.push_back(it->path().string());
+      if (is_checkable(it->path()) && !fs::is_directory(it->path(), none)) found.push_back(it->path().string());
     }
     if (error) throw ToolError(exit_status::kNoInput, path + ": " + error.message());
     if (found.empty()) throw ToolError(exit_status::kNoInput, path + ": holds no replay");
@@ -54,7 +56,11 @@ class Checking {
   std::vector<CheckedFile> run(int jobs) {
     std::vector<std::thread> workers;
     const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(jobs), paths_.size());
-    for (std::size_t i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
+    try {
+      for (std::size_t i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      // The system gives no more threads: those that are there do the work.
+    }
     work();
     for (std::thread& worker : workers) worker.join();
     if (failure_) std::rethrow_exception(failure_);

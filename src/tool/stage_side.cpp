@@ -144,6 +144,8 @@ class Elsewhere : public StageSide {
       points.push_back(point);
     };
     each_line("trace " + quoted(input_.path), take, cut ? exit_code(VerifyOutcome::truncated) : 0);
+    if (points.empty() && replay.frame_count() != 0)
+      throw ToolError(exit_status::kSoftware, prover_ + ": says nothing");
     return points;
   }
   LeafList leaves(const StagePoint& at) const override {

@@ -1,5 +1,5 @@
-// Steps bodies by every solver and particles by several, in every scalar, and prints what all frames hash to.
-// To be linked, compiled and run in ways that must not show:
+// Steps bodies by every solver and particles by several, in every scalar that is built, and prints the hash of all
+// frames. To be linked, compiled and run in ways that must not show:
 //   every_world            the hashes
 //   every_world sine       a hash of the C library's sines instead
 //   every_world address    where the system put a block of memory.
@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/particle_world.hpp"
 #include "isostep/state/hash.hpp"
 #include "isostep/world/world.hpp"
@@ -170,6 +171,9 @@ int main(int count, char** arguments) {
     std::printf("%p\n", static_cast<void*>(block.get()));
     return 0;
   }
-  const bool ran[] = {run_all<float>(), run_all<double>(), run_all<Q16_16>(), run_all<Q32_32>()};
-  return ran[0] && ran[1] && ran[2] && ran[3] ? 0 : 1;
+  bool ran = true;
+#define ISO_RUN(S) ran = run_all<S>() && ran;
+  ISO_FOR_EACH_SCALAR(ISO_RUN)
+#undef ISO_RUN
+  return ran ? 0 : 1;
 }

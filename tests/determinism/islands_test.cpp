@@ -5,11 +5,13 @@
 #include "determinism/islands.hpp"
 
 #include <numeric>
+#include <string_view>
 #include <tuple>
 
 #include "determinism/mess.hpp"
 #include "determinism/solver_cases.hpp"
 #include "examples/thread_pool.hpp"
+#include "isostep/state/leaves.hpp"
 
 namespace isostep::test {
 namespace {
@@ -20,6 +22,9 @@ constexpr int kIslands = 12;
 constexpr int frames_of(SolverName solver) {
   return solver == SolverName::soft_step || solver == SolverName::pgs ? 240 : 110;
 }
+
+/// A look at all that a stage leaves takes longer than the stage.
+constexpr int kWatched = 60;
 
 /// How a world comes to its islands.
 struct Circumstances {
@@ -40,7 +45,17 @@ template <class S> void live_before(World<S>& w, ShapeId shape, std::uint32_t pa
 
 struct Seen {
   std::uint32_t contacts = 0, begins = 0, asleep = 0, woke = 0;
+  std::uint64_t left = 0;  // islands that worst_first left with something still to be done
   bool apart = true;
+
+  static void after(void* user, Stage stage, const StageView& view) {
+    if (stage != Stage::solve_substeps) return;
+    view.visit({[](void* seen, const PathPart& path, LeafFormat, std::uint64_t bits) {
+                  if (path.name == nullptr || std::string_view(path.name) != "islands_left") return;
+                  static_cast<Seen*>(seen)->left += bits;
+                },
+                user});
+  }
 };
 
 template <class S> Motions motions_of(SolverName solver, const Circumstances& how, Seen* seen = nullptr) {
@@ -62,10 +77,11 @@ template <class S> Motions motions_of(SolverName solver, const Circumstances& ho
   for (const int i : there) {
     while (islands[static_cast<std::size_t>(i)].make_next(w)) {}
   }
+  const bool watched = seen != nullptr && solver == SolverName::worst_first;
   Motions motions(kIslands);
   for (int frame = 0; frame < frames_of(solver); ++frame) {
     for (const int i : there) islands[static_cast<std::size_t>(i)].play(w, frame);
-    w.step();
+    w.step(watched && frame < kWatched ? StageObserver{&Seen::after, seen} : StageObserver{});
     for (const int i : there) {
       const auto at = static_cast<std::size_t>(i);
       motions[at].push_back(islands[at].hash(w));
@@ -121,6 +137,9 @@ TYPED_TEST(Islands, are_busy_and_apart_and_sleep_and_wake) {
   EXPECT_GT(seen.begins, 80u);
   EXPECT_GT(seen.asleep, 0u);
   EXPECT_GT(seen.woke, 0u);
+  if (this->kSolver == SolverName::worst_first) {
+    EXPECT_GT(seen.left, 0u) << "no island came to its limit, so this shows nothing of limits";
+  }
 }
 
 TYPED_TEST(Islands, move_as_each_does_alone) {

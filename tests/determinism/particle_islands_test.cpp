@@ -15,7 +15,7 @@ constexpr int kFrames = 90, kClusters = 9;
 using Motions = std::vector<std::vector<std::uint64_t>>;  // by cluster, by frame
 
 struct Seen {
-  std::uint32_t contacts = 0, begins = 0;
+  std::uint32_t contacts = 0, begins = 0, unresolved = 0;
   bool apart = true;
 };
 
@@ -47,13 +47,14 @@ Motions motions_of(std::uint32_t way, const std::vector<int>& turns, Simd simd =
   Motions motions(kClusters);
   for (int frame = 0; frame < kFrames; ++frame) {
     for (const std::size_t i : there) clusters[i].play(w, frame);
-    w.step();
+    const ParticleReport report = w.step();
     for (const std::size_t i : there) {
       motions[i].push_back(clusters[i].hash(w));
       if (seen != nullptr) seen->apart = seen->apart && clusters[i].keeps_apart(w);
     }
     if (seen == nullptr) continue;
     seen->contacts = std::max(seen->contacts, w.counts().contacts);
+    seen->unresolved += report.unresolved;
     seen->begins += static_cast<std::uint32_t>(w.events().contact_begin.size());
   }
   return motions;
@@ -85,6 +86,9 @@ TYPED_TEST(ParticleIslands, move_the_same_in_whatever_order_they_were_made_and_b
     EXPECT_TRUE(seen.apart) << "clusters met";
     EXPECT_GT(seen.contacts, 8u);
     EXPECT_GT(seen.begins, 20u);
+    if (settings_of_way<S>(way).solver == ParticleSolver::worst_first) {
+      EXPECT_GT(seen.unresolved, 0u) << "no cluster came to its limit, so this shows nothing of limits";
+    }
     expect_equal(motions_of<S>(way, backwards), expected, way, "backwards");
     expect_equal(motions_of<S>(way, mixed, Simd::scalar, 11), expected, way, "mixed, in slots used before");
     // Time division cuts the sub-step of the whole world where any two meet: company shows, order does not.

@@ -213,6 +213,24 @@ TEST(Selfcheck, ReportsADamagedFileAndOneOfAnotherBehaviour) {
   EXPECT_TRUE(has(describe(other), "INCOMPATIBLE: behaviour is \"0123456789abcdef\"")) << describe(other);
 }
 
+TEST(Selfcheck, IsNotSoundWhereOneScalarHasNoRecordings) {
+  any_scalar([&](auto tag) {
+    const std::string scalar = ScalarTraits<typename decltype(tag)::Type>::kName;
+    std::vector<SelfcheckRecording> others;
+    for (const SelfcheckRecording& recording : builtin()) {
+      if (recording.name == std::string("springs") && recording.scalar != scalar) others.push_back(recording);
+    }
+    const SelfcheckResult result = detail::selfcheck(others, 0);
+    EXPECT_FALSE(result.failure.has_value()) << describe(result);
+    EXPECT_GT(result.frames(), 0u);
+    EXPECT_GT(lanes_of(result, scalar), 0u);
+    for (const SelfcheckPart& part : result.parts) EXPECT_EQ(part.recordings, part.scalar == scalar ? 0u : 1u);
+    EXPECT_FALSE(result.sound());
+    EXPECT_TRUE(has(describe(result), "; no replays of " + scalar)) << describe(result);
+    return false;
+  });
+}
+
 TEST(Selfcheck, IsNotSoundWithoutRecordingsOrWithAnEngineThatDeviates) {
   EXPECT_FALSE(detail::selfcheck({}, 0).sound());
   SelfcheckResult result = selfcheck();

@@ -7,7 +7,12 @@
 
 namespace isostep_lint {
 
-inline std::string quoted(const std::string& text) { return "'" + text + "'"; }
+/// One word of sh's.
+inline std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word += "'";
+}
 
 /// Calls `each(line)` for every line that a command prints; false when it fails.
 template <class Each> bool run(const std::string& command, Each&& each) {

@@ -1,5 +1,5 @@
-// A user's file that calls what the public headers offer inline, for every scalar. Compiled at -O0, and with
-// -mfma for the linker trap: whatever it leaves behind as a weak symbol, a linker may keep for the whole program.
+// A user's file that calls what the public headers offer inline, for every scalar that is built. Compiled at -O0, and
+// with -mfma for the linker trap: whatever it leaves behind as a weak symbol, a linker may keep for the whole program.
 // SPDX-License-Identifier: MIT
 #include <cstring>
 
@@ -300,10 +300,9 @@ void use_the_rest() {
 
 /// Called by the linker trap, so that no linker thinks this file idle.
 int use_everything() {
-  use_all_of<float>();
-  use_all_of<double>();
-  use_all_of<Q16_16>();
-  use_all_of<Q32_32>();
+#define ISO_USE_ALL_OF(S) use_all_of<S>();
+  ISO_FOR_EACH_SCALAR(ISO_USE_ALL_OF)
+#undef ISO_USE_ALL_OF
   use_exact<float>();
   use_exact<double>();
   use_the_rest();

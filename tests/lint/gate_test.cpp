@@ -71,7 +71,8 @@ TEST(GateNames, ExactIntegersAndSeparateRoundingsPass) {
 
 TEST(GateNames, TheX87StackMayMoveAndConvertAndNothingElse) {
   expect_all(InstructionSet::x86, Concern::none,
-             "fld flds fldl fld1 fldz fst fsts fstl fstp fstps fstpl fxch filds fildl fildll fistpll fisttpll fnstcw "
+             "fld flds fldl fld1 fldz fst fsts fstl fstp fstps fstpl fxch fcmovbe fcmovnu filds fildl fildll fistpll "
+             "fisttpll fnstcw "
              "fldcw");
   expect_all(InstructionSet::x86, Concern::x87,
              "fadd fadds faddl faddp fsub fsubrp fmul fmulp fdiv fdivrp fsqrt fiadd fimull frndint fscale fprem fsin "
@@ -139,8 +140,8 @@ TEST(Disassembly, ConstantPoolsAndTablesAreNotInstructions) {
       read({"a.o:     file format elf32-littlearm", "00000000 <f>:", "   0:\tbx\tlr", "   4:\t.word\t0x3f800000"}),
       (std::vector<std::string>{"a.o|f|bx|lr"}));
   EXPECT_EQ(read({"a.o:     file format elf64-powerpc", "0000000000000000 <.f>:", "   0:\tblr", "   4:\t.long 0x0",
-                  "   8:\t.long 0x90000", "0000000000000010 <.g>:", "  10:\tbctr", "  14:\t.long 0x3ec",
-                  "  18:\t.long 0x10000384"}),
+                  "   8:\t.long 0x90000", "   c:\t.long 0xffffff40", "0000000000000010 <.g>:", "  10:\tbctr",
+                  "  14:\t.long 0x3ec", "  18:\t.long 0x10000384"}),
             (std::vector<std::string>{"a.o|.f|blr|", "a.o|.g|bctr|", "a.o|.g|.long|0x10000384"}));
 }
 

@@ -18,8 +18,9 @@ if(MODE STREQUAL "installed")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
   list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_CXX_FLAGS=${FLAGS})
 else()
-  # At -O0 and with one scalar: quick, a test of ISOSTEP_SCALARS, and the hashes must be those of the optimised library.
-  list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_TRANSPORT=ON
+  # At -O0, with one scalar and one lane: quick, a test of these options, and the hashes must be those of the optimised
+  # library.
+  list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_SIMD=OFF -DISOSTEP_TRANSPORT=ON
     -DCMAKE_CXX_FLAGS=-O0)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options})

@@ -129,6 +129,12 @@ TEST_F(Prover, ComparesNoMoreFramesThanItIsAskedTo) {
   EXPECT_EQ(answer.status, 1);
   EXPECT_EQ(table(answer.out).at(0).at(6).rfind("DIVERGED at frame 20: ", 0), 0u) << answer.out;
   EXPECT_EQ(table(answer.out).at(0).at(4), "20");
+  Buffer cut = forged(read_file(record("mixed", "float")), nullptr, 20);
+  cut.resize(cut.size() - 8);
+  write_file(path("cut"), Bytes(cut));
+  const Answer short_of_it = run("--frames 2 verify " + path("cut"));
+  EXPECT_EQ(short_of_it.status, 3);
+  EXPECT_EQ(table(short_of_it.out).at(0).at(4), "2") << "more were not looked at: " << short_of_it.out;
 }
 
 TEST_F(Prover, ReadsARecordingFromStandardInput) {
@@ -210,7 +216,8 @@ TEST_F(Prover, SaysInOneLineWhatItDoesNotUnderstand) {
            "", "walk", "verify", "about now", "--simd mmx verify " + file, "--frames -1 verify " + file, "--frames",
            "--fast verify x", "snapshot " + file, "snapshot " + file + " 1x", "continue - 3",
            "--frames 0 verify " + file, "--fault 1:prepare:tick:1 verify " + file,
-           "snapshot " + file + " 3 --fault 1:prepare:tick:1"}) {
+           "snapshot " + file + " 3 --fault 1:prepare:tick:1", "--frames 3 about", "--frames 3 snapshot " + file + " 2",
+           "--frames 3 leaves " + file + " 1 prepare"}) {
     const Answer answer = run(words);
     EXPECT_EQ(answer.status, 64) << words;
     EXPECT_EQ(answer.out, "") << words;
@@ -226,6 +233,8 @@ TEST_F(Prover, SaysThatARecordingIsShorterThanFrame) {
   EXPECT_EQ(answer.out, "");
   EXPECT_EQ(answer.err, "isostep_prover: the recording has 40 frames (" + file + ")\n");
   EXPECT_EQ(run("continue " + file + " 41", run("snapshot " + file + " 40").out).status, 3);
+  EXPECT_EQ(run("leaves " + file + " 40 prepare").status, 3);
+  EXPECT_EQ(run("leaves " + file + " 39 preparation").status, 64);
 }
 
 TEST_F(Prover, TellsWhatItIs) {

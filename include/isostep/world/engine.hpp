@@ -213,6 +213,9 @@ template <class S> class WorldEngine {
   void discard_bad_impulses();
 
   // engine_leaves.inl
+  template <class Visit> void visit_places(const Visit& visit);
+  template <class Visit> void visit_manifolds(const Visit& visit);
+  template <class Visit> void visit_solver(const Visit& visit, SolverStage stage);
   template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
   template <class Visit> void visit_joints(const Visit& visit, bool solved);
 

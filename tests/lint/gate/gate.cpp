@@ -4,11 +4,12 @@
 // isostep_gate [--functions TEXT] [--finds CONCERN] OBJDUMP NM FILES...
 //
 // Reads every function of objects and archives and every symbol that they leave undefined; a line for each finding:
-// file, function, concern, instruction; a line of sums last. --functions: only functions whose names contain TEXT, and
-// no symbols, for linked programs. --finds: a control, which must have a finding of that concern and none of another.
-// Ends with 0 when nothing was found (or what --finds wants was), 1 when something was, 64 when it is called
-// otherwise, 70 when a tool fails or nothing could be read.
+// file, function, concern, instruction; a line of sums last. --functions: of a linked program, only functions whose
+// names contain TEXT; symbols all the same. --finds: a control, which must have a finding of that concern and none of
+// another. Ends with 0 when nothing was found (or what --finds wants was), 1 when something was, 64 when it is called
+// otherwise, 70 when a tool fails, nothing could be read or not all be said.
 
+#include <cstdio>
 #include <set>
 #include <vector>
 
@@ -32,9 +33,7 @@ class Gate {
   explicit Gate(const Task& task) : task_(task) {}
 
   /// False when a tool fails or has nothing to say of the file.
-  bool read(const std::string& file) {
-    return read_instructions(file) && (!task_.functions.empty() || read_calls(file));
-  }
+  bool read(const std::string& file) { return read_instructions(file) && read_calls(file); }
 
   void print_sums() const {
     std::printf("%zu files, %zu functions, %zu instructions, %zu undefined symbols;", task_.files.size(),
@@ -137,6 +136,8 @@ int main_of(const std::vector<std::string>& words) {
   bool ok = true;
   for (const std::string& file : task.files) ok = gate.read(file) && ok;
   gate.print_sums();
+  if (!ok) std::puts("not everything could be read");
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return kFailure;
   return ok ? verdict(gate, task) : kFailure;
 }
 

@@ -19,10 +19,10 @@ struct Rules {
   const char *fused, *loose, *unknown;
 };
 
-/// Intel 64 and IA-32 Architectures Software Developer's Manual 2: VFMADD132PD to VFNMSUB231SS, VFMADDCPH, VDPBF16PS,
-/// TDPBF16PS; AMD64 Architecture Programmer's Manual 4 for FMA4; 4FMAPS and ER of Xeon Phi. Loose: RCPPS and RSQRTPS
-/// have a bound of error (1.5 2^-12) and no bits; 3DNow!'s alike.
-constexpr Rules kX86 = {"v4?fn?m(add|sub)\\w*|vfm(addsub|subadd)\\w*|vfc(madd|mul)c[ps]h|vdpbf16ps|tdp\\w*ps",
+/// Intel 64 and IA-32 Architectures Software Developer's Manual 2: VFMADD132PD to VFNMSUB231SS, VFMADDCPH, VFMULCPH,
+/// VDPBF16PS, TDPBF16PS; AMD64 Architecture Programmer's Manual 4 for FMA4; 4FMAPS and ER of Xeon Phi. Loose: RCPPS and
+/// RSQRTPS have a bound of error (1.5 2^-12) and no bits; 3DNow!'s alike.
+constexpr Rules kX86 = {"v4?fn?m(add|sub)\\w*|vfm(addsub|subadd)\\w*|vfc?m(add|ul)c[ps]h|vdpbf16ps|tdp\\w*ps",
                         "v?r(cp|sqrt)(14|28)?[ps][sdh]|vexp2p[sd]|pf(rcp|rsq)\\w*", "\\(bad\\)|\\.byte|<unknown>"};
 
 /// The x87 instructions that may stay. The i686 calling convention returns float and double in st(0), so objects that
@@ -32,7 +32,7 @@ constexpr Rules kX86 = {"v4?fn?m(add|sub)\\w*|vfm(addsub|subadd)\\w*|vfc(madd|mu
 /// for FADD, FSUB, FMUL, FDIV, FSQRT alone (Intel's manual 1, 8.1.5.2): where gcc adds 2^64 to an unsigned integer that
 /// fild took for a negative one, the sum depends on it, and the gate says so. fldt and fstpt (long double) stay out.
 constexpr const char* kX87Moves =
-    "fld[slz1]?|fstp?[sl]?|fild(s|l|ll)?|fist(t?p)?(s|l|ll)?|fxch|ffreep?|"  // moves and conversions
+    "fld[slz1]?|fstp?[sl]?|fild(s|l|ll)?|fist(t?p)?(s|l|ll)?|fxch|ffreep?|fcmovn?(b|e|be|u)|"  // moves and conversions
     "fn?st[cs]w|fldcw|fn?init|fn?clex|fn?save|fn?stenv|fldenv|frstor|f?wait|fnop|f(inc|dec)stp";
 /// Names that begin with f and are not of the x87.
 constexpr const char* kNotX87 = "fx(save|rstor)(64)?|femms|fs";
@@ -44,8 +44,9 @@ constexpr Rules kAarch64 = {
     "\\.inst|undefined|udf|<unknown>"};
 
 /// The same, F6: VFMA, VFMS, VFNMA, VFNMS, VFMAL, VFMSL, VFMAB, VFMAT, VCMLA, VDOT and VMMLA of BF16. VMLA, VMLS, VNMLA
-/// and VNMLS are not fused: their result is FPAdd(d, FPMul(n, m)), which rounds twice as two instructions do.
-constexpr Rules kArm = {"vfn?m[as]\\S*|vcmla\\S*|v(dot|mmla)\\.bf16", "", "\\.inst\\S*|undefined|udf|;|<unknown>"};
+/// and VNMLS are not fused: their result is FPAdd(d, FPMul(n, m)), which rounds twice as two instructions do. UDF is
+/// how gcc traps.
+constexpr Rules kArm = {"vfn?m[as]\\S*|vcmla\\S*|v(dot|mmla)\\.bf16", "", "\\.inst\\S*|undefined|;|<unknown>"};
 /// Advanced SIMD of 32-bit state calculates with the standard FPSCR value, which flushes subnormals; its floats are in
 /// d and q registers, while VFP's, which obey the FPSCR, are in s registers.
 constexpr const char* kArmFlushing =
@@ -141,10 +142,12 @@ bool is_prefix(InstructionSet set, std::string_view mnemonic) {
 }
 
 bool is_data(InstructionSet set, std::string_view mnemonic, std::string_view operands) {
-  // PowerPC's primary opcode, the first six bits, is never 0, but in a jump table's offsets it is.
-  constexpr unsigned long kFirstInstruction = 0x04000000;
+  // PowerPC's primary opcode, the first six bits, is never 0, but in a jump table's offsets it is; or all bits are set
+  // down to those of a short way back, of which as an instruction no operand could be another register than the last.
+  constexpr unsigned long kFirstInstruction = 0x04000000, kFarthestBack = 0xffff0000;
   if (set == InstructionSet::powerpc && mnemonic == ".long") {
-    return std::strtoul(std::string(operands).c_str(), nullptr, 16) < kFirstInstruction;
+    const unsigned long word = std::strtoul(std::string(operands).c_str(), nullptr, 16);
+    return word < kFirstInstruction || word >= kFarthestBack;
   }
   const bool pools = set == InstructionSet::arm || set == InstructionSet::aarch64;
   return pools && (mnemonic == ".word" || mnemonic == ".short" || mnemonic == ".byte" || mnemonic == ".xword");

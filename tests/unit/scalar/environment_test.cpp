@@ -33,8 +33,8 @@ std::vector<std::uint64_t> hostile_states(std::uint64_t sound) {
 #if defined(__SSE2__)
   return {
 #if defined(__i386__)
-    sound | 0x0800'0000'0000,        // x87: up
-        sound & ~std::uint64_t{0x0100'0000'0000},  // x87: sums of 53 bits
+    sound | 0x0800'0000'0000,                                                          // x87: up
+        sound & ~std::uint64_t{0x0100'0000'0000},                                      // x87: sums of 53 bits
         sound | 0x0020'0000'0000'0000, sound & ~std::uint64_t{0x007f'0000'0000'0000},  // x87: flags
 #endif
         sound | 0x8000, sound | 0x0040, sound | 0x8040, sound | 0x2000, sound | 0x4000, sound | 0x6000, sound | 0xe040,
@@ -143,6 +143,16 @@ TEST_F(FloatEnvironmentTest, TheProbeNamesTheCause) {
   for (const std::uint64_t mode : {0x2000u, 0x4000u, 0x6000u}) {
     EXPECT_NE(probe_under(mode) & bit_of(Deviation::rounding), 0u) << mode;
   }
+}
+
+TEST_F(FloatEnvironmentTest, TheProbeNeitherTrapsNorLeavesFlags) {
+  const std::uint64_t trapping = before_ & ~std::uint64_t{0x1fbf};  // every mask and every flag
+  State::write(trapping);
+  const std::uint32_t here = probe_here(), library = probe_environment();
+  const std::uint64_t left = State::read();
+  State::write(before_);
+  EXPECT_EQ(here | library, 0u);
+  EXPECT_EQ(left, trapping);
 }
 
 TEST_F(FloatEnvironmentTest, ExceptionsAreMaskedInside) {

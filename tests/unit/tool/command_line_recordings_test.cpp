@@ -73,6 +73,15 @@ TEST_F(CommandLine, TellsTheOutcomesOfVerifyApart) {
   EXPECT_EQ(run({"verify", path("empty.replay")}).status, 3);
   EXPECT_EQ(run({"verify", path("good.replay"), path("diverged.replay"), path("corrupt.replay")}).status, 4);
   EXPECT_EQ(run({"verify", path("good.replay"), path("diverged.replay")}).status, 1);
+  expect_one_line(run({"diff", path("good.replay"), path("empty.replay")}), 4, "neither a replay nor");
+}
+
+TEST_F(CommandLine, VerifyLeavesOutNoRecordingOfADirectory) {
+  record("good.replay");
+  fs::create_symlink(path("nowhere"), path("lost.replay"));
+  const Answer answer = run({"verify", folder_.string()});
+  EXPECT_EQ(answer.status, 66);
+  EXPECT_NE(answer.out.find("1 of 2 verified"), std::string::npos) << answer.out;
 }
 
 /// What was true of them when they were written: every frame's hash is the golden list's, and the scene is built by the

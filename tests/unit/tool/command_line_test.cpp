@@ -181,12 +181,14 @@ TEST_F(CommandLine, LanesChangeNothingButTheirName) {
   }
 }
 
-TEST_F(CommandLine, RefusesEmptyWordsThatNameAProverOrADirectory) {
+TEST_F(CommandLine, RefusesEmptyWordsThatNameAProverAFileOrADirectory) {
   record("a");
   for (const std::string& blank : std::vector<std::string>{"", " \t"}) {
     expect_one_line(run({"diff", "--stages", "--prover-a", blank, path("a")}), 64, "--prover-a");
     expect_one_line(run({"diff", "--stages", "--prover-b", blank, path("a")}), 64, "--prover-b");
     expect_one_line(run({"rebake", "--recordings", "--dir", blank}), 64, "--dir");
+    for (const char* option : {"--load", "--save", "--record", "--hashes", "--dump", "--html"})
+      expect_one_line(run({"run", "S1x5", "--frames", "1", option, blank}), 64, option);
   }
   expect_one_line(run({"rebake", "nonsense"}), 64, "nonsense");
 }

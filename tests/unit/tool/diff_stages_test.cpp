@@ -5,64 +5,13 @@
 
 #include <algorithm>
 
-#include "determinism/particle_mess.hpp"
-#include "determinism/solver_scene.hpp"
-#include "isostep/particles/recorder.hpp"
-#include "isostep/world/recorder.hpp"
-#include "own_folder.hpp"
-#include "tool/commands.hpp"
 #include "unit/tool/drills.hpp"
+#include "unit/tool/staged_recordings.hpp"
 
 namespace isostep::test {
 namespace {
 
 using Arrays = std::vector<std::string>;
-
-class Recorded : public OwnFolder {
- protected:
-  static std::string output(int expected, const std::vector<std::string>& words) {
-    std::vector<const char*> pointers = {"isostep", "diff", "--stages"};
-    for (const std::string& word : words) pointers.push_back(word.c_str());
-    testing::internal::CaptureStdout();
-    EXPECT_EQ(tool::run_command_line(static_cast<int>(pointers.size()), pointers.data()), expected);
-    std::fflush(stdout);
-    return testing::internal::GetCapturedStdout();
-  }
-};
-
-/// The solvers' scene; a ball that flies through a sensor, a box that falls asleep and is woken.
-template <class S> std::vector<std::uint8_t> rigid_recording(SolverName solver, int frames) {
-  World<S> w(solver_settings<S>(solver));
-  SolverScene<S> scene(w);
-  BodyDefinition<S> d = still<S>(add_box(w, 0.5, 0.5, 0.5), {10, 1, 1.5});
-  d.sensor = true;
-  w.create(d);
-  w.create(moving<S>(add_ball(w, 0.25), {10, 1, 0}, {0, 1, 6}));
-  const BodyId sleeper = w.create(moving<S>(add_box(w, 0.5, 0.25, 0.5), {14, 0.25, 0}));
-  std::vector<std::uint8_t> bytes;
-  WorldRecorder<S> recorder(w, sink_to(bytes));
-  EXPECT_TRUE(recorder.begin("stages").ok());
-  for (int frame = 0; frame < frames; ++frame) {
-    if (frame == frames - 4) w.wake(sleeper);
-    scene.play(w, static_cast<std::uint64_t>(frame));
-    EXPECT_TRUE(recorder.end_frame().ok());
-  }
-  EXPECT_TRUE(recorder.finish().ok());
-  return bytes;
-}
-template <class S> std::vector<std::uint8_t> particle_recording(std::uint32_t way, int frames) {
-  ParticleWorld<S> w(settings_of_way<S>(way));
-  build_particle_mess(w);
-  std::vector<std::uint8_t> bytes;
-  ParticleRecorder<S> recorder(w, sink_to(bytes));
-  EXPECT_TRUE(recorder.begin("stages").ok());
-  for (int frame = 0; frame < frames; ++frame) {
-    play(w, static_cast<std::uint64_t>(frame));
-    EXPECT_TRUE(recorder.end_frame().ok());
-  }
-  EXPECT_TRUE(recorder.finish().ok());
-  return bytes;
-}
 
 /// Arrays that are leaves of more than one: "prepared" stands for "prepared[].normals[]", too.
 bool is_part_of(const std::string& array, const std::string& name) {
@@ -400,97 +349,6 @@ TEST(LeafOwners, NobodyOwnsWhatIsInNoArray) {
     EXPECT_EQ(tool::owner_of(leaves, path), body ? "body slot 3" : "") << path;
   }
 }
-
-TEST(LeafLines, ReadBackAsTheyWere) {
-  const NamedLeaf leaves[] = {{"a", kLeafFormat<bool>, 1},
-                              {"b[3].c", kLeafFormat<std::int32_t>, 0xfffffffeu},
-                              {"tick", kLeafFormat<std::uint64_t>, 77},
-                              {"x", kLeafFormat<float>, 0x3fc00000},
-                              {"y", kLeafFormat<double>, 0x3ff8000000000000},
-                              {"z", kLeafFormat<Q16_16>, 0xffff0000u},
-                              {"w", kLeafFormat<Unit<Q32_32>>, 3}};
-  for (const NamedLeaf& leaf : leaves) {
-    NamedLeaf read;
-    ASSERT_TRUE(read_leaf_line(leaf_line(leaf), read)) << leaf_line(leaf);
-    EXPECT_EQ(read.path, leaf.path);
-    EXPECT_EQ(read.bits, leaf.bits);
-    EXPECT_EQ(value_text(read.format, read.bits), value_text(leaf.format, leaf.bits));
-  }
-  EXPECT_EQ(leaf_line(leaves[3]), "x\tf32.24\t0x3fc00000");
-  NamedLeaf read;
-  for (const char* text :
-       {"", "x", "x\tf32.24", "\tf32.24\t0x3fc00000", "x\tf32.24\t0x3fc0000", "x\tf33.24\t0x3fc00000",
-        "x\tf32\t0x3fc00000", "x\tv32\t0x3fc00000", "x\tu32.1\t0x3fc00000", "x\tu32\t0x3fcG0000"}) {
-    EXPECT_FALSE(read_leaf_line(text, read)) << text;
-  }
-}
-
-#if defined(ISOSTEP_PROVER)
-/// The programs themselves: this tool on one side, a prover with a fault on the other.
-TEST_F(Recorded, AnotherProgramIsCompared) {
-  const std::string prover = "'" ISOSTEP_PROVER "'";
-  const std::string rigid = file("it's a replay", rigid_recording<Q32_32>(SolverName::direct, 8));
-  const std::string particles = file("b", particle_recording<double>(2, 8));
-  EXPECT_EQ(output(0, {"--prover-b", prover, rigid}), "the same: 8 frames, stage by stage\n");
-  const struct {
-    const std::string& file;
-    const char *stage, *path, *apart;
-  } faults[] = {{rigid, "colour_constraints", "islands[0].bodies[0]", "4 apart [body slot "},
-                {rigid, "restitution", "solver_velocity[3].angular.y", "4 lsb apart [body slot "},
-                {particles, "solve_substeps", "rows[6].separation", "4 ulp apart [particle slot"},
-                {particles, "commands", "velocity.y[7]", "4 ulp apart [particle slot 7]\n"}};
-  for (const auto& fault : faults) {
-    const std::string word = std::string("5:") + fault.stage + ":" + fault.path + ":2";
-    const std::string out =
-        output(1, {"--prover-a", prover, "--prover-b", prover + " --fault '" + word + "'", fault.file});
-    EXPECT_EQ(out.rfind(std::string("frame 5, stage ") + fault.stage + "\n  " + fault.path + ": ", 0), 0u) << out;
-    EXPECT_NE(out.find(fault.apart), std::string::npos) << out;
-    EXPECT_NE(out.find("\n  1 of "), std::string::npos) << out;
-  }
-}
-TEST_F(Recorded, AnotherProgramPlaysWhatIsCutOffAsFarAsItGoes) {
-  std::vector<std::uint8_t> bytes = rigid_recording<float>(SolverName::soft_step, 4);
-  bytes.resize(bytes.size() - 20);
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(output(0, {"--prover-b", "'" ISOSTEP_PROVER "'", file("a", bytes)}),
-            "the same: 4 frames, stage by stage\n");
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("a is cut off"), std::string::npos);
-}
-TEST_F(Recorded, AProgramThatIsNoProverIsRefused) {
-  const std::string rigid = file("a", rigid_recording<float>(SolverName::soft_step, 2));
-  testing::internal::CaptureStderr();
-  output(70, {"--prover-b", "echo", rigid});
-  output(70, {"--prover-b", "isostep-no-such-program 2>/dev/null", rigid});
-  output(70, {"--prover-b", "'" ISOSTEP_PROVER "' --fault 1:prepare:tick:99", rigid});
-  output(70, {"--prover-b", "exit 1 #", rigid});  // nothing of this is "different"
-  output(70, {"--prover-b", "kill -9 $$ #", rigid});
-  const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("echo: not a prover's answer"), std::string::npos) << said;
-  for (const char* end : {": ended with exit status 127\n", ": ended with exit status 64\n",
-                          ": ended with exit status 1\n", ": did not come to its end\n"})
-    EXPECT_NE(said.find(end), std::string::npos) << end << said;
-}
-TEST_F(Recorded, ATraceThatNoRecordingHasIsRefused) {
-  const std::string rigid = file("a", rigid_recording<float>(SolverName::soft_step, 4));
-  const auto said_of = [&](int status, const std::string& lines) {
-    testing::internal::CaptureStderr();
-    output(status, {"--prover-b", "'" ISOSTEP_PROVER "'", "--prover-a", "printf '" + lines + "' #", rigid});
-    return testing::internal::GetCapturedStderr();
-  };
-  std::string frames;
-  for (const char* frame : {"0", "1", "2", "3"}) frames += std::string(frame) + " 1 commands 0\\n";
-  for (const std::string& lines : std::vector<std::string>{
-           frames + "4 1 commands 0\\n", "18446744073709551615 1 commands 0\\n", "0 1 commands 0\\n0 -1 prepare 0\\n",
-           "1 1 commands 0\\n", "0 2 commands 0\\n", "0 1 prepare 0\\n", "0 1 commands 0\\n2 1 commands 0\\n",
-           "0 1 commands 0\\n0 66 commands 0\\n", "0 1 commands 0\\n0 1 prepare 0\\n1 1 commands 0\\n",
-           "0 1 commands 0x1\\n", "0 1 commands\\n", "0 1 commands 0 0\\n", "0 4294967297 commands 0\\n"}) {
-    const std::string said = said_of(70, lines);
-    EXPECT_NE(said.find("not a prover's answer"), std::string::npos) << lines << said;
-  }
-  const std::string unknown = said_of(70, "0 1 commands 0\\n0 1 find_piars 0\\n");
-  EXPECT_NE(unknown.find("this build has no stage find_piars"), std::string::npos) << unknown;
-}
-#endif
 
 }  // namespace
 }  // namespace isostep::test

@@ -72,6 +72,7 @@ void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage,
     visit("neighbours", std::span(neighbours_.data(), first_[bodies_.rows().mass.size()]));
   }
   if (stage != SolverStage::solve) return;  // impacts are done with the sub-steps
+  visit("islands_left", islands_left_);
   visit.each("points", points_.size(), [&](const auto& of_point, std::size_t i) {
     Point& point = points_[i];
     of_point("contact", point.contact);

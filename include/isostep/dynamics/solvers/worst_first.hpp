@@ -111,6 +111,7 @@ template <class S> class WorstFirstResolver {
   IslandPurses purses_;                    // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
   KnockoutTree worst_;                     // of urgency_
+  std::uint32_t islands_left_ = 0;         // by the passes of this step, with something still to be done
 };
 
 #define ISO_EXTERN_WORST_FIRST_RESOLVER(S) extern template class WorstFirstResolver<S>;

@@ -151,11 +151,14 @@ void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, st
 
 /// Its purse is empty: nothing of it is urgent any more.
 template <class S> void WorstFirstResolver<S>::leave_island(std::uint32_t row) {
+  bool urgent = false;
   for (std::uint32_t i = purses_.purse_of(row).first_row; i != IslandPurses::kNobody; i = purses_.next_of(i)) {
     if (urgency_[i] == V(0)) continue;
+    urgent = true;
     urgency_[i] = V(0);
     worst_.replay(i, before());
   }
+  islands_left_ += urgent;
 }
 
 template <class S>
@@ -195,6 +198,7 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const SolverInput<
                              Softness<S>::rigid()};
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return input.joints[joints_[i - points]]; };
+  islands_left_ = 0;
   for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
     begin_velocities(input, step);
     resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },

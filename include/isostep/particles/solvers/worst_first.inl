@@ -172,7 +172,8 @@ std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t 
   return unsettled;
 }
 
-/// The first look at each row is paid.
+/// Islands are found anew in each call, though a step's calls have the same: of 19800 rows that takes 0.08 ms, a fifth
+/// of a call that finds nothing to do and nothing beside one that does. The first look at each row is paid.
 template <class S> void WorstFirst<S>::share_out(const Row* rows, std::uint32_t count) {
   const auto ends_of = [&](std::uint32_t i) ISO_INLINE_LAMBDA -> IslandPurses::Ends {
     const Sides sides = sides_[i];

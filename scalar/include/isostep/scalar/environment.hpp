@@ -15,18 +15,20 @@ namespace isostep {
 
 namespace detail {
 /// The control and status bits of this thread's floating-point unit, as one word. `kForced` are the bits that decide
-/// results, traps included; all of them are zero in IEEE 754's default state but the masks of x86, `kMasks`.
+/// results, traps included; all of them are zero in IEEE 754's default state but the masks of x86, `kMasks`. Those of
+/// `kTraps` enable a trap when they are set.
 /// Registers, not <fenv.h>: that is part of the C mathematics library, and knows nothing of denormals.
 struct FloatState {
 #if defined(__SSE2__) || defined(_M_X64) || (defined(_M_IX86_FP) && _M_IX86_FP == 2)
   // Intel SDM vol. 1, 10.2.3: DAZ 6, exception masks 7-12, rounding 13-14, FTZ 15; flags 0-5.
 #if defined(__GNUC__) && defined(__i386__)
   // Vol. 1, 8.1.5, in the high half: the x87 control word, by which 32-bit code converts 64-bit integers though it
-  // calculates with SSE. Masks 0-5, precision 8-9 (both set: 64 bits), rounding 10-11. Above it, from bit 48, the flags
-  // of the x87 status word (8.1.3): one that a conversion raised would trap in a caller who does not mask it.
-  static constexpr std::uint64_t kForced = 0x0f3f'0000'ffc0, kMasks = 0x033f'0000'1f80;
+  // calculates with SSE. Masks 0-5, rounding 10-11; the precision is for sums, of which we have none there. Above it,
+  // from bit 48, the flags of the x87 status word (8.1.3): one that a conversion raised would trap in a caller who does
+  // not mask it.
+  static constexpr std::uint64_t kForced = 0x0c3f'0000'ffc0, kMasks = 0x003f'0000'1f80, kTraps = 0;
 #else
-  static constexpr std::uint64_t kForced = 0xffc0, kMasks = 0x1f80;
+  static constexpr std::uint64_t kForced = 0xffc0, kMasks = 0x1f80, kTraps = 0;
 #endif
   static ISO_INLINE std::uint64_t read() {
 #if defined(_MSC_VER) && !defined(__clang__)
@@ -69,7 +71,7 @@ struct FloatState {
 #endif
 #elif defined(__GNUC__) && defined(__aarch64__)
   // Arm ARM, FPCR: FIZ 0, AH 1, NEP 2, traps 8-12 and 15, FZ16 19, rounding 22-23, FZ 24, DN 25. FPSR in the high half.
-  static constexpr std::uint64_t kForced = 0x03c89f07, kMasks = 0;
+  static constexpr std::uint64_t kForced = 0x03c89f07, kMasks = 0, kTraps = 0x9f00;
   static ISO_INLINE std::uint64_t read() {
     std::uint64_t control, status;
     __asm__ volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(control), "=r"(status) : : "memory");
@@ -82,7 +84,7 @@ struct FloatState {
   }
 #elif defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP)
   // Arm ARM, FPSCR: flags 0-7, traps 8-12 and 15, rounding 22-23, FZ 24, DN 25.
-  static constexpr std::uint64_t kForced = 0x03c09f00, kMasks = 0;
+  static constexpr std::uint64_t kForced = 0x03c09f00, kMasks = 0, kTraps = 0x9f00;
   static ISO_INLINE std::uint64_t read() {
     std::uint32_t word;
     __asm__ volatile("vmrs %0, fpscr" : "=r"(word) : : "memory");
@@ -93,7 +95,7 @@ struct FloatState {
   }
 #elif defined(__GNUC__) && defined(__riscv_flen)
   // RISC-V unprivileged ISA, fcsr: flags 0-4, rounding 5-7. Always denormals, never traps.
-  static constexpr std::uint64_t kForced = 0xe0, kMasks = 0;
+  static constexpr std::uint64_t kForced = 0xe0, kMasks = 0, kTraps = 0;
   static ISO_INLINE std::uint64_t read() {
     std::uintptr_t word;
     __asm__ volatile("frcsr %0" : "=r"(word) : : "memory");
@@ -104,7 +106,7 @@ struct FloatState {
   }
 #elif defined(__GNUC__) && defined(__s390x__)
   // z/Architecture Principles of Operation, FPC: trap masks in the top byte, binary rounding in the low three bits.
-  static constexpr std::uint64_t kForced = 0xfc000007, kMasks = 0;
+  static constexpr std::uint64_t kForced = 0xfc000007, kMasks = 0, kTraps = 0xfc000000;
   static ISO_INLINE std::uint64_t read() {
     std::uint32_t word;
     __asm__ volatile("stfpc %0" : "=Q"(word) : : "memory");
@@ -117,7 +119,7 @@ struct FloatState {
 #elif defined(__GNUC__) && defined(__powerpc__) && !defined(_SOFT_FLOAT)
   // Power ISA, FPSCR, counted from the right: rounding 0-1, NI 2 (denormals to zero), enables of exceptions 3-7; all
   // else are flags. It comes and goes through a floating-point register.
-  static constexpr std::uint64_t kForced = 0xff, kMasks = 0;
+  static constexpr std::uint64_t kForced = 0xff, kMasks = 0, kTraps = 0xf8;
   static ISO_INLINE std::uint64_t read() {
     double word;
     __asm__ volatile("mffs %0" : "=f"(word) : : "memory");
@@ -127,12 +129,14 @@ struct FloatState {
     __asm__ volatile("mtfsf 255,%0" : : "f"(std::bit_cast<double>(state)) : "memory");
   }
 #else
-  static constexpr std::uint64_t kForced = 0, kMasks = 0;  // wasm has no such state; elsewhere the probe must do
+  static constexpr std::uint64_t kForced = 0, kMasks = 0,
+                                 kTraps = 0;  // wasm has no such state; elsewhere the probe must do
   static ISO_INLINE std::uint64_t read() { return 0; }
   static ISO_INLINE void write(std::uint64_t) {}
 #endif
 
   static ISO_INLINE constexpr std::uint64_t pinned(std::uint64_t state) { return (state & ~kForced) | kMasks; }
+  static ISO_INLINE constexpr std::uint64_t without_traps(std::uint64_t state) { return (state & ~kTraps) | kMasks; }
 };
 }  // namespace detail
 
@@ -195,81 +199,81 @@ ISO_INLINE bool pair_is_fused() {
   volatile double kept[2] = {out[0], out[1]};
   return kept[0] != 0 || kept[1] != 2 + 0x1p-28;
 }
+
+ISO_INLINE std::uint32_t when(bool deviates, Deviation deviation) { return deviates ? bit_of(deviation) : 0u; }
+// By bits: a comparison takes denormals for zero as well.
+ISO_INLINE bool is_zero(float x) { return (std::bit_cast<std::uint32_t>(x) << 1) == 0; }
+ISO_INLINE bool is_zero(double x) { return (std::bit_cast<std::uint64_t>(x) << 1) == 0; }
+
+ISO_INLINE std::uint32_t probe_denormals() {
+  volatile float quarter = 0.25f, small = 0x1p-126f, tiny = 0x1p-149f, large = 0x1p100f;
+  volatile double dquarter = 0.25, dsmall = 0x1p-1022, dtiny = 0x1p-1074, dlarge = 0x1p1000;
+  volatile float made = small * quarter, taken = tiny * large;
+  volatile double dmade = dsmall * dquarter, dtaken = dtiny * dlarge;
+  return when(is_zero(float(made)), Deviation::flush_float) | when(is_zero(double(dmade)), Deviation::flush_double) |
+         when(is_zero(float(taken)), Deviation::zero_float) | when(is_zero(double(dtaken)), Deviation::zero_double);
+}
+
+ISO_INLINE std::uint32_t probe_rounding() {
+  // Upwards spoils the first, downwards the second, towards zero the third.
+  volatile float one = 1, bit = 0x1p-25f, more = 0x1.8p-24f, next = 1 + 0x1p-23f;
+  volatile float up = one + bit, down = -one - bit, zero = one + more;
+  std::uint32_t found = when(up != 1 || down != -1 || zero != next, Deviation::rounding);
+  // Conversions, which i686 does in another unit.
+  volatile std::int64_t odd = (std::int64_t(1) << 40) + 1, most = (std::int64_t(1) << 40) + (3 << 15);
+  const float over = static_cast<float>(odd), under = static_cast<float>(-odd), cut = static_cast<float>(most);
+  found |= when(over != 0x1p40f || under != -0x1p40f || cut != 0x1.000002p40f, Deviation::rounding);
+  volatile float three = 3, third = one / three;
+  return found | when(std::bit_cast<std::uint32_t>(float(third)) != 0x3eaaaaabu, Deviation::reciprocal);
+}
+
+ISO_INLINE std::uint32_t probe_contraction() {
+  volatile float va = 1 + 0x1p-12f, vc = -(1 + 0x1p-11f);
+  const float a = va, c = vc;
+  volatile float left = a * a + c;
+  volatile double vda = 1 + 0x1p-30, vdc = -(1 + 0x1p-29);
+  const double da = vda, dc = vdc;
+  volatile double dleft = da * da + dc;
+  return when(left != 0, Deviation::contract_float) | when(dleft != 0, Deviation::contract_double) |
+         when(pair_is_fused(), Deviation::contract_pair);
+}
+
+ISO_INLINE std::uint32_t probe_excess() {
+  volatile float vg = 0x1p24f, one = 1;
+  const float g = vg, h = one;
+  volatile float left = (g + h) - g;  // 2^24 + 1 is a tie
+  volatile double vdg = 0x1p53, done = 1;
+  const double dg = vdg, dh = done;
+  volatile double dleft = (dg + dh) - dg;
+  volatile double above_tie = 0x1.002p-53;  // 64 bits make it a tie, which then goes to even
+  volatile double twice = done + above_tie;
+  return when(left != 0, Deviation::excess_float) | when(dleft != 0, Deviation::excess_double) |
+         when(twice != 1 + 0x1p-52, Deviation::double_rounding);
+}
+
+ISO_INLINE std::uint32_t probe_specials() {
+  volatile std::uint32_t nan_bits = 0x7fc00000u;
+  const float nan = std::bit_cast<float>(std::uint32_t(nan_bits));
+  volatile float negative_zero = -0.0f;
+  const float n = negative_zero;
+  volatile float sum = n + 0.0f;
+  return when(nan == nan, Deviation::nan_equal) |
+         when(std::bit_cast<std::uint32_t>(float(sum)) != 0, Deviation::zero_sign);
+}
 }  // namespace detail
 
 /// Runs a dozen operations whose answers IEEE 754 fixes and returns the deviations, 0 on a sound build and thread.
-/// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's.
+/// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's. Exceptions
+/// do not trap meanwhile, and leave no flags.
 ISO_INLINE std::uint32_t probe_environment_here() {
-  std::uint32_t found = 0;
-  const auto check = [&](bool deviates, Deviation deviation)
-                         ISO_INLINE_LAMBDA { found |= deviates ? bit_of(deviation) : 0u; };
-  // By bits: a comparison takes denormals for zero as well.
-  const auto is_zero = [](auto x) ISO_INLINE_LAMBDA {
-    if constexpr (sizeof(x) == 4) return (std::bit_cast<std::uint32_t>(x) << 1) == 0;
-    if constexpr (sizeof(x) == 8) return (std::bit_cast<std::uint64_t>(x) << 1) == 0;
-  };
-  volatile float f, one = 1, quarter = 0.25f;
-  volatile double d, done = 1, dquarter = 0.25;
-
-  volatile float small = 0x1p-126f, tiny = 0x1p-149f;
-  volatile double dsmall = 0x1p-1022, dtiny = 0x1p-1074;
-  f = small * quarter;
-  check(is_zero(float(f)), Deviation::flush_float);
-  d = dsmall * dquarter;
-  check(is_zero(double(d)), Deviation::flush_double);
-  volatile float large = 0x1p100f;
-  volatile double dlarge = 0x1p1000;
-  f = tiny * large;
-  check(is_zero(float(f)), Deviation::zero_float);
-  d = dtiny * dlarge;
-  check(is_zero(double(d)), Deviation::zero_double);
-
-  // Upwards spoils the first, downwards the second, towards zero the third.
-  volatile float bit = 0x1p-25f, more = 0x1.8p-24f, next = 1 + 0x1p-23f;
-  volatile float up = one + bit, down = -one - bit, zero = one + more;
-  check(up != 1 || down != -1 || zero != next, Deviation::rounding);
-  // Conversions, which i686 does in another unit: its rounding; its precision, where 53 bits make a tie of the last.
-  volatile std::int64_t odd = (std::int64_t(1) << 40) + 1, most = (std::int64_t(1) << 40) + (3 << 15);
-  const float over = static_cast<float>(odd), under = static_cast<float>(-odd), cut = static_cast<float>(most);
-  check(over != 0x1p40f || under != -0x1p40f || cut != 0x1.000002p40f, Deviation::rounding);
-#if defined(__i386__)
-  volatile std::uint64_t above_half = (std::uint64_t(1) << 63) + (std::uint64_t(1) << 39) + 1;
-  f = static_cast<float>(above_half);
-  check(f != 0x1.000002p63f, Deviation::double_rounding);
-#endif
-
-  volatile float va = 1 + 0x1p-12f, vc = -(1 + 0x1p-11f);
-  const float a = va, c = vc;
-  f = a * a + c;
-  check(f != 0, Deviation::contract_float);
-  volatile double vda = 1 + 0x1p-30, vdc = -(1 + 0x1p-29);
-  const double da = vda, dc = vdc;
-  d = da * da + dc;
-  check(d != 0, Deviation::contract_double);
-  check(detail::pair_is_fused(), Deviation::contract_pair);
-
-  volatile float vg = 0x1p24f;
-  const float g = vg, h = one;
-  f = (g + h) - g;  // 2^24 + 1 is a tie
-  check(f != 0, Deviation::excess_float);
-  volatile double vdg = 0x1p53;
-  const double dg = vdg, dh = done;
-  d = (dg + dh) - dg;
-  check(d != 0, Deviation::excess_double);
-  volatile double above_tie = 0x1.002p-53;  // 64 bits make it a tie, which then goes to even
-  d = done + above_tie;
-  check(d != 1 + 0x1p-52, Deviation::double_rounding);
-
-  volatile float three = 3;
-  f = one / three;
-  check(std::bit_cast<std::uint32_t>(float(f)) != 0x3eaaaaabu, Deviation::reciprocal);
-  volatile std::uint32_t nan_bits = 0x7fc00000u;
-  const float nan = std::bit_cast<float>(std::uint32_t(nan_bits));
-  check(nan == nan, Deviation::nan_equal);
-  volatile float negative_zero = -0.0f;
-  const float n = negative_zero;
-  f = n + 0.0f;
-  check(std::bit_cast<std::uint32_t>(float(f)) != 0, Deviation::zero_sign);
+  const std::uint64_t caller = detail::FloatState::read();
+  detail::FloatState::write(detail::FloatState::without_traps(caller));
+  std::uint32_t found = detail::probe_denormals();
+  found |= detail::probe_rounding();
+  found |= detail::probe_contraction();
+  found |= detail::probe_excess();
+  found |= detail::probe_specials();
+  detail::FloatState::write(caller);
   return found;
 }
 

@@ -13,7 +13,7 @@
 #if defined(__wasm__)
 // Nothing in WebAssembly fuses but the relaxed operations, which no compiler makes of a * b + c.
 using Four = float __attribute__((vector_size(16)));
-#if __has_builtin(__builtin_wasm_relaxed_madd_f32x4)
+#if __clang_major__ >= 16  // __has_builtin asks for the file's own features, not the function's
 CAN_FUSE Four fused_vector(Four a, Four b, Four c) { return __builtin_wasm_relaxed_madd_f32x4(a, b, c); }
 #else
 CAN_FUSE Four fused_vector(Four a, Four b, Four c) { return __builtin_wasm_fma_f32x4(a, b, c); }
