@@ -4,6 +4,9 @@
 #
 # Inverted, a control is built with the project's own flags, or plays the recording as it was made: then it must be red.
 
+# What a control that behaves is accused of.
+tame='the guard lets it pass|it does not differ|the gate finds nothing|the flipped bit is not seen'
+
 # guard_refuses: a user's file does not compile with the forced flags, and it is the guard that says so.
 guard_refuses() {
   log=$at/refused.log
@@ -37,11 +40,13 @@ check_difference() {
     reason="it does not differ"
     return 1
   fi
-  if [ "$(count_results '^q' VERIFIED)" != "$(grep -c '\.q' "$at/plan")" ]; then
+  fixed=$(grep -c '\.q' "$at/plan")
+  if [ "$(count_results '^q' VERIFIED)" != "$fixed" ]; then
     reason="fixed point differs"
     return 1
   fi
-  verdict="differs, as it must: $parted of $(grep -vc '\.q' "$at/plan") recordings; fixed point agrees"
+  verdict="differs, as it must: $parted of $(grep -vc '\.q' "$at/plan") recordings"
+  [ "$fixed" = 0 ] || verdict="$verdict; fixed point agrees"
 }
 
 check_forced_build() {

@@ -2,6 +2,8 @@
 # library. Sourced by matrix.sh.
 # SPDX-License-Identifier: MIT
 
+gate_seconds=600 # that reading one library may take
+
 # read_library: the gate's word on what the compiler made of the library; on what the linker made, where it compiles.
 read_library() {
   set -- "${tools}objdump" "${tools}nm"
@@ -13,7 +15,7 @@ $(libraries_of)
 LIST
       ;;
   esac
-  limited 600 "$gate_program" "$@"
+  limited "$gate_seconds" "$gate_program" "$@"
 }
 
 # target_flags: what a compiler is told besides its flags when it compiles for the loaded target by hand.
@@ -32,7 +34,12 @@ check_gate() {
   # shellcheck disable=SC2046,SC2086
   limited 300 sh "$gate_controls" "$gate_program" "${tools}objdump" "${tools}nm" "$(command_of_compiler)" \
     $(target_flags) $flags >"$log" 2>&1 || { reason="the gate's controls fail"; return 1; }
-  read_library >>"$log" 2>&1 || { reason="the gate: $(tail -n 1 "$log")"; return 1; }
+  read_library >>"$log" 2>&1
+  case $? in
+    0) ;;
+    124 | 137) reason="the gate took longer than $gate_seconds s"; return 1 ;;
+    *) reason="the gate: $(tail -n 1 "$log")"; return 1 ;;
+  esac
 }
 
 # check_gate_finds CONCERN: in a control, at least one.

@@ -16,6 +16,13 @@ done
 usage='usage: ./isostep matrix [--fast | --full] [--target NAME]... [--list] [--invert] [--markdown FILE] [--jobs N]'
 matrix_usage() { fail 64 "$1; $usage"; }
 
+# most_at_once: targets, as many as there are processors and as there is memory for: compiling one takes up to 3 GB.
+most_at_once() {
+  [ -r /proc/meminfo ] || { jobs; return; }
+  awk -v most="$(jobs)" '/^MemTotal:/ {room = int($2 / 3e6); if (room < most) most = room} END {print most < 1 ? 1 : most}' \
+    /proc/meminfo
+}
+
 # deliver: standard input, to the caller; output that is lost is no success.
 deliver() { cat 2>/dev/null || { say "isostep: standard output cannot be written${1:+: $1}"; return 74; }; }
 
@@ -28,7 +35,7 @@ no_target() { fail 64 "no target '$1': ./isostep matrix --list"; }
 
 # read_words WORDS...: into set, chosen, listing, inverted, markdown, workers.
 read_words() {
-  set=fast chosen='' listing='' inverted='' markdown='' workers=$(jobs)
+  set=fast chosen='' listing='' inverted='' markdown='' workers=$(most_at_once)
   while [ $# -gt 0 ]; do
     case $1 in
       --fast) set=fast ;;
@@ -80,17 +87,16 @@ choose() {
   [ -n "$targets$controls" ] || fail 64 "--invert is for controls"
 }
 
-# list_all: the tables, as far as they choose.
+# list_all: what can be named, and what --fast and --full do with it.
 list_all() {
   {
     printf 'target\tmachine\tcompiler\tflags\tscalars of --fast\tof --full\toptions\n'
     rows targets
-    rows controls | awk -F '\t' -v OFS='\t' '{print $1, $2, $3, $4 " " $6, $5, $5, "control"}'
+    rows controls | awk -F '\t' -v OFS='\t' '{print $1, $2, $3, $4 " " $7, $5, $6, "control"}'
   } | aligned
 }
 
-# run_all NAMES...: so many at once as there are workers, each of which takes the next one that nobody has. What is
-# emulated comes first: it takes longest.
+# run_all NAMES...: so many at once as there are workers, each of which takes the next one that nobody has.
 run_all() {
   claims=$matrix/claims
   rm -rf "$claims"
@@ -112,10 +118,15 @@ run_all() {
   wait $crew
 }
 
+# slow_first NAMES...: what is emulated takes longest; what is built already fills the end.
 slow_first() {
   for name in "$@"; do
     load "$name"
-    if [ "$floats" = short ]; then echo "0 $name"; else echo "1 $name"; fi
+    case $floats,$compiler in
+      *,reference) echo "2 $name" ;;
+      short,*) echo "0 $name" ;;
+      *) echo "1 $name" ;;
+    esac
   done | sort -s -k 1,1 | cut -d ' ' -f 2
 }
 
@@ -134,15 +145,20 @@ interrupt() {
   exit 130
 }
 
-# verdict NAMES...: 0 when every row is green; inverted controls must all be red, and that is never 0.
+# rows_like PATTERN: of the rows on standard input how many have such a result.
+rows_like() { awk -F '\t' -v pattern="$1" 'NR > 1 && $11 ~ pattern' | wc -l; }
+
+# verdict NAMES...: 0 when every row is green, and those that were asked for by name ran; inverted controls must all be
+# red because they behave, and that is never 0.
 verdict() {
-  red=$(all_rows "$@" | awk -F '\t' 'NR > 1 && $11 ~ /^RED/' | wc -l)
   if [ -n "$inverted" ]; then
-    [ "$red" -eq $# ] || { say "isostep: inverted, and still green: a control that proves nothing"; return 2; }
+    [ "$(all_rows "$@" | rows_like "^RED: ($tame)")" -eq $# ] ||
+      { say "isostep: inverted, and a control is green or was not tried: it proves nothing"; return 2; }
     say "inverted: all $# controls are red, as they must be"
     return 1
   fi
-  [ "$red" -eq 0 ]
+  [ -z "$chosen" ] || [ "$(all_rows "$@" | rows_like 'not run here')" -eq 0 ] || return 1
+  [ "$(all_rows "$@" | rows_like '^RED')" -eq 0 ]
 }
 
 matrix() {
@@ -152,7 +168,8 @@ matrix() {
   [ -z "$markdown" ] || takes_table || fail 74 "--markdown $markdown: $reason"
   cd "$root" || exit 70
   begun=$(date +%s)
-  mkdir -p "$matrix" || exit 70
+  { true <&0; } 2>/dev/null || exec </dev/null  # what is started takes it over
+  mkdir -p "$matrix" && touch "$matrix/.lock" || fail 70 "$matrix cannot be written"
   if have flock; then
     exec 8>"$matrix/.lock" && flock -w 10 8 || fail 70 "another matrix is at work in $matrix"
   fi
@@ -165,12 +182,11 @@ matrix() {
   make_recordings || exit 70
   for name in "$@"; do rm -f "$matrix/$name/row"; done
   run_all "$@"
-  print_table "$@" >"$matrix/table.txt"
+  print_table "$@" >"$matrix/table.txt" || fail 74 "$matrix/table.txt cannot be written"
   deliver "the table is in $matrix/table.txt" <"$matrix/table.txt"
   lost=$?
   if [ -n "$markdown" ]; then
-    print_markdown "$@" >"$matrix/table.md"
-    put_table || { lost=74; say "isostep: --markdown $markdown: $reason: the table is in $matrix/table.md"; }
+    { print_markdown "$@" >"$matrix/table.md" && put_table; } || { lost=74; say "isostep: --markdown $markdown: $reason: the table is in $matrix/table.md"; }
   fi
   [ "$lost" = 0 ] || exit 74
   verdict "$@"

@@ -17,6 +17,7 @@ packages_of_target() {
     clang++*) printf 'clang%s\n' "${compiler#clang++}" ;;
     *) echo "$compiler" ;;
   esac
+  [ "$tools" != llvm- ] || echo llvm
   case $flags in *-stdlib=libc++*) printf '%s\n' libc++-14-dev libc++abi-14-dev ;; esac
   # shellcheck disable=SC2086
   [ -z "$needs" ] || printf '%s\n' $needs

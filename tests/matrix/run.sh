@@ -10,7 +10,8 @@ prove() { limited "$budget" sh -c "exec $prover \"\$@\"" sh "$@"; }
 # why STATUS WHAT: the reason of a failure.
 why() {
   case $1 in
-    124 | 137) reason="$2 took longer than $budget s" ;;
+    124) reason="$2 took longer than $budget s" ;;
+    137) reason="$2 was killed: by the system, or because it did not end after $budget s" ;;
     *) reason="$2 exits $1" ;;
   esac
 }
@@ -86,8 +87,8 @@ results() { awk -F '\t' -v word="$1" '$1 != "total" && NF >= 7 && index($7, word
 take_over() {
   recording=$recordings/$1.replay
   middle=$(middle_of "$1")
-  prove continue "$recording" "$middle" <"$recordings/$1.state" || return 1
-  prove snapshot "$recording" "$middle" >"$at/state" || return 1
+  prove continue "$recording" "$middle" <"$recordings/$1.state" || return
+  prove snapshot "$recording" "$middle" >"$at/state" || return
   limited "$budget" "$reference_prover" continue "$recordings/$1.replay" "$middle" <"$at/state"
 }
 

@@ -19,18 +19,20 @@ all_rows() {
   done
 }
 
-# The last line: sums, and how long everything took.
+# The last line: sums, and how long everything took. Controls prove nothing of the library: they count by themselves.
 summary() {
-  all_rows "$@" | awk -F '\t' -v seconds="$(($(date +%s) - begun))" '
+  all_rows "$@" | awk -F '\t' -v seconds="$(($(date +%s) - begun))" -v targets="$(echo $targets | wc -w)" '
     NR > 1 {
       if ($11 ~ /^RED/) red++
       else if ($11 ~ /not run here/) idle++
+      else if (NR - 1 > targets) controls++
       else green++
-      recordings += $5; frames += $6; snapshots += $7
+      if (NR - 1 <= targets) {recordings += $5; frames += $6; snapshots += $7}
     }
     END {
       printf "%d green, %d red, %d not run here: ", green, red, idle
-      printf "%d recordings, %d frames, %d snapshots taken over, ", recordings, frames, snapshots
+      printf "%d recordings, %d frames, %d snapshots taken over", recordings, frames, snapshots
+      printf "; %d controls as they must be; ", controls
       printf "in %d min %d s\n", seconds / 60, seconds % 60
     }'
 }

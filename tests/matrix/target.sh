@@ -17,6 +17,7 @@ fail_because() {
 # build_or_fail: once what it needs is there.
 build_or_fail() {
   began=$(date +%s)
+  : >"$at/.began"
   lacking=$(missing_of "$target")
   if [ -n "$lacking" ]; then
     fail_because "needs ${lacking% }" ''
@@ -27,6 +28,7 @@ build_or_fail() {
     built_in="$(($(date +%s) - began)) s"
   fi
   program_of || { fail_because "it has no prover" "$at/build"; return 1; }
+  [ "$built_in" = - ] || [ -n "$(find "$program" -newer "$at/.began")" ] || built_in=kept
 }
 
 run_checks() {
@@ -82,7 +84,7 @@ work_on_target() {
   green=green
   if build_or_fail; then
     run_gate
-    if cpu_can; then run_checks; else green="built, not run here: this CPU has no $cpu"; fi
+    if cpu_can; then run_checks; else green="not run here: this CPU has no $cpu"; fi
   fi
   finish_target "${result:+RED: }${result:-$green}"
 }

@@ -19,10 +19,6 @@ load_target() {
   IFS=$tab read -r _ machine compiler flags fast full options <<LINE
 $row
 LINE
-  case $set in
-    fast) [ "$fast" = - ] && scalars=$full || scalars=$fast ;; # named by --target, though not of this set
-    *) scalars=$full ;;
-  esac
   prepare_target
 }
 
@@ -30,7 +26,7 @@ LINE
 load_control() {
   target=$1
   row=$(row_of controls "$target") || return 1
-  IFS=$tab read -r _ machine compiler flags scalars forced past gate <<LINE
+  IFS=$tab read -r _ machine compiler flags fast full forced past gate <<LINE
 $row
 LINE
   options=-DISOSTEP_SIMD=OFF
@@ -43,6 +39,8 @@ prepare_target() {
   IFS=$tab read -r _ toolchain runner tools floats budget needs <<LINE
 $(row_of machines "$machine")
 LINE
+  scalars=$full
+  if [ "$set" = fast ] && [ "$fast" != - ]; then scalars=$fast; fi # "-": named by --target, though not of this set
   [ "$scalars" != all ] || scalars=$all_scalars
   [ "$runner" != - ] || runner=''
   [ "$tools" != - ] || tools=''
@@ -54,6 +52,8 @@ LINE
 }$word" ;;
       simd:*) simd=${word#simd:} ;;
       cpu:*) cpu=${word#cpu:} ;;
+      short) floats=short ;;
+      tools:*) tools=${word#tools:} ;;
     esac
   done
   at=$matrix/$target

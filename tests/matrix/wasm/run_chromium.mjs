@@ -1,13 +1,13 @@
 // Runs a WASI program in headless Chromium: node run_chromium.mjs [--seconds N] MODULE.wasm ARGUMENTS...
 // SPDX-License-Identifier: MIT
 //
-// Serves the page, the module and every argument that names a file ("-": standard input) on a port of its own, to this
-// machine alone. The page sends back what the program prints, which appears here on stdout and stderr, and its exit
-// code, which is handed on. Time is real: a browser's virtual time would end a long run early. 64: usage; 69: no
-// Chromium; 70: the browser or the module fails, or N seconds (600 unless told) pass.
+// Serves the page, the module, every argument that names a file and standard input, where it is a file or named "-", on
+// a port of its own, to this machine alone. The page sends back what the program prints, which appears here on stdout
+// and stderr, and its exit code, which is handed on. Time is real: a browser's virtual time would end a long run early.
+// 64: usage; 69: no Chromium; 70: the browser or the module fails, or N seconds (600 unless told) pass.
 
 import {spawn} from 'node:child_process';
-import {existsSync, mkdtempSync, readFileSync, rmSync, statSync} from 'node:fs';
+import {existsSync, fstatSync, mkdtempSync, readFileSync, rmSync, statSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 import {delimiter, dirname, join} from 'node:path';
@@ -32,8 +32,17 @@ if (browser === undefined) {
   process.exit(69);
 }
 
+/// A terminal or a pipe that nobody closes would be waited for.
+function inputIsFile() {
+  try {
+    return fstatSync(0).isFile();
+  } catch {
+    return false;
+  }
+}
 const isFile = name => name === '-' || (existsSync(name) && statSync(name).isFile());
 const files = [...new Set(rest.filter(isFile))];
+if (!files.includes('-') && inputIsFile()) files.push('-');
 const served = new Map();
 try {
   served.set('/', ['text/html', readFileSync(join(here, 'page.html'))]);

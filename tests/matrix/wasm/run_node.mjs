@@ -8,7 +8,12 @@
 import {existsSync} from 'node:fs';
 import {readFile} from 'node:fs/promises';
 import {dirname, isAbsolute} from 'node:path';
+import {setFlagsFromString} from 'node:v8';
 import {WASI} from 'node:wasi';
+
+// Node's WASI may collect garbage within a fast call, where V8 allows none: a program that ran for long then crashes as
+// it returns (nodejs/node#46777).
+setFlagsFromString('--no-turbo-fast-api-calls');
 
 const [path, ...words] = process.argv.slice(2);
 if (path === undefined) {
