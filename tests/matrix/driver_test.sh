@@ -31,7 +31,7 @@ for scene in mixed S9 platform; do
     printf '0 a\n1 b\n2 c\n3 d\n4 e\n5 f\n' >"$dir/goldens/$scene.$scalar.txt"
   done
 done
-cp "$here/tool.sh" "$dir/programs/isostep"
+cp -f "$here/tool.sh" "$dir/programs/isostep"
 cp "$here/prover.sh.in" "$dir/programs/isostep_prover"
 printf '#!/bin/sh\ncp "$1" "$2" && echo flipped >>"$2"\n' >"$dir/programs/flip_hash"
 printf '#!/bin/sh\n[ $# -eq 3 ] && [ -f "$3" ] && echo "all read"\n' >"$dir/programs/isostep_gate"
@@ -54,6 +54,7 @@ warns() { grep -Eq -- "$1" "$dir/err" || fail "no warning '$1'"; }
 matrix 64 --slow && warns "no option '--slow'; usage: "
 matrix 64 --target && warns "wants a word"
 for number in many '' 0 99999999999999999999; do matrix 64 --jobs "$number" && warns "wants a number"; done
+for number in soon '' 0; do matrix 64 --within "$number" && warns "wants a number"; done
 for name in nowhere '' ' ' '*' 'good emulated'; do
   matrix 64 --target "$name" && warns "no target '.*'" && [ "$(wc -l <"$dir/err")" -eq 1 ] || fail "more than one line"
 done
@@ -134,6 +135,10 @@ grep -q '^flipped-bit.*SIMD' "$dir/out" && fail "the reference build is shown wi
 matrix 69 --target far
 matrix 1 --target tomorrow
 
+# No time: what has not begun is left out, and is not green where it was asked for.
+matrix 1 --target hangs --target good --jobs 1 --within 1
+says '^good .* - .* not run here: 1 s were over$'
+
 # A gate that finds something; a control that is none any more.
 printf '#!/bin/sh\necho "1 fused"\nexit 1\n' >"$dir/programs/isostep_gate"
 matrix 1 --target good && says '^good .* RED +.* RED: the gate: 1 fused$'
@@ -145,7 +150,7 @@ matrix 1 --target flipped-bit && says 'RED: flipping a bit exits 74$'
 # A recording that is not the golden list stops everything.
 sed -i 's/cp "$8" /printf "0 x\\n" >/' "$dir/programs/isostep"
 matrix 70 --target good && warns 'cannot be recorded'
-cp "$here/tool.sh" "$dir/programs/isostep"
+cp -f "$here/tool.sh" "$dir/programs/isostep"
 
 # Interrupted: it says so, and what it started is gone.
 rm -f "$dir/sleeper"

@@ -13,7 +13,8 @@ for part in children targets packages reference recordings build run gate target
   . "$root/tests/matrix/$part.sh"
 done
 
-usage='usage: ./isostep matrix [--fast | --full] [--target NAME]... [--list] [--invert] [--markdown FILE] [--jobs N]'
+usage='usage: ./isostep matrix [--fast | --full] [--target NAME]... [--list] [--invert] [--markdown FILE]'
+usage="$usage [--jobs N] [--within SECONDS]"
 matrix_usage() { fail 64 "$1; $usage"; }
 
 # most_at_once: targets, as many as there are processors and as there is memory for: compiling one takes up to 3 GB.
@@ -33,9 +34,9 @@ add_target() {
 }
 no_target() { fail 64 "no target '$1': ./isostep matrix --list"; }
 
-# read_words WORDS...: into set, chosen, listing, inverted, markdown, workers.
+# read_words WORDS...: into set, chosen, listing, inverted, markdown, workers, within.
 read_words() {
-  set=fast chosen='' listing='' inverted='' markdown='' workers=$(most_at_once)
+  set=fast chosen='' listing='' inverted='' markdown='' within='' workers=$(most_at_once)
   while [ $# -gt 0 ]; do
     case $1 in
       --fast) set=fast ;;
@@ -43,7 +44,7 @@ read_words() {
       --list) listing=yes ;;
       --invert) inverted=yes ;;
       --help | -h) printf '%s\n' "$usage" | deliver; exit ;;
-      --target | --markdown | --jobs)
+      --target | --markdown | --jobs | --within)
         [ $# -gt 1 ] || matrix_usage "$1 wants a word"
         case $1 in
           --target) add_target "$2" ;;
@@ -54,6 +55,10 @@ read_words() {
           --jobs)
             case $2 in '' | 0* | *[!0-9]* | ????*) matrix_usage "--jobs wants a number from 1 to 999" ;; esac
             workers=$2
+            ;;
+          --within)
+            case $2 in '' | 0* | *[!0-9]* | ??????*) matrix_usage "--within wants a number from 1 to 99999" ;; esac
+            within=$2
             ;;
         esac
         shift
@@ -109,13 +114,23 @@ run_all() {
     (
       obey_signals
       for name in $(slow_first "$@"); do
-        if mkdir "$claims/$name" 2>/dev/null; then work_on "$name"; fi
+        if mkdir "$claims/$name" 2>/dev/null; then
+          if time_is_over; then leave_out "$name"; else work_on "$name"; fi
+        fi
       done
     ) &
     crew="$crew $!"
   done
   # shellcheck disable=SC2086
   wait $crew
+}
+
+# time_is_over: --within's, counted from the command's beginning. What has begun by then ends as it would.
+time_is_over() { [ -n "$within" ] && [ "$(($(date +%s) - begun))" -ge "$within" ]; }
+leave_out() {
+  load "$1"
+  clear_target
+  finish_target "not run here: $within s were over"
 }
 
 # slow_first NAMES...: what is emulated takes longest; what is built already fills the end.

@@ -46,8 +46,8 @@ bring_packages() {
   fi
   export DEBIAN_FRONTEND=noninteractive
   # shellcheck disable=SC2086
-  { apt-get update && apt-get install -y --no-install-recommends $packages; } >&2 && return 0
+  apt_get update && apt_get install -y --no-install-recommends $packages && return 0
   for package in $packages; do # one that this system does not have must not keep the others away
-    apt-get install -y --no-install-recommends "$package" >&2 || say "isostep: $package cannot be installed"
+    apt_get install -y --no-install-recommends "$package" || say "isostep: $package cannot be installed"
   done
 }

@@ -1,10 +1,14 @@
 # One target from its packages to its row. Sourced by matrix.sh.
 # SPDX-License-Identifier: MIT
 
-begin_target() {
+# clear_target: nothing of an earlier run is taken for this one's.
+clear_target() {
   mkdir -p "$at"
   rm -f "$at/row" "$at/because" "$at/divergence.txt" "$at/replay.tsv"
   result='' replayed=- compared=- taken=- gated=- built_in=- ran_in=-
+}
+begin_target() {
+  clear_target
   say "$target: begins"
 }
 
