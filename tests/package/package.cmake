@@ -18,10 +18,10 @@ if(MODE STREQUAL "installed")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
   list(APPEND options -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_CXX_FLAGS=${FLAGS})
 else()
-  # At -O0, with one scalar and one lane: quick, a test of these options, and the hashes must be those of the optimised
-  # library.
+  # At -O0, with one scalar and one lane, many files at a time: quick, a test of these options, and the hashes must be
+  # those of the optimised library.
   list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_SIMD=OFF -DISOSTEP_TRANSPORT=ON
-    -DCMAKE_CXX_FLAGS=-O0)
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS=-O0)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
