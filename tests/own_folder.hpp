@@ -1,4 +1,4 @@
-// OwnFolder: a fixture whose every test has a folder to itself, empty when it begins and gone when it ends.
+// OwnFolder: a fixture whose every test has a folder to itself, new when it begins and gone when it ends.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,10 +16,12 @@ class OwnFolder : public testing::Test {
  protected:
   void SetUp() override {
     const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = std::string("isostep-") + info.test_suite_name() + "-" + info.name();
-    folder_ = std::filesystem::path(testing::TempDir()) / name;
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    const std::string name = std::string("isostep-") + info.test_suite_name() + "-" + info.name() + "-";
+    int tries = 0;  // whoever runs the same test at the same time has another
+    do {
+      folder_ = std::filesystem::path(testing::TempDir()) / (name + std::to_string(tries));
+    } while (!std::filesystem::create_directory(folder_) && ++tries < 1000);
+    ASSERT_LT(tries, 1000) << folder_;
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -42,7 +42,7 @@ rm -rf "$out"
 "$tool" lab S1x5 --scalars double --solvers soft_step --substeps 8 --frames 100000000 --limit 1000 --out "$out" \
   >"$dir/out" 2>"$dir/err" &
 lab=$!
-sleep 1
+until [ -e "$out/results.jsonl" ] || ! kill -0 "$lab" 2>/dev/null; do sleep 0.1; done # it listens from then on
 kill -INT "$lab"
 wait "$lab"
 [ $? -eq 130 ] || fail "an interrupted lab exits with another status than 130"

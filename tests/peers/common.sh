@@ -12,8 +12,18 @@ start_host() {
   tries=0
   while [ ! -s "$dir/port" ]; do
     tries=$((tries + 1))
-    [ "$tries" -lt 400 ] || fail "the host wrote no port"
+    [ "$tries" -lt 1200 ] || fail "the host wrote no port"
     sleep 0.05
   done
   port=$(cat "$dir/port")
+}
+
+# await WORDS NAME: until the peer NAME has said them; busy machines take long.
+await() {
+  tries=0
+  until grep -q -- "$1" "$dir/$2.err"; do
+    tries=$((tries + 1))
+    [ "$tries" -lt 1200 ] || fail "$2 never says '$1'"
+    sleep 0.05
+  done
 }

@@ -15,7 +15,8 @@ first=$!
 "$tool" peer --connect "127.0.0.1:$port" --profile wifi $match --spectate --hashes "$dir/watcher.txt" \
   >"$dir/watcher.out" 2>"$dir/watcher.err" &
 watcher=$!
-sleep 3
+await "joined: player 1" host
+sleep 2
 kill -INT "$first"
 wait "$first"
 [ $? -eq 130 ] || fail "an interrupted peer exits with $?"
@@ -29,6 +30,6 @@ for peer in first second watcher; do
   [ "$(grep -F -x -c -f "$dir/host.txt" "$dir/$peer.txt")" -eq "$(wc -l <"$dir/$peer.txt")" ] || fail "$peer saw another match"
 done
 grep -q "left: player 1" "$dir/host.err" || fail "the host did not see player 1 leave"
-[ "$(grep -c "joined: player 1" "$dir/host.err")" -eq 2 ] || fail "player 1 did not come back"
+[ "$(grep -c "joined: player 1" "$dir/host.err")" -ge 2 ] || fail "player 1 did not come back"
 grep -q "joined: player 1" "$dir/second.err" || fail "the second player never played"
 "$tool" verify "$dir"/*.replay

@@ -2,12 +2,13 @@
 # README tells the truth: its commands run, its code is the example's, the files it links to exist.
 # usage: readme_test.sh REPOSITORY TOOL
 set -u
+. "$(dirname "$0")/../scratch.sh"
 repository=$1
 tool=$2
 readme=$repository/README.md
 cd "$repository" || exit 1  # README's paths are the repository's
 failures=0
-fail() {
+complain() {
   echo "README: $1" >&2
   failures=$((failures + 1))
 }
@@ -15,7 +16,9 @@ fail() {
 # Commands of sh blocks. demo, test and matrix build everything and are CI's own words; bench measures for minutes.
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix')
-[ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || fail "fewer commands than expected were found to run"
+# What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
+commands=$(printf '%s\n' "$commands" | sed "s|/tmp/|$dir/|g; s/41873/$((20000 + $$ % 10000))/g")
+[ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || complain "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do
   arguments=${command#./isostep }
@@ -25,23 +28,23 @@ while IFS= read -r command; do
       "$tool" ${arguments%&} >/dev/null 2>&1 &
       background="$background $!"
       ;;
-    *) "$tool" $arguments >/dev/null 2>&1 || fail "'$command' exits $?" ;;
+    *) "$tool" $arguments >/dev/null 2>&1 || complain "'$command' exits $?" ;;
   esac
 done <<LIST
 $commands
 LIST
 for pid in $background; do
-  wait "$pid" || fail "a command in the background exits $?"
+  wait "$pid" || complain "a command in the background exits $?"
 done
 
 # The C++ blocks are the parts of the examples between their marks, less the indentation.
 quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
 shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' hello.cpp \
   lockstep_game.cpp cloth.cpp selfcheck.cpp | sed 's/^  //')
-[ "$quoted" = "$shown" ] || fail "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
+[ "$quoted" = "$shown" ] || complain "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
 
 for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
-  [ -e "$repository/$link" ] || fail "links to $link, which does not exist"
+  [ -e "$repository/$link" ] || complain "links to $link, which does not exist"
 done
 
 [ "$failures" -eq 0 ] && echo "README: all true"

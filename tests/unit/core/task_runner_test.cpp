@@ -63,7 +63,7 @@ TEST(RunStages, shares_a_stage_among_threads) {
   const auto wait = [](void* data, std::uint32_t, std::uint32_t piece) {
     auto& m = *static_cast<Meeting*>(data);
     ++m.here;
-    for (int i = 0; i < 2000 && m.here < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int i = 0; i < 60000 && m.here < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (piece == 0) m.met = m.here == 2;
   };
   const std::uint32_t pieces[] = {2};

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "own_folder.hpp"
 #include "scenes/named.hpp"
 #include "tool/lab/models.hpp"
 #include "tool/lab/particle_run.hpp"
@@ -238,12 +238,11 @@ TEST(LabGrid, RefusesWhatIsNotThere) {
   EXPECT_THROW(grid("no such scene", {}), ToolError);
 }
 
-TEST(LabSweep, AnswersInThePointsOrderWhateverTheJobsAndDoesNothingTwice) {
-  const std::string folder = testing::TempDir() + "isostep-lab-sweep";
-  std::filesystem::remove_all(folder);
+class LabSweepKept : public OwnFolder {};
+TEST_F(LabSweepKept, AnswersInThePointsOrderWhateverTheJobsAndDoesNothingTwice) {
   const std::vector<LabPoint> points = grid("S1x5", {{"float", "double"}, {"soft_step", "pgs"}, {}, {1, 2}, {}});
   SweepOptions options;
-  options.out = folder;
+  options.out = path("results");
   options.frames = 30;
   options.progress = false;
   options.jobs = 2;
@@ -258,7 +257,6 @@ TEST(LabSweep, AnswersInThePointsOrderWhateverTheJobsAndDoesNothingTwice) {
     EXPECT_EQ(alone[i].penetration, first[i].penetration);
     EXPECT_EQ(alone[i].deviation, first[i].deviation);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

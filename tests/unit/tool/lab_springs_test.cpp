@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
+#include "own_folder.hpp"
 #include "tool/commands.hpp"
 #include "tool/lab/springs.hpp"
 #include "tool/tool.hpp"
@@ -91,10 +91,9 @@ TYPED_TEST(LabSprings, TheNetExplodesWhereItsStiffestModeReachesFour) {
   EXPECT_EQ(this->measure(SpringSystem::net, kSemiImplicit, 1.05 * limit).verdict, SpringVerdict::exploded);
 }
 
-TEST(LabSpringsCommand, PrintsJsonOfEverySampleAndLeavesTheTable) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isostep-lab-springs";
-  std::filesystem::remove_all(folder);
-  const std::string out = folder.string();
+class LabSpringsCommand : public OwnFolder {};
+TEST_F(LabSpringsCommand, PrintsJsonOfEverySampleAndLeavesTheTable) {
+  const std::string out = path("results");
   const char* words[] = {"isostep", "lab", "springs", "--quick", "--json", "--out", out.c_str()};
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -112,15 +111,14 @@ TEST(LabSpringsCommand, PrintsJsonOfEverySampleAndLeavesTheTable) {
     EXPECT_TRUE(sample["energy"].is_number());
     EXPECT_GE(sample["amplitude"].get<double>(), 1);
   }
-  std::ifstream table(folder / "springs.tsv");
+  std::ifstream table(out + "/springs.tsv");
   std::stringstream text;
   text << table.rdbuf();
   const std::string lines = text.str();
   EXPECT_EQ(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')), 1 + json["samples"].size());
-  std::filesystem::remove_all(folder);
 }
 
-TEST(LabSpringsCommand, RefusesExperimentsThatDoNotExist) {
+TEST_F(LabSpringsCommand, RefusesExperimentsThatDoNotExist) {
   for (const char* word : {"nonsense", "--help-me"}) {
     const char* words[] = {"isostep", "lab", word};
     testing::internal::CaptureStderr();

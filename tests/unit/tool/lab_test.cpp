@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "lab_results.hpp"
+#include "own_folder.hpp"
 #include "tool/lab/store.hpp"
 #include "tool/tool.hpp"
 
@@ -84,23 +84,17 @@ TEST(LabRecord, MakesATableWithQuotesWhereCommasAre) {
 
 // ---- the store
 
-class LabStore : public testing::Test {
+class LabStore : public OwnFolder {
  protected:
-  void SetUp() override {
-    folder_ = testing::TempDir() + "isostep-" + testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string file() const { return folder_ + "/" + kResultsFile; }
+  std::string kept() const { return path("results"); }
+  std::string file() const { return kept() + "/" + kResultsFile; }
   void add_text(const std::string& text) const { std::ofstream(file(), std::ios::app | std::ios::binary) << text; }
-
-  std::string folder_;
 };
 
 TEST_F(LabStore, KnowsWhatAnEarlierOneKept) {
   const LabResult r = result("float", "pgs", 4, 0.5, 0.01);
-  ResultStore(folder_).append({r, "v1"});
-  const ResultStore store(folder_);
+  ResultStore(kept()).append({r, "v1"});
+  const ResultStore store(kept());
   const LabResult* found = store.find(r.point, {"v1", 600, 20});
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->penetration, 0.01);
@@ -111,10 +105,10 @@ TEST_F(LabStore, KnowsWhatAnEarlierOneKept) {
 
 TEST_F(LabStore, TakesAwayALineThatWasCut) {
   const LabResult first = result("float", "pgs", 4, 0.5, 0.01), second = result("float", "pgs", 8, 1, 0.02);
-  ResultStore(folder_).append({first, "v1"});
+  ResultStore(kept()).append({first, "v1"});
   add_text(to_line({second, "v1"}).substr(0, 40));
   {
-    ResultStore store(folder_);
+    ResultStore store(kept());
     EXPECT_NE(store.find(first.point, {"v1", 600, 20}), nullptr);
     EXPECT_EQ(store.find(second.point, {"v1", 600, 20}), nullptr);
     store.append({second, "v1"});
@@ -123,7 +117,7 @@ TEST_F(LabStore, TakesAwayALineThatWasCut) {
 }
 
 TEST_F(LabStore, TheLastOfOnePointCounts) {
-  ResultStore store(folder_);
+  ResultStore store(kept());
   store.append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
   store.append({result("float", "pgs", 8, 0.5, 0.01), "v1"});
   store.append({result("float", "pgs", 4, 0.5, 0.03), "v2"});
@@ -134,10 +128,10 @@ TEST_F(LabStore, TheLastOfOnePointCounts) {
 }
 
 TEST_F(LabStore, NamesALineThatIsWrong) {
-  ResultStore(folder_).append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
+  ResultStore(kept()).append({result("float", "pgs", 4, 0.5, 0.01), "v1"});
   add_text("{}\n");
   try {
-    ResultStore store(folder_);
+    ResultStore store(kept());
     FAIL();
   } catch (const ToolError& error) {
     EXPECT_EQ(error.status(), exit_status::kUsage);
