@@ -36,8 +36,12 @@ class Prover : public OwnFolder {
     const Buffer bytes = read_file(path(name));
     return {bytes.begin(), bytes.end()};
   }
-  /// `input` becomes its standard input.
-  Answer run(const std::string& words, const std::string& input = {}) const {
+  /// `input` becomes its standard input. The folder's name may have blanks.
+  Answer run(std::string words, const std::string& input = {}) const {
+    const std::string folder = folder_.string(), quoted = "'" + folder + "'";
+    for (std::size_t at = 0; (at = words.find(folder, at)) != std::string::npos; at += quoted.size()) {
+      words.replace(at, folder.size(), quoted);
+    }
     write_file(path("in"), input);
     const std::string line = std::string("'" ISOSTEP_PROVER "' ") + words + " <'" + path("in") + "' >'" + path("out") +
                              "' 2>'" + path("err") + "'";

@@ -17,18 +17,17 @@ complain() {
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix')
 # What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
-commands=$(printf '%s\n' "$commands" | sed "s|/tmp/|$dir/|g; s/41873/$((20000 + $$ % 10000))/g")
+commands=$(printf '%s\n' "$commands" | sed "s|/tmp/|'$dir'/|g; s/41873/$((20000 + $$ % 10000))/g")
 [ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || complain "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do
   arguments=${command#./isostep }
-  # Word splitting is wanted: the commands hold no quotes.
   case $arguments in
     *\&)
-      "$tool" ${arguments%&} >/dev/null 2>&1 &
+      eval "\"\$tool\" ${arguments%&}" >/dev/null 2>&1 &
       background="$background $!"
       ;;
-    *) "$tool" $arguments >/dev/null 2>&1 || complain "'$command' exits $?" ;;
+    *) eval "\"\$tool\" $arguments" >/dev/null 2>&1 || complain "'$command' exits $?" ;;
   esac
 done <<LIST
 $commands
