@@ -31,7 +31,7 @@ for scene in mixed S9 platform; do
     printf '0 a\n1 b\n2 c\n3 d\n4 e\n5 f\n' >"$dir/goldens/$scene.$scalar.txt"
   done
 done
-cp -f "$here/tool.sh" "$dir/programs/isostep"
+cp "$here/tool.sh" "$dir/programs/isostep"
 cp "$here/prover.sh.in" "$dir/programs/isostep_prover"
 printf '#!/bin/sh\ncp "$1" "$2" && echo flipped >>"$2"\n' >"$dir/programs/flip_hash"
 printf '#!/bin/sh\n[ $# -eq 3 ] && [ -f "$3" ] && echo "all read"\n' >"$dir/programs/isostep_gate"

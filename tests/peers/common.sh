@@ -9,21 +9,21 @@ start_host() {
   rm -f "$dir/port"
   "$tool" peer --listen 0 --port-file "$dir/port" "$@" >"$dir/$name.out" 2>"$dir/$name.err" &
   host=$!
-  tries=0
-  while [ ! -s "$dir/port" ]; do
-    tries=$((tries + 1))
-    [ "$tries" -lt 1200 ] || fail "the host wrote no port"
-    sleep 0.05
-  done
+  wait_until "the host wrote no port" test -s "$dir/port"
   port=$(cat "$dir/port")
 }
 
-# await WORDS NAME: until the peer NAME has said them; busy machines take long.
-await() {
+# await WORDS NAME: until the peer NAME has said them.
+await() { wait_until "$2 never says '$1'" grep -q -- "$1" "$dir/$2.err"; }
+
+# wait_until ELSE COMMAND...: for a minute, for busy machines take long.
+wait_until() {
+  otherwise=$1
+  shift
   tries=0
-  until grep -q -- "$1" "$dir/$2.err"; do
+  until "$@"; do
     tries=$((tries + 1))
-    [ "$tries" -lt 1200 ] || fail "$2 never says '$1'"
+    [ "$tries" -lt 1200 ] || fail "$otherwise"
     sleep 0.05
   done
 }
