@@ -5,36 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "unit/world/worlds.hpp"
+#include "random/dice.hpp"
 
 namespace isostep::test {
-
-/// Splitmix64: numbers of a seed alone.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
-  /// In whole thousandths.
-  double in(double low, double high) { return low + (high - low) * below(1000) / 1000; }
-  D3 point(double reach) {
-    const double x = in(-reach, reach), y = in(-reach, reach), z = in(-reach, reach);
-    return {x, y, z};
-  }
-  template <class S> Quat<Unit<S>> orientation() {
-    using U = Unit<S>;
-    const double x = in(-0.5, 0.5), y = in(-0.5, 0.5), z = in(-0.5, 0.5);
-    return normalise(Quat<U>{num<U>(x), num<U>(y), num<U>(z), num<U>(0.75)});
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 template <class S> struct Mess {
   ShapeId box, ball, capsule, hammer;

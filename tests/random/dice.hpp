@@ -1,0 +1,49 @@
+// Numbers of a seed alone, for whatever the tests draw: the same on every machine.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/scalar/math.hpp"
+#include "unit/world/worlds.hpp"
+
+namespace isostep::test {
+
+/// Splitmix64.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
+  bool one_in(std::uint32_t n) { return below(n) == 0; }
+  /// In whole thousandths.
+  double in(double low, double high) { return low + (high - low) * below(1000) / 1000; }
+  /// Every size as often as another: 0.01 to 0.1 as 0.1 to 1.
+  double magnitude(double low, double high) { return low * isostep::exp(in(0, isostep::log(high / low))); }
+  D3 point(double reach) {
+    const double x = in(-reach, reach), y = in(-reach, reach), z = in(-reach, reach);
+    return {x, y, z};
+  }
+  /// Of length 1; towards a cube's corners more often than towards its faces.
+  D3 direction() {
+    for (;;) {
+      const D3 p = point(1);
+      if (length(p) > 0.1) return p * (1 / length(p));
+    }
+  }
+  template <class S> Quat<Unit<S>> orientation() {
+    using U = Unit<S>;
+    const double x = in(-0.5, 0.5), y = in(-0.5, 0.5), z = in(-0.5, 0.5);
+    return normalise(Quat<U>{num<U>(x), num<U>(y), num<U>(z), num<U>(0.75)});
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace isostep::test
