@@ -15,11 +15,17 @@
 
 namespace isostep::test {
 
-enum class JointKind { spring, motor, limit, spring_limit, motor_limit, twist, cone, cone_twist };
-inline constexpr int kJointKinds = 8;
-inline constexpr const char* kJointKindNames[kJointKinds] = {
-    "hinge, spring",          "hinge, motor", "hinge, limit", "hinge, spring and limit",
-    "hinge, motor and limit", "ball, twist",  "ball, cone",   "ball, cone and twist"};
+enum class JointKind { spring, motor, limit, spring_limit, motor_limit, twist, cone, cone_twist, free };
+inline constexpr int kJointKinds = 9;
+inline constexpr const char* kJointKindNames[kJointKinds] = {"hinge, spring",
+                                                             "hinge, motor",
+                                                             "hinge, limit",
+                                                             "hinge, spring and limit",
+                                                             "hinge, motor and limit",
+                                                             "ball, twist",
+                                                             "ball, cone",
+                                                             "ball, cone and twist",
+                                                             "hinge, free"};
 
 /// What holds the joint's other end.
 enum class Hold { world, fixed, kinematic, heavy };
@@ -41,7 +47,7 @@ struct SingleJoint {
   double speed, torque;               // [rad/s], [N m]
   double target, frequency, damping;  // [rad], [Hz], [1]
 
-  bool hinge() const { return kind <= JointKind::motor_limit; }
+  bool hinge() const { return kind <= JointKind::motor_limit || kind == JointKind::free; }
   std::uint32_t flags() const {
     using namespace joint_flag;
     constexpr std::uint32_t kFlags[kJointKinds] = {kSpring,         kMotor, kLimit, kSpring | kLimit,

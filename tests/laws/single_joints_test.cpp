@@ -56,6 +56,8 @@ template <class S> class SingleJointLaws : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SingleJointLaws, AllScalars);
 
+TYPED_TEST(SingleJointLaws, hinges_alone_swing) { this->try_all({JointKind::free}); }
+
 TYPED_TEST(SingleJointLaws, springs_give_what_they_held) { this->try_all({JointKind::spring}); }
 
 TYPED_TEST(SingleJointLaws, motors_reach_their_speed_and_no_more) {
