@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "scenes/bars.hpp"
+#include "scenes/limits.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -19,17 +20,28 @@ struct Lane {
   std::vector<scenes::BodySight> start;
   scenes::Energy energy_start;
   std::vector<double> times;  // [ms] a frame
-  double kinetic = 0, joint_worst = 0;
+  double kinetic = 0, joint_worst = 0, limit_worst = 0, limit_end = 0, energy_most = 0;
   int asleep_at = -1;
 };
 
 double square_across(Vec3<double> v) { return v.x * v.x + v.z * v.z; }
 
+/// Scripts move bodies to other places of the list: their joints' limits are not looked at.
+void watch_joints(Lane& lane, const scenes::Scene& scene, const scenes::JointLimits& limits) {
+  const scenes::Sight sight = lane.engine->sight();
+  lane.joint_worst = std::max(lane.joint_worst, sight.joint_error);
+  if (scene.script != scenes::Script::none) return;
+  lane.limit_end = limits.passed(lane.start, sight.bodies);
+  lane.limit_worst = std::max(lane.limit_worst, lane.limit_end);
+  lane.energy_most = std::max(lane.energy_most, sight.energy.total() - lane.energy_start.total());
+}
+
 void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
+  const scenes::JointLimits limits(scene);
   for (int frame = from; frame < to; ++frame) {
     lane.engine->before_step(frame, true);
     lane.times.push_back(lane.engine->timed_steps(1));
-    if (!scene.joints.empty()) lane.joint_worst = std::max(lane.joint_worst, lane.engine->sight().joint_error);
+    if (!scene.joints.empty()) watch_joints(lane, scene, limits);
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
     if (frame < scene.frames - kEnergyFrames) continue;
     const scenes::Energy energy = lane.engine->sight().energy;
@@ -82,6 +94,9 @@ void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   row.energy_loss = (lane.energy_start.total() - end.energy.total()) / end.energy.mass;
   row.joint_worst = lane.joint_worst;
   row.joint_end = end.joint_error;
+  row.limit_worst = lane.limit_worst;
+  row.limit_end = lane.limit_end;
+  row.energy_gain = lane.energy_most / end.energy.mass;
   if (scene.script != scenes::Script::none) row.calm = calm_overlap(*lane.engine, scene.frames);
   row.asleep_at = lane.asleep_at < 0 ? -1 : lane.asleep_at / 60.0;
 }

@@ -24,6 +24,8 @@ struct Row {
   double top_error = 0;                   // [m] of the last body's height, against the start
   double reach_error = 0;                 // [m] last body from the first joint's anchor, against the start
   double joint_worst = 0, joint_end = 0;  // [m] over the run; at the end
+  double limit_worst = 0, limit_end = 0;  // [rad] past joints' limits, over the run; at the end
+  double energy_gain = 0;                 // [J/kg] most above the start, over the run; scenes with joints
   int outside = 0;                        // bodies that left the pit, the floor or the drum
   double asleep_at = -1;                  // [s] first frame with nobody awake; less than 0: never
   // Judged by verdict.hpp.

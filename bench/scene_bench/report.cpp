@@ -30,7 +30,7 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
 double error_of(const Row& row) {
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
   if (is(row, {"S4", "S4s", "S5"})) return row.overlap.mean;
-  if (is(row, {"S6", "S6v", "S7"})) return row.joint_worst;
+  if (is(row, {"S6", "S6v", "S7", "S20"})) return row.joint_worst;
   return is(row, {"S9"}) ? row.calm.worst : row.overlap.worst;
 }
 
@@ -46,6 +46,9 @@ std::string particular(const Row& row) {
                  row.energy_loss);
   } else if (is(row, {"S7"})) {
     text = print("joint %.2f mm, at the end %.3f mm", 1e3 * row.joint_worst, 1e3 * row.joint_end);
+  } else if (is(row, {"S20"})) {
+    text = print("joint %.2f mm, at the end %.3f mm; limits passed by %.3f rad, at the end %.4f", 1e3 * row.joint_worst,
+                 1e3 * row.joint_end, row.limit_worst, row.limit_end);
   } else if (is(row, {"S9"})) {
     text = print("longest step %.3f ms; 1 s after the last new body worst %.1f mm, %u deep", row.max,
                  1e3 * row.calm.worst, row.calm.deep);
@@ -90,6 +93,9 @@ Json json_of(const Row& row, const FastestPeers& fastest) {
           {"reach_error", row.reach_error},
           {"joint_error_worst", row.joint_worst},
           {"joint_error_end", row.joint_end},
+          {"limit_passed_worst", row.limit_worst},
+          {"limit_passed_end", row.limit_end},
+          {"energy_gain_per_kg", row.energy_gain},
           {"outside", row.outside},
           {"faults", row.faults},
           {"asleep_at_s", positive(row.asleep_at)},

@@ -43,7 +43,10 @@ std::optional<double> value_of(const Row& row, Measure measure) {
     case Measure::unrest: return row.kinetic;
     case Measure::joint_error: return row.joint_worst;
     case Measure::joint_end: return row.joint_end;
+    case Measure::limit_passed: return row.limit_worst;
+    case Measure::limit_end: return row.limit_end;
     case Measure::energy_loss: return row.energy_loss;
+    case Measure::energy_gain: return row.energy_gain;
     case Measure::asleep_at: return row.asleep_at < 0 ? std::numeric_limits<double>::infinity() : row.asleep_at;
     case Measure::asleep_ms: return row.asleep_at < 0 ? std::numeric_limits<double>::infinity() : row.asleep_ms;
   }

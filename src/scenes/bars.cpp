@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "build.hpp"
+#include "limits.hpp"
+#include "trials/judges.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -34,6 +36,11 @@ constexpr Bar kBars[] = {
     {"S8", Measure::asleep_at, 2, 1},
     {"S8", Measure::asleep_ms, 0.002, 0.001},
     {"S9", Measure::penetration, 0.06, 0.03},
+    {"S20", Measure::joint_error, 0.05, 0.02},
+    {"S20", Measure::joint_end, 0.005, 0.001},
+    {"S20", Measure::limit_passed, 0.15, 0.05},
+    {"S20", Measure::limit_end, 0.02, 0.005},
+    {"S20", Measure::energy_gain, 0.001, 0.001},
 };
 /// Fixed point of 32 bits is for particles and small scenes, and has bars for those alone.
 constexpr Bar kSmallBars[] = {
@@ -49,7 +56,7 @@ bool starts_with(std::string_view name, std::string_view head) { return name.sub
 /// Keeps the start and the last sight.
 class OwnFigure : public Judge {
  public:
-  explicit OwnFigure(const Scene& scene) : name_(scene.name), measure_(own_measure(scene.name)) {
+  explicit OwnFigure(const Scene& scene) : name_(scene.name), measure_(own_measure(scene.name)), limits_(scene) {
     if (scene.joints.empty()) return;
     const Vector& hook = scene.joints.front().anchor;
     hook_ = {value_of<double>(hook[0], ""), value_of<double>(hook[1], ""), value_of<double>(hook[2], "")};
@@ -58,6 +65,7 @@ class OwnFigure : public Judge {
     if (start_.empty()) start_ = sight.bodies;
     now_ = sight.bodies;
     joint_error_ = sight.joint_error;
+    if (measure_ == Measure::limit_passed) passed_ = worse(passed_, limits_.passed(start_, now_));
   }
   double figure() const override {
     switch (measure_) {
@@ -66,6 +74,7 @@ class OwnFigure : public Judge {
       case Measure::stretch:
         return std::abs(length_of(now_.back().centre - hook_) - length_of(start_.back().centre - hook_));
       case Measure::joint_end: return joint_error_;
+      case Measure::limit_passed: return passed_;
       default: return count_outside(name_, now_);
     }
   }
@@ -85,15 +94,17 @@ class OwnFigure : public Judge {
   Vec3<double> hook_ = {0, 0, 0};  // [m]
   std::vector<BodySight> start_, now_;
   double joint_error_ = 0;
+  JointLimits limits_;
+  double passed_ = 0;  // [rad]
 };
 
 }  // namespace
 
 const char* name_of(Measure measure) {
   constexpr const char* kNames[] = {
-      "height of the top", "drift",         "furthest way", "stretch",     "bodies outside",
-      "worst overlap",     "mean overlap",  "unrest",       "worst joint", "joint at the end",
-      "energy lost",       "time to sleep", "step asleep"};
+      "height of the top", "drift",         "furthest way",  "stretch",          "bodies outside", "worst overlap",
+      "mean overlap",      "unrest",        "worst joint",   "joint at the end", "limits passed",  "limits at the end",
+      "energy lost",       "energy gained", "time to sleep", "step asleep"};
   return kNames[static_cast<int>(measure)];
 }
 
@@ -108,7 +119,7 @@ std::vector<Bar> bars_of(std::string_view scene, bool small) {
 
 int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) {
   int outside = 0;
-  const bool pit = starts_with(scene, "S4") || scene == "S5" || scene == "S7";
+  const bool pit = starts_with(scene, "S4") || scene == "S5" || scene == "S7" || scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
   for (const BodySight& body : bodies) {
     if (!body.dynamic) continue;
@@ -125,12 +136,13 @@ Measure own_measure(std::string_view scene) {
   if (starts_with(scene, "S1")) return Measure::top;
   if (scene == "S2" || scene == "S3" || scene == "S8") return Measure::moved;
   if (starts_with(scene, "S6")) return Measure::stretch;
+  if (scene == "S20") return Measure::limit_passed;
   return scene == "S7" ? Measure::joint_end : Measure::outside;
 }
 
 std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
-  constexpr std::string_view kScenes[] = {"S1",  "S1x5", "S1x10", "S1s", "S2", "S3", "S4",
-                                          "S4s", "S5",   "S6",    "S6v", "S7", "S8", "S9"};
+  constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
+                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S20"};
   if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
   return std::make_unique<OwnFigure>(scene);
 }

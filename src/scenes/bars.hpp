@@ -25,7 +25,10 @@ enum class Measure {
   unrest,            // [J/kg] kinetic, mean of the last second
   joint_error,       // [m] worst over the run
   joint_end,         // [m] at the end
+  limit_passed,      // [rad] of joints, worst over the run
+  limit_end,         // [rad] at the end
   energy_loss,       // [J/kg] start less end
+  energy_gain,       // [J/kg] most above the start, over the run
   asleep_at,         // [s] simulated, until nobody is awake
   asleep_ms          // [ms] of a step after that
 };

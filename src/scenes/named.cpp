@@ -49,6 +49,7 @@ constexpr NamedScene kScenes[] = {
     {"S7", "50 ragdolls fall into a pit", ragdolls},
     {"S8", "S3 with sleep", sleeping_pyramid},
     {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
+    {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
     {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},

@@ -27,6 +27,12 @@ Scene pile(int bodies);
 Scene rain();
 Scene chain(bool hanging);
 Scene ragdolls();
+/// The same with cones, twists and hinges that bend as far as a body's do.
+Scene limited_ragdolls();
+/// 100 of those, each alone 2 m above the floor, tilted by one hundredth of a turn more than the one before.
+Scene tilted_ragdolls();
+/// Bodies of a ragdoll: its parts follow each other.
+inline constexpr std::size_t kRagdollParts = 11;
 Scene mixer();
 Scene mixed();
 Scene medley();

@@ -20,6 +20,7 @@ std::span<const Trial> recovery_trials();
 std::span<const Trial> spring_trials();
 std::span<const Trial> loop_trials();
 std::span<const Trial> bounce_trials();
+std::span<const Trial> ragdoll_trials();
 std::span<const Trial> fixed_point_trials();
 
 inline std::vector<std::span<const Trial>> trial_families() {
@@ -34,6 +35,7 @@ inline std::vector<std::span<const Trial>> trial_families() {
           spring_trials(),     //
           loop_trials(),       //
           bounce_trials(),     //
+          ragdoll_trials(),     //
           fixed_point_trials()};
 }
 

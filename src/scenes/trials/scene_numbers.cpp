@@ -28,6 +28,13 @@ Vec3<double> gyration_of(const ScenePart& part) {
     const double r = value(part.radius), square = 0.4 * r * r;
     return {square, square, square};
   }
+  if (part.type == ShapeType::capsule) {  // a cylinder, and a ball whose halves stand away from each other
+    const double r = value(part.radius), h = value(part.half_height);
+    const double ball = 4 * r / (4 * r + 6 * h), cylinder = 1 - ball;
+    const double along = r * r * (0.4 * ball + 0.5 * cylinder);
+    const double across = ball * (0.4 * r * r + h * h + 0.75 * h * r) + cylinder * (r * r / 4 + h * h / 3);
+    return {across, along, across};
+  }
   const Vec3<double> half = value(part.half_extents);
   const Vec3<double> square = {half.x * half.x / 3, half.y * half.y / 3, half.z * half.z / 3};
   return {square.y + square.z, square.z + square.x, square.x + square.y};

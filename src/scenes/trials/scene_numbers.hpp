@@ -15,7 +15,8 @@ inline double duration_of(const Scene& scene) { return static_cast<double>(scene
 
 /// [kg] of the body, from its mass or its parts' density.
 double mass_of(const SceneBody& body);
-/// [kg m^2] about the centre of mass, in the body's frame, of boxes and spheres that are not turned. Closed form.
+/// [kg m^2] about the centre of mass, in the body's frame, of boxes, spheres and capsules that are not turned. Closed
+/// form.
 Mat3<double> inertia_of(const SceneBody& body);
 /// [m] from the centre of a body of one part to the nearest point of its surface.
 double least_reach(const SceneBody& body);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -79,6 +80,14 @@ TEST(Bars, APilesFigureIsHowManyBodiesLeftThePit) {
   end.bodies[2].dynamic = false;
   EXPECT_EQ(figure_of("S4", start, end), 1);
   EXPECT_EQ(count_outside("S9", {body_at(0, 6, 0), body_at(0, 1, 0), body_at(0, 6, 4.1)}), 2);
+}
+
+TEST(Bars, TheFigureOfLimitedRagdollsIsHowFarAJointWasPastItsLimit) {
+  Sight start, end;
+  start.bodies.resize(find_scene("S20")->bodies.size());
+  end = start;
+  end.bodies[5 + 5].orientation = {0, std::sin(0.1), 0, std::cos(0.1)};  // an elbow bends back
+  EXPECT_NEAR(figure_of("S20", start, end), 0.2, 0.002);                 // it leans a little
 }
 
 TEST(Bars, NoOtherSceneHasAJudgeOfTheSet) { EXPECT_EQ(benchmark_judge(*find_scene("mixed")), nullptr); }

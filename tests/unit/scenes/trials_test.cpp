@@ -11,6 +11,8 @@
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/script.hpp"
+#include "scenes/shapes.hpp"
+#include "scenes/trials/scene_numbers.hpp"
 #include "scenes/trials/trial.hpp"
 #include "scenes/trials/trial_run.hpp"
 
@@ -257,6 +259,65 @@ TEST_F(Dominoes, OfAnUnsteadyFrontShowItsStandardDeviation) {
 TEST_F(Dominoes, FailWhereTheLastOneStands) {
   play([](double i) { return i == 199 ? 100 : 0.05 * i; }, 12);
   EXPECT_EQ(run.figure(), 100);
+}
+
+/// The elbow of the first ragdoll, which leans by less than 0.1 rad, bends by -2.4 to 0 rad about y.
+TEST(Ragdolls, AreJudgedByTheBarThatTheyAreNearestTo) {
+  constexpr std::size_t kForearm = 5 + 5;
+  Staged run("ragdolls_with_limits");
+  EXPECT_LT(run.figure(), 1e-9);
+  const auto bend = [&](double angle) {
+    run.sight.bodies[kForearm].orientation = {0, std::sin(angle / 2), 0, std::cos(angle / 2)};
+  };
+  bend(-1);
+  run.show(1);
+  EXPECT_LT(run.figure(), 1e-9);
+  bend(0.03);
+  run.show(2);
+  EXPECT_NEAR(run.figure(), 150, 1);  // of 0.02 rad at the end
+  bend(0);
+  run.show(3);
+  EXPECT_NEAR(run.figure(), 20, 0.2);  // of 0.15 rad over the run
+  run.sight.joint_error = 0.004;
+  run.show(4);
+  EXPECT_NEAR(run.figure(), 80, 1e-6);
+  EXPECT_TRUE(run.survived());
+  run.sight.joint_error = 0;
+  run.sight.energy.kinetic = 0.64;  // of 50 times 6.4 kg
+  run.show(5);
+  EXPECT_NEAR(run.figure(), 200, 1);
+  EXPECT_FALSE(run.survived());
+}
+
+/// 6.4 kg: a torso of 2 kg at 4 m/s has 16 J.
+TEST(Ragdolls, GainWhatOneOfThemGains) {
+  Staged run("ragdoll_from_every_tilt");
+  EXPECT_EQ(run.figure(), 0);
+  run.sight.bodies[1 + 1].velocity = {0, 4, 0};
+  run.sight.bodies[1 + kRagdollParts].centre.y -= 3;  // another one's
+  run.show(1);
+  EXPECT_NEAR(run.figure(), 16 / 6.4, 1e-9);
+  EXPECT_FALSE(run.survived());
+}
+
+/// As many thin discs.
+TEST(SceneNumbers, ACapsulesInertiaIsThatOfItsDiscs) {
+  constexpr double kRadius = 0.25, kHalf = 0.5;
+  constexpr int kDiscs = 20000;
+  double volume = 0, along = 0, across = 0;
+  for (int i = 0; i < kDiscs; ++i) {
+    const double y = ((i + 0.5) / kDiscs * 2 - 1) * (kHalf + kRadius), in = std::fmax(std::fabs(y) - kHalf, 0);
+    const double square = kRadius * kRadius - in * in;
+    volume += square;
+    along += square * square / 2;
+    across += square * (square / 4 + y * y);
+  }
+  SceneBody body = body_of(capsule_part(kRadius, kHalf), {0, 0, 0});
+  body.mass = 2;
+  const Mat3<double> inertia = inertia_of(body);
+  EXPECT_NEAR(inertia.rows[1].y, 2 * along / volume, 1e-6);
+  EXPECT_NEAR(inertia.rows[0].x, 2 * across / volume, 1e-6);
+  EXPECT_NEAR(inertia.rows[2].z, 2 * across / volume, 1e-6);
 }
 
 TEST(Verdicts, FailOfFaultsAndOfNumbersThatAreNone) {

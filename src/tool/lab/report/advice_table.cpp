@@ -20,7 +20,10 @@ struct Unit {
 Unit unit_of(Measure measure) {
   switch (measure) {
     case Measure::unrest:
-    case Measure::energy_loss: return {1, "J/kg"};
+    case Measure::energy_loss:
+    case Measure::energy_gain: return {1, "J/kg"};
+    case Measure::limit_passed:
+    case Measure::limit_end: return {1, "rad"};
     case Measure::asleep_at: return {1, "s"};
     case Measure::asleep_ms: return {1e3, "µs"};
     case Measure::outside: return {1, ""};

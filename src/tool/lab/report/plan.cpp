@@ -66,6 +66,7 @@ std::optional<double> value_of(const LabResult& result, Measure measure) {
     case Measure::unrest: return result.unrest;
     case Measure::joint_error: return result.joint_error;
     case Measure::energy_loss: return result.energy_loss;
+    case Measure::energy_gain: return result.energy_gain;
     default: break;
   }
   if (measure == scenes::own_measure(result.point.scene)) return result.figure;
