@@ -1,0 +1,84 @@
+// Laws of worlds of everything at once: no more energy than was put in, no more speed than what drives them gives.
+// ISOSTEP_RANDOM_WORLDS=2000 tries so many seeds with every solver; without it a sample is.
+// SPDX-License-Identifier: MIT
+
+#include <cstdlib>
+#include <sstream>
+
+#include "random/world.hpp"
+
+namespace isostep::test {
+namespace {
+
+/// [1] of all energy that was ever given. Contacts and limits hold some for a while, and steps are as long as they are:
+/// a sound engine stays below a twentieth.
+constexpr double kEnergyBar = 0.1;
+/// [1] of the sum of the speeds that movers, falls and throws give: a light body is struck by a heavy one.
+constexpr double kSpeedBar = 3;
+/// [m] between the anchors of a joint.
+constexpr double kApart = 0.5;
+
+struct WorldFindings {
+  double energy = 0;  // [1] excess, of what was given; worst
+  double speed = 0;   // [1] of what drives give; worst
+  double apart = 0;   // [m] worst
+  int faults = 0;     // steps that had to mend something
+  std::uint32_t joints = 0, contacts = 0;
+};
+
+template <class S> WorldFindings try_world(std::uint64_t seed, SolverName solver, int frames) {
+  using R = RandomWorld<S>;
+  R random(seed, solver);
+  WorldFindings f;
+  f.joints = random.joints_made;
+  const double speed = R::kMoverSpeed + R::kThrow + std::sqrt(2 * 10 * R::kTop);
+  for (int frame = 0; frame < frames; ++frame) {
+    if (!random.play(static_cast<std::uint64_t>(frame)).clean()) ++f.faults;
+    const World<S>& w = random.world;
+    f.contacts = std::max(f.contacts, w.counts().contacts);
+    if (drive_of(seed) != Drive::movers) {
+      const double rise = drive_of(seed) == Drive::commands ? random.book.rise(w) : random.book.excess(w);
+      const double excess = rise / (random.book.given() + 1);
+      f.energy = std::isfinite(excess) ? std::max(f.energy, excess) : 1e30;
+    }
+    for (const BodyState<S>& body : w.state().awake.states)
+      f.speed = std::max(f.speed, length(real(body.velocity)) / speed);
+    for (const JointId id : w.joints()) f.apart = std::max(f.apart, to_double(w.joint_error(id)));
+  }
+  return f;
+}
+
+template <class S> class RandomWorldLaws : public ::testing::Test {
+ protected:
+  static void try_solver(SolverName solver) {
+    const char* asked = std::getenv("ISOSTEP_RANDOM_WORLDS");
+    const int count = asked == nullptr ? kSample : std::atoi(asked);
+    std::ostringstream lost;
+    std::uint32_t joints = 0, contacts = 0;
+    int found = 0;
+    for (int seed = 0; seed < count; ++seed) {
+      const WorldFindings f = try_world<S>(static_cast<std::uint64_t>(seed), solver, kFrames);
+      joints += f.joints;
+      contacts += f.contacts;
+      if (f.energy <= kEnergyBar && f.speed <= kSpeedBar && f.apart <= kApart && f.faults == 0) continue;
+      ++found;
+      if (found <= 20)
+        lost << "\n  seed " << seed << ": energy above what was given by " << 100 * f.energy << " % of it, speed "
+             << f.speed << " of what drives give, joints " << f.apart << " m apart, " << f.faults << " faults";
+    }
+    EXPECT_EQ(found, 0) << "of " << count << " with " << kSolverNames[static_cast<int>(solver)] << lost.str();
+    EXPECT_GT(joints, static_cast<std::uint32_t>(count));
+    EXPECT_GT(contacts, static_cast<std::uint32_t>(4 * count));
+  }
+
+ private:
+  static constexpr int kSample = 60, kFrames = 180;
+};
+TYPED_TEST_SUITE(RandomWorldLaws, AllScalars);
+
+TYPED_TEST(RandomWorldLaws, soft_step_gives_nothing) { this->try_solver(SolverName::soft_step); }
+TYPED_TEST(RandomWorldLaws, pgs_gives_nothing) { this->try_solver(SolverName::pgs); }
+TYPED_TEST(RandomWorldLaws, worst_first_gives_nothing) { this->try_solver(SolverName::worst_first); }
+
+}  // namespace
+}  // namespace isostep::test

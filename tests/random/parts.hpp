@@ -1,0 +1,114 @@
+// What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn. What is
+// new joins here, once, and is in every random world: a kind of shape in draw_shape, of joint in draw_joint, a property of
+// bodies in draw_body; a command in random/world.hpp; energy that it holds or gives in random/energy_book.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "random/dice.hpp"
+#include "random/joint_angles.hpp"
+
+namespace isostep::test {
+
+inline constexpr double kLeast = 0.1, kMost = 0.4;  // [m] sizes: inside every scalar's range with the arms below
+
+/// A shape and the radius of a ball about the body's origin that it is in.
+struct DrawnShape {
+  ShapeId shape;
+  double reach;  // [m]
+};
+
+template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach) {
+  const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
+  switch (dice.below(3)) {
+    case 0: *reach = a; return primitive_of(Sphere<S>{num<S>(a)});
+    case 1: *reach = length({a, b, c}); return primitive_of(Box<S>{vec<S>(a, b, c)});
+    default: *reach = a + b; return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
+  }
+}
+/// A primitive, or two or three of them in one body.
+template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
+  std::vector<Child<S>> children;
+  double reach = 0;
+  const std::uint32_t count = dice.one_in(4) ? 2 + dice.below(2) : 1;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    double own = 0;
+    Child<S> child = {draw_primitive<S>(dice, &own), Pose<S>::identity()};
+    if (count > 1) {
+      const D3 at = dice.point(0.25);
+      child.pose = {vec<S>(at), dice.orientation<S>()};
+      own += length(at);
+    }
+    reach = std::max(reach, own);
+    children.push_back(child);
+  }
+  return {w.add_shape(std::span<const Child<S>>(children)), reach};
+}
+
+/// Anything but a pose, a type and a speed.
+template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
+  BodyDefinition<S> d;
+  d.type = BodyType::dynamic;
+  d.shape = shape;
+  d.orientation = dice.orientation<S>();
+  d.mass = num<S>(dice.magnitude(0.25, 4));
+  d.material.friction = num<S>(dice.in(0, 1.25));
+  if (dice.one_in(4)) d.material.restitution = num<S>(dice.in(0, 1));
+  if (dice.one_in(6)) d.material.rolling_resistance = num<S>(dice.in(0, 0.0625));
+  if (dice.one_in(6)) d.linear_damping = num<S>(dice.in(0, 0.5));
+  if (dice.one_in(4)) d.angular_damping = num<S>(dice.in(0, 0.5));
+  if (dice.one_in(8)) d.gravity_scale = num<S>(dice.in(0, 1));
+  if (dice.one_in(12)) d.locks = body_flag::kLockX << dice.below(6);
+  if (dice.one_in(24)) d.collide = false;
+  d.allow_sleep = !dice.one_in(8);
+  d.user_data = dice.next();
+  return d;
+}
+
+/// What may put energy into a world, so what bounds it: a world has it and those before it.
+enum class Drive {
+  commands,
+  springs,  // that held some at the start
+  motors,   // of joints
+  movers    // kinematic bodies and belts, which have as much as they like
+};
+inline constexpr int kDrives = 4;
+
+/// Limits, springs and motors of a joint that was just placed: what holds at its pose. Distance joints join centres.
+template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, JointProperties<S>& p) {
+  using namespace joint_flag;
+  const bool springs = drive >= Drive::springs, motors = drive >= Drive::motors;
+  p.frame_b.position = p.type == JointType::distance ? Vec3<S>::zero() : p.frame_b.position;
+  if (dice.one_in(8)) p.flags |= kCollideConnected;
+  p.lower = num<S>(-dice.in(0.05, 1.5));
+  p.upper = num<S>(dice.in(0.05, 1.5));
+  p.cone = num<S>(dice.in(0.1, 1.5));
+  p.spring_target = num<S>(dice.in(-0.5, 0.5));
+  p.spring_frequency = num<S>(dice.magnitude(0.5, 6));
+  p.spring_damping = num<S>(dice.in(0, 1));
+  switch (p.type) {
+    case JointType::ball: p.flags |= (dice.one_in(2) ? 0u : kLimit) | (dice.one_in(2) ? 0u : kCone); break;
+    case JointType::hinge:
+      p.flags |= (dice.one_in(3) ? 0u : kLimit) | (springs && dice.one_in(2) ? kSpring : 0u);
+      if (!motors || dice.one_in(2)) break;
+      p.flags |= kMotor;
+      p.motor_speed = num<S>((dice.one_in(2) ? 1 : -1) * dice.in(0.5, 5));
+      p.motor_torque = num<S>(dice.magnitude(0.25, 25));
+      break;
+    case JointType::fixed: break;
+    case JointType::distance: {
+      const double apart = angles_of(w, p).apart;
+      p.flags |= springs && dice.one_in(2) ? kSpring : kLimit;
+      if (dice.one_in(3)) p.flags |= kLimit;
+      const bool rod = dice.one_in(3) && (p.flags & kSpring) == 0;
+      p.lower = num<S>(rod ? apart : apart * dice.in(0, 0.9));
+      p.upper = rod ? p.lower : num<S>(apart * dice.in(1.1, 1.5));
+      p.spring_target = num<S>(apart * dice.in(0.75, 1.25));
+      break;
+    }
+  }
+}
+
+}  // namespace isostep::test

@@ -1,0 +1,234 @@
+// A random world of everything at once, and random commands for it: functions of a seed, the state and the frame alone.
+// Worlds of every kind of shape, body and joint (random/parts.hpp) hang, lie, fall, drive, ride and are struck.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "random/energy_book.hpp"
+#include "random/parts.hpp"
+
+namespace isostep::test {
+
+inline Drive drive_of(std::uint64_t seed) { return static_cast<Drive>(seed % kDrives); }
+
+template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName solver) {
+  Dice dice(seed * 31 + 5);
+  constexpr int kRates[] = {60, 60, 120}, kSubsteps[] = {4, 8, 16};
+  Settings<S> s = settings<S>(-10, kRates[dice.below(3)], kSubsteps[dice.below(3)]);
+  s.allow_sleep = !dice.one_in(4);
+  s.solver = solver;
+  return s;
+}
+
+template <class S> class RandomWorld {
+ public:
+  static constexpr double kMoverSpeed = 2;  // [m/s] most of a point of a mover or belt
+  static constexpr double kThrow = 4;       // [m/s] most that a command adds to a body's speed
+  static constexpr double kTop = 8;         // [m] most that a body is put at
+
+  RandomWorld(std::uint64_t seed, SolverName solver) : world(random_settings<S>(seed, solver)), seed_(seed) {
+    Dice dice(seed * 1000003 + 71);
+    book.before_commands(world);
+    add_ground_and_walls(dice);
+    if (drive_of(seed) == Drive::movers) add_movers(dice);
+    const int mechanisms = 1 + static_cast<int>(dice.below(4)), loose = 4 + static_cast<int>(dice.below(12));
+    for (int i = 0; i < mechanisms; ++i) add_mechanism(dice, static_cast<std::uint32_t>(i + 1));
+    for (int i = 0; i < loose; ++i) add_loose(world, dice);
+    book.after_commands(world);
+  }
+
+  /// Commands of a frame, and its step; the book is kept.
+  StepReport play(std::uint64_t frame) {
+    std::vector<AppliedForce> forces;
+    book.before_commands(world);
+    command(world, seed_, frame, &forces);
+    book.after_commands(world);
+    book.before_step(world, std::move(forces));
+    const StepReport report = world.step();
+    book.after_step(world);
+    return report;
+  }
+
+  /// For worlds that are saved and loaded, where no book is kept: of the state, the seed and the frame alone.
+  static void command(World<S>& w, std::uint64_t seed, std::uint64_t frame,
+                      std::vector<AppliedForce>* forces = nullptr) {
+    Dice dice(seed * 7919 + frame * 1000003 + 17);
+    turn_movers(w, dice);
+    if (!dice.one_in(6)) return;
+    const std::vector<BodyId> bodies = w.bodies();
+    const BodyId b = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
+    const bool moves = w.type(b) == BodyType::dynamic;
+    switch (dice.below(10)) {
+      case 0:
+      case 1: add_loose(w, dice); break;
+      case 2:
+        if (moves && bodies.size() > 12) w.destroy(b);
+        break;
+      case 3: w.apply_impulse(b, vec<S>(dice.direction() * (dice.in(0, kThrow) * to_double(w.mass(b))))); break;
+      case 4: {
+        const double weight = 10 * to_double(w.mass(b));
+        const AppliedForce f = {b, dice.point(2 * weight), dice.point(0.125 * weight)};
+        if (w.apply_force(b, vec<S>(f.force), vec<S>(f.torque)) && forces != nullptr) forces->push_back(f);
+        break;
+      }
+      case 5: {
+        Material<S> material;
+        material.friction = num<S>(dice.in(0, 1));
+        if (moves) w.set_material(b, material);
+        break;
+      }
+      case 6:
+        if (moves) w.set_motion(b, num<S>(dice.in(0.5, 1)), S(0), num<S>(dice.in(0, 0.25)), 0);
+        break;
+      case 7: {
+        const std::vector<JointId> joints = w.joints();
+        if (joints.size() > 2) w.destroy(joints[dice.below(static_cast<std::uint32_t>(joints.size()))]);
+        break;
+      }
+      case 8: {
+        const std::vector<JointId> joints = w.joints();
+        if (joints.empty()) break;
+        const JointId id = joints[dice.below(static_cast<std::uint32_t>(joints.size()))];
+        JointProperties<S> p = *w.joint(id);
+        p.motor_speed = num<S>(dice.in(-5, 5));
+        p.user_data = frame;
+        w.set_joint(id, p);
+        break;
+      }
+      default: w.wake(b);
+    }
+  }
+
+  World<S> world;
+  EnergyBook<S> book;
+  std::uint32_t joints_made = 0, refused = 0;
+
+ private:
+  void add_ground_and_walls(Dice& dice) {
+    add_ground(world, dice.in(0, 1));
+    const std::uint32_t walls = dice.below(4);
+    for (std::uint32_t i = 0; i < walls; ++i) {
+      const DrawnShape shape = draw_shape(world, dice);
+      BodyDefinition<S> d = draw_body<S>(dice, dice.one_in(2) ? add_box(world, 1.5, 0.25, 1) : shape.shape);
+      d.type = BodyType::fixed;
+      d.position = vec<S>(dice.point(4) + D3{0, 1, 0});
+      d.mass = S(0);
+      d.locks = 0;
+      d.sensor = dice.one_in(4);
+      world.create(d);
+    }
+  }
+  /// A belt, a paddle above the ground, a lift: the paddle's tips and the lift keep to the speed.
+  void add_movers(Dice& dice) {
+    BodyDefinition<S> d = still<S>(add_box(world, 2, 0.25, 1), {5, 0.25, 0});
+    d.material.surface_velocity = vec<S>(dice.direction() * dice.in(0, kMoverSpeed));
+    world.create(d);
+    d = still<S>(add_box(world, 1.25, 0.125, 0.25), {-3, 1.5, 0});
+    d.type = BodyType::kinematic;
+    d.angular_velocity = vec<S>(0, dice.in(-1.5, 1.5), 0);
+    world.create(d);
+    d = still<S>(add_box(world, 1, 0.125, 1), {0, 3, 4});
+    d.type = BodyType::kinematic;
+    d.user_data = kLift;
+    world.create(d);
+  }
+  /// The lift goes up and down between 2 and 4 m: what is below it has room.
+  static void turn_movers(World<S>& w, Dice& dice) {
+    for (const BodyId id : w.bodies()) {
+      if (w.type(id) != BodyType::kinematic || w.user_data(id) != kLift) continue;
+      const double y = to_double(w.centre(id).y), v = to_double(w.velocity(id).y);
+      if (v != 0 && (y > 2 || v > 0) && (y < 4 || v < 0)) continue;
+      const double next = (y < 3 ? 1 : -1) * dice.in(0.25, 1);
+      w.set_velocity(id, vec<S>(0, next, 0), Vec3<S>::zero());
+    }
+  }
+  /// Where nothing is, so that nothing is pushed out of anything: a null id where no place was found.
+  static BodyId place(World<S>& w, Dice& dice, BodyDefinition<S> d, double reach, D3 low, D3 high,
+                      std::uint32_t group) {
+    const Primitive<S> around = primitive_of(Sphere<S>{num<S>(reach + 0.05)});
+    for (int tries = 0; tries < 8; ++tries) {
+      const D3 at = {dice.in(low.x, high.x), dice.in(low.y, high.y), dice.in(low.z, high.z)};
+      std::vector<BodyId> there;
+      w.overlapping(around, {vec<S>(at), Quat<Unit<S>>::identity()}, there);
+      const bool free = std::all_of(there.begin(), there.end(), [&](BodyId other) {
+        return group != 0 && w.view(other).properties->filter.group == group;
+      });
+      if (!free) continue;
+      d.position = vec<S>(at);
+      d.filter.group = group;
+      return w.create(d);
+    }
+    return {};
+  }
+  static BodyId add_loose(World<S>& w, Dice& dice) {
+    const DrawnShape shape = draw_shape(w, dice);
+    BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
+    d.velocity = vec<S>(dice.direction() * dice.in(0, kThrow));
+    d.angular_velocity = vec<S>(dice.direction() * dice.in(0, 6));
+    d.sensor = dice.one_in(24);
+    return place(w, dice, d, shape.reach, {-4, 0.5, -4}, {4, kTop, 4}, 0);
+  }
+
+  /// A tree of bodies, at times with a loop; hung from the world or from a body, or loose. Its bodies pass each other.
+  void add_mechanism(Dice& dice, std::uint32_t group) {
+    std::vector<BodyId> bodies;
+    std::vector<JointId> joints;
+    D3 at = {dice.in(-4, 4), dice.in(2, 6), dice.in(-4, 4)};
+    const std::uint32_t hold = dice.below(4), count = 1 + dice.below(5);
+    if (hold == 1) bodies.push_back(add_hold(dice, at));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const DrawnShape shape = draw_shape(world, dice);
+      BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
+      if (hold == 1) d.locks = 0;  // a mover pulls whatever holds against it
+      BodyId to;
+      if (!bodies.empty()) to = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
+      const D3 from = to ? real(world.centre(to)) : at, step = dice.direction() * dice.magnitude(0.25, 2);
+      const BodyId b = place(world, dice, d, shape.reach, from + step, from + step, group);
+      if (!b) continue;
+      bodies.push_back(b);
+      if (to || hold != 0) join(dice, to, b, joints);
+    }
+    if (bodies.size() > 2 && dice.one_in(4)) join(dice, bodies.front(), bodies.back(), joints);
+    for (const JointId id : joints) book_spring(*world.joint(id), bodies);
+  }
+  BodyId add_hold(Dice& dice, D3 at) {
+    BodyDefinition<S> d = draw_body<S>(dice, add_ball(world, 0.2));
+    d.type = drive_of(seed_) == Drive::movers ? BodyType::kinematic : BodyType::fixed;
+    d.position = vec<S>(at);
+    d.collide = false;
+    d.locks = 0;
+    if (d.type == BodyType::kinematic) d.angular_velocity = vec<S>(dice.point(0.5));
+    return world.create(d);
+  }
+  void join(Dice& dice, BodyId a, BodyId b, std::vector<JointId>& joints) {
+    const auto type = static_cast<JointType>(dice.below(4));
+    const D3 end = real(world.centre(b)),
+             start = a ? real(world.centre(a)) : end + dice.direction() * dice.magnitude(0.25, 2);
+    JointProperties<S> p =
+        world.joint_at(type, a, b, {vec<S>(start + (end - start) * dice.in(0, 0.75)), dice.orientation<S>()});
+    draw_joint(world, dice, drive_of(seed_), p);
+    const JointId id = world.create(p);
+    if (!id) {
+      ++refused;
+      return;
+    }
+    ++joints_made;
+    joints.push_back(id);
+  }
+  /// Between whatever parts: all of the mechanism together is never easier to move.
+  void book_spring(const JointProperties<S>& p, const std::vector<BodyId>& bodies) {
+    if ((p.flags & joint_flag::kSpring) == 0) return;
+    const JointAngles now = angles_of(world, p);
+    const bool turns = p.type == JointType::hinge;
+    double inertia = 0;
+    for (const BodyId id : bodies) {
+      if (world.type(id) != BodyType::dynamic) continue;
+      inertia += turns ? inertia_about(world.view(id), now.anchor, now.axis) : to_double(world.mass(id));
+    }
+    book.add_spring(p, (turns ? now.twist : now.apart) - to_double(p.spring_target), inertia);
+  }
+
+  static constexpr std::uint64_t kLift = 0x11f7;
+  std::uint64_t seed_;
+};
+
+}  // namespace isostep::test
