@@ -126,7 +126,7 @@ template <class S> class JointWatch {
     start_ = real(view.state->centre).y;
     weight_ = j.mass * kFall;
     inertia_ = inertia_about(view, at.anchor, at.axis);
-    grain_ = kFall / rate;
+    grain_ = kFall / rate + grain<S>(10) * rate;
     if (j.has(joint_flag::kSpring)) {
       const double w2 = std::pow(2 * kPi * j.frequency, 2);
       sprung_ = 0.5 * inertia_ * w2 * std::pow(at.twist - j.target, 2);
@@ -153,6 +153,7 @@ template <class S> class JointWatch {
     }
     if (frame_ > trial_.frames - 30) see_end(now, std::sqrt(2 * kinetic_energy(view) / j_.mass));
     top_spin_ = std::max(top_spin_, std::fabs(now.spin));
+    top_swing_ = std::max(top_swing_, now.swing);
   }
 
   JointFindings findings(std::uint64_t seed) const {
@@ -163,6 +164,7 @@ template <class S> class JointWatch {
       f.too_fast = 1;
       f.fastest = worst_;
       words << worst_ << " m/s where " << worst_allowed_ << " are allowed, frame " << at_ << "; ";
+      if (!j_.hinge()) words << "swing up to " << top_swing_ << " rad; ";
     }
     if (end_speed_ < kRest && end_past_ > -0.005) f.rested = 1;
     if (end_speed_ < kRest && end_past_ > 0) f.furthest = end_past_;
@@ -245,12 +247,13 @@ template <class S> class JointWatch {
   BodyId body_;
   JointTrial trial_;
   double lowest_, highest_, start_;  // [m]
-  double weight_, inertia_, grain_;  // [N], [kg m^2] about the joint, [m/s] that gravity gives between two solutions
+  double weight_, inertia_;          // [N], [kg m^2] about the joint
+  double grain_;                     // [m/s] of gravity, and of a place's last digit, between two solutions
   double sprung_ = 0;                // [J] in the spring at the start
   double turned_ = 0, angle_ = 0;    // [rad]
   int frame_ = 0, at_ = 0;
   double excess_ = 0, worst_ = 0, worst_allowed_ = 0;  // [m/s]
-  double end_speed_ = 0, end_past_ = -1, end_slip_ = 0, top_spin_ = 0;
+  double end_speed_ = 0, end_past_ = -1, end_slip_ = 0, top_spin_ = 0, top_swing_ = 0;
 };
 
 /// `count` joints of one kind from `first` on, side by side in one world, where they never touch.

@@ -200,7 +200,7 @@ template <class S> class RandomWorld {
     return world.create(d);
   }
   void join(Dice& dice, BodyId a, BodyId b, std::vector<JointId>& joints) {
-    const auto type = static_cast<JointType>(dice.below(4));
+    const auto type = static_cast<JointType>(dice.below(kJointTypes));
     const D3 end = real(world.centre(b)),
              start = a ? real(world.centre(a)) : end + dice.direction() * dice.magnitude(0.25, 2);
     JointProperties<S> p =
