@@ -24,7 +24,7 @@ template <class S> class SingleJointLaws : public ::testing::Test {
     }
     return findings;
   }
-  /// Every kind under every setting. A sample draws other joints for each setting, and ends sooner where steps are dear.
+  /// Every kind under every setting. A sample draws other joints for each, and ends sooner where steps are dear.
   static JointFindings try_all(std::initializer_list<JointKind> kinds) {
     constexpr int kSubsteps[] = {1, 4, 8, 32, 64};
     const int asked = asked_for();

@@ -63,8 +63,8 @@ template <class S> class EnergyBook {
 
   /// [J] above what it may have: what it began with, and what it was given.
   double excess(const World<S>& w) const { return energy_of(w) - allowed_; }
-  /// [J] above the least that it ever had, and what it was given since. Springs hold energy back and give it later: only
-  /// for worlds without any.
+  /// [J] above the least that it ever had, and what it was given since. For worlds without springs alone, which hold
+  /// energy back and give it later.
   double rise(const World<S>& w) {
     least_ = std::min(least_, excess(w));
     return excess(w) - least_;

@@ -1,6 +1,6 @@
-// What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn. What is
-// new joins here, once, and is in every random world: a kind of shape in draw_shape, of joint in draw_joint, a property of
-// bodies in draw_body; a command in random/world.hpp; energy that it holds or gives in random/energy_book.hpp.
+// What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
+// What is new joins here, once, and is in every random world: a shape in draw_shape, a joint in draw_joint, a property
+// of bodies in draw_body. A command joins random/world.hpp, energy that is held or given random/energy_book.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 

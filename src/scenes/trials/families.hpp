@@ -35,7 +35,7 @@ inline std::vector<std::span<const Trial>> trial_families() {
           spring_trials(),     //
           loop_trials(),       //
           bounce_trials(),     //
-          ragdoll_trials(),     //
+          ragdoll_trials(),    //
           fixed_point_trials()};
 }
 
