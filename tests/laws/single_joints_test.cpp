@@ -58,6 +58,17 @@ TYPED_TEST_SUITE(SingleJointLaws, AllScalars);
 
 TYPED_TEST(SingleJointLaws, hinges_alone_swing) { this->try_all({JointKind::free}); }
 
+/// Held about an axis that is none of its own, a box pulls at its hinge as it turns. Seeds whose boxes do so most.
+TYPED_TEST(SingleJointLaws, boxes_on_hinges_askew_to_their_axes_gain_nothing) {
+  for (const std::uint64_t seed : {3u, 92u, 145u}) {
+    for (const int substeps : {8, 64}) {
+      const JointTrial trial = {SolverName::soft_step, substeps, 600};
+      const JointFindings f = this->try_kind(JointKind::free, trial, seed, 1);
+      EXPECT_EQ(f.too_fast, 0) << f.words;
+    }
+  }
+}
+
 TYPED_TEST(SingleJointLaws, springs_give_what_they_held) { this->try_all({JointKind::spring}); }
 
 TYPED_TEST(SingleJointLaws, motors_reach_their_speed_and_no_more) {
