@@ -62,10 +62,8 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_joints(cons
         of_drive("sprung", drive.sprung);
         of_drive("driven", drive.driven);
       }
-      of_drive("motor_impulse", drive.motor_impulse);
-      of_drive("spring_impulse", drive.spring_impulse);
-      of_drive("lower_impulse", drive.lower_impulse);
-      of_drive("upper_impulse", drive.upper_impulse);
+      of_drive("impulse", drive.impulse);
+      of_drive("piece", drive.piece);
     });
   });
 }

@@ -139,8 +139,7 @@ template <class S> void WorldEngine<S>::discard_bad_impulses() {
     contact.twist_impulse = V(0);
   }
   for (JointState<S>& joint : state_.joints.states) {
-    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.motor) &&
-                        is_finite(joint.spring) && is_finite(joint.lower) && is_finite(joint.upper) &&
+    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.drive) &&
                         is_finite(joint.swing);
     if (finite) continue;
     JointState<S> fresh = {};

@@ -35,11 +35,15 @@ template <class S> struct Sights {
     const WorldState<S>& state = world.state();
     for (const JointProperties<S>& joint : state.joints.properties) joints.insert(joint.type);
     for (const JointState<S>& joint : state.joints.states) {
-      motor = motor || joint.motor != Velocity<S>(0);
-      spring = spring || joint.spring != Velocity<S>(0);
-      lower = lower || joint.lower != Velocity<S>(0);
-      upper = upper || joint.upper != Velocity<S>(0);
+      const DrivePiece piece = joint.drive_piece();
+      lower = lower || piece == DrivePiece::lower;
+      upper = upper || piece == DrivePiece::upper;
+      motor = motor || piece >= DrivePiece::driven;
       swing = swing || joint.swing != Velocity<S>(0);
+    }
+    for (std::size_t i = 0; i < state.joints.states.size(); ++i) {
+      const bool sprung = (state.joints.properties[i].flags & joint_flag::kSpring) != 0;
+      spring = spring || (sprung && state.joints.states[i].drive != Velocity<S>(0));
     }
     for (const Contact<S>& contact : state.contacts) {
       touch(world.view(state.body_slots.template id_of<BodyId>(contact.key.body_a)));

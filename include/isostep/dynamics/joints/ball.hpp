@@ -6,16 +6,25 @@
 
 namespace isostep::detail {
 
-/// Twist about the mean of the two z axes. Its true rate is larger by 1 / cos(swing / 2): a limit brakes a little late.
+/// [1] least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
+/// sub-step follows, and at half a turn it means nothing.
+template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
+
+/// Twist, about z, of a rotation that also swings: its rate is the relative spin about the mean of the two z axes,
+/// divided by cos(swing / 2).
 template <class S>
 ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
                                 JointConstraint<S>& joint) {
   using U = Unit<S>;
   const U half = U(0.5);
-  const Vec3<U> sum = za * half + zb * half;
+  const Vec3<U> sum = za * half + zb * half;  // as long as cos(swing / 2)
   const Direction<U> mean = direction_of(sum.x, sum.y, sum.z);
-  joint.drives[0].row = angular_row<S>({mean.x, mean.y, mean.z}, joint.drives[0].radius);
-  set_angle(joint.drives[0], joint.properties, twist_angle<S>(relative_rotation(f)));
+  JointDrive<S>& drive = joint.drives[0];
+  const S cosine = max(convert<S>(mean.length), kLeastTwistCosine<S>);
+  drive.row = angular_row<S>({mean.x, mean.y, mean.z}, drive.radius / cosine);
+  const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
+  drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < cosine;
+  set_angle(drive, joint.properties, twist_angle<S>(relative_rotation(f)));
 }
 /// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
 template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
@@ -31,6 +40,7 @@ template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S
 template <class S> ISO_INLINE void linearise_ball(const JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
   point_block(f, h, joint.blocks[0]);
   if (joint.drive_count == 0) return;
+  empty_block(joint.blocks[1]);
   const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
   linearise_twist(f, za, zb, joint);
   linearise_swing(za, zb, joint);

@@ -14,15 +14,13 @@ template <class S> ISO_INLINE void linearise_distance(const JointFrames<S>& f, S
   const JointProperties<S>& p = joint.properties;
   const Vec3<S> zero = Vec3<S>::zero();
   const JointRow<S> row = {convert<S>(unit), cross(f.arm_a, unit), cross(f.arm_b, unit), zero, zero};
-  if (joint.block_count > 0) {
-    JointBlock<S>& block = joint.blocks[0];
-    block.point = false;
+  JointBlock<S>& block = joint.blocks[0];
+  empty_block(block);
+  if (joint.drive_count == 0) {
     block.rows[0] = row;
-    block.rows[1] = JointRow<S>::zero();
-    block.rows[2] = JointRow<S>::zero();
-    block.error = {bounded_error(d.length - p.upper, h), Velocity<S>(0), Velocity<S>(0)};
+    block.error.x = bounded_error(d.length - p.upper, h);
+    return;
   }
-  if (joint.drive_count == 0) return;
   JointDrive<S>& drive = joint.drives[0];
   drive.row = row;
   drive.position = d.length;

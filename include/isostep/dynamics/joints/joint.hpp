@@ -7,7 +7,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
-#include "isostep/dynamics/joints/joint_rows.hpp"
+#include "isostep/dynamics/joints/joint_drive.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 
 namespace isostep {
@@ -34,21 +34,20 @@ inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the
 /// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass.
 template <class S> struct JointState {
   std::uint32_t slot;               // of its id
-  std::uint32_t flags;              // 0
-  Vec3<Velocity<S>> point;          // [m/s] world, on b; distance: x along the joint
-  Vec3<Velocity<S>> angular;        // [m/s] on b about the axes of frame a, times the joint's radius
-  Velocity<S> motor, spring;        // [m/s]
-  Velocity<S> lower, upper, swing;  // [m/s] of the limits
+  std::uint32_t pieces;       // DrivePiece of the drive, and, eight bits up, of the swing
+  Vec3<Velocity<S>> point;    // [m/s] world, on b; distance: x along the joint
+  Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the joint's radius
+  Velocity<S> drive, swing;   // [m/s] of spring, motor and limits together; of the cone
+
+  ISO_INLINE constexpr DrivePiece drive_piece() const { return static_cast<DrivePiece>(pieces & 0xffu); }
+  ISO_INLINE constexpr DrivePiece swing_piece() const { return static_cast<DrivePiece>(pieces >> 8); }
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
-    visit("flags", self.flags);
+    visit("pieces", self.pieces);
     visit("point", self.point);
     visit("angular", self.angular);
-    visit("motor", self.motor);
-    visit("spring", self.spring);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
+    visit("drive", self.drive);
     visit("swing", self.swing);
   }
 };
@@ -68,7 +67,8 @@ template <class S> struct JointProperties {
   S upper = S(0);
   S cone = S(0);              // [rad] largest angle between the z axes
   S motor_speed = S(0);       // [rad/s] of b against a
-  S motor_torque = S(0);      // [N m] most that the motor gives
+  S motor_torque = S(0);      // [N m] most that the motor gives; less where in one sub-step it would turn the bodies,
+                              // were they free, beyond Limits<S>::surface_speed()
   S spring_target = S(0);     // [rad] or, distance, [m] rest length
   S spring_frequency = S(0);  // [Hz] below half the sub-step rate
   S spring_damping = S(0);    // [1] ratio, 1 = critical
@@ -114,10 +114,12 @@ template <class S> struct JointConstraint {
   Vec3<S> arm_a, arm_b;    // [m] from each centre to the joint, world, now
   S radius;                // [m] lever of purely angular rows, so that their coefficients are near one
   S motor_force;           // [m/s^2] most impulse a second
+  S most_motor;            // [m/s] most impulse in a sub-step
   std::uint32_t block_count, drive_count;
   bool holds;               // something moves at all
-  JointBlock<S> blocks[2];  // equalities: point or rod, angular
+  JointBlock<S> blocks[2];  // point or rod, angular; drives are rows of the last
   JointDrive<S> drives[2];  // angle, twist or length; swing
+  Mat3<S> up, down;         // [1] D_1^-1 K_10 and K_01 of a joint solved by itself
 };
 
 /// What the calls of one sub-step know. Row r > 0 of the bodies is states[r - 1].
@@ -136,38 +138,60 @@ template <class S> ISO_INLINE constexpr Softness<S> joint_softness(S rate) {
   return soften(S(1.5707963267948966), S(5), rate);
 }
 
+/// A number for each row of a joint.
+template <class S> struct JointRows {
+  Vec3<Velocity<S>> point, angular;  // [m/s] of the two blocks
+};
+
 /// Once a step. Masses and rows must be gathered.
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
 /// Jacobian and error from the poses of now.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// What the rows move, for bodies that turn by kappa, and the blocks' couplings.
+/// What the rows move, for bodies that turn by kappa, and how strong springs are.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
-/// The masses that the drives feel, given the blocks' inverses.
-template <class S> void weigh_drives(JointConstraint<S>& joint);
-template <class S> void apply_impulses(const JointConstraint<S>& joint, SolverBodies<S>& bodies);
-/// Springs, motors and limits.
-template <class S> void solve_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
-/// The equalities of one joint by itself.
-template <class S> void solve_blocks(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+/// Rows of the drives as their pieces ask, and the blocks' couplings with them.
+template <class S> void couple_blocks(JointConstraint<S>& joint);
+/// The last sub-step's impulses; motors at their largest force give it anew.
+template <class S> void apply_impulses(JointConstraint<S>& joint, const JointStep<S>& step);
+/// What the rows of a block ask for: minus speed and bias.
+template <class S>
+Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t block, const JointMotion<S>& motion,
+                             const JointStep<S>& step, bool relax);
+/// Adds to the impulses of all rows, as softly as asked, and to the bodies.
+template <class S>
+void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
+/// Whether a drive is off its piece of the law: then the second takes the next one, and blocks couple anew.
+template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step);
 template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state);
 
-/// One joint after another in array order: for joints that form loops, and to compare with. Once a sub-step the first,
-/// then the second, biased and, after positions moved, relaxed.
+/// A joint by itself, all of its rows at once: for joints that form loops, and to compare with.
+template <class S> void factor_joint(JointConstraint<S>& joint);
+template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right);
+template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+
+/// One joint after another in array order. Once a sub-step the first, then the second, biased and, after positions
+/// moved, relaxed.
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
-template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
 
 #define ISO_JOINTS_OF(KEYWORD, S)                                                                             \
   KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&, \
                                          const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);    \
   KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                         \
   KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                  \
-  KEYWORD template void weigh_drives<S>(JointConstraint<S>&);                                                 \
-  KEYWORD template void apply_impulses<S>(const JointConstraint<S>&, SolverBodies<S>&);                       \
-  KEYWORD template void solve_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
-  KEYWORD template void solve_blocks<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
+  KEYWORD template void couple_blocks<S>(JointConstraint<S>&);                                                \
+  KEYWORD template void apply_impulses<S>(JointConstraint<S>&, const JointStep<S>&);                          \
+  KEYWORD template Vec3<Velocity<S>> right_side<S>(const JointConstraint<S>&, std::uint32_t,                  \
+                                                   const JointMotion<S>&, const JointStep<S>&, bool);         \
+  KEYWORD template void push_joint<S>(JointConstraint<S>&, const JointRows<S>&, Softness<S>,                  \
+                                      SolverBodies<S>&);                                                      \
+  KEYWORD template bool judge_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
+  KEYWORD template void change_pieces<S>(JointConstraint<S>&, const JointStep<S>&);                           \
+  KEYWORD template void factor_joint<S>(JointConstraint<S>&);                                                 \
+  KEYWORD template JointRows<S> substitute_joint<S>(const JointConstraint<S>&, JointRows<S>);                 \
   KEYWORD template void solve_joint<S>(JointConstraint<S>&, const JointStep<S>&, bool);                       \
   KEYWORD template void store_joint<S>(const JointConstraint<S>&, JointState<S>&);                            \
   KEYWORD template void warm_start_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&);             \

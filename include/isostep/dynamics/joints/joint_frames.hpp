@@ -43,6 +43,13 @@ template <class S> ISO_INLINE JointRow<S> angular_row(Vec3<Unit<S>> axis, S radi
   return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
 }
 
+/// Rows of zeros, for equalities and drives to be written over.
+template <class S> ISO_INLINE void empty_block(JointBlock<S>& block) {
+  block.point = false;
+  for (JointRow<S>& row : block.rows) row = JointRow<S>::zero();
+  block.error = Vec3<Velocity<S>>::zero();
+}
+
 /// Origins coincide.
 template <class S> ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> h, JointBlock<S>& block) {
   const Vec3<S> ra = f.arm_a, rb = f.arm_b, zero = Vec3<S>::zero();
@@ -63,9 +70,15 @@ template <class S> ISO_INLINE Quat<Unit<S>> relative_rotation(const JointFrames<
 /// [rad] angle about z of a rotation with w >= 0, whatever its swing.
 template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) { return S(2) * atan2_to<S>(q.z, q.w); }
 
-/// What the properties ask of an angle in (-pi, pi].
+/// What the properties ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range, so that
+/// beyond a limit it is nearer to that one than to the other.
 template <class S> ISO_INLINE void set_angle(JointDrive<S>& drive, const JointProperties<S>& p, S angle) {
-  const S radius = drive.radius;
+  const S radius = drive.radius, turn = S(6.283185307179586);
+  if (drive.bounded_below) {
+    const S from_middle = angle - (p.lower + p.upper) * S(0.5);
+    if (turn * S(0.5) < from_middle) angle -= turn;
+    if (from_middle < turn * S(-0.5)) angle += turn;
+  }
   drive.position = angle * radius;
   drive.lower = p.lower * radius;
   drive.upper = p.upper * radius;

@@ -34,21 +34,8 @@ template <class S> struct JointBlock {
   Mat3<S> coupling;           // [1] K = J M^-1 J^T per reduced mass
   Mat3<S> inverse;            // [1] of K, and of its Schur complement inside a tree
   Vec3<Velocity<S>> error;    // [m]
-  Vec3<Velocity<S>> impulse;  // [m/s] accumulated
-};
-
-/// One coordinate of a joint that may be driven and bounded.
-template <class S> struct JointDrive {
-  JointRow<S> row;
-  S radius;                // [m] of an angle
-  S effective_mass;        // [1]
-  S position;              // [m] an angle times the radius, or a length
-  S lower, upper, target;  // [m]
-  bool bounded_below, bounded_above, sprung, driven;
-  Velocity<S> speed;  // [m/s] of the motor
-  Softness<S> spring;
-  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it is
-  Velocity<S> motor_impulse, spring_impulse, lower_impulse, upper_impulse;  // [m/s]
+  Vec3<Velocity<S>> impulse;  // [m/s] accumulated, of equalities
+  Vec3<S> give;               // [1] added to the diagonal: springs yield
 };
 
 /// Velocities of the two bodies, worked on together; written back only where mass is.
@@ -170,6 +157,8 @@ namespace detail {
 template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);
 /// [1] of the diagonal of K: what keeps a block solvable in directions in which its bodies cannot move.
 template <class S> inline constexpr S kBlockCompliance = S(0x1p-16) + S(16) * resolution<S>();
+/// [1] what a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
+template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
 /// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
 template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
 /// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.

@@ -57,6 +57,11 @@ template <class S> class JointTrees {
     std::uint32_t joint, block;
     std::uint32_t first_link, link_count;
     bool closes_loop;  // through the world
+    bool idle;         // asks for nothing in this pass
+  };
+  /// The nodes of one tree, in order of elimination, and those of its joints that have drives.
+  struct Elimination {
+    std::uint32_t first_node, node_count, first_driven, driven_count;
   };
   struct Link {
     std::uint32_t to;  // node
@@ -96,6 +101,7 @@ template <class S> class JointTrees {
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);
+  void eliminate_rest(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some);
   void add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent);
 
@@ -112,12 +118,16 @@ template <class S> class JointTrees {
 
   void couple(const Node& node, Link& link, std::span<const JointConstraint<S>> joints,
               const SolverBodies<S>& bodies) const;
-  void factor(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  bool is_idle(const JointConstraint<S>& joint, std::uint32_t block) const;
+  void factor(const Elimination& tree, std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
   void stiffen(const SolverBodies<S>& bodies);
   void warm_start_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
   void solve_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
-  void find_right_sides(std::span<const JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void solve_tree(const Elimination& tree, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void substitute(const Elimination& tree, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies);
+  void find_right_sides(const Elimination& tree, std::span<const JointConstraint<S>> joints, const JointStep<S>& step,
+                        bool relax);
   Link& link_between(std::uint32_t i, std::uint32_t j);
 
   DisjointSets sets_;
@@ -138,6 +148,8 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> taut_;     // rows whose tension is worth a look
   std::vector<Node> nodes_;
   std::vector<Link> links_;
+  std::vector<Elimination> eliminations_;  // of the trees that no kernel solves
+  std::vector<std::uint32_t> driven_;      // their joints that have drives
   std::vector<Vec3<Velocity<S>>> right_;  // right-hand sides, then answers
 
   std::vector<std::uint32_t> rest_;         // joints that no kernel solves

@@ -2,36 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint.inl"
+#include "isostep/dynamics/joints/joint_alone.inl"
 #include "isostep/dynamics/joints/joint_tension.hpp"
 #include "isostep/dynamics/joints/joint_tree_batches.inl"
 
 namespace isostep {
-
-namespace detail {
-/// K_ij between blocks at one body, without the mass share of j.
-template <class S>
-ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const JointBlock<S>& j, bool j_is_a) {
-  if (i.point && j.point) {
-    const auto angular = [&](int r) { return i_is_a ? i.rows[r].angular_a : i.rows[r].angular_b; };
-    const auto turn = [&](int r) { return j_is_a ? j.rows[r].turn_a : j.rows[r].turn_b; };
-    Mat3<S> p = point_coupling<S>({angular(0), angular(1), angular(2)}, {turn(0), turn(1), turn(2)});
-    p = p + Mat3<S>::identity();
-    return i_is_a == j_is_a ? p : Mat3<S>{{-p.rows[0], -p.rows[1], -p.rows[2]}};
-  }
-  Mat3<S> k;
-  for (int r = 0; r < 3; ++r) {
-    const JointRow<S>& row = i.rows[r];
-    const Vec3<S> angular = i_is_a ? row.angular_a : row.angular_b;
-    const auto with = [&](const JointRow<S>& other) {
-      const S c = coupling(row.linear, angular, other.linear, j_is_a ? other.turn_a : other.turn_b);
-      return i_is_a == j_is_a ? c : -c;
-    };
-    k.rows[r] = {with(j.rows[0]), with(j.rows[1]), with(j.rows[2])};
-  }
-  return k;
-}
-}  // namespace detail
 
 template <class S>
 void JointTrees<S>::couple(const Node& node, Link& link, std::span<const JointConstraint<S>> joints,
@@ -60,19 +35,40 @@ template <class S> typename JointTrees<S>::Link& JointTrees<S>::link_between(std
   return *link;
 }
 
+/// Whether a block asks for nothing in this pass: all its rows are drives that push with a constant impulse or none.
+template <class S> bool JointTrees<S>::is_idle(const JointConstraint<S>& joint, std::uint32_t block) const {
+  if (joint.drive_count == 0 || block + 1 < joint.block_count) return false;
+  if (joint.properties.type == JointType::hinge) return false;
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    if (!detail::is_constant(joint.drives[i], joint.drives[i].piece)) return false;
+  }
+  return true;
+}
+
 /// K = L D L^T by blocks: what node i's elimination leaves among the nodes it is linked to.
-template <class S> void JointTrees<S>::factor(std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
-  for (const Node& node : nodes_) {
+template <class S>
+void JointTrees<S>::factor(const Elimination& tree, std::span<JointConstraint<S>> joints,
+                           const SolverBodies<S>& bodies) {
+  const std::span<Node> nodes(nodes_.data() + tree.first_node, tree.node_count);
+  for (Node& node : nodes) {
+    if (node.block == 0) couple_blocks(joints[node.joint]);
+    node.idle = is_idle(joints[node.joint], node.block);
+  }
+  for (const Node& node : nodes) {
+    if (node.idle) continue;
     for (std::uint32_t l = 0; l < node.link_count; ++l) couple(node, links_[node.first_link + l], joints, bodies);
   }
-  for (const Node& node : nodes_) {
+  for (const Node& node : nodes) {
+    if (node.idle) continue;
     JointBlock<S>& block = joints[node.joint].blocks[node.block];
     const S softness = node.closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
     block.inverse = invert_symmetric(block.coupling, softness);
     const std::span<Link> links(links_.data() + node.first_link, node.link_count);
     for (Link& link : links) link.up = block.inverse * link.up;
     for (const Link& j : links) {
+      if (nodes_[j.to].idle) continue;
       for (const Link& k : links) {
+        if (nodes_[k.to].idle) continue;
         const Mat3<S> left = j.down * k.up;
         if (j.to == k.to) {
           subtract(joints[nodes_[j.to].joint].blocks[nodes_[j.to].block].coupling, left);
@@ -121,65 +117,76 @@ template <class S> void JointTrees<S>::warm_start_rest(std::span<JointConstraint
   find_taut(joints, step);
   stiffen(*step.bodies);
   for (const std::uint32_t j : rest_) weigh_joint(joints[j], kappa_[joints[j].row_a], kappa_[joints[j].row_b]);
-  for (const std::uint32_t j : loose_) {
-    for (std::uint32_t i = 0; i < joints[j].block_count; ++i) {
-      joints[j].blocks[i].inverse = invert_symmetric(joints[j].blocks[i].coupling, detail::kBlockCompliance<S>);
-    }
-  }
-  factor(joints, *step.bodies);
-  for (const std::uint32_t j : rest_) {
-    weigh_drives(joints[j]);
-    apply_impulses(joints[j], *step.bodies);
-  }
+  for (const std::uint32_t j : loose_) factor_joint(joints[j]);
+  for (const Elimination& tree : eliminations_) factor(tree, joints, *step.bodies);
+  for (const std::uint32_t j : rest_) apply_impulses(joints[j], step);
 }
 
 template <class S>
 void JointTrees<S>::solve_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax) {
-  for (const std::uint32_t j : rest_) {
-    if (joints[j].drive_count > 0) solve_drives(joints[j], step, relax);
-  }
   for (int sweep = 0; sweep < kLooseSweeps; ++sweep) {
-    for (const std::uint32_t j : loose_) solve_blocks(joints[j], step, relax);
+    for (const std::uint32_t j : loose_) solve_joint(joints[j], step, relax);
   }
-  find_right_sides(joints, step, relax);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (const Elimination& tree : eliminations_) solve_tree(tree, joints, step, relax);
+}
+
+/// With drives as they are; then with those anew that are off their piece of the law.
+template <class S>
+void JointTrees<S>::solve_tree(const Elimination& tree, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
+                               bool relax) {
+  const std::span<const std::uint32_t> driven(driven_.data() + tree.first_driven, tree.driven_count);
+  for (int changes = 0;; ++changes) {
+    find_right_sides(tree, joints, step, relax);
+    substitute(tree, joints, *step.bodies);
+    if (changes == detail::kMostPieceChanges) return;
+    bool off = false;
+    for (const std::uint32_t j : driven) off = judge_drives(joints[j], step, relax) || off;
+    if (!off) return;
+    for (const std::uint32_t j : driven) change_pieces(joints[j], step);
+    factor(tree, joints, *step.bodies);
+  }
+}
+
+template <class S>
+void JointTrees<S>::substitute(const Elimination& tree, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies) {
+  const std::uint32_t end = tree.first_node + tree.node_count;
+  for (std::uint32_t i = tree.first_node; i < end; ++i) {
     const Node& node = nodes_[i];
+    if (node.idle) continue;
     right_[i] = saturated_times(joints[node.joint].blocks[node.block].inverse, right_[i]);
     for (std::uint32_t l = 0; l < node.link_count; ++l) {
       const Link& link = links_[node.first_link + l];
-      right_[link.to] -= times(link.down, right_[i]);
+      if (!nodes_[link.to].idle) right_[link.to] -= times(link.down, right_[i]);
     }
   }
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
+  for (std::uint32_t i = end; i-- > tree.first_node;) {
     const Node& node = nodes_[i];
-    for (std::uint32_t l = 0; l < node.link_count; ++l) {
+    for (std::uint32_t l = 0; !node.idle && l < node.link_count; ++l) {
       const Link& link = links_[node.first_link + l];
-      right_[i] -= saturated_times(link.up, right_[link.to]);
+      if (!nodes_[link.to].idle) right_[i] -= saturated_times(link.up, right_[link.to]);
     }
+    // A joint's angular block comes just before its point in the order of elimination, so just after it here.
     JointConstraint<S>& joint = joints[node.joint];
-    JointBlock<S>& block = joint.blocks[node.block];
-    const Vec3<Velocity<S>> impulse = saturated_sum<S>(block.impulse, right_[i]);
-    JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
-    push(block, joint.share, impulse - block.impulse, m);
-    scatter(*step.bodies, joint.row_a, joint.row_b, m);
-    block.impulse = impulse;
+    if (node.block + 1 < joint.block_count) continue;
+    const Vec3<Velocity<S>> none = Vec3<Velocity<S>>::zero(), own = node.idle ? none : right_[i];
+    const JointRows<S> change = node.block == 0 ? JointRows<S>{own, none} : JointRows<S>{right_[i + 1], own};
+    push_joint(joint, change, Softness<S>::rigid(), bodies);
   }
 }
 
 /// Of K lambda = -(speed + bias), for velocities as they are before anything of this pass is applied.
 template <class S>
-void JointTrees<S>::find_right_sides(std::span<const JointConstraint<S>> joints, const JointStep<S>& step, bool relax) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+void JointTrees<S>::find_right_sides(const Elimination& tree, std::span<const JointConstraint<S>> joints,
+                                     const JointStep<S>& step, bool relax) {
+  for (std::uint32_t i = tree.first_node; i < tree.first_node + tree.node_count; ++i) {
     const Node& node = nodes_[i];
+    if (node.idle) continue;
     const JointConstraint<S>& joint = joints[node.joint];
-    const JointBlock<S>& block = joint.blocks[node.block];
-    right_[i] = -speed_along(block, gather(*step.bodies, joint.row_a, joint.row_b));
-    if (relax) continue;
-    right_[i] -= detail::block_bias(block, step.softness.bias_rate);
-    if (node.closes_loop) {
-      const auto yielded = [&](Velocity<S> impulse) { return scaled(detail::kClosingCompliance<S>, impulse); };
-      right_[i] -= Vec3<Velocity<S>>{yielded(block.impulse.x), yielded(block.impulse.y), yielded(block.impulse.z)};
-    }
+    right_[i] = right_side(joint, node.block, gather(*step.bodies, joint.row_a, joint.row_b), step, relax);
+    if (relax || !node.closes_loop) continue;
+    const Vec3<Velocity<S>> impulse = joint.blocks[node.block].impulse;
+    const auto yielded = [&](Velocity<S> old) { return scaled(detail::kClosingCompliance<S>, old); };
+    right_[i] -= Vec3<Velocity<S>>{yielded(impulse.x), yielded(impulse.y), yielded(impulse.z)};
   }
 }
 

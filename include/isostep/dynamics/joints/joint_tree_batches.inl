@@ -9,7 +9,6 @@
 namespace isostep {
 
 namespace detail {
-inline constexpr std::uint32_t kNone = 0xffffffffu;
 /// Of a list, word by word: FNV-1a's step, with the high bits brought down.
 ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3u;
@@ -118,6 +117,8 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, Sol
 template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree) {
   listed_.clear();
   for (std::uint32_t j = tree.first; j != detail::kNone; j = next_[j]) listed_.push_back(j);
+  nodes_.clear();
+  links_.clear();
   eliminate(joints, listed_);
   Shape shape = {static_cast<std::uint32_t>(shape_joints_.size()), tree.joint_count,
                  static_cast<std::uint32_t>(shape_links_.size()),  static_cast<std::uint32_t>(links_.size()),
@@ -177,7 +178,7 @@ template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBo
           &lane_joints_[batch.first_joint],
           &lane_rows_[batch.first_row],
           batch.lanes,
-          memory_.data()->bytes + batch.offset,
+          reinterpret_cast<unsigned char*>(memory_.data()) + batch.offset,
           bodies != nullptr ? bodies->velocity.data() : nullptr,
           bodies != nullptr ? bodies->mass.data() : nullptr};
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/joint.inl"
 #include "isostep/dynamics/joints/joint_tension.hpp"
 #include "isostep/dynamics/solvers/direct.hpp"
 
@@ -47,10 +47,6 @@ template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& 
     JointConstraint<S>& joint = input.joints[j];
     if (joint.drive_count == 0) continue;
     weigh_joint(joint, kappa_[joint.row_a], kappa_[joint.row_b]);
-    for (std::uint32_t i = 0; i < joint.block_count; ++i) {
-      joint.blocks[i].inverse = invert_symmetric(joint.blocks[i].coupling, detail::kBlockCompliance<S>);
-    }
-    weigh_drives(joint);
   }
 }
 
@@ -92,7 +88,7 @@ void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& islan
     const JointDrive<S>& drive = joint.drives[i];
     const std::uint32_t r = 3 * (first + joint.block_count + i);
     const auto bound = [](bool there, DirectBound kind) { return there ? kind : DirectBound::absent; };
-    put(r + detail::kSpringRow, drive.row, bound(drive.sprung && drive.effective_mass > S(0), DirectBound::equal));
+    put(r + detail::kSpringRow, drive.row, bound(drive.spring > S(0), DirectBound::equal));
     put(r + detail::kMotorRow, drive.row, bound(drive.driven, DirectBound::boxed));
     put(r + detail::kLimitRow, drive.row,
         bound(drive.bounded_below || drive.bounded_above,
@@ -103,10 +99,9 @@ void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& islan
       continue;
     }
     // An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
-    const Value give = System::quotient(
-        System::value(drive.spring.impulse_scale),
-        System::product(System::product(System::value(drive.spring.mass_scale), System::value(drive.effective_mass)),
-                        island.ends[r / 3].reduced));
+    const Value spring = System::value(drive.spring);
+    const Value give = System::quotient(System::value(S(1)), System::product(System::product(spring, spring),
+                                                                             island.ends[r / 3].reduced));
     place(island, r, 1, ((System::exponent(give) + 1) >> 1) + D::kRoom);
     DirectRow<N>& row = island.system.row(r);
     row.soft = System::number(give, 2 * row.exponent);
@@ -145,24 +140,24 @@ void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island,
 
 /// [m/s] most that a motor gives in a sub-step.
 template <class S> typename DirectSolver<S>::V DirectSolver<S>::motor_limit(const JointConstraint<S>& joint) const {
-  return convert<V>(min(joint.motor_force * divide_to<Step<S>>(S(1), S(rate_)), Limits<S>::speed()));
+  return detail::motor_limit(joint, divide_to<Step<S>>(S(1), S(rate_)));
 }
 
-/// Motors that gave all they had and limits that did not push are taken for doing so again.
+/// Each drive is taken for being on the same piece of its law again. A limit that pushes leaves the motor no speed to
+/// reach: it gives all that it has.
 template <class S>
 void DirectSolver<S>::guess_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first) {
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     const std::uint32_t r = 3 * (first + joint.block_count + i);
-    const V most = motor_limit(joint) - resolution<V>();
-    DirectRow<N>& motor = island.system.row(r + detail::kMotorRow);
-    motor.state = !(drive.motor_impulse < most)    ? DirectState::at_high
-                  : !(-most < drive.motor_impulse) ? DirectState::at_low
-                                                   : DirectState::free;
     DirectRow<N>& limit = island.system.row(r + detail::kLimitRow);
     const bool lower = limit.bound == DirectBound::above;
-    const bool pushes = lower ? drive.lower_impulse > V(0) : drive.upper_impulse > V(0);
+    const bool pushes = drive.piece == (lower ? DrivePiece::lower : DrivePiece::upper);
     limit.state = pushes ? DirectState::free : lower ? DirectState::at_low : DirectState::at_high;
+    DirectRow<N>& motor = island.system.row(r + detail::kMotorRow);
+    const bool back = pushes ? drive.speed < V(0) : drive.piece == DrivePiece::backwards;
+    const bool forth = pushes ? !back : drive.piece == DrivePiece::forwards;
+    motor.state = forth ? DirectState::at_high : back ? DirectState::at_low : DirectState::free;
   }
 }
 
@@ -175,11 +170,15 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     const std::uint32_t r = 3 * (first + joint.block_count + i);
-    drive.spring_impulse = impulse_of(island, r + detail::kSpringRow);
-    drive.motor_impulse = impulse_of(island, r + detail::kMotorRow);
-    const V limit = impulse_of(island, r + detail::kLimitRow);
-    drive.lower_impulse = max(limit, V(0));
-    drive.upper_impulse = max(-limit, V(0));
+    const V spring = impulse_of(island, r + detail::kSpringRow), motor = impulse_of(island, r + detail::kMotorRow);
+    const V limit = impulse_of(island, r + detail::kLimitRow), most = motor_limit(joint) - resolution<V>();
+    drive.impulse = spring + motor + limit;
+    drive.piece = V(0) < limit   ? DrivePiece::lower
+                  : limit < V(0) ? DrivePiece::upper
+                  : !drive.driven ? DrivePiece::free
+                  : !(motor < most)  ? DrivePiece::forwards
+                  : !(-most < motor) ? DrivePiece::backwards
+                                     : DrivePiece::driven;
   }
 }
 

@@ -97,7 +97,7 @@ template <class S> class WorstFirstResolver {
   V overlap_urgency(const Point& row) const;
   V error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const;
   void project(const SolverInput<S>& input, const Point& row);
-  void project(const SolverInput<S>& input, JointConstraint<S>& joint, const JointStep<S>& step);
+  void project(const SolverInput<S>& input, const JointConstraint<S>& joint, const JointStep<S>& step);
   void move(const SolverInput<S>& input, std::uint32_t body, const Motion& asked);
 
   BodyRows<S> bodies_;

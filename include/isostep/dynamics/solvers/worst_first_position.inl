@@ -19,12 +19,11 @@ template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<
 /// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
 template <class S> inline constexpr Velocity<S> kMostProjectedTurn = Velocity<S>(0.2);
 
-/// How far below zero, or not at all.
-template <class S> ISO_INLINE S shortfall(const JointDrive<S>& drive) {
-  S most = S(0);
-  if (drive.bounded_below) most = max(most, drive.lower - drive.position);
-  if (drive.bounded_above) most = max(most, drive.position - drive.upper);
-  return most;
+/// [m] What a drive's position lacks to be within its limits.
+template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, Step<S> h) {
+  if (drive.bounded_below && drive.position < drive.lower) return bounded_error(drive.lower - drive.position, h);
+  if (drive.bounded_above && drive.upper < drive.position) return bounded_error(drive.upper - drive.position, h);
+  return Velocity<S>(0);
 }
 
 }  // namespace detail
@@ -56,7 +55,7 @@ Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, cons
   V most = V(0);
   for (std::uint32_t i = 0; i < joint.block_count; ++i) most = max(most, max_abs(joint.blocks[i].error));
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    most = max(most, detail::bounded_error(detail::shortfall(joint.drives[i]), step.h));
+    most = max(most, abs(detail::shortfall(joint.drives[i], step.h)));
   }
   return detail::kProjectionTolerance<S> < most ? most : V(0);
 }
@@ -83,28 +82,33 @@ template <class S> void WorstFirstResolver<S>::project(const SolverInput<S>& inp
   move(input, row.b, part(row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
 }
 
-/// As solve_joint() has it, of positions: drives that are out of bounds, then angles, then the point.
+/// As solve_joint() has it, of positions: a limit that is passed is a row, a drive within its limits none.
 template <class S>
-void WorstFirstResolver<S>::project(const SolverInput<S>& input, JointConstraint<S>& joint, const JointStep<S>& step) {
+void WorstFirstResolver<S>::project(const SolverInput<S>& input, const JointConstraint<S>& joint,
+                                    const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
-  weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
-  JointMotion<S> m = {Motion::zero(), Motion::zero()};
+  const V fastest = detail::kJointPushSpeed<S> * step.h;
+  const auto missing = [&](std::uint32_t block) {
+    const auto part = [&](V error) { return -clamp(error, -fastest, fastest); };
+    const Vec3<V> error = joint.blocks[block].error;
+    return Vec3<V>{part(error.x), part(error.y), part(error.z)};
+  };
+  JointRows<S> right = {missing(0), joint.block_count > 1 ? missing(1) : Vec3<V>::zero()};
+  JointConstraint<S> held = joint;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    const JointDrive<S>& drive = joint.drives[i];
-    const V missing = detail::bounded_error(detail::shortfall(drive), step.h);
-    if (!(V(0) < missing)) continue;
-    const bool below = drive.bounded_below && drive.position < drive.lower;
-    const S mass = detail::mass_of(detail::self_coupling(drive.row, drive.row, joint.share));
-    isostep::push(drive.row, joint.share, saturated<S>(product(mass, below ? missing : -missing)), m);
+    JointDrive<S>& drive = held.drives[i];
+    const V lacks = detail::shortfall(drive, step.h);
+    drive.sprung = false;
+    drive.spring = S(0);
+    drive.piece = lacks == V(0) ? DrivePiece::free : DrivePiece::lower;
+    (joint.block_count > 1 ? right.angular : right.point).set(static_cast<int>(drive.place), lacks);
   }
-  const V most = detail::kJointPushSpeed<S> * step.h;
-  const auto bound = [&](V error) { return clamp(error, -most, most); };
-  for (std::uint32_t i = joint.block_count; i-- > 0;) {
-    const JointBlock<S>& block = joint.blocks[i];
-    const Vec3<V> error = {bound(block.error.x), bound(block.error.y), bound(block.error.z)};
-    const Mat3<S> inverse = invert_symmetric(block.coupling, detail::kBlockCompliance<S>);
-    isostep::push(block, joint.share, -saturated_times(inverse, speed_along(block, m) + error), m);
-  }
+  weigh_joint(held, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
+  factor_joint(held);
+  const JointRows<S> change = substitute_joint(held, right);
+  JointMotion<S> m = {Motion::zero(), Motion::zero()};
+  if (held.block_count > 1) isostep::push(held.blocks[1], joint.share, change.angular, m);
+  isostep::push(held.blocks[0], joint.share, change.point, m);
   move(input, joint.row_a, m.a);
   move(input, joint.row_b, m.b);
 }

@@ -20,31 +20,6 @@ template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, c
   return max(V(0x1p-16), V(16) * (resolution<V>() + round_to<V>(product(resolution<Unit<S>>(), fastest))));
 }
 
-/// The largest change that a drive asks for.
-template <class S>
-ISO_INLINE Velocity<S> drive_urgency(const JointDrive<S>& drive, Velocity<S> motor_limit, const JointStep<S>& step,
-                                     const JointMotion<S>& m) {
-  using V = Velocity<S>;
-  const V speed = speed_along(drive.row, m);
-  V most = V(0);
-  if (drive.sprung) {
-    const V answer =
-        scaled(drive.spring.mass_scale, saturated<S>(product(drive.effective_mass, speed + drive.spring_speed)));
-    most = max(most, abs(answer + scaled(drive.spring.impulse_scale, drive.spring_impulse)));
-  }
-  if (drive.driven) {
-    const V wanted = drive.motor_impulse - saturated<S>(product(drive.effective_mass, speed - drive.speed));
-    most = max(most, abs(clamp(wanted, -motor_limit, motor_limit) - drive.motor_impulse));
-  }
-  if (drive.bounded_below) {
-    most = max(most, abs(bound_change(drive, drive.position - drive.lower, speed, drive.lower_impulse, step, true)));
-  }
-  if (drive.bounded_above) {
-    most = max(most, abs(bound_change(drive, drive.upper - drive.position, -speed, drive.upper_impulse, step, true)));
-  }
-  return most;
-}
-
 }  // namespace detail
 
 /// Forces, then everything that holds while velocities are resolved, then the impulses of the sub-step before.
@@ -66,11 +41,8 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
     JointConstraint<S>& joint = input.joints[j];
     linearise_joint(joint, step);
     weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
-    for (std::uint32_t i = 0; i < joint.block_count; ++i) {
-      joint.blocks[i].inverse = invert_symmetric(joint.blocks[i].coupling, detail::kBlockCompliance<S>);
-    }
-    weigh_drives(joint);
-    apply_impulses(joint, bodies);
+    factor_joint(joint);
+    apply_impulses(joint, step);
     hold(joint);
   }
   for (std::size_t i = 0; i < gained_.size(); ++i) {
@@ -100,10 +72,7 @@ template <class S> void WorstFirstResolver<S>::hold(JointConstraint<S>& joint) {
     joint.blocks[i].impulse = detail::held(joint.blocks[i].impulse, most);
   }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    JointDrive<S>& drive = joint.drives[i];
-    for (V* impulse : {&drive.motor_impulse, &drive.spring_impulse, &drive.lower_impulse, &drive.upper_impulse}) {
-      *impulse = clamp(*impulse, -most, most);
-    }
+    joint.drives[i].impulse = clamp(joint.drives[i].impulse, -most, most);
   }
   for (const std::uint32_t body : {joint.row_a, joint.row_b}) {
     if (!bodies.moves(body)) continue;
@@ -144,10 +113,17 @@ template <class S>
 Velocity<S> WorstFirstResolver<S>::motion_urgency(const JointConstraint<S>& joint, const JointStep<S>& step) const {
   const JointMotion<S> m = isostep::gather(*step.bodies, joint.row_a, joint.row_b);
   V most = V(0);
-  for (std::uint32_t i = 0; i < joint.block_count; ++i) most = max(most, max_abs(speed_along(joint.blocks[i], m)));
-  const V limit = convert<V>(min(joint.motor_force * step.h, Limits<S>::speed()));
+  for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+    Vec3<V> speed = speed_along(joint.blocks[i], m);
+    if (i + 1 == joint.block_count) {
+      for (std::uint32_t d = 0; d < joint.drive_count; ++d) speed.set(static_cast<int>(joint.drives[d].place), V(0));
+    }
+    most = max(most, max_abs(speed));
+  }
+  const V limit = detail::motor_limit(joint, step.h);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    most = max(most, detail::drive_urgency(joint.drives[i], limit, step, m));
+    const JointDrive<S>& drive = joint.drives[i];
+    most = max(most, detail::drive_residual(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, true), limit));
   }
   return detail::motion_tolerance<S>(m.a, m.b) < most ? most : V(0);
 }

@@ -1,0 +1,62 @@
+// A joint solved by itself, all of its rows at once.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint.inl"
+
+namespace isostep {
+
+/// Angles and drives are eliminated first: a long arm makes the point's entries large, and what is left of them once
+/// the body may not turn is near one again. The other way round a fixed-point format loses every digit of it.
+template <class S> void factor_joint(JointConstraint<S>& joint) {
+  couple_blocks(joint);
+  JointBlock<S>& point = joint.blocks[0];
+  if (joint.block_count > 1) {
+    JointBlock<S>& angular = joint.blocks[1];
+    angular.inverse = invert_symmetric(angular.coupling, detail::kBlockCompliance<S>);
+    const Mat3<S> k = scaled_by(detail::block_coupling(angular, true, point, true), joint.share.a) +
+                      scaled_by(detail::block_coupling(angular, false, point, false), joint.share.b);
+    joint.down = transpose(k);
+    joint.up = angular.inverse * k;
+    subtract(point.coupling, joint.down * joint.up);
+  }
+  point.inverse = invert_symmetric(point.coupling, detail::kBlockCompliance<S>);
+}
+
+template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right) {
+  if (joint.block_count < 2) return {saturated_times(joint.blocks[0].inverse, right.point), Vec3<Velocity<S>>::zero()};
+  const Vec3<Velocity<S>> angular = saturated_times(joint.blocks[1].inverse, right.angular);
+  const Vec3<Velocity<S>> point = saturated_times(joint.blocks[0].inverse, right.point - times(joint.down, angular));
+  return {point, angular - saturated_times(joint.up, point)};
+}
+
+template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax) {
+  if (!joint.holds) return;
+  const Softness<S> soft = relax ? Softness<S>::rigid() : step.softness;
+  for (int changes = 0;; ++changes) {
+    const JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
+    JointRows<S> right = {right_side(joint, 0, m, step, relax), Vec3<Velocity<S>>::zero()};
+    if (joint.block_count > 1) right.angular = right_side(joint, 1, m, step, relax);
+    const JointRows<S> change = substitute_joint(joint, right);
+    push_joint(joint, change, soft, *step.bodies);
+    if (changes == detail::kMostPieceChanges || !judge_drives(joint, step, relax)) return;
+    change_pieces(joint, step);
+    factor_joint(joint);
+  }
+}
+
+template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
+  for (JointConstraint<S>& joint : joints) {
+    if (!joint.holds) continue;
+    linearise_joint(joint, step);
+    weigh_joint(joint, step.bodies->mass[joint.row_a].kappa, step.bodies->mass[joint.row_b].kappa);
+    factor_joint(joint);
+    apply_impulses(joint, step);
+  }
+}
+
+template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax) {
+  for (JointConstraint<S>& joint : joints) solve_joint(joint, step, relax);
+}
+
+}  // namespace isostep

@@ -1,0 +1,159 @@
+// A drive: one coordinate of a joint on which a spring, a motor and limits act together, as one row of the joint.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/dynamics/joints/joint_rows.hpp"
+
+namespace isostep {
+
+/// Which part of its law a drive is on. Kept from step to step: it is the first guess of the next sub-step.
+enum class DrivePiece : std::uint32_t {
+  free,      // between the limits, no motor
+  lower,     // stopped at the lower limit
+  upper,     // stopped at the upper limit
+  driven,    // at the motor's speed
+  forwards,  // slower than the motor wants: it gives all that it has
+  backwards  // faster than the motor wants: it brakes with all that it has
+};
+inline constexpr std::uint32_t kDrivePieces = 6;
+
+/// Source:  the sum of an implicit spring, a motor with a largest force and two stops is a maximal monotone law between
+///          speed and impulse (Brogliato 2016, Nonsmooth Mechanics, ch. 5): at every speed at most one part of it is
+///          vertical. So one row is enough, and which piece of the law it is on decides the row: a fixed speed, a
+///          spring, or a constant impulse.
+/// Symbols: v = speed along the row, lambda = impulse as velocity change of the reduced mass. Spring: lambda = -w (w v +
+///          push), w^2 = (h c + h^2 k) / effective mass. Motor: lambda in [-most, most]. A spring's row is scaled by
+///          w / sqrt(1 + w^2): its pivot stays near one however weak it is.
+template <class S> struct JointDrive {
+  JointRow<S> row;
+  std::uint32_t place;     // among the rows of the joint's last block
+  S radius;                // [m] of an angle
+  S position;              // [m] an angle times the radius, or a length
+  S lower, upper, target;  // [m]
+  bool bounded_below, bounded_above, sprung, driven;
+  Velocity<S> push_speed;    // [m/s] with which it returns from beyond a limit
+  Velocity<S> speed;         // [m/s] of the motor
+  S spring_root, spring_rate;  // [1] w of an effective mass of one; [1/s] speed asked for per metre
+  S spring;                  // [1] w; 0: no spring, or one too weak for the format to feel
+  Direction<S> spring_row;   // [1] x = 1 / sqrt(1 + w^2), y = w / sqrt(1 + w^2)
+  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it is
+  Velocity<S> spring_push;   // [m/s] w times that
+  Velocity<S> impulse;       // [m/s] accumulated, of all that acts along the row
+  DrivePiece piece, next;
+};
+
+/// The speeds between which the limits leave a drive in a pass.
+template <class S> struct DriveBounds {
+  Velocity<S> low, high;  // [m/s]
+
+  /// No bound: faster than anything moves, and sums with it fit.
+  static ISO_INLINE constexpr Velocity<S> far() { return highest<Velocity<S>>() * Velocity<S>(0.5); }
+};
+
+namespace detail {
+
+/// [m/s] a free drive passes a bound by less than this without being stopped: what rounding makes of a fixed speed.
+template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x1p-14);
+/// [m/s] an angle beyond its limit returns no faster: half a metre a second turns a limb at ten radians a second, and
+/// pgs, which keeps what closes an error as speed, gains no more than that.
+template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.5);
+/// Refactorisations of a pass for drives that change their piece: an impact in a chain of stops takes two or three, and
+/// what is left over after four is a stop that holds for one pass too long or begins one too late; neither adds energy.
+inline constexpr int kMostPieceChanges = 4;
+
+/// Least speed away from a bound at `gap` >= 0: it may be reached within the sub-step, not passed. Beyond it the drive
+/// is pushed back, no faster than `push_speed`.
+template <class S>
+ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_speed, S rate, Step<S> h, S bias_rate) {
+  using V = Velocity<S>;
+  if (gap > S(0)) {
+    const S most = Limits<S>::speed() * h;  // farther away than anything moves in a sub-step
+    return most < gap ? -DriveBounds<S>::far() : -scaled(rate, convert<V>(gap));
+  }
+  const S deep = max(gap, -S(32) * h);
+  return min(-scaled(bias_rate, convert<V>(deep)), push_speed);
+}
+
+template <class S>
+ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, S rate, Step<S> h, S bias_rate) {
+  using V = Velocity<S>;
+  DriveBounds<S> bounds = {-DriveBounds<S>::far(), DriveBounds<S>::far()};
+  if (drive.bounded_below) bounds.low = least_speed(drive.position - drive.lower, drive.push_speed, rate, h, bias_rate);
+  if (drive.bounded_above) bounds.high = -least_speed(drive.upper - drive.position, drive.push_speed, rate, h, bias_rate);
+  // Limits that are both passed, or nearer to each other than rounding: the middle.
+  if (bounds.high < bounds.low) bounds.low = bounds.high = (bounds.low + bounds.high) * V(0.5);
+  return bounds;
+}
+
+ISO_INLINE constexpr bool fixes_speed(DrivePiece piece) {
+  return piece == DrivePiece::lower || piece == DrivePiece::upper || piece == DrivePiece::driven;
+}
+/// What the motor gives on a piece of constant force.
+template <class V> ISO_INLINE V motor_impulse(DrivePiece piece, V most) {
+  return piece == DrivePiece::forwards ? most : piece == DrivePiece::backwards ? -most : V(0);
+}
+template <class S> ISO_INLINE Velocity<S> spring_impulse(const JointDrive<S>& drive, Velocity<S> speed) {
+  return -saturated<S>(product(drive.spring, scaled(drive.spring, speed) + drive.spring_push));
+}
+template <class S>
+ISO_INLINE Velocity<S> fixed_speed(const JointDrive<S>& drive, DrivePiece piece, const DriveBounds<S>& bounds) {
+  return piece == DrivePiece::lower ? bounds.low : piece == DrivePiece::upper ? bounds.high : drive.speed;
+}
+
+/// What a piece left over from other properties becomes: a limit that is gone, a motor that is new.
+template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive, DrivePiece piece) {
+  const bool gone = (piece == DrivePiece::lower && !drive.bounded_below) ||
+                    (piece == DrivePiece::upper && !drive.bounded_above) ||
+                    (piece > DrivePiece::upper && !drive.driven);
+  if (drive.driven) return gone || piece == DrivePiece::free ? DrivePiece::driven : piece;
+  return gone ? DrivePiece::free : piece;
+}
+
+/// The piece to try next, given what came of this one: its neighbour on the side where the law was left.
+template <class S>
+ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
+                                 Velocity<S> most) {
+  using V = Velocity<S>;
+  const V slack = kPieceTolerance<S>;
+  const auto law = [&](DrivePiece piece, V v) { return motor_impulse(piece, most) + spring_impulse(drive, v); };
+  switch (drive.piece) {
+    case DrivePiece::lower: {
+      const DrivePiece above = !drive.driven               ? DrivePiece::free
+                               : bounds.low < drive.speed ? DrivePiece::forwards
+                                                          : DrivePiece::backwards;
+      return drive.impulse < law(above, bounds.low) ? above : drive.piece;
+    }
+    case DrivePiece::upper: {
+      const DrivePiece below = !drive.driven                ? DrivePiece::free
+                               : drive.speed < bounds.high ? DrivePiece::backwards
+                                                           : DrivePiece::forwards;
+      return law(below, bounds.high) < drive.impulse ? below : drive.piece;
+    }
+    case DrivePiece::driven:
+      if (drive.speed < bounds.low) return DrivePiece::lower;
+      if (bounds.high < drive.speed) return DrivePiece::upper;
+      if (law(DrivePiece::forwards, drive.speed) < drive.impulse) return DrivePiece::forwards;
+      return drive.impulse < law(DrivePiece::backwards, drive.speed) ? DrivePiece::backwards : drive.piece;
+    default: break;
+  }
+  if (speed < bounds.low - slack) return DrivePiece::lower;
+  if (bounds.high + slack < speed) return DrivePiece::upper;
+  if (drive.piece == DrivePiece::forwards && drive.speed + slack < speed) return DrivePiece::driven;
+  if (drive.piece == DrivePiece::backwards && speed < drive.speed - slack) return DrivePiece::driven;
+  return drive.piece;
+}
+
+/// [m/s] How far a drive is from its law: speed that is wrong, or impulse that is too much.
+template <class S>
+ISO_INLINE Velocity<S> drive_residual(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
+                                      Velocity<S> most) {
+  const DrivePiece next = next_piece(drive, speed, bounds, most);
+  if (fixes_speed(next)) return abs(speed - fixed_speed(drive, next, bounds));
+  return abs(drive.impulse - motor_impulse(next, most) - spring_impulse(drive, speed));
+}
+
+}  // namespace detail
+
+}  // namespace isostep
