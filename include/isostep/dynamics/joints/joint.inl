@@ -174,17 +174,19 @@ template <class S> class JointPush {
   }
   ISO_INLINE void apply(const JointConstraint<S>& joint, SolverBodies<S>& bodies) const {
     if (bodies.moves(joint.row_a)) {
-      const auto turn = [](const JointRow<S>& row) ISO_INLINE_LAMBDA { return row.turn_a; };
-      add_to(bodies.velocity[joint.row_a], -joint.share.a, turn);
+      const MotionRow<V> push = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
+      bodies.velocity[joint.row_a].linear -= push.linear;
+      bodies.velocity[joint.row_a].angular -= push.angular;
     }
     if (bodies.moves(joint.row_b)) {
-      const auto turn = [](const JointRow<S>& row) ISO_INLINE_LAMBDA { return row.turn_b; };
-      add_to(bodies.velocity[joint.row_b], joint.share.b, turn);
+      const MotionRow<V> push = total(joint.share.b, [](const JointRow<S>& row) { return row.turn_b; });
+      bodies.velocity[joint.row_b].linear += push.linear;
+      bodies.velocity[joint.row_b].angular += push.angular;
     }
   }
 
  private:
-  template <class Turn> ISO_INLINE void add_to(MotionRow<V>& body, S share, const Turn& turn) const {
+  template <class Turn> ISO_INLINE MotionRow<V> total(S share, const Turn& turn) const {
     const auto zero = product(S(0), V(0));
     decltype(product(S(0), V(0))) linear[3] = {zero, zero, zero}, angular[3] = {zero, zero, zero};
     for (std::uint32_t i = 0; i < count_; ++i) {
@@ -195,8 +197,10 @@ template <class S> class JointPush {
         angular[k] = angular[k] + product(about[k], change);
       }
     }
-    body.linear += Vec3<V>{round_to<V>(linear[0]), round_to<V>(linear[1]), round_to<V>(linear[2])};
-    body.angular += Vec3<V>{round_to<V>(angular[0]), round_to<V>(angular[1]), round_to<V>(angular[2])};
+    const auto rounded = [](const auto(&sum)[3]) {
+      return Vec3<V>{round_to<V>(sum[0]), round_to<V>(sum[1]), round_to<V>(sum[2])};
+    };
+    return {rounded(linear), V(0), rounded(angular), V(0)};
   }
 
   const JointRow<S>* rows_[8];  // six of blocks, two of drives
