@@ -143,6 +143,13 @@ template <class S> struct JointRows {
   Vec3<Velocity<S>> point, angular;  // [m/s] of the two blocks
 };
 
+/// What a pass changes of a joint and its bodies.
+template <class S> struct JointStart {
+  JointMotion<S> motion;
+  JointRows<S> impulses;
+  Velocity<S> drives[2];  // [m/s] their impulses
+};
+
 /// Once a step. Masses and rows must be gathered.
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
@@ -162,8 +169,12 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
 /// Adds to the impulses of all rows, as softly as asked, and to the bodies.
 template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
-/// Whether a drive is off its piece of the law: then the second takes the next one, and blocks couple anew.
+/// Whether a drive is off its piece of the law.
 template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+/// Then the pass begins again with the next pieces, from what it began with: a piece that was wrong may ask for impulses
+/// that are far from any that are right. Blocks have to couple anew.
+template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies);
+template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies);
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step);
 template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state);
 
@@ -189,6 +200,8 @@ template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const
   KEYWORD template void push_joint<S>(JointConstraint<S>&, const JointRows<S>&, Softness<S>,                  \
                                       SolverBodies<S>&);                                                      \
   KEYWORD template bool judge_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
+  KEYWORD template JointStart<S> start_of<S>(const JointConstraint<S>&, const SolverBodies<S>&);              \
+  KEYWORD template void restart_joint<S>(JointConstraint<S>&, const JointStart<S>&, SolverBodies<S>&);        \
   KEYWORD template void change_pieces<S>(JointConstraint<S>&, const JointStep<S>&);                           \
   KEYWORD template void factor_joint<S>(JointConstraint<S>&);                                                 \
   KEYWORD template JointRows<S> substitute_joint<S>(const JointConstraint<S>&, JointRows<S>);                 \

@@ -412,6 +412,18 @@ template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<
   return changes;
 }
 
+template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies) {
+  return {gather(bodies, joint.row_a, joint.row_b),
+          {joint.blocks[0].impulse, joint.blocks[1].impulse},
+          {joint.drives[0].impulse, joint.drives[1].impulse}};
+}
+template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies) {
+  scatter(bodies, joint.row_a, joint.row_b, start.motion);
+  joint.blocks[0].impulse = start.impulses.point;
+  joint.blocks[1].impulse = start.impulses.angular;
+  for (int i = 0; i < 2; ++i) joint.drives[i].impulse = start.drives[i];
+}
+
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step) {
   JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {

@@ -33,6 +33,7 @@ template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax) {
   if (!joint.holds) return;
   const Softness<S> soft = relax ? Softness<S>::rigid() : step.softness;
+  const JointStart<S> start = start_of(joint, *step.bodies);
   for (int changes = 0;; ++changes) {
     const JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
     JointRows<S> right = {right_side(joint, 0, m, step, relax), Vec3<Velocity<S>>::zero()};
@@ -40,6 +41,7 @@ template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S
     const JointRows<S> change = substitute_joint(joint, right);
     push_joint(joint, change, soft, *step.bodies);
     if (changes == detail::kMostPieceChanges || !judge_drives(joint, step, relax)) return;
+    restart_joint(joint, start, *step.bodies);
     change_pieces(joint, step);
     factor_joint(joint);
   }

@@ -56,9 +56,9 @@ namespace detail {
 
 /// [m/s] a free drive passes a bound by less than this without being stopped: what rounding makes of a fixed speed.
 template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x1p-14);
-/// [m/s] an angle beyond its limit returns no faster: half a metre a second turns a limb at ten radians a second, and
-/// pgs, which keeps what closes an error as speed, gains no more than that.
-template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.5);
+/// [m/s] an angle beyond its limit returns no faster, at its lever: a limb of five centimetres at five radians a second.
+/// pgs keeps as speed what closes an error, and gains no more than that.
+template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.25);
 /// Refactorisations of a pass for drives that change their piece: an impact in a chain of stops takes two or three, and
 /// what is left over after four is a stop that holds for one pass too long or begins one too late; neither adds energy.
 inline constexpr int kMostPieceChanges = 4;

@@ -130,11 +130,20 @@ void JointTrees<S>::solve_rest(std::span<JointConstraint<S>> joints, const Joint
   for (const Elimination& tree : eliminations_) solve_tree(tree, joints, step, relax);
 }
 
-/// With drives as they are; then with those anew that are off their piece of the law.
+/// With drives on the pieces where they are; then anew as long as one is off its piece.
 template <class S>
 void JointTrees<S>::solve_tree(const Elimination& tree, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
                                bool relax) {
   const std::span<const std::uint32_t> driven(driven_.data() + tree.first_driven, tree.driven_count);
+  const std::span<const Node> nodes(nodes_.data() + tree.first_node, tree.node_count);
+  const auto each_joint = [&](const auto& act) {
+    for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i].block == 0) act(joints[nodes[i].joint], starts_[tree.first_node + i]);
+    }
+  };
+  if (!driven.empty()) {
+    each_joint([&](const JointConstraint<S>& joint, JointStart<S>& start) { start = start_of(joint, *step.bodies); });
+  }
   for (int changes = 0;; ++changes) {
     find_right_sides(tree, joints, step, relax);
     substitute(tree, joints, *step.bodies);
@@ -142,6 +151,7 @@ void JointTrees<S>::solve_tree(const Elimination& tree, std::span<JointConstrain
     bool off = false;
     for (const std::uint32_t j : driven) off = judge_drives(joints[j], step, relax) || off;
     if (!off) return;
+    each_joint([&](JointConstraint<S>& joint, const JointStart<S>& start) { restart_joint(joint, start, *step.bodies); });
     for (const std::uint32_t j : driven) change_pieces(joints[j], step);
     factor(tree, joints, *step.bodies);
   }

@@ -30,6 +30,7 @@ void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& 
   if (rest_.empty()) return;
   eliminate_rest(joints, bodies);
   right_.resize(nodes_.size());
+  starts_.resize(driven_.empty() ? 0 : nodes_.size());
   kappa_.resize(bodies.mass.size());
   tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
 }
