@@ -58,6 +58,7 @@ template <class S> class WorldEngine {
   bool execute(const SetVelocity<S>& command);
   bool execute(const ApplyForce<S>& command);
   bool execute(const ApplyImpulse<S>& command);
+  PendingForce<S>& pending_force(std::uint32_t slot);
   bool execute(const SetMaterial<S>& command);
   bool execute(const SetFilter& command);
   bool execute(const SetMotion<S>& command);

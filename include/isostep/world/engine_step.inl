@@ -91,6 +91,7 @@ template <class S> void WorldEngine<S>::apply_forces() {
   accelerations_.resize(state_.awake.states.size(), Acceleration<S>{Vec3<S>::zero(), Vec3<S>::zero()});
   for (const PendingForce<S>& force : state_.forces) {
     accelerations_[locations_[force.slot].index] = {force.linear, force.angular};
+    report_.clamped_force += force.cut;
   }
   state_.forces.clear();
 }

@@ -65,11 +65,15 @@ template <class S> struct Events {
 /// What a step had to mend. Identical on every peer.
 struct StepReport {
   std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>
+  std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
-  ISO_INLINE constexpr bool clean() const { return clamped_speed == 0 && clamped_position == 0 && stopped == 0; }
+  ISO_INLINE constexpr bool clean() const {
+    return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0;
+  }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("clamped_speed", self.clamped_speed);
+    visit("clamped_force", self.clamped_force);
     visit("clamped_position", self.clamped_position);
     visit("stopped", self.stopped);
   }

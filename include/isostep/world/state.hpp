@@ -50,13 +50,13 @@ template <class S> struct JointSet {
 /// A force or torque asked for since the last step, as acceleration. Ascending by slot, one a body.
 template <class S> struct PendingForce {
   std::uint32_t slot;
-  std::uint32_t reserved;  // 0
-  Vec3<S> linear;          // [m/s^2]
-  Vec3<S> angular;         // [rad/s^2]
+  std::uint32_t cut;  // 1: more was asked for than bodies can take, an impulse included; the step reports it
+  Vec3<S> linear;     // [m/s^2]
+  Vec3<S> angular;    // [rad/s^2]
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
-    visit("reserved", self.reserved);
+    visit("cut", self.cut);
     visit("linear", self.linear);
     visit("angular", self.angular);
   }

@@ -218,10 +218,10 @@ template <class S> class StateValidator {
       if (!is_body(slot) || set_of_body_[slot] != kAwake || type_of_body_[slot] != BodyType::dynamic) {
         return "a force acts on no dynamic body that is awake";
       }
-      const S steps = S(state_.settings.hz) * S(0.25);
-      if (forces[i].reserved != 0 || !is_finite(forces[i].linear) || !is_finite(forces[i].angular) ||
-          !detail::within(forces[i].linear, steps * Limits<S>::speed()) ||
-          !detail::within(forces[i].angular, steps * Limits<S>::spin())) {
+      const std::int32_t hz = state_.settings.hz;
+      if (forces[i].cut > 1 || !is_finite(forces[i].linear) || !is_finite(forces[i].angular) ||
+          !detail::within(forces[i].linear, detail::most_acceleration(hz, Limits<S>::speed())) ||
+          !detail::within(forces[i].angular, detail::most_acceleration(hz, Limits<S>::spin()))) {
         return "a force is out of range";
       }
       if (i > 0 && !(forces[i - 1].slot < slot)) return "forces ascend by slot";
