@@ -23,6 +23,12 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   }
 };
 
+/// What turns faster about an axis counts as spinning [rad/s]: the orientation in which a step finds a body does not do
+/// for the whole of it. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
+template <class S> ISO_INLINE Velocity<S> rapid_spin(std::int32_t hz) {
+  return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
+}
+
 /// What turns an impulse into a change of velocity.
 template <class S> struct SolverMass {
   S mass;         // [kg]; 0: immovable

@@ -30,6 +30,8 @@ template <class S> Change turn(Vec3<double> inertia, Vec3<double> start, std::in
   Quat<Unit<S>> q = normalise(Quat<Unit<S>>{Unit<S>(0.1), Unit<S>(0.3), Unit<S>(0.3), Unit<S>(0.9)});
   Vec3<V> spin = {from_double<V>(start.x), from_double<V>(start.y), from_double<V>(start.z)};
   Change worst;
+  Vec3<V> known = Vec3<V>::zero();
+  for (int k = 0; k < 3; ++k) known.set(k, round_to<V>(dot_sum(to_matrix(q).column(k), spin)));
   Vec3<double> momentum0 = {0, 0, 0};
   double energy0 = 0;
   for (int i = 0; i <= steps; ++i) {
@@ -48,7 +50,7 @@ template <class S> Change turn(Vec3<double> inertia, Vec3<double> start, std::in
     worst.momentum = std::max(worst.momentum, std::sqrt(dot(change, change) / dot(momentum0, momentum0)));
     worst.gain = std::max(worst.gain, energy / energy0 - 1);
     worst.loss = std::max(worst.loss, 1 - energy / energy0);
-    spin = turn_freely<S>(axes, moments, spin, h);
+    spin = FreeTurn<S>{axes, moments, h}.turn(spin, known, true);
     const auto angle = [&](V w) { return round_to<Unit<S>>(product(w, h)); };
     q = integrate(q, Vec3<Unit<S>>{angle(spin.x), angle(spin.y), angle(spin.z)});
   }

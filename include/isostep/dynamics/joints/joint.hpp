@@ -129,6 +129,7 @@ template <class S> struct JointStep {
   S rate;     // [1/s] sub-steps a second
   Step<S> h;  // [s]
   Softness<S> softness;
+  Velocity<S> rapid = Velocity<S>(0);  // [rad/s] rapid_spin(): slower, arms count as straight
 };
 
 /// How soft joints are that no JointTrees solves at once, and how fast those that it does close their errors: a quarter
@@ -156,6 +157,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
 /// Jacobian and error from the poses of now.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
+/// For velocities, after linearise_joint() and from the spins of `step.bodies` as they are: how joints' arms curve.
+template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
 /// What the rows move, for bodies that turn by kappa, and how strong springs are.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
 /// Rows of the drives as their pieces ask, and the blocks' couplings with them.
@@ -192,6 +195,7 @@ template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const
   KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&, \
                                          const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);    \
   KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                         \
+  KEYWORD template void curve_joint<S>(JointConstraint<S>&, const JointStep<S>&);                             \
   KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                  \
   KEYWORD template void couple_blocks<S>(JointConstraint<S>&);                                                \
   KEYWORD template void apply_impulses<S>(JointConstraint<S>&, const JointStep<S>&);                          \

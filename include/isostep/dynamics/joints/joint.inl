@@ -302,7 +302,33 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   joint.most_motor = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
 }
 
+namespace detail {
+/// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
+/// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
+/// and a spinning top would sink.
+template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> spin, Step<S> h) {
+  using V = Velocity<S>;
+  const auto across = [](Vec3<V> w, Vec3<S> r) {
+    return Vec3<V>{saturated<S>(product(r.z, w.y) - product(r.y, w.z)),
+                   saturated<S>(product(r.x, w.z) - product(r.z, w.x)),
+                   saturated<S>(product(r.y, w.x) - product(r.x, w.y))};
+  };
+  const S half = S(0.5) * h;
+  return across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(across(spin, arm)));
+}
+}  // namespace detail
+
+template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
+  if (joint.block_count == 0 || !joint.blocks[0].point) return;
+  const auto curve = [&](Vec3<S> arm, std::uint32_t row) {
+    const Vec3<Velocity<S>> spin = step.bodies->velocity[row].angular;
+    return step.rapid < max_abs(spin) ? detail::curve_of(arm, spin, step.h) : Vec3<Velocity<S>>::zero();
+  };
+  joint.blocks[0].curve = curve(joint.arm_b, joint.row_b) - curve(joint.arm_a, joint.row_a);
+}
+
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
+  joint.blocks[0].curve = joint.blocks[1].curve = Vec3<Velocity<S>>::zero();
   const detail::JointFrames<S> frames = detail::joint_frames(joint, step.states);
   joint.arm_a = frames.arm_a;
   joint.arm_b = frames.arm_b;

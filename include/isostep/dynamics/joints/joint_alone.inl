@@ -51,6 +51,7 @@ template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, 
   for (JointConstraint<S>& joint : joints) {
     if (!joint.holds) continue;
     linearise_joint(joint, step);
+    curve_joint(joint, step);
     weigh_joint(joint, step.bodies->mass[joint.row_a].kappa, step.bodies->mass[joint.row_b].kappa);
     factor_joint(joint);
     apply_impulses(joint, step);

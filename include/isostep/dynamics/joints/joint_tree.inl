@@ -111,6 +111,7 @@ template <class S> void JointTrees<S>::warm_start_rest(std::span<JointConstraint
   for (const std::uint32_t j : rest_) {
     JointConstraint<S>& joint = joints[j];
     linearise_joint(joint, step);
+    curve_joint(joint, step);
     kappa_[joint.row_a] = step.bodies->mass[joint.row_a].kappa;
     kappa_[joint.row_b] = step.bodies->mass[joint.row_b].kappa;
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/tree_gather.inl"
+#include "isostep/scalar/lanes_bounded.hpp"
 #include "isostep/scalar/lanes_reciprocal.hpp"
 
 namespace isostep {
@@ -29,13 +30,16 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
     place_bodies(run, m, joints, step.states);
+    const bool rapid = follow_masses(run, m, step.rapid);
     const std::size_t count = run.shape.joints.size();
-    for (std::size_t j = 0; j < count; ++j) linearise(run.shape.joints[j], m, m.joints[j], step.h);
+    for (std::size_t j = 0; j < count; ++j) linearise(run.shape.joints[j], m, m.joints[j], step, rapid);
     stiffen(run.shape, m);
     for (std::size_t j = 0; j < count; ++j) weigh(run.shape.joints[j], m, m.joints[j]);
     for (std::size_t j = 0; j < count; ++j) couple(run.shape, j, m);
     for (std::size_t j = 0; j < count; ++j) eliminate(run.shape, j, m);
   }
+
+  template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
 
  private:
   static ISO_INLINE void place_bodies(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
@@ -73,8 +77,37 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
              {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
   }
 
+  /// Masses of those that spin, as BodyRows left them. Answers whether any does.
+  static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
+    bool some = false;
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      const auto spins = less(V::broadcast(least), max_abs(load(m.bodies[b].angular)));
+      if (!any(spins)) continue;
+      some = true;
+      Base::gather_mass(&run.rows[b * W], run.mass, m.bodies[b], spins);
+    }
+    return some;
+  }
+  /// curve_of() of joint.inl; of bodies that do not spin none.
+  static ISO_INLINE Vec3<V> curve(const Body& body, Vec3<L> arm, Step<S> h, Velocity<S> least) {
+    const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
+    const auto across = [most](Vec3<V> w, Vec3<L> r) ISO_INLINE_LAMBDA {
+      return Vec3<V>{round_within<V>(product(r.z, w.y) - product(r.y, w.z), most),
+                     round_within<V>(product(r.x, w.z) - product(r.z, w.x), most),
+                     round_within<V>(product(r.y, w.x) - product(r.x, w.y), most)};
+    };
+    const Vec3<V> w = load(body.angular), v = across(w, arm);
+    const L half = number(S(0.5) * h);
+    const Vec3<V> bent = across({times(half, w.x), times(half, w.y), times(half, w.z)},
+                                {convert<L>(v.x), convert<L>(v.y), convert<L>(v.z)});
+    const auto spins = less(V::broadcast(least), max_abs(w));
+    const auto part = [&](V x) ISO_INLINE_LAMBDA { return select(spins, x, V::zero()); };
+    return {part(bent.x), part(bent.y), part(bent.z)};
+  }
+
   /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_ball(), pull_on().
-  static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, Step<S> h) {
+  static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, const JointStep<S>& step, bool rapid) {
+    const Step<S> h = step.h;
     Body& a = m.bodies[of.body_a];
     Body& b = m.bodies[of.body_b];
     const Vec3<L> arm_a = load(a.rotation) * load(joint.frame_a), arm_b = load(b.rotation) * load(joint.frame_b);
@@ -84,6 +117,8 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     store(arm_a, joint.arm_a);
     store(arm_b, joint.arm_b);
     store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, joint.error);
+    const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
+    store(rapid ? curve(b, arm_b, h, step.rapid) - curve(a, arm_a, h, step.rapid) : none, joint.curve);
     const Vec3<V> impulse = load(joint.impulse);
     const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(h);
     const auto pull = [&](Vec3<L> arm, L share, Body& body, S(&field)[W]) ISO_INLINE_LAMBDA {

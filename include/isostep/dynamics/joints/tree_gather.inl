@@ -95,11 +95,42 @@ template <class S, int W, class Isa> struct TreeGatherer {
     }
   }
 
+  // ---- masses: once a step, and in those lanes that spin once a sub-step
+
+  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the
+  ///         largest moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k
+  ///         nothing can come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
+  template <class Lane>
+  static ISO_INLINE void gather_mass(const std::uint32_t* rows, const SolverMass<S>* masses, Body& body, Lane which) {
+    const S* mass[W];
+    const S* rest[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      mass[i] = &masses[rows[i]].mass;
+      rest[i] = &masses[rows[i]].kappa.rows[1].z;
+    }
+    L k[8], r[4];
+    load_transposed<8>(mass, k);
+    load_transposed<4>(rest, r);
+    const L xx = k[1], yy = k[5], zz = r[3];
+    const Mat3<L> old = load(body.kappa), now = {{{xx, k[2], k[3]}, {k[4], yy, r[0]}, {k[7], r[2], zz}}};
+    const auto part = [&](L x, L y) ISO_INLINE_LAMBDA { return select(which, x, y); };
+    store(Mat3<L>{{{part(now.rows[0].x, old.rows[0].x), part(now.rows[0].y, old.rows[0].y),
+                    part(now.rows[0].z, old.rows[0].z)},
+                   {old.rows[1].x, part(now.rows[1].y, old.rows[1].y), part(now.rows[1].z, old.rows[1].z)},
+                   {old.rows[2].x, old.rows[2].y, part(now.rows[2].z, old.rows[2].z)}}},
+          body.kappa);
+    const L largest = max(xx, max(yy, zz));
+    const Mask turns = less(L::zero(), largest);
+    const L calm = quotient_where<L>(turns, number(S(1)), largest) - number(S(64) * resolution<S>());
+    select(which, select(turns, calm, number(highest<S>())), L::load(body.calm)).store(body.calm);
+  }
+
   // ---- once a step
 
   static void prepare(const TreeRun<S>& run, const JointConstraint<S>* joints) {
     const Memory m = Memory::of(run.memory, run.shape);
-    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) prepare_body(&run.rows[b * W], run.mass, m.bodies[b]);
+    const Mask all = less(L::zero(), number(S(1)));
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) gather_mass(&run.rows[b * W], run.mass, m.bodies[b], all);
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) prepare_joint(&run.joints[j * W], joints, m.joints[j]);
   }
   static void store_impulses(const TreeRun<S>& run, JointConstraint<S>* joints) {
@@ -115,26 +146,6 @@ template <class S, int W, class Isa> struct TreeGatherer {
   }
 
  private:
-  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the
-  ///         largest moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k
-  ///         nothing can come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
-  static ISO_INLINE void prepare_body(const std::uint32_t* rows, const SolverMass<S>* masses, Body& body) {
-    const S* mass[W];
-    const S* rest[W];
-    ISO_UNROLL for (int i = 0; i < W; ++i) {
-      mass[i] = &masses[rows[i]].mass;
-      rest[i] = &masses[rows[i]].kappa.rows[1].z;
-    }
-    L k[8], r[4];
-    load_transposed<8>(mass, k);
-    load_transposed<4>(rest, r);
-    const L xx = k[1], yy = k[5], zz = r[3];
-    store(Mat3<L>{{{xx, k[2], k[3]}, {k[4], yy, r[0]}, {k[7], r[2], zz}}}, body.kappa);
-    const L largest = max(xx, max(yy, zz));
-    const Mask turns = less(L::zero(), largest);
-    const L calm = quotient_where<L>(turns, number(S(1)), largest) - number(S(64) * resolution<S>());
-    select(turns, calm, number(highest<S>())).store(body.calm);
-  }
   static ISO_INLINE void prepare_joint(const std::uint32_t* lanes, const JointConstraint<S>* joints, Joint& joint) {
     const S* frame_a[W];
     const S* frame_b[W];

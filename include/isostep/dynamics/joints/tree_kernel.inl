@@ -17,6 +17,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   using Base::load;
   using Base::number;
   using Base::store;
+  using Base::times;
   using typename Base::Body;
   using typename Base::Joint;
   using typename Base::L;
@@ -25,8 +26,8 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
 
   static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
-    Base::factorise(run, m, joints, step);
     Base::gather_velocities(run, m);
+    Base::factorise(run, m, joints, step);
     for (const std::uint32_t j : run.shape.given) push(run.shape.joints[j], m, m.joints[j], load(m.joints[j].impulse));
     Base::scatter_velocities(run, m);
   }
@@ -42,7 +43,6 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   }
 
  private:
-  template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
   static ISO_INLINE Vec3<V> times(L a, Vec3<V> v) { return {times(a, v.x), times(a, v.y), times(a, v.z)}; }
   static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
     return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
@@ -87,7 +87,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   /// Of K lambda = -(speed + bias), for velocities as they are before anything of this pass is applied.
   template <bool Relax>
   static ISO_INLINE void find_right_side(const TreeJoint& of, Memory m, Joint& joint, const JointStep<S>& step) {
-    Vec3<V> right = -speed(of, m, joint);
+    Vec3<V> right = -(speed(of, m, joint) + load(joint.curve));
     if constexpr (!Relax) {
       right -= bounded(times(number(step.softness.bias_rate), load(joint.error)), detail::kJointPushSpeed<S>);
       if (of.closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(joint.impulse));

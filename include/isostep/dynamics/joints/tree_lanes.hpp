@@ -14,7 +14,7 @@ template <class S, int W> struct TreeBodyLanes {
   Velocity<S> linear[3][W], angular[3][W];  // [m/s], [rad/s] for the length of a pass
   S centre[3][W];                           // [m] now
   Unit<S> rotation[9][W];                   // body to world, now
-  S kappa[6][W];                            // [1/m^2] when the step began
+  S kappa[6][W];                            // [1/m^2] now
   S felt[6][W];                             // [1/m^2] as the joints see it, tension in it
   S tension[6][W];                          // [m^2] geometric stiffness h^2 / mass, where there is enough of it
   S pull[W];                                // [m^2] sum of the joints' h^2 f.r / mass
@@ -29,6 +29,7 @@ template <class S, int W> struct TreeJointLanes {
   S inverse[6][W];                 // [1] of D; until then what earlier eliminations have left of K
   Velocity<S> error[3][W];         // [m]
   Velocity<S> impulse[3][W];       // [m/s] accumulated
+  Velocity<S> curve[3][W];         // [m/s] of what the arms' turning adds to the speed
   Velocity<S> right[3][W];         // [m/s] right-hand sides, then answers
 };
 template <class S, int W> struct TreeLinkLanes {

@@ -23,8 +23,8 @@ template <class S> class BodyRows {
   void integrate_velocities(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
   void integrate_positions(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
 
-  /// Velocities back into input.states.
-  void store(const SolverInput<S>& input, std::size_t first, std::size_t end) const;
+  /// Velocities back into input.states, after integration at that rate.
+  void store(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end) const;
 
   /// See solver_input.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
@@ -34,9 +34,14 @@ template <class S> class BodyRows {
   ISO_INLINE const SolverBodies<S>& rows() const { return rows_; }
 
  private:
+  struct Gyro {
+    Vec3<S> inertia;          // [1] principal moments over the largest
+    Vec3<Velocity<S>> known;  // [rad/s] principal frame: spin after the last free turn (gyroscopic.hpp)
+  };
+
   SolverBodies<S> rows_;
-  std::vector<Vec3<S>> start_;    // [m] centres when the step began
-  std::vector<Vec3<S>> inertia_;  // [1] principal moments over the largest, where the gyroscopic term acts
+  std::vector<Vec3<S>> start_;  // [m] centres when the step began
+  std::vector<Gyro> gyro_;      // where the gyroscopic term acts
 };
 
 #define ISO_EXTERN_BODY_ROWS(S) extern template class BodyRows<S>;

@@ -18,6 +18,21 @@ template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>&
   }
 }
 
+/// Mass times inverse inertia in the world's axes [1/m^2]; about locked axes nothing turns.
+template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
+  Mat3<S> kappa =
+      (body.flags & body_flag::kSpins) != 0 ? rotate_diagonal(axes, body.kappa) : Mat3<S>::diagonal(body.kappa);
+  if ((body.flags & (7u * body_flag::kLockAngularX)) == 0) return kappa;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      kappa.rows[axis].set(k, S(0));
+      kappa.rows[k].set(axis, S(0));
+    }
+  }
+  return kappa;
+}
+
 }  // namespace detail
 
 template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
@@ -26,7 +41,7 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
   rows_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
   rows_.mass.resize(count + 1);
   start_.resize(count);
-  inertia_.resize(count);
+  gyro_.resize(count);
   rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
   rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
   for (std::size_t i = 0; i < count; ++i) {
@@ -40,23 +55,14 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
       continue;
     }
     mass.mass = body.mass;
-    if (body.kappa.x == body.kappa.y && body.kappa.y == body.kappa.z) {
-      mass.kappa = Mat3<S>::diagonal(body.kappa);
-    } else {
-      mass.kappa = rotate_diagonal(to_matrix(state.orientation * body.principal), body.kappa);
-      const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
-      const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
-      inertia_[i] = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
-    }
-    if ((body.flags & (7u * body_flag::kLockAngularX)) != 0) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
-        for (int k = 0; k < 3; ++k) {
-          mass.kappa.rows[axis].set(k, S(0));
-          mass.kappa.rows[k].set(axis, S(0));
-        }
-      }
-    }
+    const bool spins = (body.flags & body_flag::kSpins) != 0;
+    const Mat3<Unit<S>> axes = spins ? to_matrix(state.orientation * body.principal) : Mat3<Unit<S>>{};
+    mass.kappa = detail::world_kappa(body, axes);
+    if (!spins) continue;
+    const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
+    const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
+    gyro_[i] = {{ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)},
+                FreeTurn<S>{axes, {}, {}}.local(state.spin)};
   }
 }
 
@@ -87,8 +93,10 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
     }
     if ((body.flags & body_flag::kSpins) != 0) {
-      row.angular =
-          turn_freely<S>(to_matrix(input.states[i].orientation * body.principal), inertia_[i], row.angular, h);
+      const Mat3<Unit<S>> axes = to_matrix(input.states[i].orientation * body.principal);
+      const bool rapid = rapid_spin<S>(input.hz) < max_abs(row.angular);
+      row.angular = FreeTurn<S>{axes, gyro_[i].inertia, h}.turn(row.angular, gyro_[i].known, rapid);
+      if (rapid) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
     }
     detail::hold_locks(body.flags, row);
   }
@@ -117,10 +125,21 @@ void BodyRows<S>::integrate_positions(const SolverInput<S>& input, std::int32_t 
   }
 }
 
-template <class S> void BodyRows<S>::store(const SolverInput<S>& input, std::size_t first, std::size_t end) const {
+template <class S>
+void BodyRows<S>::store(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end) const {
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   for (std::size_t i = first; i < end; ++i) {
-    input.states[i].velocity = rows_.velocity[i + 1].linear;
-    input.states[i].spin = rows_.velocity[i + 1].angular;
+    BodyState<S>& state = input.states[i];
+    const BodyProperties<S>& body = input.properties[i];
+    MotionRow<Velocity<S>> row = rows_.velocity[i + 1];
+    const bool turns = body.type == BodyType::dynamic && (body.flags & body_flag::kSpins) != 0;
+    if (turns && rapid_spin<S>(input.hz) < max_abs(row.angular)) {
+      const Mat3<Unit<S>> axes = to_matrix(state.orientation * body.principal);
+      row.angular = FreeTurn<S>{axes, gyro_[i].inertia, h}.settle(row.angular, gyro_[i].known);
+      detail::hold_locks(body.flags, row);
+    }
+    state.velocity = row.linear;
+    state.spin = row.angular;
   }
 }
 

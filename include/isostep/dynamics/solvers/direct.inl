@@ -168,7 +168,7 @@ template <class S> void DirectSolver<S>::store_impulses(const SolverInput<S>& in
     kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(input, c), &order_[c],
                    input.contacts.data(), input.step_impulses.data()});
   }
-  bodies_.store(input, 0, bodies_.count());
+  bodies_.store(input, rate_, 0, bodies_.count());
 }
 
 }  // namespace isostep

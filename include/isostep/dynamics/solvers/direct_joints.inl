@@ -34,12 +34,16 @@ template <class S> JointStep<S> DirectSolver<S>::joint_step(const SolverInput<S>
           &bodies_.rows(),
           rate,
           divide_to<Step<S>>(S(1), rate),
-          {detail::kDirectJointShare<S> * rate, S(1), S(0)}};
+          {detail::kDirectJointShare<S> * rate, S(1), S(0)},
+          rapid_spin<S>(input.hz)};
 }
 
 template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& input, Island& island) {
   const JointStep<S> step = joint_step(input);
-  for (const std::uint32_t j : island.joints) linearise_joint(input.joints[j], step);
+  for (const std::uint32_t j : island.joints) {
+    linearise_joint(input.joints[j], step);
+    curve_joint(input.joints[j], step);
+  }
   for (const std::uint32_t row : island.bodies) kappa_[row] = bodies_.rows().mass[row].kappa;
   stiffen(island, input.joints, step.h);
   for (const std::uint32_t row : island.bodies) find_root(row, kappa_[row]);
@@ -112,11 +116,12 @@ template <class S>
 void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first, Pass pass) {
   const S bias_rate = pass == Pass::biased ? detail::kDirectJointShare<S> * S(rate_) : S(0);
   for (std::uint32_t i = 0; i < joint.block_count; ++i) {
-    const Vec3<V>& error = joint.blocks[i].error;
+    const Vec3<V>&error = joint.blocks[i].error, &curve = joint.blocks[i].curve;
     for (std::uint32_t r = 0; r < 3; ++r) {
       const std::uint32_t at = 3 * (first + i) + r;
       const V most = detail::kJointPushSpeed<S>, bias = scaled(bias_rate, error[static_cast<int>(r)]);
-      island.asked[at] = -(speed_of(island, at, free_velocity_) + clamp(bias, -most, most));
+      island.asked[at] =
+          -(speed_of(island, at, free_velocity_) + clamp(bias, -most, most) + curve[static_cast<int>(r)]);
     }
   }
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));

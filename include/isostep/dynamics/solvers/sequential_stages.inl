@@ -35,7 +35,8 @@ template <class S> void Sequential<S>::run(const SolverInput<S>& input) {
   Job job = {this,
              input,
              detail::contact_pass(schedule_),
-             {input.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness}};
+             {input.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
+              rapid_spin<S>(input.hz)}};
   run_stages(runner_, pieces_, &Sequential::do_piece, &job);
   stages_.clear();
   pieces_.clear();
@@ -79,7 +80,7 @@ template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std:
   switch (work) {
     case Work::integrate_velocities: return bodies_.integrate_velocities(job.input, schedule_.rate, first, end);
     case Work::integrate_positions: return bodies_.integrate_positions(job.input, schedule_.rate, first, end);
-    default: return bodies_.store(job.input, first, end);
+    default: return bodies_.store(job.input, schedule_.rate, first, end);
   }
 }
 
@@ -92,7 +93,7 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
   }
 }
 
-template <class S> void Sequential<S>::prepare(const SolverInput<S>&) {
+template <class S> void Sequential<S>::prepare(const SolverInput<S>& input) {
   memory_.resize((memory_bytes_ + 63) / 64 + 1);
   block_bodies_.resize(block_count_ + 1);
   add_stages(Work::prepare, all_);

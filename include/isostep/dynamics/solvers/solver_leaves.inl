@@ -19,13 +19,18 @@ void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const Sol
   if (stage == SolverStage::prepare || stage == SolverStage::store) return;
   visit("solver_velocity", rows_.velocity);
   visit("solver_displacement", rows_.displacement);
-  if (stage != SolverStage::colour) return;
-  visit("solver_mass", rows_.mass);
-  visit("solver_start", start_);
-  for (std::size_t i = 0; i < inertia_.size(); ++i) {  // the rest are those of other steps
-    const Vec3<S> kappa = input.properties[i].kappa;
-    if (input.properties[i].type != BodyType::dynamic || (kappa.x == kappa.y && kappa.y == kappa.z)) continue;
-    visit.one("solver_inertia", i, [&](const auto& of_body) { of_body("moments", inertia_[i]); });
+  const bool begun = stage == SolverStage::colour;
+  if (begun) {
+    visit("solver_mass", rows_.mass);
+    visit("solver_start", start_);
+  }
+  for (std::size_t i = 0; i < gyro_.size(); ++i) {  // the rest are those of other steps
+    const BodyProperties<S>& body = input.properties[i];
+    if (body.type != BodyType::dynamic || (body.flags & body_flag::kSpins) == 0) continue;
+    visit.one("solver_inertia", i, [&](const auto& of_body) {
+      if (begun) of_body("moments", gyro_[i].inertia);
+      of_body("known", gyro_[i].known);
+    });
   }
 }
 

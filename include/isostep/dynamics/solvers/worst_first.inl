@@ -194,8 +194,8 @@ template <class S> void WorstFirstResolver<S>::prepare(const SolverInput<S>&) {}
 
 template <class S> void WorstFirstResolver<S>::solve_substeps(const SolverInput<S>& input) {
   const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
-  const JointStep<S> step = {input.states.data(), &bodies_.rows(), S(rate), divide_to<Step<S>>(S(1), S(rate)),
-                             Softness<S>::rigid()};
+  const JointStep<S> step = {input.states.data(),  &bodies_.rows(),        S(rate), divide_to<Step<S>>(S(1), S(rate)),
+                             Softness<S>::rigid(), rapid_spin<S>(input.hz)};
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return input.joints[joints_[i - points]]; };
   islands_left_ = 0;
@@ -240,7 +240,7 @@ template <class S> void WorstFirstResolver<S>::store_impulses(const SolverInput<
       contact.friction_impulse = saturated_sum<S>(contact.friction_impulse, part);
     }
   }
-  bodies_.store(input, 0, bodies_.count());
+  bodies_.store(input, integration_rate(SolverName::worst_first, input.hz, input.substeps), 0, bodies_.count());
 }
 
 }  // namespace isostep

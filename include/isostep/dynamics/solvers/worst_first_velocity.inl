@@ -45,6 +45,7 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
     apply_impulses(joint, step);
     hold(joint);
   }
+    curve_joint(joint, step);
   for (std::size_t i = 0; i < gained_.size(); ++i) {
     gained_[i].linear = bodies.velocity[i].linear - gained_[i].linear;
     gained_[i].angular = bodies.velocity[i].angular - gained_[i].angular;
