@@ -11,6 +11,7 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
 #include "isostep/core/disjoint_sets.hpp"
+#include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
 #include "isostep/state/leaves.hpp"
 #include "isostep/world/checks.hpp"
@@ -189,6 +190,7 @@ template <class S> class WorldEngine {
   std::size_t parts_of(std::size_t group) const;
 
   // engine_manifolds.inl
+  void find_carried();
   static constexpr std::size_t kLeastSharedPairs = 4 * kGroup;  // some 60 us of float
   void update_manifolds();
   void make_manifolds();
@@ -249,6 +251,8 @@ template <class S> class WorldEngine {
   std::vector<std::uint32_t> start_slots_;   // of those bodies, ascending; drawing asks for them after the step
   std::vector<BodyFrame<S>> frames_;         // of awake bodies, then of those that they might touch
   std::vector<Material<S>> materials_;       // by frame
+  std::vector<Carrier<S>> carriers_;         // kinematic bodies that turn, by row
+  std::vector<Carried<S>> carried_;          // contacts on them
   std::vector<Framed> framed_;               // by slot
   std::vector<std::uint32_t> framed_slots_;  // those that are not empty
   std::vector<PartPair> parts_;              // that might touch, ascending by their contacts' keys

@@ -150,6 +150,43 @@ template <class S> void WorldEngine<S>::update_manifolds() {
   else make_manifolds();
   state_.contacts.resize(placed_);
   geometry_.resize(placed_);
+  find_carried();
+}
+
+/// Kinematic bodies that turn, and the contacts on them.
+template <class S> void WorldEngine<S>::find_carried() {
+  using V = Velocity<S>;
+  carriers_.clear();
+  carried_.clear();
+  const Settings<S>& settings = state_.settings;
+  const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
+  const V fastest = spin_limit<S>(rate);
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    if (body.type != BodyType::kinematic) continue;
+    Vec3<V> spin = state_.awake.states[i].spin;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) spin.set(axis, V(0));
+    }
+    if (spin == Vec3<V>::zero()) continue;
+    const Vec3<Unit<S>> turned = {turn(spin.x), turn(spin.y), turn(spin.z)};
+    carriers_.push_back(Carrier<S>::of(static_cast<std::uint32_t>(i) + 1, spin, turned, rate));
+  }
+  const auto count = static_cast<std::uint32_t>(carriers_.empty() ? 0 : geometry_.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const ContactGeometry<S>& g = geometry_[i];
+    for (const bool on_b : {false, true}) {
+      const std::uint32_t row = on_b ? g.row_b : g.row_a, rider = on_b ? g.row_a : g.row_b;
+      const std::size_t at =
+          detail::lower_bound(carriers_.size(), [&](std::size_t k) { return carriers_[k].row < row; });
+      if (at == carriers_.size() || carriers_[at].row != row) continue;
+      const Vec3<S> a_to_b = g.points[0].arm_a - g.points[0].arm_b;
+      carried_.push_back({i, rider, carriers_[at], on_b ? -a_to_b : a_to_b, g.material.surface_velocity, on_b});
+      break;  // two that are told both move nothing
+    }
+  }
 }
 
 template <class S> void WorldEngine<S>::make_manifolds() {

@@ -120,7 +120,8 @@ template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
           state_.settings.substeps,
           runner_,
           kernels_,
-          tree_kernels_};
+          tree_kernels_,
+          carried_};
 }
 
 template <class S> void WorldEngine<S>::finalise_bodies() {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/scalar/scalar.hpp"
@@ -88,6 +89,20 @@ template <class S, int W> ISO_INLINE constexpr std::size_t block_bytes(std::int3
   const auto missing = static_cast<std::size_t>(kMaxContactPoints - points);
   return sizeof(ContactBlock<S, W, kMaxContactPoints>) - missing * sizeof(NormalRow<S, W>) +
          (rolling ? sizeof(RollingRows<S, W>) : 0);
+}
+
+/// The friction of one contact follows the surface velocity [m/s] of b against a. `words`: of its lane.
+template <class S> void set_surface(unsigned char* words, std::size_t width, Vec3<Velocity<S>> surface) {
+  using Block = ContactBlock<S, 1, kMaxContactPoints>;
+  using Row = FrictionRow<S, 1>;
+  for (std::size_t k = 0; k < 2; ++k) {
+    unsigned char* row = words + width * (offsetof(Block, tangents) + k * sizeof(Row));
+    S direction[3];
+    for (std::size_t i = 0; i < 3; ++i)
+      std::memcpy(&direction[i], row + width * (offsetof(Row, direction) + i * sizeof(S)), sizeof(S));
+    const auto along = round_to<Velocity<S>>(dot_sum(Vec3<S>{direction[0], direction[1], direction[2]}, surface));
+    std::memcpy(row + width * offsetof(Row, surface), &along, sizeof(along));
+  }
 }
 
 /// Which rows of SolverBodies a block's lanes read, and which of them they may write (one bit a lane).

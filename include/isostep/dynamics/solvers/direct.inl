@@ -129,6 +129,10 @@ template <class S> void DirectSolver<S>::solve_substeps(const SolverInput<S>& in
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
     bodies_.integrate_velocities(input, rate_, 0, count);
+    for (const Carried<S>& carried : input.carried) {
+      Block& block = block_of(input, carried.contact);
+      set_surface<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.surface(bodies_.rows()));
+    }
     free_velocity_ = bodies_.rows().velocity;
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       place_rows(input, islands_[i]);

@@ -47,6 +47,11 @@ template <class S> class Sequential {
     std::uint32_t first;
     std::int32_t count;
   };
+  /// Where the kernel reads a contact that a platform carries.
+  struct CarriedLane {
+    unsigned char* words;
+    std::size_t width;
+  };
   struct alignas(64) Chunk {
     unsigned char bytes[64];
   };
@@ -59,6 +64,7 @@ template <class S> class Sequential {
     solve_joints,
     solve,
     integrate_positions,
+    carry,
     relax_joints,
     relax,
     store_joints,
@@ -87,6 +93,8 @@ template <class S> class Sequential {
   BlockRun<S> blocks_of(const PassPlan::Slice& slice);
   void prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
   void store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
+  void find_carried(const SolverInput<S>& input);
+  void carry(const SolverInput<S>& input);
 
   // sequential_stages.inl
   void add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces);
@@ -107,6 +115,8 @@ template <class S> class Sequential {
   std::vector<Run> runs_;
   std::vector<Chunk> memory_;
   std::vector<BlockBodies> block_bodies_;
+  std::vector<CarriedLane> carried_;   // as the input's
+  std::vector<std::uint32_t> places_;  // of contacts in order_, where any is carried
   std::uint32_t block_count_ = 0;
   std::size_t memory_bytes_ = 0;
   TaskRunner runner_;  // the input's, or none where the work is too little to share

@@ -149,4 +149,26 @@ template <class S> void Sequential<S>::store_slice(const SolverInput<S>& input, 
                       &order_[part.first], input.contacts.data(), input.step_impulses.data()});
 }
 
+/// Contacts as they lie in their blocks.
+template <class S> void Sequential<S>::find_carried(const SolverInput<S>& input) {
+  carried_.resize(input.carried.size());
+  if (carried_.empty()) return;
+  places_.resize(order_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) places_[order_[i]] = i;
+  for (std::size_t i = 0; i < carried_.size(); ++i) {
+    const std::uint32_t place = places_[input.carried[i].contact];
+    std::size_t r = 0;
+    while (place >= runs_[r].first + runs_[r].count) ++r;
+    const Run& run = runs_[r];
+    const auto width = static_cast<std::uint32_t>(run.kernels->width);
+    const std::uint32_t at = place - run.first;
+    const std::size_t rolling = detail::Variant::of(run.variant).rolling ? sizeof(RollingRows<S, 1>) * width : 0;
+    carried_[i] = {memory_.data()->bytes + place_of(run, at / width) + rolling + (at % width) * sizeof(S), width};
+  }
+}
+template <class S> void Sequential<S>::carry(const SolverInput<S>& input) {
+  for (std::size_t i = 0; i < carried_.size(); ++i)
+    set_surface<S>(carried_[i].words, carried_[i].width, input.carried[i].surface(bodies_.rows()));
+}
+
 }  // namespace isostep

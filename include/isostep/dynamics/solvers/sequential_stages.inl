@@ -50,6 +50,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::integrate_velocities:
     case Work::integrate_positions:
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
+    case Work::carry: return solver.carry(job.input);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -96,6 +97,7 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
 template <class S> void Sequential<S>::prepare(const SolverInput<S>& input) {
   memory_.resize((memory_bytes_ + 63) / 64 + 1);
   block_bodies_.resize(block_count_ + 1);
+  find_carried(input);
   add_stages(Work::prepare, all_);
 }
 
@@ -104,6 +106,7 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
     add_stage(Work::integrate_velocities, 0, body_pieces_);
+    if (!carried_.empty()) add_stage(Work::carry, 0, 1);
     add_stage(Work::warm_start_joints, 0, joints);
     add_stages(Work::warm_start, colours_);
     for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {

@@ -7,6 +7,7 @@
 
 #include "isostep/core/task_runner.hpp"
 #include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
@@ -48,6 +49,7 @@ template <class S> struct SolverInput {
   TaskRunner runner;                     // changes no bit
   const ContactKernels<S>* contact_kernels;
   const TreeKernels<S>* tree_kernels;
+  std::span<const Carried<S>> carried = {};  // ascending by contact
 };
 
 // A solver is a class template with these members, called once each a step in this order. Those from `prepare` on may

@@ -28,6 +28,14 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
   const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
   bodies_.integrate_velocities(input, rate, 0, bodies_.count());
+  std::size_t next = 0;
+  for (Point& row : points_) {
+    while (next < input.carried.size() && input.carried[next].contact < row.contact) ++next;
+    if (next == input.carried.size()) break;
+    if (input.carried[next].contact != row.contact) continue;
+    const Vec3<V> surface = input.carried[next].surface(bodies);
+    for (int k = 0; k < 2; ++k) row.friction.surface[k] = round_to<V>(dot_sum(row.friction.rows[k].linear, surface));
+  }
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
   const V widest = divide_to<V>(S(64), step.rate);
   for (Point& row : points_) {
@@ -40,12 +48,12 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
   for (const std::uint32_t j : joints_) {
     JointConstraint<S>& joint = input.joints[j];
     linearise_joint(joint, step);
+    curve_joint(joint, step);
     weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
     factor_joint(joint);
     apply_impulses(joint, step);
     hold(joint);
   }
-    curve_joint(joint, step);
   for (std::size_t i = 0; i < gained_.size(); ++i) {
     gained_[i].linear = bodies.velocity[i].linear - gained_[i].linear;
     gained_[i].angular = bodies.velocity[i].angular - gained_[i].angular;
