@@ -193,9 +193,9 @@ class CommandLine {
     add_path(command, "--bundle", peer_.bundle, "on a desync, write what `isostep diff` needs");
     command->add_flag("--trace", peer_.trace, "hash every stage, so that a bundle can name it");
     command->add_option("--fault", peer_.fault, "a drill: before this frame one bit of one body flips on this peer");
-    command->add_option("--patience", peer_.patience, "seconds without a host before the peer gives up")
-        ->check(CLI::Range(1, 3600))
-        ->capture_default_str();
+    command
+        ->add_option("--patience", peer_.patience, "seconds until a silent peer is lost [5], no host is given up [20]")
+        ->check(CLI::Range(1, 3600));
     command->add_flag("--json", peer_.json, "one JSON object");
     command->footer("Exits with 0, or 1 after a desync, or 66 when there is no host.");
   }

@@ -15,9 +15,13 @@ namespace isostep::tool {
 namespace {
 
 constexpr Time kTryAgain = kSecond / 2;  // [us] between attempts to reach a host
-constexpr Time kLinger = 20 * kSecond;   // [us] that a host which is done stays for the others
+constexpr Time kPatience = 20 * kSecond;  // [us] without a host, or that a host which is done stays for the others
 constexpr Time kGoodbye = kSecond;       // [us] in which a leaving client's last word may be repeated
 constexpr Time kLongestSleep = 10000;    // [us]
+
+Time patience_of(const PeerOptions& options) {
+  return options.patience == 0 ? kPatience : static_cast<Time>(options.patience) * kSecond;
+}
 
 const char* name_of(SessionEvent::Kind kind) {
   switch (kind) {
@@ -95,6 +99,7 @@ template <class S> SessionConfig MatchPeer<S>::config_of(const PeerOptions& opti
   if (config.host && options.spectate) config.mode = options.lockstep ? SessionMode::lockstep : SessionMode::rollback;
   config.window = options.window;
   config.delay = options.delay;
+  if (options.patience != 0) config.silence = config.patience = patience_of(options);
   config.seed = static_cast<std::uint64_t>(steady_now()) | 1u;
   config.identity = match_identity(game);
   if (const char* problem = problem_of(config)) throw ToolError(exit_status::kUsage, problem);
@@ -120,7 +125,7 @@ template <class S> void MatchPeer<S>::reconnect(Time now) {
   if (must_reconnect_) reconnect_at_ = now + kTryAgain;
   must_reconnect_ = false;
   if (session_.stats().peers > 0 || alone_since_ == 0) alone_since_ = now;
-  if (now > alone_since_ + static_cast<Time>(options_.patience) * kSecond) gave_up_ = true;
+  if (now > alone_since_ + patience_of(options_)) gave_up_ = true;
   if (reconnect_at_ == 0 || now < reconnect_at_) return;
   reconnect_at_ = 0;
   static_cast<void>(transport_.connect_again().ok());
@@ -155,7 +160,7 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
     line += ": player " + std::to_string(event.player) + " from frame " + std::to_string(event.frame);
   }
   must_reconnect_ = must_reconnect_ || event.kind == SessionEvent::Kind::lost_host;
-  std::fprintf(stderr, "isostep peer %s: %s\n", name().c_str(), line.c_str());
+  say(line);
   if (event.kind == SessionEvent::Kind::desync) write_desync_bundle(event);
 }
 
@@ -165,22 +170,29 @@ template <class S> std::string MatchPeer<S>::name() const {
   return session_.local_player() < 0 ? "client" : "player " + std::to_string(session_.local_player());
 }
 
+template <class S> void MatchPeer<S>::say(const std::string& line) const {
+  std::fprintf(stderr, "isostep peer %s: %s\n", name().c_str(), line.c_str());
+}
+
 template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& event) {
   if (options_.bundle.empty()) return;
   ReplayFile file(options_.bundle);
   const std::uint32_t player = session_.local_player() < 0 ? 0xff : static_cast<std::uint32_t>(session_.local_player());
-  expect_written(write_bundle(file.sink(), history_, kMatchScene, {.player = player, .agreed = event.agreed}));
+  // The state after which the peers part is one of these, however far apart two reports came.
+  const auto states = static_cast<std::uint32_t>(event.frame - event.agreed);
+  expect_written(
+      write_bundle(file.sink(), history_, kMatchScene, {.player = player, .agreed = event.agreed, .states = states}));
   file.close();
-  std::fprintf(stderr, "isostep peer %s: wrote %s; compare it with the other peer's: isostep diff A B\n",
-               name().c_str(), options_.bundle.c_str());
+  say("wrote " + options_.bundle + "; compare it with the other peer's: isostep diff A B");
   options_.bundle.clear();
 }
 
-/// What a memory fault does: the lowest bit of a velocity's mantissa, behind the world's back.
+/// What a memory fault does: the lowest bit of a position, behind the world's back. Of a velocity, friction may take it
+/// back within the step.
 template <class S> void MatchPeer<S>::flip_a_bit() {
   auto& states = const_cast<WorldState<S>&>(game_.world().state()).awake.states;
   if (states.empty()) return;
-  auto& x = states[states.size() / 2].velocity.x;
+  auto& x = states[states.size() / 2].centre.x;
   x = from_bits<std::remove_reference_t<decltype(x)>>(to_bits(x) ^ 1u);
 }
 
@@ -189,7 +201,7 @@ template <class S> bool MatchPeer<S>::is_over(Time now) {
   if (session_.confirmed() < first_ || session_.confirmed() < options_.frames) return false;
   if (options_.listen < 0) return true;
   if (done_at_ == 0) done_at_ = now;
-  return session_.stats().peers == 0 || now > done_at_ + kLinger;
+  return session_.stats().peers == 0 || now > done_at_ + patience_of(options_);
 }
 
 template <class S> void MatchPeer<S>::write_files() {
@@ -294,9 +306,11 @@ int command_peer(const PeerOptions& options) {
   for (const std::string& path : {options.hashes, options.bundle, options.port_file}) expect_writable(path);
   std::optional<OwnRelay> relay;
   std::optional<transport::EnetTransport> transport;
+  transport::EnetSettings patient;
+  if (options.patience != 0) patient.timeout = patience_of(options);
   if (options.listen >= 0) {
     const auto port = static_cast<std::uint16_t>(options.listen);
-    transport.emplace(expect(transport::EnetTransport::listen(port), "port " + std::to_string(port)));
+    transport.emplace(expect(transport::EnetTransport::listen(port, patient), "port " + std::to_string(port)));
     write_port(options.port_file, transport->port());
     std::fprintf(stderr, "isostep peer: listening on port %u\n", static_cast<unsigned>(transport->port()));
   } else {
@@ -305,7 +319,7 @@ int command_peer(const PeerOptions& options) {
       relay.emplace(address, options.profile, options.bot);
       address = relay->address();
     }
-    transport.emplace(expect(transport::EnetTransport::connect(address.host, address.port), options.connect));
+    transport.emplace(expect(transport::EnetTransport::connect(address.host, address.port, patient), options.connect));
   }
   int status = exit_status::kUsage;
   const bool found =

@@ -101,6 +101,7 @@ template <class S> class MatchPeer {
     history_.confirmed(frame, root);
     if (recorder_) recorder_->confirmed(frame, root);
     hashes_.push_back(root);
+    if (hashes_.size() == 1) say("frame " + std::to_string(frame) + " is final, the first one here");
   }
 
   /// Files are written if a frame is final; an exit status.
@@ -116,6 +117,8 @@ template <class S> class MatchPeer {
   void reconnect(Time now);
   void report(const SessionEvent& event);
   std::string name() const;
+  /// A line on stderr.
+  void say(const std::string& line) const;
   void write_desync_bundle(const SessionEvent& event);
   void flip_a_bit();
   void write_files();

@@ -8,7 +8,7 @@ tool=$1
 out=$dir/lab
 
 lab() { "$tool" lab "$@" >"$dir/out" 2>"$dir/err"; }
-small() { lab S1x5 --scalars double,q32.32 --solvers soft_step,pgs --substeps 2,8 --frames 60 --out "$out" "$@"; }
+small() { lab S1x5 --limit 1000 --scalars double,q32.32 --solvers soft_step,pgs --substeps 2,8 --frames 60 --out "$out" "$@"; }
 lines() { wc -l <"$out/results.jsonl" | tr -d ' '; }
 
 # A table with its advice.

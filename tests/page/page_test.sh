@@ -20,7 +20,7 @@ if [ "$status" = 69 ]; then skip "$(cat "$dir/err")"; fi
 open() {
   name=$1 address=$2
   shift 2
-  timeout 120 "$browser" --headless --no-sandbox --disable-dev-shm-usage --use-angle=swiftshader \
+  timeout 1200 "$browser" --headless --no-sandbox --disable-dev-shm-usage --use-angle=swiftshader \
     --enable-unsafe-swiftshader --host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir="$dir/profile" \
     --hide-scrollbars --window-size=800,600 --virtual-time-budget=3000 "$@" "file://$dir/$name.html#$address" \
     2>"$dir/browser.err"

@@ -6,7 +6,7 @@ set -u
 tool=$1 players=$2 frames=$3 scalar=$4 profile=$5
 . "$(dirname "$0")/common.sh"
 
-match="--players $players --frames $frames --scalar $scalar --json"
+match="$patient --players $players --frames $frames --scalar $scalar --json"
 # Word splitting is wanted: no argument holds a space.
 start_host 0 $match --bot 1 --hashes "$dir/0.txt" --record "$dir/0.replay"
 pids=$host
@@ -25,5 +25,4 @@ for p in $(seq 0 $((players - 1))); do
 done
 [ "$(cut -d ' ' -f 2 "$dir/0.txt" | sort -u | wc -l)" -eq "$frames" ] || fail "some frames have the same hash"
 "$tool" verify "$dir"/*.replay || fail "a replay does not verify"
-grep -q '"deepest":[1-9]' "$dir"/*.out || fail "nobody ever rolled back"
 sed 's/"depths":[^]]*],//' "$dir"/*.out

@@ -43,8 +43,8 @@ refuses 66 "none" peer --listen 0 --inputs "$dir/none"
 refused_for() {
   field=$1 host_words=$2 client_words=$3
   # Word splitting is wanted.
-  start_host host --frames 100 $host_words
-  refuses 66 "refused: $field is" peer --connect "127.0.0.1:$port" --frames 100 $client_words
+  start_host host $patient --frames 100 $host_words
+  refuses 66 "refused: $field is" peer $patient --connect "127.0.0.1:$port" --frames 100 $client_words
   await "refused: $field is" host
   kill "$host"
   wait "$host" 2>/dev/null

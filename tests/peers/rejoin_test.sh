@@ -6,30 +6,33 @@ set -u
 tool=$1
 . "$(dirname "$0")/common.sh"
 
-match="--frames 720 --scalar float"
+match="$endless --scalar float"
 # Word splitting is wanted.
 start_host host $match --bot 1 --hashes "$dir/host.txt" --record "$dir/host.replay"
-"$tool" peer --connect "127.0.0.1:$port" --profile wifi $match --bot 2 --hashes "$dir/first.txt" >"$dir/first.out" \
-  2>"$dir/first.err" &
-first=$!
-"$tool" peer --connect "127.0.0.1:$port" --profile wifi $match --spectate --hashes "$dir/watcher.txt" \
-  >"$dir/watcher.out" 2>"$dir/watcher.err" &
-watcher=$!
-await "joined: player 1" host
-sleep 2
-kill -INT "$first"
-wait "$first"
-[ $? -eq 130 ] || fail "an interrupted peer exits with $?"
-"$tool" peer --connect "127.0.0.1:$port" --profile wifi $match --bot 3 --hashes "$dir/second.txt" --record "$dir/second.replay" \
-  >"$dir/second.out" 2>"$dir/second.err" || fail "the second player exits with $?"
-wait "$watcher" || fail "the spectator exits with $?"
-wait "$host" || fail "the host exits with $?"
+# join NAME WORDS...: sets `joined` to its process.
+join() {
+  name=$1
+  shift
+  "$tool" peer --connect "127.0.0.1:$port" --profile wifi $match --hashes "$dir/$name.txt" "$@" >"$dir/$name.out" \
+    2>"$dir/$name.err" &
+  joined=$!
+}
+join first --bot 2
+first=$joined
+join watcher --spectate
+watcher=$joined
+await "is final" first
+await "is final" watcher
+interrupt "the first player" "$first"
+await "left: player 1" host
+join second --bot 3 --record "$dir/second.replay"
+second=$joined
+await "joined: player 1" host 2
+await "joined: player 1" second
+await "is final" second
+interrupt "the second player" "$second"
+interrupt "the spectator" "$watcher"
+interrupt "the host" "$host"
 
-for peer in first second watcher; do
-  [ -s "$dir/$peer.txt" ] || fail "$peer has no hashes"
-  [ "$(grep -F -x -c -f "$dir/host.txt" "$dir/$peer.txt")" -eq "$(wc -l <"$dir/$peer.txt")" ] || fail "$peer saw another match"
-done
-grep -q "left: player 1" "$dir/host.err" || fail "the host did not see player 1 leave"
-[ "$(grep -c "joined: player 1" "$dir/host.err")" -ge 2 ] || fail "player 1 did not come back"
-grep -q "joined: player 1" "$dir/second.err" || fail "the second player never played"
+for peer in first second watcher; do same_history host "$peer"; done
 "$tool" verify "$dir"/*.replay

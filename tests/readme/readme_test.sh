@@ -17,7 +17,9 @@ complain() {
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix')
 # What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
-commands=$(printf '%s\n' "$commands" | sed "s|/tmp/|'$dir'/|g; s/41873/$((20000 + $$ % 10000))/g")
+# Peers are patient: on a machine that stalls nobody has left.
+commands=$(printf '%s\n' "$commands" |
+  sed "s|/tmp/|'$dir'/|g; s/41873/$((20000 + $$ % 10000))/g; s/isostep peer /isostep peer --patience 600 /")
 [ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || complain "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do

@@ -60,7 +60,8 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
 struct BundleSettings {
   std::uint32_t player = 0;   // as in BundleFacts
   Frame agreed = kNoFrame;    // the desync event's: the bundle starts with this state, or with the oldest one kept
-  std::uint32_t states = 16;  // written whole: those after so many of the first frames
+  std::uint32_t states = 16;  // written whole: those after so many of the first frames; `frame - agreed` of the desync
+                              // event are enough for `isostep diff` to have the one in which the peers part
 };
 
 /// Writes the confirmed frames that `history` keeps from `agreed` on, with the states that this peer really had. For

@@ -20,6 +20,7 @@ static_assert(Endpoint<EnetTransport>);
 
 using Bytevec = std::vector<std::uint8_t>;
 constexpr Time kMs = 1000;
+constexpr Time kPatience = 600 * kSecond;  // [us] beyond any stall of a busy machine
 
 struct Heard {
   ArrivalKind kind;
@@ -49,7 +50,7 @@ struct Bench {
     if (endpoints[0] != nullptr) endpoints[0]->wait(1 * kMs);
   }
   bool turn_until(const std::function<bool()>& done) {
-    for (const Deadline deadline(30); !deadline.over(); turn()) {
+    for (const Deadline deadline; !deadline.over(); turn()) {
       if (done()) return true;
     }
     return false;
@@ -68,11 +69,12 @@ EnetTransport must(Result<EnetTransport> result) {
   EXPECT_TRUE(result.ok()) << (result.ok() ? "" : std::string(result.error().message.view()));
   return std::move(result.value());
 }
-EnetTransport listen_here(EnetSettings settings = {}) {
+/// Tests that are about a timeout bring their own.
+EnetTransport listen_here(EnetSettings settings = {.timeout = kPatience}) {
   settings.bind_address = "127.0.0.1";
   return must(EnetTransport::listen(0, settings));
 }
-EnetTransport connect_to(std::uint16_t port, const EnetSettings& settings = {}) {
+EnetTransport connect_to(std::uint16_t port, const EnetSettings& settings = {.timeout = kPatience}) {
   return must(EnetTransport::connect("127.0.0.1", port, settings));
 }
 
@@ -81,7 +83,8 @@ struct Pair {
   EnetTransport host, client;
   Bench bench;
 
-  explicit Pair(const EnetSettings& host_settings = {}, const EnetSettings& client_settings = {})
+  explicit Pair(const EnetSettings& host_settings = {.timeout = kPatience},
+                const EnetSettings& client_settings = {.timeout = kPatience})
       : host(listen_here(host_settings)), client(connect_to(host.port(), client_settings)), bench{{&host, &client}} {
     EXPECT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected));
     EXPECT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected));
@@ -147,7 +150,7 @@ struct RelayedPair {
   EnetTransport client;
   Bench bench;
 
-  explicit RelayedPair(const char* profile, const EnetSettings& settings = {})
+  explicit RelayedPair(const char* profile, const EnetSettings& settings = {.timeout = kPatience})
       : host(listen_here(settings)),
         relay(open(profile)),
         client(connect_to(relay.port(), settings)),
@@ -266,7 +269,7 @@ TEST(EnetTransport, AnAttemptThatNobodyAnswersEndsInDisconnected) {
 }
 
 TEST(EnetTransport, AHostThatIsFullLetsNobodyIn) {
-  EnetTransport host = listen_here({.max_peers = 1});
+  EnetTransport host = listen_here({.max_peers = 1, .timeout = kPatience});
   EnetTransport first = connect_to(host.port());
   Bench bench{{&host, &first}};
   ASSERT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected));
@@ -278,7 +281,7 @@ TEST(EnetTransport, AHostThatIsFullLetsNobodyIn) {
 }
 
 TEST(EnetTransport, APeerThatAcknowledgesTooSlowlyIsGivenUpRatherThanHalfServed) {
-  Pair pair({.unacknowledged_cap = 100000});
+  Pair pair({.timeout = kPatience, .unacknowledged_cap = 100000});
   Result<void> sent;
   int pieces = 0;
   while ((sent = pair.host.send(0, Channel::reliable, Bytevec(kReliableCap))).ok()) ASSERT_LT(++pieces, 7);
@@ -289,7 +292,7 @@ TEST(EnetTransport, APeerThatAcknowledgesTooSlowlyIsGivenUpRatherThanHalfServed)
 }
 
 TEST(EnetTransport, WhatIsAcknowledgedCountsNoLonger) {
-  Pair pair({.unacknowledged_cap = 2 * kReliableCap});
+  Pair pair({.timeout = kPatience, .unacknowledged_cap = 2 * kReliableCap});
   for (std::size_t i = 1; i <= 20; ++i) {
     ASSERT_TRUE(pair.host.send(0, Channel::reliable, Bytevec(2 * kReliableCap / 2)).ok());
     ASSERT_TRUE(pair.bench.turn_until_heard(1, ArrivalKind::message, i));
@@ -319,7 +322,7 @@ TEST(EnetTransport, GarbageOfStrangersIsCountedAndNothingElse) {
 }
 
 TEST(EnetTransport, AFloodCostsOnlyTheFlooder) {
-  EnetTransport host = listen_here({.datagrams_per_peer = 20});
+  EnetTransport host = listen_here({.timeout = kPatience, .datagrams_per_peer = 20});
   EnetTransport flooder = connect_to(host.port()), honest = connect_to(host.port());
   Bench bench{{&host, &flooder, &honest}};
   ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected, 2));
@@ -338,11 +341,11 @@ TEST(EnetTransport, AFloodCostsOnlyTheFlooder) {
 }
 
 TEST(EnetTransport, APollHandlesNoMoreEventsThanItMay) {
-  Pair pair({.events_per_poll = 8});
+  Pair pair({.timeout = kPatience, .events_per_poll = 8});
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(pair.client.send(0, Channel::datagram, Bytevec(1)).ok());
   pair.client.flush();
   std::size_t got = 0;
-  for (const Deadline deadline(30); !deadline.over() && got < 100;) {
+  for (const Deadline deadline; !deadline.over() && got < 100;) {
     pair.host.poll();
     std::size_t now = 0;
     while (pair.host.receive().has_value()) ++now;
@@ -357,14 +360,16 @@ TEST(EnetTransport, APollHandlesNoMoreEventsThanItMay) {
 TEST(EnetTransport, ADatagramAloneTakesTenBytesMore) {
   Pair pair;
   for (int i = 0; i < 50; ++i) pair.bench.turn();  // what the connection itself still says
-  const EnetStatistics before = pair.client.statistics();
+  std::uint64_t least = ~std::uint64_t{0};         // of a datagram with its packet; a ping may go in one
   for (int i = 0; i < 100; ++i) {
+    const EnetStatistics before = pair.client.statistics();
     ASSERT_TRUE(pair.client.send(0, Channel::datagram, Bytevec(16)).ok());
     pair.client.flush();
+    const EnetStatistics& after = pair.client.statistics();
+    ASSERT_EQ(after.packets_sent - before.packets_sent, 1u);
+    least = std::min(least, after.bytes_sent - before.bytes_sent);
   }
-  const EnetStatistics& after = pair.client.statistics();
-  EXPECT_EQ(after.packets_sent - before.packets_sent, 100u);
-  EXPECT_NEAR(static_cast<double>(after.bytes_sent - before.bytes_sent), 100 * 26, 20);  // a ping may fall between
+  EXPECT_EQ(least, 26u);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ UdpRelay open_relay(const UdpSocket& target, const char* profile, RelaySettings 
 }
 /// Turns the relay until the socket got something.
 std::optional<UdpSocket::Got> receive(UdpRelay& relay, const UdpSocket& socket) {
-  for (const Deadline deadline(20); !deadline.over();) {
+  for (const Deadline deadline; !deadline.over();) {
     if (auto got = socket.receive()) return got;
     EXPECT_TRUE(relay.turn(1000).ok());
   }
@@ -79,7 +79,7 @@ TEST(UdpRelay, LosesAndDoublesExactlyThePacketsOfItsSeed) {
     ASSERT_TRUE(relay.turn(0).ok());
     take(0);
   }
-  for (const Deadline deadline(20); !deadline.over() && relay.statistics().up.received < counts.size();) {
+  for (const Deadline deadline; !deadline.over() && relay.statistics().up.received < counts.size();) {
     ASSERT_TRUE(relay.turn(1000).ok());
     take(0);
   }
@@ -101,7 +101,7 @@ TEST(UdpRelay, QueueAndClientsAreBounded) {
   UdpRelay relay = open_relay(target, "latency=60000", {.max_clients = 1, .max_queued = 10});
   for (std::uint8_t i = 0; i < 25; ++i) first.send(relay.port(), {i});
   for (std::uint8_t i = 0; i < 5; ++i) second.send(relay.port(), {i});
-  for (const Deadline deadline(20); !deadline.over() && relay.statistics().turned_away < 5;) {
+  for (const Deadline deadline; !deadline.over() && relay.statistics().turned_away < 5;) {
     ASSERT_TRUE(relay.turn(1000).ok());
   }
   EXPECT_EQ(relay.statistics().turned_away, 5u);
@@ -130,7 +130,7 @@ TEST(UdpRelay, ATargetThatIsNotThereDoesNotEndTheRelay) {
     client.send(relay.port(), {i});
     ASSERT_TRUE(relay.turn(1000).ok());
   }
-  for (const Deadline deadline(20); !deadline.over() && relay.statistics().up.received < 20;) {
+  for (const Deadline deadline; !deadline.over() && relay.statistics().up.received < 20;) {
     ASSERT_TRUE(relay.turn(1000).ok());
   }
   EXPECT_EQ(relay.statistics().up.forwarded + relay.statistics().up.unsent, 20u);
@@ -142,7 +142,7 @@ TEST(UdpRelay, RunsInAThreadUntilToldToStop) {
   std::atomic<bool> stop = false;
   std::thread thread([&] { EXPECT_TRUE(relay.run(stop).ok()); });
   client.send(relay.port(), {42});
-  const auto got = target.receive(20000);
+  const auto got = target.receive(600000);
   stop = true;
   thread.join();
   ASSERT_TRUE(got.has_value());
