@@ -112,8 +112,8 @@ TYPED_TEST(DebugDraws, TellsBodiesWithTheirShapesWhereTheyAre) {
   expect_near(real(all.bodies[1].velocity), {1, 0, 2}, 1e-4);
   EXPECT_EQ(all.parts[1].body.body, crate.body);
   EXPECT_EQ(all.parts[1].part.type, ShapeType::box);
-  EXPECT_EQ(real(all.parts[1].part.half), D3(0.5, 1, 1.5));
-  EXPECT_EQ(real(all.parts[1].part.pose.position), D3(4, 1, 5));
+  EXPECT_EQ(real(all.parts[1].part.half), (D3{0.5, 1, 1.5}));
+  EXPECT_EQ(real(all.parts[1].part.pose.position), (D3{4, 1, 5}));
 }
 
 TYPED_TEST(DebugDraws, PlacesPartsOfCompoundAndTurnedBodies) {
@@ -290,7 +290,7 @@ TYPED_TEST(DebugDraws, TakesTheCamerasPlaceBeforeItRounds) {
   world.create(moving<S>(add_ball(world, 0.5), {200.125, -4, 0.5}));
   const Told all = told(world, {.origin = {200, -4, 0}});
   ASSERT_EQ(all.bodies.size(), 1u);
-  EXPECT_EQ(real(all.bodies[0].pose.position), D3(0.125, 0, 0.5));
+  EXPECT_EQ(real(all.bodies[0].pose.position), (D3{0.125, 0, 0.5}));
 }
 
 TYPED_TEST(DebugDraws, TellsParticlesWithWhatTiesThem) {
@@ -319,19 +319,19 @@ TYPED_TEST(DebugDraws, TellsParticlesWithWhatTiesThem) {
   EXPECT_EQ(all.particles[0].particle, a);
   EXPECT_EQ(all.particles[0].radius, 0.25f);
   EXPECT_FALSE(all.particles[0].pinned);
-  EXPECT_EQ(real(all.particles[0].position), D3(1, 2, 3));
+  EXPECT_EQ(real(all.particles[0].position), (D3{1, 2, 3}));
   EXPECT_TRUE(all.particles[1].pinned);
   ASSERT_EQ(all.springs.size(), 1u);
   EXPECT_EQ(all.springs[0].spring, bungee);
-  EXPECT_EQ(real(all.springs[0].from), D3(1, 2, 3));
-  EXPECT_EQ(real(all.springs[0].to), D3(0, 9, 0));
+  EXPECT_EQ(real(all.springs[0].from), (D3{1, 2, 3}));
+  EXPECT_EQ(real(all.springs[0].to), (D3{0, 9, 0}));
   EXPECT_EQ(all.springs[0].rest_length, 2.0f);
   EXPECT_EQ(all.springs[0].a, a);
   EXPECT_EQ(all.springs[0].b, ParticleId{});
   ASSERT_EQ(all.links.size(), 1u);
   EXPECT_EQ(all.links[0].link, rod);
   EXPECT_EQ(all.links[0].b, b);
-  EXPECT_EQ(real(all.links[0].to), D3(1, 5, 3));
+  EXPECT_EQ(real(all.links[0].to), (D3{1, 5, 3}));
   EXPECT_NEAR(all.links[0].error, 0.5, 1e-3);  // 3 m apart where 2.5 m are asked
   ASSERT_EQ(all.colliders.size(), 1u);
   expect_near(real(all.colliders[0].start), {0, -1, 0}, 1e-6);
