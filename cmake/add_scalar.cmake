@@ -2,7 +2,8 @@
 
 # isostep_add_scalar(target "isostep::Fixed<std::int64_t, 40>" [header]): `target` gets one more source, which
 # instantiates World<S>, ParticleWorld<S> and everything beneath. `header` is what the scalar's name needs beyond
-# isostep's own: a path from the calling folder, or anything that `target` can include.
+# isostep's own: a path from the calling folder, or anything that `target` can include. The other sources of `target`, and
+# of what links it, may use any scalar then: the linker says which one is missing.
 function(isostep_add_scalar target scalar)
   string(MD5 digest "${scalar}")
   string(SUBSTRING ${digest} 0 8 digest)
@@ -23,7 +24,9 @@ ISO_INSTANTIATE_ENGINE(@scalar@)
 ]])
   target_sources(${target} PRIVATE ${file})
   target_link_libraries(${target} PRIVATE isostep::isostep)
+  target_compile_definitions(${target} PUBLIC ISOSTEP_OWN_SCALARS)
   # A source's options come after its target's, so a target built with -mfma keeps exactness here.
   get_target_property(flags isostep::deterministic_flags INTERFACE_COMPILE_OPTIONS)
-  set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags}")
+  isostep_speed_flags(speed)
+  set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags};${speed}")
 endfunction()

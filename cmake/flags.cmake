@@ -18,10 +18,18 @@ set(isostep_roomy_flags $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288
 # Where the library does the work, code is compiled more often than it is run.
 set(isostep_quick_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
 
+isostep_speed_flags(isostep_speed)
+if(isostep_speed)
+  message(STATUS "isostep: no CMAKE_BUILD_TYPE: the engine is compiled with -O2, the rest of the project is not")
+endif()
+
 # For games that keep float arithmetic of their own in step: link it, and their code gets the same flags.
 add_library(isostep_deterministic_flags INTERFACE)
 add_library(isostep::deterministic_flags ALIAS isostep_deterministic_flags)
 target_compile_options(isostep_deterministic_flags INTERFACE ${isostep_exact_flags})
+
+# Where the headers of isostep::transport and isostep::threads are installed, below the prefix.
+set(isostep_extras include/isostep_extras)
 
 # Sets a library of ours up: public headers under `include_dir`, private exact flags.
 function(isostep_library target export_name include_dir)
@@ -29,7 +37,8 @@ function(isostep_library target export_name include_dir)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${include_dir}>
     $<INSTALL_INTERFACE:include>)
-  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_library_warnings} ${isostep_roomy_flags})
+  target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_speed} ${isostep_library_warnings}
+    ${isostep_roomy_flags})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON)
   if(ISOSTEP_NO_INT128)
     target_compile_definitions(${target} PUBLIC ISOSTEP_NO_INT128)

@@ -11,6 +11,14 @@ install(DIRECTORY scalar/include/ include/ DESTINATION include FILES_MATCHING PA
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/isostep)
 
 set(isostep_package ${CMAKE_INSTALL_LIBDIR}/cmake/isostep)
+# What was built beside them; each is found if what it needs is.
+foreach(extra transport threads)
+  if(TARGET isostep_${extra})
+    install(TARGETS isostep_${extra} EXPORT isostep-${extra} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(DIRECTORY src/${extra}/ DESTINATION ${isostep_extras}/${extra} FILES_MATCHING PATTERN "*.hpp")
+    install(EXPORT isostep-${extra} NAMESPACE isostep:: FILE isostep-${extra}.cmake DESTINATION ${isostep_package})
+  endif()
+endforeach()
 install(EXPORT isostep NAMESPACE isostep:: FILE isostep-targets.cmake DESTINATION ${isostep_package})
 configure_package_config_file(cmake/isostep-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/isostep-config.cmake
   INSTALL_DESTINATION ${isostep_package} NO_SET_AND_CHECK_MACRO)
@@ -21,6 +29,7 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/isostep-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/isostep-config-version.cmake
   cmake/add_scalar.cmake
+  cmake/speed_flags.cmake
   DESTINATION ${isostep_package})
 if(ISOSTEP_TOOL AND TARGET isostep_tool)
   install(TARGETS isostep_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -21,18 +21,18 @@ else()
   # At -O0, with one scalar and one lane, many files at a time: quick, a test of these options, and the hashes must be
   # those of the optimised library.
   list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_SIMD=OFF -DISOSTEP_TRANSPORT=ON
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS=-O0)
+    -DISOSTEP_THREADS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS=-O0)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 
 run(${WORK}/build/own_physics)
 run(${WORK}/build/own_match)
+run(${WORK}/build/own_line)
+run(${WORK}/build/own_workers)
 if(MODE STREQUAL "installed")
   run(${WORK}/build/own_scalar)
   message("${output}")
-else()
-  run(${WORK}/build/own_line)
 endif()
 
 run(${WORK}/build/game ${WORK}/game.replay)

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// Identical on every peer.

@@ -26,3 +26,23 @@
 #define ISO_IF_Q32_32(X)
 #endif
 #define ISO_FOR_EACH_SCALAR(X) ISO_IF_FLOAT(X) ISO_IF_DOUBLE(X) ISO_IF_Q16_16(X) ISO_IF_Q32_32(X)
+
+namespace isostep {
+
+/// Whether the library holds the engine of S, or the program says that it brings engines of its own.
+#if defined(ISOSTEP_OWN_SCALARS)
+template <class S> inline constexpr bool kHasEngine = true;
+#else
+template <class S> inline constexpr bool kHasEngine = false;
+#define ISO_HAS_ENGINE(S) template <> inline constexpr bool kHasEngine<S> = true;
+ISO_FOR_EACH_SCALAR(ISO_HAS_ENGINE)
+#undef ISO_HAS_ENGINE
+#endif
+
+}  // namespace isostep
+
+/// In every class of worlds: one line here instead of dozens from the linker.
+#define ISO_REQUIRE_ENGINE(S)                                                                              \
+  static_assert(::isostep::kHasEngine<S>,                                                                  \
+                "isostep: this build of the library has no engine for this scalar: name a shipped one in " \
+                "ISOSTEP_SCALARS, or say isostep_add_scalar(target \"its type\") in CMake")

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// Pieces of a stage, at most.

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 inline constexpr int kVersionMajor = 0;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// Greedy, in canonical order: the first colour that neither body has met. What finds none is kUncoloured and is solved

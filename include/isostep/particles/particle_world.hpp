@@ -34,6 +34,8 @@ struct ParticleCounts {
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
 template <class S> class ParticleWorld {
+  ISO_REQUIRE_ENGINE(S);
+
  public:
   using Scalar = S;
   using Command = ParticleCommand<S>;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 template <class T> class BoundedQueue {

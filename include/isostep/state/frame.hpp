@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// State f is what `step` of frame f starts from; state 0 is the start of the match.

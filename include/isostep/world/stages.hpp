@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 enum class Stage : std::uint32_t {

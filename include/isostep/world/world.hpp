@@ -73,6 +73,8 @@ struct WorldCounts {
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
 template <class S> class World {
+  ISO_REQUIRE_ENGINE(S);
+
  public:
   using Scalar = S;
   using Command = isostep::Command<S>;

@@ -4,9 +4,7 @@
 // game REPLAY: writes the recording there.
 #include <cinttypes>
 #include <cstdio>
-#include <isostep/world/recorder.hpp>
-#include <isostep/world/selfcheck.hpp>
-#include <isostep/world/world.hpp>
+#include <isostep/isostep.hpp>
 #include <vector>
 
 namespace iso = isostep;

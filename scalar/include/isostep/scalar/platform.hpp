@@ -2,6 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Every header leads here before anything that an older standard does not know.
+#if defined(_MSVC_LANG)
+#if _MSVC_LANG < 202002L
+#error "isostep needs C++20: compile with /std:c++20"
+#endif
+#elif __cplusplus < 202002L
+// After #error, gcc and clang would go on through two thousand more; a file that is not there ends them in one line.
+#include "isostep needs C++20: compile with -std=c++20"
+#endif
+
 #include <cfloat>
 
 #if defined(_MSC_VER) && !defined(__clang__)
