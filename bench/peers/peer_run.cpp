@@ -117,7 +117,7 @@ void run(const PeerJob& job, double limit, LabResult& result) {
   double spent = 0;  // [ms]
   const int frames = frames_of(scene);
   for (int frame = 0; frame < frames && sight.faults == 0 && spent < 1e3 * limit; ++frame) {
-    engine->before_step(frame, true);
+    engine->before_step(frame);
     times.push_back(engine->timed_steps(1));
     spent += times.back();
     sight = engine->sight();

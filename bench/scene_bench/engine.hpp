@@ -23,8 +23,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  /// What happens between frames: kinematic bodies move on, and where `script` is set the scene's script acts.
-  virtual void before_step(int frame, bool script) = 0;
+  /// What happens between frames: kinematic bodies move on, and the scene's script acts.
+  virtual void before_step(int frame) = 0;
   virtual void step() = 0;
   /// Takes steps and says the CPU time [ms] of all of them: this thread's, or that of the process where they are taken.
   virtual double timed_steps(int count) {

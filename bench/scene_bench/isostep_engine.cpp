@@ -14,9 +14,7 @@ template <class S> class OurEngine : public Engine {
     scenes::build(scene, world_);
   }
 
-  void before_step(int, bool script) override {
-    if (script) scenes::before_step(script_, world_);
-  }
+  void before_step(int) override { scenes::before_step(script_, world_); }
   void step() override {
     if (!world_.step().clean()) ++faults_;
   }

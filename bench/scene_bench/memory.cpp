@@ -19,7 +19,7 @@ namespace {
 int run(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options) try {
   const std::unique_ptr<Engine> engine = maker.make(scene, options);
   for (int frame = 0; frame < scene.frames; ++frame) {
-    engine->before_step(frame, true);
+    engine->before_step(frame);
     engine->step();
   }
   return 0;

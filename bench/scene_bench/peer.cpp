@@ -30,17 +30,16 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
   for (const scenes::SceneJoint& joint : scene.joints) joints_.push_back(peer_joint(joint, bodies_));
 }
 
-void Peer::before_step(int frame, bool script) {
+void Peer::before_step(int frame) {
   frames_ = frame + 1;
   drive(frame);
-  if (!script) return;
   if (scene_.script == scenes::Script::mixer) exchange(frame);
   if (scene_.script == scenes::Script::hit) hit(frame);
 }
 
 /// As scenes::before_step does it for a World: the drum is body 0, the others are replaced in turn.
 void Peer::exchange(int frame) {
-  if (frame < 4 || frame % 4 != 0) return;
+  if (frame < 4 || frame >= scenes::kMixerBirthsEnd || frame % 4 != 0) return;
   const int turn = frame / 4 - 1;
   const std::size_t oldest = 1 + static_cast<std::size_t>(turn) % (bodies_.size() - 1);
   scene_.bodies[oldest] = scenes::mixer_body(static_cast<int>(bodies_.size()) - 1 + turn);

@@ -20,7 +20,7 @@ class Peer : public Engine {
  public:
   explicit Peer(const scenes::Scene& scene);
 
-  void before_step(int frame, bool script) override;
+  void before_step(int frame) override;
   bool all_asleep() const override;
   int faults() const override;
   scenes::Sight sight() const override;

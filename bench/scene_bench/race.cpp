@@ -39,7 +39,7 @@ void watch_joints(Lane& lane, const scenes::Scene& scene, const scenes::JointLim
 void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
   const scenes::JointLimits limits(scene);
   for (int frame = from; frame < to; ++frame) {
-    lane.engine->before_step(frame, true);
+    lane.engine->before_step(frame);
     lane.times.push_back(lane.engine->timed_steps(1));
     if (!scene.joints.empty()) watch_joints(lane, scene, limits);
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
@@ -75,15 +75,6 @@ double time_asleep(Engine& engine) {
   return median(times);
 }
 
-/// S9 creates bodies inside others; a second without that shows what the solver leaves.
-scenes::Overlap calm_overlap(Engine& engine, int frames) {
-  for (int frame = frames; frame < frames + 60; ++frame) {
-    engine.before_step(frame, false);
-    engine.step();
-  }
-  return engine.overlap();
-}
-
 void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   measure_places(lane, scene, row);
   const scenes::Sight end = lane.engine->sight();
@@ -97,7 +88,6 @@ void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   row.limit_worst = lane.limit_worst;
   row.limit_end = lane.limit_end;
   row.energy_gain = lane.energy_most / end.energy.mass;
-  if (scene.script != scenes::Script::none) row.calm = calm_overlap(*lane.engine, scene.frames);
   row.asleep_at = lane.asleep_at < 0 ? -1 : lane.asleep_at / 60.0;
 }
 

@@ -17,7 +17,6 @@ struct Row {
   // Measures, of the first round.
   int faults = 0;
   scenes::Overlap overlap;                // [m] at the end
-  scenes::Overlap calm;                   // [m] a scripted scene: 1 s later, in which the script did not act
   double kinetic = 0;                     // [J/kg] mean of the last 60 steps
   double energy_loss = 0;                 // [J/kg] from start to end
   double moved = 0, drift = 0, drop = 0;  // [m] largest: from the start; horizontally; downwards

@@ -31,7 +31,7 @@ double error_of(const Row& row) {
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
   if (is(row, {"S4", "S4s", "S5"})) return row.overlap.mean;
   if (is(row, {"S6", "S6v", "S7", "S20"})) return row.joint_worst;
-  return is(row, {"S9"}) ? row.calm.worst : row.overlap.worst;
+  return row.overlap.worst;
 }
 
 /// What this scene is about.
@@ -50,8 +50,7 @@ std::string particular(const Row& row) {
     text = print("joint %.2f mm, at the end %.3f mm; limits passed by %.3f rad, at the end %.4f", 1e3 * row.joint_worst,
                  1e3 * row.joint_end, row.limit_worst, row.limit_end);
   } else if (is(row, {"S9"})) {
-    text = print("longest step %.3f ms; 1 s after the last new body worst %.1f mm, %u deep", row.max,
-                 1e3 * row.calm.worst, row.calm.deep);
+    text = print("longest step %.3f ms", row.max);
   }
   if (row.outside > 0) text += print("%s%d outside", text.empty() ? "" : ", ", row.outside);
   if (row.faults > 0) text += print("%s%d faulty steps", text.empty() ? "" : ", ", row.faults);
@@ -83,7 +82,6 @@ Json json_of(const Row& row, const FastestPeers& fastest) {
           {"penetration_p99", row.overlap.p99},
           {"deeper_than_5cm", row.overlap.deep},
           {"close_pairs", row.overlap.pairs},
-          {"calm_penetration_worst", row.calm.worst},
           {"kinetic_per_kg", row.kinetic},
           {"energy_loss_per_kg", row.energy_loss},
           {"moved", row.moved},

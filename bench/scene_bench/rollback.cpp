@@ -22,7 +22,8 @@ template <class S> RollbackRow measure(const scenes::Scene& scene) {
   World<S> world(scenes::settings_of<S>(scene));
   scenes::build(scene, world);
   const auto act = [&] { scenes::before_step(scene.script, world); };
-  for (int i = 0; i < scene.frames; ++i) {
+  const int frames = scene.script == scenes::Script::mixer ? scenes::kMixerBirthsEnd - 100 : scene.frames;
+  for (int i = 0; i < frames; ++i) {  // births go on while it is measured
     act();
     world.step();
   }

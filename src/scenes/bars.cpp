@@ -35,7 +35,7 @@ constexpr Bar kBars[] = {
     {"S7", Measure::joint_end, 0.005, 0.001},
     {"S8", Measure::asleep_at, 2, 1},
     {"S8", Measure::asleep_ms, 0.002, 0.001},
-    {"S9", Measure::penetration, 0.06, 0.03},
+    {"S9", Measure::penetration, 0.03, 0.015},
     {"S20", Measure::joint_error, 0.05, 0.02},
     {"S20", Measure::joint_end, 0.005, 0.001},
     {"S20", Measure::limit_passed, 0.15, 0.05},

@@ -39,5 +39,6 @@ Scene medley();
 
 /// The n-th body of the mixer, the first 600 inside the drum, later ones created in its middle.
 SceneBody mixer_body(int n);
+inline constexpr int kMixerBirthsEnd = 600;  // [frames] from then on nobody is replaced
 
 }  // namespace isostep::scenes

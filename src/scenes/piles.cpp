@@ -87,6 +87,7 @@ Scene mixer() {
   Scene scene;
   scene.allow_sleep = false;
   scene.script = Script::mixer;
+  scene.frames = kMixerBirthsEnd + 60;
   scene.bodies.push_back(drum());
   for (int n = 0; n < kLayer * kLayers; ++n) scene.bodies.push_back(mixer_body(n));
   return scene;

@@ -51,10 +51,11 @@ template <class S> BodyId oldest(const World<S>& world, const std::vector<BodyId
   return first;
 }
 
-/// From frame 4 on, every 4th frame the oldest body is replaced by a new one in the drum's middle.
+/// From frame 4 on, every 4th frame the oldest body is replaced by a new one in the drum's middle; the last second of
+/// the run is without births, so that its end shows how bodies lie and not how the newest one began.
 template <class S> void stir(World<S>& world) {
   constexpr int kFirstNew = 600;
-  if (world.tick() < 4 || world.tick() % 4 != 0) return;
+  if (world.tick() < 4 || world.tick() >= kMixerBirthsEnd || world.tick() % 4 != 0) return;
   const int n = kFirstNew + static_cast<int>(world.tick() / 4) - 1;
   const std::vector<BodyId> bodies = dynamic_bodies(world);
   if (!bodies.empty()) destroy_with_shape(world, oldest(world, bodies));

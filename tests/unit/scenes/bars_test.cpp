@@ -41,6 +41,12 @@ TEST(Bars, EveryBarOfASceneIsToBeHeld) {
       Reach::must);
 }
 
+TEST(Bars, TheMixersOverlapIsBelow30MillimetresASecondAfterTheLastBirth) {
+  EXPECT_EQ(reach("S9", false, {{Measure::penetration, 0.014}}), Reach::aim);
+  EXPECT_EQ(reach("S9", false, {{Measure::penetration, 0.029}}), Reach::must);
+  EXPECT_EQ(reach("S9", false, {{Measure::penetration, 0.031}}), Reach::misses);
+}
+
 TEST(Bars, WhatIsNoNumberMissesAndWhatNobodyMeasuredHoldsNothingUp) {
   EXPECT_EQ(reach("S1", false, {{Measure::top, std::numeric_limits<double>::quiet_NaN()}}), Reach::misses);
   EXPECT_EQ(reach("S1", false, {{Measure::top, 0.001}}), Reach::aim);
@@ -50,6 +56,7 @@ TEST(Bars, SmallScalarsHaveBarsOfTheirOwn) {
   EXPECT_EQ(reach("S1", true, {}), Reach::no_bar);
   EXPECT_EQ(reach("S1x10", false, {{Measure::top, 0.04}}), Reach::misses);
   EXPECT_EQ(reach("S1x10", true, {{Measure::top, 0.04}}), Reach::must);
+  EXPECT_EQ(reach("S9", true, {}), Reach::no_bar);
   EXPECT_EQ(reach("S99", false, {}), Reach::no_bar);
 }
 

@@ -113,7 +113,7 @@ TEST(NamedScenes, HaveTheBodiesOfTheirDescription) {
   } rows[] = {{"S1", 1, 20, 0, 600},   {"S1x5", 1, 5, 0, 600},  {"S1x10", 1, 10, 0, 600}, {"S1s", 1, 20, 0, 600},
               {"S2", 1, 210, 0, 600},  {"S3", 1, 1240, 0, 300}, {"S4", 5, 1000, 0, 600},  {"S4s", 5, 200, 0, 600},
               {"S5", 5, 4000, 0, 300}, {"S6", 0, 51, 51, 600},  {"S6v", 0, 51, 51, 600},  {"S7", 5, 550, 500, 600},
-              {"S8", 1, 1240, 0, 900}, {"S9", 0, 601, 0, 600},  {"S20", 5, 550, 500, 600}};
+              {"S8", 1, 1240, 0, 900}, {"S9", 0, 601, 0, 660},  {"S20", 5, 550, 500, 600}};
   for (const auto& row : rows) {
     const std::optional<Scene> scene = find_scene(row.name);
     ASSERT_TRUE(scene) << row.name;
@@ -136,6 +136,22 @@ TEST(NamedScenes, DrawTheSizesOfThePile) {
   TextError error = TextError::none;
   ASSERT_TRUE(first.parts[0].half_extents[0].read(size, error));
   EXPECT_EQ(size, 0.25 + 0.25 * (342300.0 / 16777216.0));
+}
+
+/// Two bodies are enough to see who is replaced.
+TEST(NamedScenes, TheMixersLastSecondIsWithoutBirths) {
+  const Scene scene = *find_scene("S9");
+  EXPECT_EQ(scene.frames, 660);
+  World<float> world;
+  const ShapeId ball = world.add_shape(Sphere{0.5});
+  for (int i = 0; i < 2; ++i)
+    world.create({.type = BodyType::dynamic, .shape = ball, .position = {3.0f * static_cast<float>(i), 0, 0}});
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    const std::vector<BodyId> before = world.bodies();
+    before_step(scene.script, world);
+    EXPECT_EQ(world.bodies() != before, frame >= 4 && frame < 600 && frame % 4 == 0) << frame;
+    world.step();
+  }
 }
 
 TEST(NamedScenes, TheMixerReplacesTheOldestBodyEveryFourthFrame) {
