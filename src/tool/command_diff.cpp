@@ -6,6 +6,7 @@
 #include "diff_bundles.hpp"
 #include "diff_replays.hpp"
 #include "stage_trace.hpp"
+#include "watch.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -119,6 +120,7 @@ int diff_snapshots(const Input& a, const Input& b) {
 }  // namespace
 
 int command_diff(const DiffOptions& options) {
+  if (!options.html.empty()) require_pages();  // before the work
   if (options.stages) return diff_stages(options);
   if (options.b.empty()) throw ToolError(exit_status::kUsage, "diff compares two files; one alone only with --stages");
   const Input a(options.a), b(options.b);
@@ -129,7 +131,9 @@ int command_diff(const DiffOptions& options) {
   }
   if (a.is_replay() != b.is_replay())
     throw ToolError(exit_status::kUsage, "a replay and a snapshot cannot be compared");
-  return a.is_replay() ? diff_replays(a, b) : diff_snapshots(a, b);
+  const int status = a.is_replay() ? diff_replays(a, b) : diff_snapshots(a, b);
+  if (!options.html.empty()) watch_both(options.a, options.b, options.html);
+  return status;
 }
 
 }  // namespace isostep::tool

@@ -78,7 +78,7 @@ class CommandLine {
   }
   void add_run() {
     CLI::App* command = add("run", "run a scene and measure it", [this] { return tool::command_run(run_); });
-    command->add_option("scene", run_.scene, "a named scene, or a scene file")->required();
+    command->add_option("scene", run_.scene, "a named scene, a scene file, or with --html a recording")->required();
     add_scalar(command, run_.scalar);
     add_frames(command, run_.frames);
     command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(10, 1000));
@@ -134,6 +134,7 @@ class CommandLine {
         ->needs(stages)
         ->check(refuse_blank, "");
     command->add_option("--prover-b", diff_.prover_b, "the same for b")->needs(stages)->check(refuse_blank, "");
+    add_path(command, "--html", diff_.html, "write a page that plays both recordings side by side")->excludes(stages);
   }
   void add_selftest() {
     CLI::App* command =

@@ -180,7 +180,7 @@ template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& ev
   const std::uint32_t player = session_.local_player() < 0 ? 0xff : static_cast<std::uint32_t>(session_.local_player());
   // The state after which the peers part is one of these, however far apart two reports came.
   const auto states = static_cast<std::uint32_t>(event.frame - event.agreed);
-  expect_written(
+  file.check(
       write_bundle(file.sink(), history_, kMatchScene, {.player = player, .agreed = event.agreed, .states = states}));
   file.close();
   say("wrote " + options_.bundle + "; compare it with the other peer's: isostep diff A B");
@@ -213,7 +213,7 @@ template <class S> void MatchPeer<S>::write_files() {
     write_file(options_.hashes, text);
   }
   if (!recorder_) return;
-  expect_written(recorder_->finish());
+  file_->check(recorder_->finish());
   file_->close();
 }
 

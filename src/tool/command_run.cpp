@@ -10,12 +10,13 @@
 #include "files.hpp"
 #include "games.hpp"
 #include "goldens.hpp"
+#include "isostep/state/tape_recorder.hpp"
 #include "page/camera.hpp"
 #include "page/page.hpp"
 #include "particle_watch.hpp"
-#include "recorded_game.hpp"
 #include "run_watch.hpp"
 #include "threads/tbb_runner.hpp"
+#include "watch.hpp"
 #include "worlds.hpp"
 
 namespace isostep::tool {
@@ -88,7 +89,8 @@ template <class Game> class Run {
   void open_recording(World& world) {
     if (options_.record.empty()) return;
     file_.emplace(options_.record);
-    begin_recording(recorder_, world, file_->sink(), scene_.name);
+    recorder_.emplace(world, file_->sink());
+    file_->check(recorder_->begin(scene_.name));
   }
 
   void step(int frame, bool last_second) {
@@ -100,15 +102,15 @@ template <class Game> class Run {
     watch_->stepped(game_->world, stepped, frame, last_second);
     if (!recorder_ && options_.hashes.empty()) return;
     hashes_.push_back(game_->world.hash());
-    if (recorder_) expect_written(recorder_->end_frame(hashes_.back()));
+    if (recorder_) file_->check(recorder_->end_frame(hashes_.back()));
   }
   /// [ms] Of one thread its own time; what several save shows in real time alone.
   double now() const { return options_.threads > 1 ? real_milliseconds() : thread_milliseconds(); }
 
   void finish(int frames) {
     if (recorder_) {
-      if (!ms_.empty()) expect_written(recorder_->keyframe());  // none when interrupted before the first frame
-      expect_written(recorder_->finish());
+      if (!ms_.empty()) file_->check(recorder_->keyframe());  // none when interrupted before the first frame
+      file_->check(recorder_->finish());
       file_->close();
     }
     if (!options_.hashes.empty()) write_file(options_.hashes, hash_lines(hashes_));
@@ -164,17 +166,15 @@ template <class Game> void film(const RunOptions& options, const typename Game::
 }
 
 void require_page(const RunOptions& options) {
-  if (!page::available()) throw ToolError(exit_status::kUnavailable, page::how_to_get());
+  require_pages();
   if (!options.beside.empty() && !options.load.empty())
     throw ToolError(exit_status::kUsage, "--beside begins both runs anew: not with --load");
 }
 
-/// A line for people.
-std::string told_of(const page::Film& film, const RunOptions& options, std::size_t bytes) {
+/// Of the run beside it.
+std::string told_of(const page::Film& film, const RunOptions& options) {
+  if (options.beside.empty()) return "";
   char text[160];
-  std::snprintf(text, sizeof text, ", %.1f MB", 1e-6 * static_cast<double>(bytes));
-  std::string line = "page          " + options.html + text;
-  if (options.beside.empty()) return line + "\n";
   const page::Divergence& apart = film.divergence;
   if (apart.frame == page::Divergence::kNever) {
     std::snprintf(text, sizeof text, "; %s stays within %g mm of it", options.beside.c_str(), 1e3 * film.tolerance);
@@ -183,21 +183,20 @@ std::string told_of(const page::Film& film, const RunOptions& options, std::size
     std::snprintf(text, sizeof text, "; %s parts from it at frame %llu, body %u by %.3g mm", options.beside.c_str(),
                   static_cast<unsigned long long>(film.run.frames[frame].tick), apart.slot, 1e3 * apart.distance);
   }
-  return line + text + "\n";
+  return text;
 }
 
-void write_page(page::Film& film, const RunOptions& options) {
+void finish_page(page::Film& film, const RunOptions& options) {
   film.every = options.html_every;
   film.tolerance = options.beside_tolerance;
   if (!options.beside.empty()) film.divergence = page::compare(film.run, film.beside, film.tolerance);
-  const std::string text = page::page_of(film);
-  write_file(options.html, text);
-  if (!options.json) std::cout << told_of(film, options, text.size());
+  write_page(film, options.html, !options.json, told_of(film, options));
 }
 
 }  // namespace
 
 int command_run(const RunOptions& options) {
+  if (is_recording(options.scene)) return watch(options);
   std::optional<page::Film> shot;
   if (!options.html.empty()) {
     require_page(options);
@@ -225,7 +224,7 @@ int command_run(const RunOptions& options) {
       film<typename decltype(tag)::Type>(options, scene, camera);
     });
   }
-  write_page(*shot, options);
+  finish_page(*shot, options);
   return status;
 }
 

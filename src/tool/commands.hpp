@@ -16,7 +16,7 @@ struct ScenesOptions {
 int command_scenes(const ScenesOptions& options);
 
 struct RunOptions {
-  std::string scene;
+  std::string scene;  // named, or a scene's file, or a recording to watch
   std::string scalar = "float";
   int frames = -1;  // -1: the scene's
   GameOptions game;
@@ -42,6 +42,7 @@ struct DiffOptions {
   std::string a, b;                // with `stages` b may be empty: a again
   bool stages = false;             // what every stage left, scratch too
   std::string prover_a, prover_b;  // command lines that play a and b instead; of `stages`
+  std::string html;                // a page that plays both recordings side by side, or empty
 };
 int command_diff(const DiffOptions& options);
 int diff_stages(const DiffOptions& options);

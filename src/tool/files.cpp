@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "tool.hpp"
 
@@ -24,6 +25,22 @@ void write_to(const std::string& path, const void* bytes, std::size_t size) {
   const bool closed = std::fclose(file) == 0;
   if (!written) errno = error;
   if (!written || !closed) fail(exit_status::kOutput, path);
+}
+
+/// Where a file for `path` grows: beside it, or in it where it is a device or a pipe.
+std::string aside_of(const std::string& path) {
+  std::error_code error;
+  const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
+  return special ? path : path + ".part";
+}
+void move_into_place(const std::string& aside, const std::string& path) {
+  if (aside == path) return;
+  std::error_code error;
+  std::filesystem::rename(aside, path, error);
+  if (!error) return;
+  const std::string message = path + ": " + error.message();
+  std::filesystem::remove(aside, error);
+  throw ToolError(exit_status::kOutput, message);
 }
 
 }  // namespace
@@ -46,16 +63,9 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
 }
 
 void write_file(const std::string& path, std::string_view content) {
-  std::error_code error;
-  const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
-  const std::string aside = special ? path : path + ".part";
+  const std::string aside = aside_of(path);
   write_to(aside, content.data(), content.size());
-  if (special) return;
-  std::filesystem::rename(aside, path, error);
-  if (!error) return;
-  const std::string message = path + ": " + error.message();
-  std::filesystem::remove(aside, error);
-  throw ToolError(exit_status::kOutput, message);
+  move_into_place(aside, path);
 }
 void write_file(const std::string& path, Bytes content) {
   write_file(path, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
@@ -71,23 +81,36 @@ void expect_writable(const std::string& path) {
   if (!existed) std::filesystem::remove(path, error);
 }
 
-ReplayFile::ReplayFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+ReplayFile::ReplayFile(const std::string& path)
+    : path_(path), aside_(aside_of(path)), file_(std::fopen(aside_.c_str(), "wb")) {
   if (file_ == nullptr) fail(exit_status::kOutput, path);
 }
 ReplayFile::~ReplayFile() {
-  if (file_ != nullptr) std::fclose(file_);
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  std::error_code error;
+  if (aside_ != path_) std::filesystem::remove(aside_, error);
 }
 ReplaySink ReplayFile::sink() {
-  const auto write = [](void* file, const std::uint8_t* bytes, std::size_t size) {
-    return std::fwrite(bytes, 1, size, static_cast<std::FILE*>(file)) == size;
+  const auto write = [](void* self, const std::uint8_t* bytes, std::size_t size) {
+    ReplayFile& to = *static_cast<ReplayFile*>(self);
+    if (std::fwrite(bytes, 1, size, to.file_) == size) return true;
+    if (to.error_ == 0) to.error_ = errno;
+    return false;
   };
-  return {write, file_};
+  return {write, this};
+}
+void ReplayFile::check(const Result<void>& result) const {
+  if (result) return;
+  const std::string reason =
+      error_ != 0 ? std::generic_category().message(error_) : std::string(result.error().message.view());
+  throw ToolError(exit_status::kOutput, path_ + ": " + reason);
 }
 void ReplayFile::close() {
-  const bool flushed = std::fflush(file_) == 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (!flushed || !closed) fail(exit_status::kOutput, path_);
+  if (std::fflush(file_) != 0) fail(exit_status::kOutput, path_);
+  std::FILE* const file = std::exchange(file_, nullptr);
+  if (std::fclose(file) != 0) fail(exit_status::kOutput, path_);
+  move_into_place(aside_, path_);
 }
 
 void expect_written(const Result<void>& result) {

@@ -23,7 +23,8 @@ void write_file(const std::string& path, Bytes content);
 /// Throws ToolError 74 when no file can be made there; an empty name is no file. So that a run does not end in vain.
 void expect_writable(const std::string& path);
 
-/// Open for a replay from `open` to `close`; what is cut short is a valid beginning.
+/// Open for a replay until `close`, beside the place as write_file has it: what was there stays until the new one is
+/// whole. A process that is killed leaves a valid beginning in PATH.part; a command that fails leaves nothing.
 class ReplayFile {
  public:
   /// Throws ToolError 74.
@@ -33,15 +34,18 @@ class ReplayFile {
   ReplayFile& operator=(const ReplayFile&) = delete;
 
   ReplaySink sink();
+  /// Of what a recorder wrote there. Throws ToolError 74 with the file and the system's reason, or the recorder's.
+  void check(const Result<void>& result) const;
   /// Throws ToolError 74 when the bytes are not safely there.
   void close();
 
  private:
-  std::string path_;
+  std::string path_, aside_;  // aside_: where it is written
   std::FILE* file_;
+  int error_ = 0;  // errno of the first bytes that could not be written
 };
 
-/// Throws ToolError 74 for an error of writing.
+/// Throws ToolError 74 for what cannot be recorded into memory.
 void expect_written(const Result<void>& result);
 
 }  // namespace isostep::tool

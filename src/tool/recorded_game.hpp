@@ -11,21 +11,16 @@
 
 namespace isostep::tool {
 
-/// Throws ToolError 74 when the start cannot be written.
-template <class W>
-void begin_recording(std::optional<TapeRecorder<W>>& recorder, W& world, const ReplaySink& sink,
-                     const std::string& scene) {
-  recorder.emplace(world, sink);
-  expect_written(recorder->begin(scene));
-}
-
 template <class Game> struct RecordedGame {
   std::optional<Game> game;
   std::optional<TapeRecorder<typename Game::World>> recorder;  // goes before the world that it listens to
 
+  /// `sink`: to memory.
   RecordedGame(const typename Game::Scene& scene, const GameOptions& options, const ReplaySink& sink) {
-    game.emplace(scene, options,
-                 [&](typename Game::World& empty) { begin_recording(recorder, empty, sink, scene.name); });
+    game.emplace(scene, options, [&](typename Game::World& empty) {
+      recorder.emplace(empty, sink);
+      expect_written(recorder->begin(scene.name));
+    });
   }
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -52,12 +53,31 @@ template <class W> class RecordedPeer {
     if (!facts_) return std::nullopt;
     return facts_->roots[index(frame)];
   }
+  /// Whether something changed the world between the frame before and this one; false where it was not traced.
+  bool changed_before(Frame frame) const {
+    return facts_ && std::find(facts_->changed_before.begin(), facts_->changed_before.end(), frame) !=
+                         facts_->changed_before.end();
+  }
   /// As many hashes for each step as the world has; nothing when they were not traced.
   std::optional<Trace> stages(Frame frame) const {
     if (!facts_ || facts_->steps.empty()) return std::nullopt;
     const auto steps = facts_->steps.begin() + static_cast<std::ptrdiff_t>(index(frame));
     const std::size_t before = std::accumulate(facts_->steps.begin(), steps, std::size_t{0});
     return Trace(facts_->stages).subspan(before * kHashes, *steps * kHashes);
+  }
+
+  /// The start, then frame by frame: what this machine makes of the recording, or, where that is not what was recorded
+  /// and the peer's own state is stored, that one.
+  W start() const { return decode(replay_.state()); }
+  void play(W& world, Frame frame) const {
+    const Result<void> stepped = world.step_recorded(tape(frame));
+    if (!stepped) refuse(path_, VerifyOutcome::corrupt, stepped.error());
+    if (world.hash() == hash_after(frame)) return;
+    for (const ReplayKeyframe& key : replay_.keyframes()) {
+      if (key.frames != index(frame) + 1) continue;
+      W stored = decode(key.state);
+      if (stored.hash() == hash_after(frame)) world = std::move(stored);
+    }
   }
 
   /// The state before a frame or after the last, as the peer had it: stored, or played; nothing when neither has the

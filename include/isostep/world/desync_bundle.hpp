@@ -23,6 +23,7 @@ struct BundleFacts {
   std::vector<std::uint64_t> roots;   // of the whole game after each frame
   std::vector<std::uint32_t> steps;   // that were traced in each frame; none: trace was off
   std::vector<std::uint64_t> stages;  // kTraceHashes for each of them
+  std::vector<Frame> changed_before;  // before whose step, after the frame before, something changed the world
 };
 
 ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
@@ -31,6 +32,7 @@ ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
   writer.write_array(facts.roots);
   writer.write_array(facts.steps);
   writer.write_array(facts.stages);
+  if (!facts.changed_before.empty()) writer.write_array(facts.changed_before);
 }
 /// `frames`: as many as the replay has; `trace_hashes`: of a step, by the kind of world.
 ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
@@ -42,6 +44,7 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
   reader.read_array(facts.roots, kReplayUnknownCap / 8);
   reader.read_array(facts.steps, kReplayUnknownCap / 4);
   reader.read_array(facts.stages, kReplayUnknownCap / 8);
+  if (reader.remaining() != 0) reader.read_array(facts.changed_before, kReplayUnknownCap / 4);
   reader.expect_end();
   std::uint64_t steps = 0;  // fewer than 2^22 summands below 2^32
   for (const std::uint32_t n : facts.steps) steps += n;
@@ -85,10 +88,11 @@ ISO_INLINE Result<void> write_bundle(ReplaySink sink, const FrameHistory<S>& his
   if (!header) return header.error();
   Recorder<World<S>> recorder(sink);
   Result<void> result = recorder.begin(scratch, header.value());
-  BundleFacts facts{settings.player, settings.agreed, {}, {}, {}};
+  BundleFacts facts{settings.player, settings.agreed, {}, {}, {}, {}};
   for (Frame frame = first; frame < end && result; ++frame) {
     const typename FrameHistory<S>::Kept& kept = *history.find(frame);
     facts.roots.push_back(kept.root);
+    if (kept.changed_before) facts.changed_before.push_back(frame);
     if (history.settings().stages) facts.steps.push_back(static_cast<std::uint32_t>(kept.stages.size()) / kTraceHashes);
     facts.stages.insert(facts.stages.end(), kept.stages.begin(), kept.stages.end());
     result = recorder.frame(kept.tape, kept.hash);

@@ -26,6 +26,7 @@ template <class S> class FrameHistory {
   struct Kept {
     Frame frame = kNoFrame;      // kNoFrame: nothing is kept here
     bool confirmed = false;      // `root` is known, and nothing here will change
+    bool changed_before = false;  // since the frame before, by what no rollback repeats; known where stages are kept
     const char* flaw = nullptr;  // why the tape does not lead from the state before to the state after; null: it does
     std::uint64_t hash = 0;      // of the world after the frame
     std::uint64_t root = 0;      // of the whole game after it, as the session compares
@@ -45,6 +46,8 @@ template <class S> class FrameHistory {
     kept.confirmed = kept.confirmed && kept.frame == frame;
     kept.flaw = "the frame was not stepped to its end";
     kept.frame = frame;
+    const Kept* const previous = settings_.stages ? find(frame - 1) : nullptr;
+    kept.changed_before = previous != nullptr && previous->hash != world_.hash();
     kept.tape.clear();
     kept.stages.clear();
     if (first_ == kNoFrame) {

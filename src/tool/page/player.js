@@ -174,7 +174,7 @@ class Player {
     const tick = this.tick(frame), seconds = tick / this.runs[0].about.hz;
     kHere('clock').textContent = `frame ${tick} of ${this.tick(this.count - 1)}   ${seconds.toFixed(2)} s`;
     kHere('scrub').value = frame;
-    kHere('play').textContent = this.playing ? '\u23f8\ufe0e' : '\u25b6\ufe0e';
+    kHere('play').classList.toggle('playing', this.playing);
   }
 
   // Over the frames: how far two runs are apart, on a scale of decades; of one run its energy.

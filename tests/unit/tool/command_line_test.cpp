@@ -4,11 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#if defined(__unix__)
+#include <sys/resource.h>
+#endif
 
 namespace isostep::tool {
 namespace {
@@ -31,6 +38,25 @@ TEST_F(CommandLine, WritesAPageOfARunOrSaysWhatIsMissing) {
   const Answer lost = run({"run", "S1x5", "--frames", "1", "--html", path("none") + "/c.html"});
   EXPECT_EQ(lost.status, 74);
   EXPECT_NE(lost.err.find("none"), std::string::npos) << lost.err;
+}
+TEST_F(CommandLine, AnyRecordingCanBeWatched) {
+  record("r");
+  ASSERT_EQ(run({"run", "cloth", "--frames", "12", "--record", path("cloth")}).status, 0);
+  expect_one_line(run({"run", path("r")}), 64, "--html");
+  expect_one_line(run({"run", path("r"), "--html", path("p"), "--substeps", "3"}), 64, "as it was recorded");
+  const Answer answer = run({"run", path("r"), "--html", path("r.html")});
+  if (answer.status == 69) {
+    expect_one_line(answer, 69, "npm");
+    return;
+  }
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  EXPECT_NE(read("r.html").find("\"frames\":71"), std::string::npos);
+  EXPECT_EQ(run({"run", path("cloth"), "--html", path("cloth.html"), "--frames", "5"}).status, 0);
+  EXPECT_NE(read("cloth.html").find("\"frames\":6"), std::string::npos);
+  const Answer both = run({"diff", path("r"), path("r"), "--html", path("both.html")});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_NE(both.out.find("the same: 70 frames\npage "), std::string::npos) << both.out;
+  EXPECT_NE(read("both.html").find("\"divergence\""), std::string::npos);
 }
 TEST_F(CommandLine, RefusesOptionsOfAPageWithoutOneWith64) {
   expect_one_line(run({"run", "S1x5", "--beside", "double"}), 64, "--html");
@@ -78,6 +104,43 @@ TEST_F(CommandLine, ReportsPlacesThatCannotBeWrittenWith74) {
     expect_one_line(answer, 74, "no/such/folder");
   }
 }
+
+#if defined(__unix__)
+/// Files of this process may be no longer.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+
+ private:
+  void (*signal_)(int);
+  rlimit before_ = {};
+};
+
+TEST_F(CommandLine, ARecordingThatCannotBeWrittenNamesFileAndCauseAndLeavesWhatWasThere) {
+  record("r");
+  const std::string old = read("r");
+  ASSERT_GT(old.size(), 1024u);
+  {
+    const FileSizeLimit limit(1024);
+    expect_one_line(run({"run", "S1x5", "--frames", "70", "--scalar", "double", "--record", path("r")}), 74,
+                    path("r") + ": " + std::generic_category().message(EFBIG));
+  }
+  EXPECT_EQ(read("r"), old);
+  EXPECT_EQ(files(), 1u);
+  if (fs::exists("/dev/full")) {
+    expect_one_line(run({"run", "S1x5", "--frames", "1", "--record", "/dev/full"}), 74,
+                    "/dev/full: " + std::generic_category().message(ENOSPC));
+  }
+}
+#endif
 
 TEST_F(CommandLine, RefusesAWrongSceneFileAndWritesNothing) {
   write("bad.json", R"({"bodies": [{"type": "dynamic", "mass": -1, "shapes": [{"type": "sphere", "radius": 1}]}]})");

@@ -78,6 +78,30 @@ TEST_F(Desync, OfCommandsIsFoundByPlayingBothAgain) {
   }
 }
 
+TEST_F(Desync, OfACommandOutsideItsFrameIsNamedAsThat) {
+  Peer<float> a, b;
+  b.outside = [](Arena<float>& arena) { arena.world.set_velocity(arena.far, {2, 0, 0}, {0, 0, 0}); };
+  bundles(a, b);
+  const std::string out = diff("a", "b", 1);
+  expect_part(
+      out,
+      "\nframe 37, stage commands\n  the world of B was changed between frames 36 and 37: a command outside its "
+      "frame, which no rollback repeats\n");
+  expect_part(out, ".velocity.x: 1.5 | 2 ");
+  expect_part(diff("a", "a", 0), "the same: frames 35 to 44\n");
+}
+
+TEST_F(Desync, OfDifferentAwakeSetsComparesEachBodyWithItself) {
+  Peer<float> a, b;
+  b.before = [](Arena<float>& arena) { arena.world.destroy(arena.crate); };  // the rows behind it move up
+  bundles(a, b);
+  const std::string out = diff("a", "b", 1);
+  expect_part(out, "\nframe 37, stage commands\n");
+  expect_part(out, "bodies.slot_" + std::to_string(a.arena.crate.slot) + ".present: 1 | 0 ");
+  EXPECT_EQ(out.find("[body slot " + std::to_string(a.arena.far.slot) + "]"), std::string::npos) << out;
+  EXPECT_EQ(out.find(".slot: "), std::string::npos) << out;
+}
+
 TEST_F(Desync, OfTheGameBesideItsWorldIsToldApart) {
   Peer<float> a, b;
   b.salt = 5;

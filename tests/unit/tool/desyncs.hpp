@@ -35,6 +35,7 @@ template <class S> BodyState<S>& far_body(Arena<S>& arena) {
 template <class S> struct Peer {
   /// What goes wrong at kFault: before the commands, before one of its steps, after a stage of that step, or last.
   std::function<void(Arena<S>&)> before, between, at_end;
+  std::function<void(Arena<S>&)> outside;  // between the frame before kFault and kFault
   std::function<void(Arena<S>&, Stage)> inside;
   int steps = 1, fault_step = 0;  // of kFault
   std::uint64_t salt = 0;         // into the game's roots from kFault on
@@ -48,6 +49,7 @@ template <class S> struct Peer {
 
   void play(Frame end) {
     for (Frame frame = 0; frame < end; ++frame) {
+      if (frame == kFault && outside) outside(arena);
       history.before_step(frame);
       recorder.before_step(frame);
       if (frame == kFault && before) before(arena);

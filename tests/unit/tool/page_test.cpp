@@ -237,6 +237,9 @@ TEST(Pages, AreWholeAndOfTheirOwn) {
   const std::string page = page_of(film);
   EXPECT_EQ(page.find("{{"), std::string::npos);
   EXPECT_EQ(page.find("<b>odd"), std::string::npos);
+  EXPECT_NE(page.find("class=\"stop\""), std::string::npos);
+  for (const char* letter : {"&#9654;", "&#9664;", "\\u23f8", "\\u25b6"})  // of a font that a machine may lack
+    EXPECT_EQ(page.find(letter), std::string::npos) << letter;
   for (const char* fetched : {" src=", "<link", "@import", "url("})
     EXPECT_EQ(page.find(fetched), std::string::npos) << fetched;
   if (available()) {

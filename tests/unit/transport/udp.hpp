@@ -18,7 +18,7 @@
 
 namespace isostep::transport {
 
-/// Ends by itself what would wait for ever, long after any machine that only is busy; tests expect nothing else of time.
+/// Ends what would wait for ever, long after any machine that only is busy; tests expect nothing else of time.
 class Deadline {
  public:
   Deadline() : end_(std::chrono::steady_clock::now() + std::chrono::minutes(10)) {}
