@@ -78,6 +78,20 @@ TEST_F(Desync, OfCommandsIsFoundByPlayingBothAgain) {
   }
 }
 
+/// On a busy machine; isostep peer writes as many states as the event spans.
+TEST_F(Desync, WhoseReportsCameFarApartNeedsTheStatesOfTheirSpan) {
+  constexpr Frame agreed = kFault - 20, differ = kFault + 3;
+  Peer<float> a, b;
+  b.before = [](Arena<float>& arena) { far_body(arena).velocity.x = with_bit_turned(far_body(arena).velocity.x); };
+  a.play(45);
+  b.play(44);
+  bundle(a, "a", {0xff, agreed, 16});
+  bundle(b, "b", {1, agreed, 16});
+  expect_part(diff("a", "b", 1), "the state that B had is not in its file and does not come out here\n");
+  bundle(b, "b", {1, agreed, static_cast<std::uint32_t>(differ - agreed)});
+  expect_part(diff("a", "b", 1), turned(".velocity.x", 1.5f, a.arena.far));
+}
+
 TEST_F(Desync, OfACommandOutsideItsFrameIsNamedAsThat) {
   Peer<float> a, b;
   b.outside = [](Arena<float>& arena) { arena.world.set_velocity(arena.far, {2, 0, 0}, {0, 0, 0}); };
