@@ -15,32 +15,40 @@ template <class T>
 concept PlainState = HasFields<T> && std::is_trivially_copyable_v<T> && !Rollbackable<T>;
 
 namespace detail {
+template <class T>
+concept CompositePart = Rollbackable<std::remove_const_t<T>> || PlainState<std::remove_const_t<T>>;
+
 template <class T> struct SnapshotOf { using Type = T; };
+template <class T> struct SnapshotOf<const T> : SnapshotOf<T> {};
 template <Rollbackable T> struct SnapshotOf<T> { using Type = typename T::Snapshot; };
 
 template <class T> ISO_INLINE void save_part(const T& part, typename SnapshotOf<T>::Type& to) {
-  if constexpr (PlainState<T>) {
+  if constexpr (PlainState<std::remove_const_t<T>>) {
     to = part;
   } else {
     part.save(to);
   }
 }
-template <class T> ISO_INLINE void load_part(T& part, const typename SnapshotOf<T>::Type& from) {
+/// False where the part says that it was refused.
+template <class T> ISO_INLINE bool load_part(T& part, const typename SnapshotOf<T>::Type& from) {
   if constexpr (PlainState<T>) {
     part = from;
+  } else if constexpr (std::is_same_v<decltype(part.load(from)), bool>) {
+    return part.load(from);
   } else {
     part.load(from);
   }
+  return true;
 }
 template <class T> ISO_INLINE std::uint64_t hash_part(const T& part) {
-  if constexpr (PlainState<T>) {
+  if constexpr (PlainState<std::remove_const_t<T>>) {
     return hash_records_by_fields(&part, 1);
   } else {
     return part.hash();
   }
 }
 template <class T> ISO_INLINE void write_part(const T& part, Writer& writer) {
-  if constexpr (PlainState<T>) {
+  if constexpr (PlainState<std::remove_const_t<T>>) {
     writer.write(part);
   } else {
     part.write_portable(writer);
@@ -57,14 +65,17 @@ template <class T> ISO_INLINE Result<void> read_part(T& part, Reader& reader) {
 }
 }  // namespace detail
 
-/// Holds references: lives no longer than its parts.
-template <class World, class User>
-requires(Rollbackable<World> || PlainState<World>) && (Rollbackable<User> || PlainState<User>)class Composite {
+/// What a composite of these parts is saved into. The same for parts that are const.
+template <class World, class User> struct CompositeSnapshot {
+  typename detail::SnapshotOf<World>::Type world;
+  typename detail::SnapshotOf<User>::Type user;
+};
+
+/// Holds references: lives no longer than its parts. Of const parts, as in a game's `save() const`, it is saved, hashed
+/// and written; a game's `load` makes another one of parts that may change.
+template <detail::CompositePart World, detail::CompositePart User> class Composite {
  public:
-  struct Snapshot {
-    typename detail::SnapshotOf<World>::Type world;
-    typename detail::SnapshotOf<User>::Type user;
-  };
+  using Snapshot = CompositeSnapshot<std::remove_const_t<World>, std::remove_const_t<User>>;
 
   ISO_INLINE Composite(World& world, User& user) : world_(&world), user_(&user) {}
 
@@ -72,9 +83,9 @@ requires(Rollbackable<World> || PlainState<World>) && (Rollbackable<User> || Pla
     detail::save_part(*world_, to.world);
     detail::save_part(*user_, to.user);
   }
-  ISO_INLINE void load(const Snapshot& from) {
-    detail::load_part(*world_, from.world);
-    detail::load_part(*user_, from.user);
+  /// False, and the user's part is as it was, where the world refuses.
+  ISO_INLINE bool load(const Snapshot& from) {
+    return detail::load_part(*world_, from.world) && detail::load_part(*user_, from.user);
   }
   ISO_INLINE std::uint64_t hash() const {
     HashCombiner root;

@@ -61,6 +61,38 @@ TEST(Composite, ItsHashSeesEitherPart) {
   EXPECT_NE(both.hash(), before);
 }
 
+/// A game as the concept asks for: what saves, hashes and writes is const.
+struct ConstGame {
+  using Snapshot = CompositeSnapshot<toy::Game, Score>;
+  toy::Game game;
+  Score score{1, false};
+
+  void save(Snapshot& to) const { composite(game, score).save(to); }
+  void load(const Snapshot& from) { composite(game, score).load(from); }
+  std::uint64_t hash() const { return composite(game, score).hash(); }
+  void write_portable(Writer& writer) const { composite(game, score).write_portable(writer); }
+  Result<void> read_portable(Reader& reader) { return composite(game, score).read_portable(reader); }
+};
+static_assert(Rollbackable<ConstGame> && PortableState<ConstGame>);
+
+TEST(Composite, IsMadeOfConstPartsToBeSavedHashedAndWritten) {
+  ConstGame one, other;
+  step(one.game, 3);
+  one.score = {7, true};
+  ConstGame::Snapshot saved;
+  one.save(saved);
+  other.load(saved);
+  EXPECT_EQ(other.score.points, 7u);
+  EXPECT_EQ(other.hash(), one.hash());
+  Both whole = composite(one.game, one.score);
+  EXPECT_EQ(one.hash(), whole.hash());
+  whole.save(saved);  // the same snapshot
+  step(one.game, 4);
+  EXPECT_NE(one.hash(), other.hash());
+  one.load(saved);
+  EXPECT_EQ(one.hash(), other.hash());
+}
+
 TEST(Composite, MayHoldAnotherComposite) {
   toy::Game game;
   Score inner{1, false}, outer{2, false};
