@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/aligned_bytes.hpp"
 #include "isostep/dynamics/colouring.hpp"
 #include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
@@ -51,9 +52,6 @@ template <class S> class Sequential {
   struct CarriedLane {
     unsigned char* words;
     std::size_t width;
-  };
-  struct alignas(64) Chunk {
-    unsigned char bytes[64];
   };
   /// What the pieces of one stage do.
   enum class Work : std::uint32_t {
@@ -113,7 +111,7 @@ template <class S> class Sequential {
   std::vector<std::uint32_t> bucket_ends_;
   std::vector<std::uint32_t> order_;  // contacts, grouped
   std::vector<Run> runs_;
-  std::vector<Chunk> memory_;
+  AlignedBytes memory_;
   std::vector<BlockBodies> block_bodies_;
   std::vector<CarriedLane> carried_;   // as the input's
   std::vector<std::uint32_t> places_;  // of contacts in order_, where any is carried

@@ -126,7 +126,7 @@ typename Sequential<S>::Contacts Sequential<S>::contacts_of(const Run& run, cons
 
 template <class S> BlockRun<S> Sequential<S>::blocks_of(const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
-  return {memory_.data()->bytes + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
+  return {memory_.data() + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
           static_cast<std::int32_t>(slice.count), bodies_.rows().velocity.data(), bodies_.rows().displacement.data()};
 }
 
@@ -135,17 +135,17 @@ template <class S> void Sequential<S>::prepare_slice(const SolverInput<S>& input
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);
   const SolverBodies<S>& bodies = bodies_.rows();
-  run.kernels->prepare({memory_.data()->bytes + place_of(run, slice.first),
-                        &block_bodies_[run.first_block + slice.first], part.count, shape.points, shape.rolling,
-                        &order_[part.first], input.contacts.data(), input.geometry.data(), bodies.velocity.data(),
-                        bodies.mass.data(), schedule_.lift, detail::kMostLift<S>});
+  run.kernels->prepare({memory_.data() + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
+                        part.count, shape.points, shape.rolling, &order_[part.first], input.contacts.data(),
+                        input.geometry.data(), bodies.velocity.data(), bodies.mass.data(), schedule_.lift,
+                        detail::kMostLift<S>});
 }
 
 template <class S> void Sequential<S>::store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);
-  run.kernels->store({memory_.data()->bytes + place_of(run, slice.first), part.count, shape.points, shape.rolling,
+  run.kernels->store({memory_.data() + place_of(run, slice.first), part.count, shape.points, shape.rolling,
                       &order_[part.first], input.contacts.data(), input.step_impulses.data()});
 }
 

@@ -95,7 +95,7 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
 }
 
 template <class S> void Sequential<S>::prepare(const SolverInput<S>& input) {
-  memory_.resize((memory_bytes_ + 63) / 64 + 1);
+  memory_.resize(memory_bytes_);
   block_bodies_.resize(block_count_ + 1);
   find_carried(input);
   add_stages(Work::prepare, all_);

@@ -53,7 +53,7 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
     const auto points = static_cast<std::int32_t>(run.variant % kMaxContactPoints) + 1;
     const bool rolling = run.variant >= kMaxContactPoints;
     const std::size_t block = (k / width) * width * block_bytes<S, 1>(points, rolling);
-    LaneOfBlock<S> lane(memory_.data()->bytes + run.offset + block, width, k % width, points, rolling);
+    LaneOfBlock<S> lane(memory_.data() + run.offset + block, width, k % width, points, rolling);
     visit.one("prepared", order_[run.first + k],
               [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
     if (visit.edits()) lane.write_back();
