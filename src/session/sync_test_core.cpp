@@ -20,10 +20,10 @@ bool SyncTestCore::wants_input(int player) const {
   return player >= 0 && player < players() && said_[static_cast<std::size_t>(player)].end() <= current();
 }
 
-void SyncTestCore::step_from(Frame frame, Frame end) {
+void SyncTestCore::step_from(Frame frame, Frame end, bool as_confirmed) {
   if (frame < end) act(RequestKind::load, frame);
   for (; frame < end; ++frame) {
-    act(RequestKind::step, frame);
+    act(RequestKind::step, frame, as_confirmed);
     act(RequestKind::save, frame + 1);
   }
 }
@@ -51,14 +51,24 @@ void SyncTestCore::plan(Time now) {
     ++stats_.rollbacks[frame - wrong < 64 ? frame - wrong : 64];
     timeline_.step_again(wrong, known_);
     for (Frame state = wrong + 1; state <= frame; ++state) root_of(state).state = kNoFrame;
-    step_from(wrong, frame);
+    step_from(wrong, frame, false);
   }
   timeline_.step(known_);
   act(RequestKind::step, frame);
   act(RequestKind::save, frame + 1);
-  step_from(frame + 1 > config_.window ? frame + 1 - config_.window : 0, frame + 1);
+  step_from(frame + 1 > config_.window ? frame + 1 - config_.window : 0, frame + 1, true);
+  act(RequestKind::probe, frame + 1);
   clock_.stepped(now);
   limit_ = known_[0].end();
+}
+
+void SyncTestCore::unhashed(Frame state, std::size_t byte) {
+  if (unhashed_) return;  // one byte a session: there will be more of the same
+  unhashed_ = true;
+  SessionEvent event{.kind = SessionEvent::Kind::unhashed};
+  event.frame = state;
+  event.ours = byte;
+  tell(event);
 }
 
 void SyncTestCore::root_known(Frame state, std::uint64_t root) {

@@ -77,6 +77,7 @@ TYPED_TEST(SyncTest, AgreesAtEveryDepthWhereBodiesTouchAreMadeAndDestroyed) {
     }
     while (const std::optional<SessionEvent> event = session.poll_event()) {
       EXPECT_NE(event->kind, SessionEvent::Kind::desync) << event->frame;
+      EXPECT_NE(event->kind, SessionEvent::Kind::unhashed) << "byte " << event->ours;
     }
     EXPECT_GT(contacts / kFrames, 50u) << "nothing touches";
     EXPECT_GT(session.stats().rollbacks[depth], 20u) << "guesses were never wrong";
@@ -143,6 +144,42 @@ struct ForgetsToLoad : Toy {
   }
   void load(const Snapshot& from) { Toy::load(from.toy); }
 };
+/// Acts on whether an input is a guess.
+struct ReadsPredictions : Toy {
+  void step(InputView<ToyInput> inputs) {
+    if (state.tick == kFlaw && inputs.status(0) == InputStatus::predicted) state.places[0] += 1;
+    Toy::step(inputs);
+  }
+};
+/// Its bonus is saved, loaded and written, and not hashed.
+struct HidesFromItsHash : Toy {
+  struct Snapshot {
+    Toy::Snapshot toy;
+    std::uint64_t bonus = 0;
+  };
+  std::uint64_t bonus = 0;
+  void step(InputView<ToyInput> inputs) {
+    bonus += inputs[0].word;
+    Toy::step(inputs);
+  }
+  void save(Snapshot& to) const {
+    Toy::save(to.toy);
+    to.bonus = bonus;
+  }
+  void load(const Snapshot& from) {
+    Toy::load(from.toy);
+    bonus = from.bonus;
+  }
+  void write_portable(Writer& writer) const {
+    Toy::write_portable(writer);
+    writer.write(bonus);
+  }
+  Result<void> read_portable(Reader& reader) {
+    Result<void> read = Toy::read_portable(reader);
+    if (read) reader.read(bonus);
+    return reader.result("game");
+  }
+};
 /// Saves its world and not what belongs to it.
 struct SavesItsWorldOnly {
   using Input = ToyInput;
@@ -166,8 +203,9 @@ struct SavesItsWorldOnly {
   std::uint64_t hash() const { return world.hash(); }
 };
 
-/// The frames that the session says are wrong.
-template <class Game> std::vector<SessionEvent> flaws_of(Frame depth, Frame frames) {
+/// What the session says is wrong.
+template <class Game>
+std::vector<SessionEvent> flaws_of(Frame depth, Frame frames, SessionEvent::Kind kind = SessionEvent::Kind::desync) {
   Session<Game> session(config_of(depth));
   Game game;
   std::vector<SessionEvent> flaws;
@@ -175,14 +213,14 @@ template <class Game> std::vector<SessionEvent> flaws_of(Frame depth, Frame fram
     for (int p = 0; p < 2; ++p) session.add_local_input(p, toy_input(2, p, session.current()));
     drive(session, game, now);
     while (const std::optional<SessionEvent> event = session.poll_event()) {
-      if (event->kind == SessionEvent::Kind::desync) flaws.push_back(*event);
+      if (event->kind == kind) flaws.push_back(*event);
     }
   }
   return flaws;
 }
 
 template <class Game> class SyncTestOfAFlaw : public testing::Test {};
-using Flawed = testing::Types<ForgetsAMember, CountsOutside, ForgetsToLoad>;
+using Flawed = testing::Types<ForgetsAMember, CountsOutside, ForgetsToLoad, ReadsPredictions>;
 TYPED_TEST_SUITE(SyncTestOfAFlaw, Flawed);
 
 TYPED_TEST(SyncTestOfAFlaw, NamesTheFirstStateThatComesOutOtherwise) {
@@ -207,7 +245,18 @@ TEST(SyncTestOfAWorld, FindsUserStateThatIsNotSavedWithIt) {
   }
 }
 
-TEST(SyncTestOfAWorld, FindsNothingInAWholeGame) { EXPECT_TRUE(flaws_of<Toy>(8, 600).empty()); }
+TEST(SyncTestOfAHash, FindsWhatIsSavedAndNotHashed) {
+  const std::vector<SessionEvent> flaws = flaws_of<HidesFromItsHash>(3, 60, SessionEvent::Kind::unhashed);
+  ASSERT_EQ(flaws.size(), 1u) << "told once";
+  EXPECT_GE(flaws[0].ours, kPackedSize<ToyState>) << "the toy's own state is hashed";
+  EXPECT_LT(flaws[0].ours, kPackedSize<ToyState> + sizeof(std::uint64_t));
+  EXPECT_TRUE(flaws_of<HidesFromItsHash>(3, 60).empty()) << "to look must not disturb the game";
+}
+
+TEST(SyncTestOfAWorld, FindsNothingInAWholeGame) {
+  EXPECT_TRUE(flaws_of<Toy>(8, 600).empty());
+  EXPECT_TRUE(flaws_of<Toy>(8, 600, SessionEvent::Kind::unhashed).empty());
+}
 
 }  // namespace
 }  // namespace isostep::test

@@ -20,11 +20,13 @@ enum class RequestKind : std::uint8_t {
   load,     // go back to the state `frame`
   step,     // step frame `frame`: state frame becomes state frame + 1
   capture,  // write the portable form of the kept state `frame`, for a late joiner; then be in the present one again
-  restore   // become the portable state that arrived
+  restore,  // become the portable state that arrived
+  probe     // sync test: see whether the hash tells of what the portable form of the state `frame` holds
 };
 struct SessionAction {
   RequestKind kind;
   Frame frame;
+  bool as_confirmed = false;  // step: predicted inputs are shown as confirmed, which may make no difference
 };
 
 enum class SessionPhase : std::uint8_t {
@@ -48,7 +50,8 @@ struct SessionEvent {
     lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
     bad_snapshot,  // the state that arrived is not what the host's root says, or was refused: error
-    misuse         // requests of the last advance were not carried out
+    misuse,        // requests of the last advance were not carried out
+    unhashed       // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
   };
   Kind kind;
   std::uint8_t player = 0xff;  // 0xff: none, or the host's machine
@@ -110,6 +113,8 @@ class SessionCore {
   std::vector<std::uint8_t>& portable() { return portable_; }
   /// The outcome of `restore`.
   virtual void restored(bool) {}
+  /// The outcome of `probe`: the hash does not see this byte of the portable state `state`.
+  virtual void unhashed(Frame, std::size_t) {}
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
   /// The next frame takes the input that is added now: a game of orders keeps them until then.
@@ -141,8 +146,8 @@ class SessionCore {
   /// A state's root is known.
   virtual void root_known(Frame state, std::uint64_t root) = 0;
 
-  void act(RequestKind kind, Frame frame) {
-    actions_.push_back({kind, frame});
+  void act(RequestKind kind, Frame frame, bool as_confirmed = false) {
+    actions_.push_back({kind, frame, as_confirmed});
     if (kind == RequestKind::save) ++unsaved_;
     if (kind == RequestKind::step) ++stats_.steps;
   }

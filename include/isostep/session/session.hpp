@@ -85,7 +85,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
           Input value{};
           InputCodec<Input>::decode(used.bytes, value);
           values_.push_back(value);
-          statuses_.push_back(used.status);
+          const bool shown = action.as_confirmed && used.status == InputStatus::predicted;
+          statuses_.push_back(shown ? InputStatus::confirmed : used.status);
         }
         inputs = {std::span<const Input>(values_).subspan(first),
                   std::span<const InputStatus>(statuses_).subspan(first)};
@@ -98,6 +99,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   void saved(Frame state, std::uint64_t root) { core_->saved(state, root); }
   /// After a `restore`.
   void restored(bool ok) { core_->restored(ok); }
+  /// After a `probe` that found one.
+  void unhashed(Frame state, std::size_t byte) { core_->unhashed(state, byte); }
   std::vector<std::uint8_t>& portable() { return core_->portable(); }
   /// Where `save` puts and `load` finds state `frame`.
   typename Game::Snapshot& state(Frame frame) { return states_[static_cast<std::size_t>(frame) % states_.size()]; }
@@ -166,6 +169,42 @@ ISO_TELL(confirmed)
 #undef ISO_TELL
 }  // namespace detail
 
+namespace detail {
+/// A sync test changes so many bytes of each state, one bit each: a state of 10 kB is gone through in some 40 s of play.
+inline constexpr std::uint64_t kProbes = 4;
+
+template <class Game> void write_whole(const Game& game, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  Writer writer(bytes);
+  game.write_portable(writer);
+}
+template <class Game> bool read_whole(Game& game, const std::vector<std::uint8_t>& bytes) {
+  Reader reader(bytes);
+  return game.read_portable(reader).ok() && reader.remaining() == 0;
+}
+/// What is written is what is saved: where the game takes other bytes and keeps them, its hash must be another one.
+template <class Game, class Predictor> void probe(Session<Game, Predictor>& session, Game& game, Frame frame) {
+  std::vector<std::uint8_t> whole, kept;
+  write_whole(game, whole);
+  const std::uint64_t root = game.hash();
+  std::vector<std::uint8_t>& bytes = session.portable();
+  bytes = whole;
+  for (std::uint64_t i = 0; i < kProbes && !whole.empty(); ++i) {
+    // Multiples of the golden ratio fill the range evenly.
+    const std::uint64_t place = ((static_cast<std::uint64_t>(frame) * kProbes + i) * 0x9e3779b97f4a7c15u) >> 32;
+    const auto at = static_cast<std::size_t>(place * whole.size() >> 32);
+    bytes[at] ^= 1u;
+    if (read_whole(game, bytes) && game.hash() == root) {
+      write_whole(game, kept);
+      if (kept != whole) session.unhashed(frame, at);
+    }
+    bytes[at] = whole[at];
+  }
+  read_whole(game, whole);
+  game.load(session.state(frame));
+}
+}  // namespace detail
+
 /// Plays what is due: carries out the session's requests with the game, and tells `observer`:
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
 ///   rolled_back(f)                  the state is again that before frame f
@@ -212,6 +251,9 @@ int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& ob
         } else {
           session.restored(false);
         }
+        break;
+      case RequestKind::probe:
+        if constexpr (PortableState<Game>) detail::probe(session, game, frame);
         break;
     }
   }
