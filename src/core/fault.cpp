@@ -7,7 +7,7 @@ namespace isostep {
 const char* fault_text(Fault fault) {
   switch (fault) {
     case Fault::none: return "no fault";
-    case Fault::stale_id: return "the id names nothing";
+    case Fault::stale_id: return "the id names nothing any more";
     case Fault::not_finite: return "a number is not finite";
     case Fault::out_of_range: return "a number is beyond the scalar's limits";
     case Fault::bad_shape: return "the sizes, normals or parts make no shape";
@@ -15,8 +15,22 @@ const char* fault_text(Fault fault) {
     case Fault::bad_argument: return "a flag, count, ratio or enumerator is not one";
     case Fault::shape_in_use: return "something still names it";
     case Fault::not_dynamic: return "no force moves it";
+    case Fault::null_id: return "the id is null: what should have given it was refused";
+    case Fault::foreign_id: return "the id is another world's";
+    case Fault::bad_snapshot: return "the snapshot is not of this world";
+    case Fault::called_in_step: return "called while the world steps";
   }
   return "unknown fault";
+}
+
+std::string describe(const FaultReport& report) {
+  std::string text;
+  for (const char* part : {report.command, report.field}) {
+    if (part[0] != '\0') text.append(part).append(": ");
+  }
+  text += fault_text(report.fault);
+  if (report.expected[0] != '\0') text.append("; expected ").append(report.expected);
+  return text;
 }
 
 }  // namespace isostep

@@ -61,7 +61,7 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
   const ShapeId shape = world.add_shape(std::span<const Child<S>>(children));
   if (!shape)
     throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
-                                            ? fault_text(world.fault())
+                                            ? describe(world.fault_report())
                                             : describe(validate(std::span<const Child<S>>(children))));
   return shape;
 }
@@ -97,7 +97,7 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
 
 template <class S> BodyId create(World<S>& world, const BodyDefinition<S>& definition, const std::string& place) {
   const BodyId id = world.create(definition);
-  if (!id) throw SceneError(place, std::string("the body is refused: ") + fault_text(world.fault()));
+  if (!id) throw SceneError(place, std::string("the body is refused: ") + describe(world.fault_report()));
   return id;
 }
 
@@ -136,7 +136,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
   properties.spring_frequency = read<S>(joint.spring_frequency, place + "/spring_frequency");
   properties.spring_damping = read<S>(joint.spring_damping, place + "/spring_damping");
   const JointId id = world.create(properties);
-  if (!id) throw SceneError(place, std::string("the joint is refused: ") + fault_text(world.fault()));
+  if (!id) throw SceneError(place, std::string("the joint is refused: ") + describe(world.fault_report()));
   return id;
 }
 

@@ -81,7 +81,7 @@ class Owners {
     const std::string& name = item.array;
     if (name == "islands") return of_island(path);
     if (name == "frozen") return of_frozen(path);
-    if (is_any(name, std::array{"bodies", "fixed", "frames", "forces", "fell_asleep", "woke"}))
+    if (is_any(name, std::array{"bodies", "fixed", "frames", "forces", "fell_asleep", "woke", "untold_woke"}))
       return by_field("body", item, ".slot");
     if (is_any(name, std::array{"properties", "accelerations", "start_poses", "start_slots", "solver_start",
                                 "solver_inertia"}))
@@ -110,8 +110,10 @@ class Owners {
       return named("body", body_of_frame(value(item.text() + ".frame_a")),
                    body_of_frame(value(item.text() + ".frame_b")));
     if (name == "overlaps" || name == "new_overlaps") return by_fields("body", item, ".sensor", ".other");
-    if (name == "contact_begin" || name == "contact_end") return by_fields("body", item, ".a.slot", ".b.slot");
-    if (name == "sensor_begin" || name == "sensor_end") return by_fields("body", item, ".sensor.slot", ".other.slot");
+    if (is_any(name, std::array{"contact_begin", "contact_end", "untold_contact_end"}))
+      return by_fields("body", item, ".a.slot", ".b.slot");
+    if (is_any(name, std::array{"sensor_begin", "sensor_end", "untold_sensor_end"}))
+      return by_fields("body", item, ".sensor.slot", ".other.slot");
     return {};
   }
   std::string of_key(const char* kind, const Item& item) const {

@@ -50,7 +50,7 @@ TYPED_TEST(Rollback, from_every_frame_of_a_hail_of_commands_ten_frames_come_out_
 
 TYPED_TEST(Rollback, a_snapshot_continues_equal_in_a_world_with_another_past) {
   using S = TypeParam;
-  World<S> w(settings<S>(-10, 60, 4)), dirty(settings<S>(-3, 30, 2)), fresh;
+  World<S> w(settings<S>(-10, 60, 4)), dirty(settings<S>(-3, 60, 4)), fresh(settings<S>(0, 60, 4));
   build_mess(w);
   build_mess(dirty, {3, 1, -2});
   dirty.add_shape(Sphere<S>{S(3)});
@@ -120,7 +120,7 @@ TYPED_TEST(Rollback, two_snapshots_taken_in_turn_do_not_disturb_one_another) {
   b.save(of_b);
   const std::vector<std::uint64_t> future_a = this->play_on(a, 250, 30), future_b = this->play_on(b, 950, 30);
   EXPECT_NE(future_a, future_b);
-  World<S> other;
+  World<S> other(settings<S>(0, 60, 4));
   for (int round = 0; round < 3; ++round) {
     other.load(of_a);
     EXPECT_EQ(this->play_on(other, 250, 30), future_a);
@@ -162,7 +162,7 @@ TYPED_TEST(Rollback, saving_on_either_side_of_falling_asleep_and_waking_changes_
   }
   ASSERT_GE(slept, 2);
   ASSERT_GE(woke, 2);
-  World<S> other(settings<S>(5, 10, 1));
+  World<S> other(settings<S>(5, 60, 4));
   for (std::size_t i = snapshots.size(); i-- > 0;) {
     other.load(snapshots[i]);
     ASSERT_EQ(other.tick(), ticks[i]);

@@ -73,7 +73,7 @@ TYPED_TEST(Solvers, are_given_something_to_do) {
 
 TYPED_TEST(Solvers, continue_from_a_snapshot_as_if_nothing_had_happened) {
   using S = typename TestFixture::Number;
-  World<S> w(solver_settings<S>(this->kSolver)), other;
+  World<S> w(solver_settings<S>(this->kSolver)), other(solver_settings<S>(this->kSolver));
   const SolverScene<S> scene(w);
   typename World<S>::Snapshot snapshot;
   for (std::uint64_t f = 0; f < kFrames; ++f) {

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+
+#include "isostep/scalar/platform.hpp"
 
 #include "isostep/scalar/platform.hpp"
 
@@ -11,15 +14,33 @@ namespace isostep {
 /// Identical on every peer.
 enum class Fault : std::uint32_t {
   none,
-  stale_id,      // the id names nothing any more
-  not_finite,    // NaN or infinity where a number is expected
-  out_of_range,  // beyond the scalar's limits
-  bad_shape,     // sizes, normals or parts that make no shape
-  bad_mass,      // mass or inertia that nothing can have
-  bad_argument,  // a flag, count or enumerator that is not one
-  shape_in_use,  // bodies still name the shape, or particles the material
-  not_dynamic,   // forces on what no force moves
+  stale_id,       // the id names nothing any more
+  not_finite,     // NaN or infinity where a number is expected
+  out_of_range,   // beyond the scalar's limits
+  bad_shape,      // sizes, normals or parts that make no shape
+  bad_mass,       // mass or inertia that nothing can have
+  bad_argument,   // a flag, count or enumerator that is not one
+  shape_in_use,   // bodies still name the shape, or particles the material
+  not_dynamic,    // forces on what no force moves
+  null_id,        // the id was never given: what should have given it was refused, as a rule
+  foreign_id,     // the id was given by a world with another Settings::id_space
+  bad_snapshot,   // nothing was saved there, or by a world with other settings
+  called_in_step  // by an observer of stages, while the world steps
 };
+inline constexpr std::uint32_t kFaults = 13;
 const char* fault_text(Fault fault);
+
+/// One refused call. Its texts are literals.
+struct FaultReport {
+  Fault fault = Fault::none;
+  const char* command = "";   // apply_force
+  const char* field = "";     // material.friction; empty: no field alone
+  const char* expected = "";  // 0 to 16
+
+  friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault fault) { return report.fault == fault; }
+  friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault fault) { return report.fault != fault; }
+};
+/// "create_body: material.friction: a number is beyond the scalar's limits; expected 0 to 16"
+std::string describe(const FaultReport& report);
 
 }  // namespace isostep

@@ -8,7 +8,8 @@
 
 namespace isostep {
 
-/// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used.
+/// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used, and so is that of
+/// a world with another Settings::id_space. Two worlds with the same space cannot tell their ids apart.
 template <class Tag> struct Id {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  // 0: null

@@ -25,6 +25,8 @@ struct SlotEntry {
 };
 static_assert(kHasNoPadding<SlotEntry>);
 
+/// A generation's upper byte is its world's id space, the rest counts the slot's tenants: so that an id of a world with
+/// another space names nothing here.
 /// Copies share the table's pages: a copy costs what was taken or given back since the last.
 class SlotMap {
  public:
@@ -43,11 +45,15 @@ class SlotMap {
     return *this;
   }
 
-  template <class AnyId> ISO_INLINE AnyId take() {
+  static constexpr std::uint32_t kIdSpaces = 256;
+  template <class AnyId> static ISO_INLINE std::uint32_t space_of(AnyId id) { return id.generation >> kSpaceShift; }
+
+  template <class AnyId> ISO_INLINE AnyId take(std::uint32_t space = 0) {
     hash_.forget();
     if (first_free_ == SlotEntry::kEnd) {
-      entries_.push_back({1, SlotEntry::kTaken});
-      return {static_cast<std::uint32_t>(entries_.size() - 1), 1};
+      const std::uint32_t generation = space << kSpaceShift | 1u;
+      entries_.push_back({generation, SlotEntry::kTaken});
+      return {static_cast<std::uint32_t>(entries_.size() - 1), generation};
     }
     const std::uint32_t slot = first_free_;
     SlotEntry& entry = entries_.change(slot);
@@ -58,7 +64,8 @@ class SlotMap {
   ISO_INLINE void give_back(std::uint32_t slot) {
     hash_.forget();
     SlotEntry& entry = entries_.change(slot);
-    entry.generation += entry.generation == 0xffffffffu ? 2u : 1u;  // 0 stays null
+    const std::uint32_t tenants = (entry.generation + 1u) & kTenants;
+    entry.generation = (entry.generation & ~kTenants) | (tenants == 0 ? 1u : tenants);  // 0 stays null
     entry.next_free = first_free_;
     first_free_ = slot;
   }
@@ -91,6 +98,9 @@ class SlotMap {
   }
 
  private:
+  static constexpr int kSpaceShift = 24;
+  static constexpr std::uint32_t kTenants = (1u << kSpaceShift) - 1u;
+
   Remembered hash_;
   Entries entries_;
   std::uint32_t first_free_;

@@ -43,6 +43,7 @@ template <class S> class ParticleWorld {
 
   explicit ParticleWorld(const ParticleSettings<S>& settings = {});
   ~ParticleWorld();
+  /// `other` is empty then, with its settings, and as usable as a new one.
   ParticleWorld(ParticleWorld&& other) noexcept;
   ParticleWorld& operator=(ParticleWorld&& other) noexcept;
 

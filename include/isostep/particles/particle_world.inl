@@ -43,8 +43,15 @@ template <class S>
 ParticleWorld<S>::ParticleWorld(const ParticleSettings<S>& settings)
     : engine_(std::make_unique<ParticleEngine<S>>(settings)) {}
 template <class S> ParticleWorld<S>::~ParticleWorld() = default;
-template <class S> ParticleWorld<S>::ParticleWorld(ParticleWorld&& other) noexcept = default;
-template <class S> auto ParticleWorld<S>::operator=(ParticleWorld&& other) noexcept -> ParticleWorld& = default;
+template <class S> ParticleWorld<S>::ParticleWorld(ParticleWorld&& other) noexcept : engine_(std::move(other.engine_)) {
+  other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
+}
+template <class S> auto ParticleWorld<S>::operator=(ParticleWorld&& other) noexcept -> ParticleWorld& {
+  if (this == &other) return *this;
+  engine_ = std::move(other.engine_);
+  other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
+  return *this;
+}
 
 template <class S> const ParticleSettings<S>& ParticleWorld<S>::settings() const { return engine_->state_.settings; }
 template <class S> std::uint64_t ParticleWorld<S>::tick() const { return engine_->state_.tick; }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fault.hpp"
+#include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/validate.hpp"
-#include "isostep/world/events.hpp"
 #include "isostep/world/settings.hpp"
 
 namespace isostep::detail {
@@ -26,66 +27,147 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
   return validate(pose) == ShapeFault::none;
 }
 
-template <class S> Fault fault_of(const Material<S>& m) {
-  if (!is_finite(m.friction) || !is_finite(m.restitution) || !is_finite(m.rolling_resistance) ||
-      !is_finite(m.surface_velocity)) {
-    return Fault::not_finite;
+/// By its length, not by axis.
+template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < direction_of(v.x, v.y, v.z).length); }
+
+/// What is asked of a command's fields, in order; the first that is not met is the fault.
+class Checklist {
+ public:
+  template <class T> ISO_INLINE Checklist& finite(const T& number, const char* field) {
+    return ask(is_finite(number), Fault::not_finite, field, "a finite number");
   }
-  if (!within(m.surface_velocity, Limits<S>::speed()) || kMaxFriction<S> < m.friction ||
-      Limits<S>::extent() < m.rolling_resistance) {
-    return Fault::out_of_range;
+  ISO_INLINE Checklist& in_range(bool holds, const char* field, const char* expected) {
+    return ask(holds, Fault::out_of_range, field, expected);
   }
-  const bool good =
-      S(0) <= m.friction && S(0) <= m.restitution && m.restitution <= S(1) && S(0) <= m.rolling_resistance;
-  return good ? Fault::none : Fault::bad_argument;
+  ISO_INLINE Checklist& proper(bool holds, const char* field, const char* expected) {
+    return ask(holds, Fault::bad_argument, field, expected);
+  }
+  ISO_INLINE Checklist& ask(bool holds, Fault fault, const char* field, const char* expected) {
+    if (!holds && report_ == Fault::none) report_ = {fault, "", field, expected};
+    return *this;
+  }
+  ISO_INLINE Checklist& also(const FaultReport& report) {
+    if (report_ == Fault::none) report_ = report;
+    return *this;
+  }
+  ISO_INLINE const FaultReport& report() const { return report_; }
+
+ private:
+  FaultReport report_;
+};
+
+inline constexpr char kWithinSpeed[] = "a length up to Limits::speed()";
+inline constexpr char kWithinSpin[] = "a length up to Limits::spin()";
+inline constexpr char kWithinPosition[] = "coordinates up to Limits::position()";
+inline constexpr char kUnitLength[] = "a quaternion of length 1";
+
+template <class S> FaultReport fault_of(const Material<S>& m) {
+  return Checklist()
+      .finite(m.friction, "material.friction")
+      .finite(m.restitution, "material.restitution")
+      .finite(m.rolling_resistance, "material.rolling_resistance")
+      .finite(m.surface_velocity, "material.surface_velocity")
+      .in_range(no_longer(m.surface_velocity, Limits<S>::speed()), "material.surface_velocity", kWithinSpeed)
+      .in_range(m.friction <= kMaxFriction<S>, "material.friction", "0 to 16")
+      .in_range(m.rolling_resistance <= Limits<S>::extent(), "material.rolling_resistance", "0 to Limits::extent()")
+      .proper(S(0) <= m.friction, "material.friction", "0 to 16")
+      .proper(S(0) <= m.restitution && m.restitution <= S(1), "material.restitution", "0 to 1")
+      .proper(S(0) <= m.rolling_resistance, "material.rolling_resistance", "0 to Limits::extent()")
+      .report();
 }
 
 /// A factor of gravity: the product of two numbers up to the speed limit fits.
-template <class S> Fault fault_of_motion(S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
-  if (!is_finite(gravity_scale) || !is_finite(linear_damping) || !is_finite(angular_damping)) return Fault::not_finite;
-  const S speed = Limits<S>::speed();
-  if (!within(gravity_scale, speed) || S(kMaxRate) < linear_damping || S(kMaxRate) < angular_damping)
-    return Fault::out_of_range;
-  const bool good = S(0) <= linear_damping && S(0) <= angular_damping && (locks & ~body_flag::kAllLocks) == 0;
-  return good ? Fault::none : Fault::bad_argument;
+template <class S>
+FaultReport fault_of_motion(S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
+  const S most = S(kMaxRate);
+  return Checklist()
+      .finite(gravity_scale, "gravity_scale")
+      .finite(linear_damping, "linear_damping")
+      .finite(angular_damping, "angular_damping")
+      .in_range(within(gravity_scale, Limits<S>::speed()), "gravity_scale", "a size up to Limits::speed()")
+      .in_range(linear_damping <= most, "linear_damping", "0 to 16384")
+      .in_range(angular_damping <= most, "angular_damping", "0 to 16384")
+      .proper(S(0) <= linear_damping, "linear_damping", "0 to 16384")
+      .proper(S(0) <= angular_damping, "angular_damping", "0 to 16384")
+      .proper((locks & ~body_flag::kAllLocks) == 0, "locks", "body_flag::kLock... alone")
+      .report();
 }
 
 /// Kappa of a solid no smaller than a few of the least sizes: larger is inertia out of nowhere, and its products leave
 /// S.
-template <class S> Fault fault_of_mass(S mass, Vec3<S> kappa) {
-  if (!is_finite(mass) || !is_finite(kappa)) return Fault::not_finite;
+template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
   const S most = S(3) / (Limits<S>::minimum_size() * Limits<S>::minimum_size());
-  const bool good = S(0) < mass && mass <= Limits<S>::mass() && S(0) <= kappa.x && S(0) <= kappa.y && S(0) <= kappa.z &&
-                    within(kappa, most);
-  return good ? Fault::none : Fault::bad_mass;
+  return Checklist()
+      .finite(mass, "mass")
+      .finite(kappa, "inertia")
+      .ask(S(0) < mass && mass <= Limits<S>::mass(), Fault::bad_mass, "mass", "above 0, up to Limits::mass()")
+      .ask(S(0) <= kappa.x && S(0) <= kappa.y && S(0) <= kappa.z && within(kappa, most), Fault::bad_mass, "inertia",
+           "that of a solid of Limits::minimum_size() or more")
+      .report();
+}
+
+/// The flags that a kind of joint knows.
+struct JointFlags {
+  std::uint32_t known;
+  const char* names;
+};
+ISO_INLINE constexpr JointFlags flags_of(JointType type) {
+  using namespace joint_flag;
+  switch (type) {
+    case JointType::ball:
+      return {kCollideConnected | kLimit | kCone, "of a ball joint kLimit, kCone, kCollideConnected"};
+    case JointType::hinge:
+      return {kCollideConnected | kLimit | kMotor | kSpring, "of a hinge kLimit, kMotor, kSpring, kCollideConnected"};
+    case JointType::fixed: return {kCollideConnected, "of a fixed joint kCollideConnected"};
+    case JointType::distance:
+      return {kCollideConnected | kLimit | kSpring, "of a distance joint kLimit, kSpring, kCollideConnected"};
+  }
+  return {0, "none"};
 }
 
 /// `substep_rate` [1/s].
-template <class S> Fault fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
-  const S numbers[] = {
-      j.lower, j.upper, j.cone, j.motor_speed, j.motor_torque, j.spring_target, j.spring_frequency, j.spring_damping};
-  for (const S number : numbers) {
-    if (!is_finite(number)) return Fault::not_finite;
-  }
-  for (const Pose<S>& frame : {j.frame_a, j.frame_b}) {
-    if (!is_finite(frame.position)) return Fault::not_finite;
-    if (!within(frame.position, Limits<S>::position())) return Fault::out_of_range;
-    if (!is_unit<S>(frame.orientation)) return Fault::bad_argument;
-  }
-  const bool distance = j.type == JointType::distance;
+template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
+  const bool distance = j.type == JointType::distance, sprung = (j.flags & joint_flag::kSpring) != 0;
   const S reach = distance ? Limits<S>::position() : kMaxAngle<S>;
-  if (!within(j.lower, reach) || !within(j.upper, reach) || !within(j.cone, kMaxAngle<S>) ||
-      !within(j.spring_target, reach) || !within(j.motor_speed, Limits<S>::spin()) ||
-      kMaxDampingRatio<S> < j.spring_damping) {
-    return Fault::out_of_range;
-  }
-  const bool sprung = (j.flags & joint_flag::kSpring) != 0;
-  const S nyquist = S(substep_rate) * S(0.5);
-  const bool good_spring =
-      !sprung || (S(0) < j.spring_frequency && j.spring_frequency <= nyquist && S(0) <= j.spring_damping);
-  const bool good = j.type <= JointType::distance && j.lower <= j.upper && S(0) <= j.motor_torque &&
-                    (j.flags & ~0x1fu) == 0 && good_spring && (!distance || S(0) <= j.lower);
-  return good ? Fault::none : Fault::bad_argument;
+  const char* expected = distance ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
+  const JointFlags flags = flags_of(j.type);
+  return Checklist()
+      .finite(j.lower, "lower")
+      .finite(j.upper, "upper")
+      .finite(j.cone, "cone")
+      .finite(j.motor_speed, "motor_speed")
+      .finite(j.motor_torque, "motor_torque")
+      .finite(j.spring_target, "spring_target")
+      .finite(j.spring_frequency, "spring_frequency")
+      .finite(j.spring_damping, "spring_damping")
+      .finite(j.frame_a.position, "frame_a.position")
+      .finite(j.frame_b.position, "frame_b.position")
+      .in_range(within(j.frame_a.position, Limits<S>::position()), "frame_a.position", kWithinPosition)
+      .in_range(within(j.frame_b.position, Limits<S>::position()), "frame_b.position", kWithinPosition)
+      .proper(is_unit<S>(j.frame_a.orientation), "frame_a.orientation", kUnitLength)
+      .proper(is_unit<S>(j.frame_b.orientation), "frame_b.orientation", kUnitLength)
+      .in_range(within(j.lower, reach), "lower", expected)
+      .in_range(within(j.upper, reach), "upper", expected)
+      .in_range(within(j.cone, kMaxAngle<S>), "cone", "0 to 2 pi")
+      .in_range(within(j.spring_target, reach), "spring_target", expected)
+      .in_range(within(j.motor_speed, Limits<S>::spin()), "motor_speed", "a size up to Limits::spin()")
+      .in_range(j.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
+      .proper(j.type <= JointType::distance, "type", "one of JointType")
+      .proper((j.flags & ~flags.known) == 0, "flags", flags.names)
+      .proper(j.lower <= j.upper, "lower", "no more than upper")
+      .proper(!distance || S(0) <= j.lower, "lower", "a length of 0 or more")
+      .proper(S(0) <= j.motor_torque, "motor_torque", "0 or more")
+      .proper(!sprung || (S(0) < j.spring_frequency && j.spring_frequency <= S(substep_rate) * S(0.5)),
+              "spring_frequency", "above 0, up to half the sub-step rate")
+      .proper(!sprung || S(0) <= j.spring_damping, "spring_damping", "0 to 64")
+      .report();
+}
+
+/// An id that names nothing.
+template <class AnyId> FaultReport fault_of_id(const SlotMap& slots, AnyId id, std::uint32_t space, const char* field) {
+  if (slots.holds(id)) return {};
+  if (!id) return {Fault::null_id, "", field, ""};
+  return {SlotMap::space_of(id) != space ? Fault::foreign_id : Fault::stale_id, "", field, ""};
 }
 
 /// Whether a joint's arm is too long for its body: kappa arm^2 is how much faster the joint's end answers than the body
@@ -120,9 +202,11 @@ template <class S> S most_acceleration(std::int32_t hz, S limit) {
   return product(half, S(1)) < product(S(hz), limit) ? half : S(hz) * limit;
 }
 
-template <class S> Fault fault_of_place(Vec3<S> point) {
-  if (!is_finite(point)) return Fault::not_finite;
-  return within(point, Limits<S>::position()) ? Fault::none : Fault::out_of_range;
+template <class S> FaultReport fault_of_place(Vec3<S> point, const char* field) {
+  return Checklist()
+      .finite(point, field)
+      .in_range(within(point, Limits<S>::position()), field, kWithinPosition)
+      .report();
 }
 
 /// The moment of a force that a user gave, whatever its size.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <variant>
 #include <vector>
 
@@ -159,5 +160,12 @@ template <class S>
 using Command = std::variant<AddShape<S>, RemoveShape, CreateBody<S>, DestroyBody, WakeBody, SetPose<S>, SetVelocity<S>,
                              ApplyForce<S>, ApplyImpulse<S>, SetMaterial<S>, SetFilter, SetMotion<S>, SetUserData,
                              SetGravity<S>, CreateJoint<S>, DestroyJoint, SetJoint<S>>;
+
+/// By that number.
+inline constexpr const char* kCommandNames[] = {
+    "add_shape",     "remove_shape", "create_body",   "destroy_body",  "wake_body",  "set_pose",
+    "set_velocity",  "apply_force",  "apply_impulse", "set_material",  "set_filter", "set_motion",
+    "set_user_data", "set_gravity",  "create_joint",  "destroy_joint", "set_joint"};
+static_assert(std::size(kCommandNames) == std::variant_size_v<Command<float>>);
 
 }  // namespace isostep

@@ -11,6 +11,7 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
 #include "isostep/core/disjoint_sets.hpp"
+#include "isostep/core/one_at_a_time.hpp"
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
 #include "isostep/state/leaves.hpp"
@@ -90,6 +91,7 @@ template <class S> class WorldEngine {
                           const LeafEditor* editor);
 
   // engine_queries.inl
+  bool accept_query(const char* query, const detail::Checklist& list) const;
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
@@ -102,16 +104,32 @@ template <class S> class WorldEngine {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
 
-  bool refuse(Fault fault) {
-    fault_ = fault;
+  bool refuse(const FaultReport& report) {
+    fault_ = report;
     return false;
   }
-  bool accept(Fault fault) { return fault == Fault::none || refuse(fault); }
+  bool accept(const FaultReport& report) { return report == Fault::none || refuse(report); }
+  template <class AnyId> bool known(const SlotMap& slots, AnyId id, const char* field) {
+    return accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
+  }
+  bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
+  /// Names the call that was refused, and keeps the first of them.
+  void sign(const char* command) const {
+    if (fault_ == Fault::none) return;
+    fault_.command = command;
+    if (first_fault_ == Fault::none) first_fault_ = fault_;
+  }
+  bool refuse_in_step(const char* command) {
+    refuse({Fault::called_in_step, "", "", "observers to change nothing"});
+    sign(command);
+    return false;
+  }
 
   WorldState<S> state_;
   Events<S> events_;
   StepReport report_;
-  Fault fault_ = Fault::none;
+  mutable FaultReport fault_, first_fault_;  // queries are refused, too
+  OneAtATime one_at_a_time_;
   const ContactKernels<S>* kernels_;
   const PairKernels<S>* pair_kernels_;
   const TreeKernels<S>* tree_kernels_;
@@ -135,8 +153,10 @@ template <class S> class WorldEngine {
   void wake_held_by(std::uint32_t slot);
   void restless(std::uint32_t slot);
   Location locate(BodyId body) const;
-  BodyState<S>* wake_for_change(BodyId body);
-  BodyState<S>* wake_for_push(BodyId body);
+  bool may_change(BodyId body);
+  bool may_push(BodyId body);
+  BodyState<S>* wake_for_change(std::uint32_t slot);
+  void halt(std::uint32_t slot);
 
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);
@@ -144,6 +164,7 @@ template <class S> class WorldEngine {
 
   // engine_destroy.inl
   bool doom(BodyId body);
+  void end_touches_of_doomed();
   void bury_doomed();
   void destroy_joints_of(std::uint32_t slot);
 
@@ -206,7 +227,7 @@ template <class S> class WorldEngine {
                     std::size_t& old_cursor) const;
 
   // engine_step.inl
-  void begin_events();
+  void tell_untold();
   void apply_forces();
   template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
   void prepare_joints(const SolverBodies<S>& bodies);
@@ -273,12 +294,13 @@ template <class S> class WorldEngine {
   std::vector<std::uint64_t> sort_scratch_;
   std::vector<std::uint32_t> slots_;
   std::vector<Velocity<S>> step_impulses_;  // [m/s] per contact, of the whole step
-  std::size_t woke_reported_ = 0;           // of events_.woke, told by the last step
   DisjointSets islands_;
   std::vector<std::uint32_t> island_clock_;
   std::vector<std::shared_ptr<const FrozenIsland<S>>> woken_;  // off the list, not yet in the awake image
   std::vector<WokenRecord<S>> woken_records_, woken_scratch_;
-  std::vector<std::uint32_t> doomed_;         // destroyed, their records not yet dropped
+  std::vector<ContactEnd> contact_end_scratch_;
+  std::vector<SensorEvent> sensor_end_scratch_;
+  std::vector<std::uint32_t> doomed_;         // destroyed, their ids and records not yet dropped
   Bitset is_doomed_;                          // the same
   std::vector<std::uint32_t> other_islands_;  // indices at which two states differ
 };

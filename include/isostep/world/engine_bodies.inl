@@ -165,31 +165,32 @@ template <class S> void WorldEngine<S>::wake_held_by(std::uint32_t slot) {
   merge_woken();
 }
 
-/// The awake state of a moving body about to be changed; null and a fault when it is stale or fixed.
-template <class S> BodyState<S>* WorldEngine<S>::wake_for_change(BodyId body) {
-  const Location at = locate(body);
-  if (at.set == Location::kNone) {
-    refuse(Fault::stale_id);
-    return nullptr;
-  }
-  if (at.set == Location::kFixed) {
-    refuse(Fault::not_dynamic);
-    return nullptr;
-  }
-  thaw_body(body.slot);
-  BodyState<S>& state = state_.awake.states[locations_[body.slot].index];
+/// Whether a body's motion is to be changed at all: not that of a fixed one.
+template <class S> bool WorldEngine<S>::may_change(BodyId body) {
+  if (!known(body)) return false;
+  const bool moves = locations_[body.slot].set != Location::kFixed;
+  return moves || refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
+}
+template <class S> bool WorldEngine<S>::may_push(BodyId body) {
+  if (!known(body)) return false;
+  const bool pushable = properties_at(locations_[body.slot]).type == BodyType::dynamic;
+  return pushable || refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
+}
+
+/// The awake state of a body about to be changed.
+template <class S> BodyState<S>* WorldEngine<S>::wake_for_change(std::uint32_t slot) {
+  thaw_body(slot);
+  BodyState<S>& state = state_.awake.states[locations_[slot].index];
   state.sleep_clock = 0;
   return &state;
 }
 
-/// The same for what forces move: a kinematic body is refused before it is touched.
-template <class S> BodyState<S>* WorldEngine<S>::wake_for_push(BodyId body) {
-  const Location at = locate(body);
-  if (at.set != Location::kNone && properties_at(at).type != BodyType::dynamic) {
-    refuse(Fault::not_dynamic);
-    return nullptr;
-  }
-  return wake_for_change(body);
+/// A velocity of zero. What sleeps has no other, and who rests goes on resting, so that a game may say so every frame.
+template <class S> void WorldEngine<S>::halt(std::uint32_t slot) {
+  if (locations_[slot].set != Location::kAwake) return;
+  BodyState<S>& state = state_.awake.states[locations_[slot].index];
+  state.velocity = Vec3<Velocity<S>>::zero();
+  state.spin = Vec3<Velocity<S>>::zero();
 }
 
 template <class S> S WorldEngine<S>::joint_error(JointId joint) const {

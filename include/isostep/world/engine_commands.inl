@@ -66,15 +66,16 @@ template <class S> S most_spin(const Aabb<S>& box) {
 
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
   if (command.children.size() > kMaxChildren) {
-    refuse(Fault::bad_shape);
+    refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
     return {};
   }
   const ShapeFault fault = validate(std::span<const Child<S>>(command.children));
   if (fault != ShapeFault::none) {
-    refuse(fault == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape);
+    const bool finite = fault != ShapeFault::not_finite;
+    refuse({finite ? Fault::bad_shape : Fault::not_finite, "", describe(fault), ""});
     return {};
   }
-  const ShapeId id = state_.shape_slots.template take<ShapeId>();
+  const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
   std::vector<ShapeRecord>& shapes = state_.shapes.change();
   std::vector<Child<S>>& pool = state_.children.change();
   if (shapes.size() <= id.slot) shapes.resize(id.slot + 1, ShapeRecord{0, 0});
@@ -84,11 +85,11 @@ template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
-  if (!state_.shape_slots.holds(command.shape)) return refuse(Fault::stale_id);
+  if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t slot = command.shape.slot;
   for (std::uint32_t body = 0; body < locations_.size(); ++body) {
     if (locations_[body].set != Location::kNone && properties_at(locations_[body]).shape == slot) {
-      return refuse(Fault::shape_in_use);
+      return refuse({Fault::shape_in_use, "", "shape", "no body with it"});
     }
   }
   std::vector<ShapeRecord>& shapes = state_.shapes.change();
@@ -106,18 +107,23 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
 
 /// Everything about a definition that needs no mass.
 template <class S> bool WorldEngine<S>::check(const BodyDefinition<S>& d) {
-  if (!state_.shape_slots.holds(d.shape)) return refuse(Fault::stale_id);
-  if (!is_finite(d.density) || !is_finite(d.mass) || !is_finite(d.position) || !is_finite(d.velocity) ||
-      !is_finite(d.angular_velocity) || !is_finite(d.inertia)) {
-    return refuse(Fault::not_finite);
-  }
-  if (!detail::within(d.position, Limits<S>::position()) || !detail::within(d.velocity, Limits<S>::speed()) ||
-      !detail::within(d.angular_velocity, Limits<S>::spin())) {
-    return refuse(Fault::out_of_range);
-  }
-  if (!detail::is_unit<S>(d.orientation) || d.type > BodyType::dynamic) return refuse(Fault::bad_argument);
-  return accept(detail::fault_of(d.material)) &&
-         accept(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks));
+  return known(state_.shape_slots, d.shape, "shape") &&
+         accept(detail::Checklist()
+                    .finite(d.density, "density")
+                    .finite(d.mass, "mass")
+                    .finite(d.position, "position")
+                    .finite(d.velocity, "velocity")
+                    .finite(d.angular_velocity, "angular_velocity")
+                    .finite(d.inertia, "inertia")
+                    .in_range(detail::within(d.position, Limits<S>::position()), "position", detail::kWithinPosition)
+                    .in_range(detail::no_longer(d.velocity, Limits<S>::speed()), "velocity", detail::kWithinSpeed)
+                    .in_range(detail::no_longer(d.angular_velocity, Limits<S>::spin()), "angular_velocity",
+                              detail::kWithinSpin)
+                    .proper(detail::is_unit<S>(d.orientation), "orientation", detail::kUnitLength)
+                    .proper(d.type <= BodyType::dynamic, "type", "one of BodyType")
+                    .also(detail::fault_of(d.material))
+                    .also(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks))
+                    .report());
 }
 
 template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
@@ -129,12 +135,18 @@ template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, Bod
   body.mass = zero;
   body.kappa = Vec3<S>::zero();
   if (d.type != BodyType::dynamic) return true;
+  const bool positive = zero <= d.inertia.x && zero <= d.inertia.y && zero <= d.inertia.z;
+  if (!accept(detail::Checklist()
+                  .ask(zero <= d.mass, Fault::bad_mass, "mass", "above 0, or 0 for that of density")
+                  .ask(zero <= d.density, Fault::bad_mass, "density", "above 0")
+                  .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
+                  .ask(positive, Fault::bad_mass, "inertia", "above 0, or 0 for that of the shape")
+                  .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
+                  .report())) {
+    return false;
+  }
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
-  if (d.mass < zero || d.density < zero || d.inertia.x < zero || d.inertia.y < zero || d.inertia.z < zero ||
-      shape.mass == zero) {
-    return refuse(Fault::bad_mass);
-  }
   if (!accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
   body.mass = chosen.mass;
   body.kappa = chosen.kappa;
@@ -167,12 +179,13 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.spin = convert<Velocity<S>>(d.angular_velocity);
   }
+  if (!accept(detail::fault_of_place(state.centre, "position"))) return {};
   renew_fat_box(state, body, true);
   if (detail::overspins(state.spin, state.fat)) {
-    refuse(Fault::out_of_range);
+    refuse({Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
     return {};
   }
-  const BodyId id = state_.body_slots.template take<BodyId>();
+  const BodyId id = state_.body_slots.template take<BodyId>(state_.settings.id_space);
   state.slot = id.slot;
   draw_from_here(state);
   const bool fixed = d.type == BodyType::fixed;
@@ -183,25 +196,29 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
 }
 
 template <class S> bool WorldEngine<S>::execute(const WakeBody& command) {
-  return wake_for_change(command.body) != nullptr;
+  if (!may_change(command.body)) return false;
+  wake_for_change(command.body.slot);
+  return true;
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
-  const Location at = locate(command.body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
-  if (!is_finite(command.pose.position)) return refuse(Fault::not_finite);
-  if (!detail::within(command.pose.position, Limits<S>::position())) return refuse(Fault::out_of_range);
-  if (!detail::is_unit<S>(command.pose.orientation)) return refuse(Fault::bad_argument);
+  if (!known(command.body) || !accept(detail::fault_of_place(command.pose.position, "position"))) return false;
+  if (!detail::is_unit<S>(command.pose.orientation))
+    return refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
   const std::uint32_t slot = command.body.slot;
+  const Location at = locations_[slot];
+  const Quat<Unit<S>> orientation = normalise(command.pose.orientation);
+  const Vec3<S> centre = command.pose.position + to_matrix(orientation) * properties_at(at).local_centre;
+  if (!accept(detail::fault_of_place(centre, "position"))) return false;
   wake_touching(slot);
   if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
-  if (at.set != Location::kFixed) wake_for_change(command.body);
+  if (at.set != Location::kFixed) wake_for_change(slot);
   const Location now = locations_[slot];
   BodySet<S>& set = now.set == Location::kFixed ? state_.fixed.change() : state_.awake;
   BodyState<S>& state = set.states[now.index];
   const BodyProperties<S>& body = set.properties[now.index];
-  state.orientation = normalise(command.pose.orientation);
-  state.centre = command.pose.position + to_matrix(state.orientation) * body.local_centre;
+  state.orientation = orientation;
+  state.centre = centre;
   draw_from_here(state);
   renew_fat_box(state, body, true);
   proxies_.place(state, body, now.set == Location::kAwake);
@@ -210,11 +227,20 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
-  if (!is_finite(command.linear) || !is_finite(command.angular)) return refuse(Fault::not_finite);
-  if (!detail::within(command.linear, Limits<S>::speed()) || !detail::within(command.angular, Limits<S>::spin())) {
-    return refuse(Fault::out_of_range);
+  if (!accept(detail::Checklist()
+                  .finite(command.linear, "linear")
+                  .finite(command.angular, "angular")
+                  .in_range(detail::no_longer(command.linear, Limits<S>::speed()), "linear", detail::kWithinSpeed)
+                  .in_range(detail::no_longer(command.angular, Limits<S>::spin()), "angular", detail::kWithinSpin)
+                  .report()) ||
+      !may_change(command.body)) {
+    return false;
   }
-  if (wake_for_change(command.body) == nullptr) return false;
+  if (command.linear == Vec3<S>::zero() && command.angular == Vec3<S>::zero()) {
+    halt(command.body.slot);
+    return true;
+  }
+  wake_for_change(command.body.slot);
   if (properties_at(locations_[command.body.slot]).type == BodyType::kinematic) wake_held_by(command.body.slot);
   BodyState<S>* state = &state_.awake.states[locations_[command.body.slot].index];
   state->velocity = convert<Velocity<S>>(command.linear);
@@ -223,9 +249,12 @@ template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
-  if (!is_finite(command.force) || !is_finite(command.torque)) return refuse(Fault::not_finite);
-  BodyState<S>* state = wake_for_push(command.body);
-  if (state == nullptr) return false;
+  if (!accept(detail::Checklist().finite(command.force, "force").finite(command.torque, "torque").report()) ||
+      !may_push(command.body)) {
+    return false;
+  }
+  if (command.force == Vec3<S>::zero() && command.torque == Vec3<S>::zero()) return true;
+  BodyState<S>* state = wake_for_change(command.body.slot);
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
   const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
   // From rest to the limit in one step: velocities then stay within their format.
@@ -243,9 +272,12 @@ template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) {
-  if (!is_finite(command.linear) || !is_finite(command.angular)) return refuse(Fault::not_finite);
-  BodyState<S>* state = wake_for_push(command.body);
-  if (state == nullptr) return false;
+  if (!accept(detail::Checklist().finite(command.linear, "linear").finite(command.angular, "angular").report()) ||
+      !may_push(command.body)) {
+    return false;
+  }
+  if (command.linear == Vec3<S>::zero() && command.angular == Vec3<S>::zero()) return true;
+  BodyState<S>* state = wake_for_change(command.body.slot);
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
   const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
   // A quarter above the limit: the step then cuts them again and reports it.
@@ -270,9 +302,7 @@ template <class S> PendingForce<S>& WorldEngine<S>::pending_force(std::uint32_t 
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetMaterial<S>& command) {
-  const Location at = locate(command.body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
-  if (!accept(detail::fault_of(command.material))) return false;
+  if (!known(command.body) || !accept(detail::fault_of(command.material))) return false;
   wake_touching(command.body.slot);
   thaw_body(command.body.slot);
   mutable_properties(command.body.slot).material = command.material;
@@ -280,8 +310,7 @@ template <class S> bool WorldEngine<S>::execute(const SetMaterial<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetFilter& command) {
-  const Location at = locate(command.body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  if (!known(command.body)) return false;
   const std::uint32_t slot = command.body.slot;
   wake_touching(slot);
   thaw_body(slot);
@@ -296,7 +325,8 @@ template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
                                       command.locks))) {
     return false;
   }
-  if (wake_for_change(command.body) == nullptr) return false;
+  if (!may_change(command.body)) return false;
+  wake_for_change(command.body.slot);
   BodyProperties<S>& body = mutable_properties(command.body.slot);
   body.gravity_scale = command.gravity_scale;
   body.linear_damping = command.linear_damping;
@@ -306,16 +336,20 @@ template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetUserData& command) {
-  const Location at = locate(command.body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  if (!known(command.body)) return false;
   thaw_body(command.body.slot);
   mutable_properties(command.body.slot).user_data = command.user_data;
   return true;
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetGravity<S>& command) {
-  if (!is_finite(command.gravity)) return refuse(Fault::not_finite);
-  if (!detail::within(command.gravity, Limits<S>::speed())) return refuse(Fault::out_of_range);
+  if (!accept(detail::Checklist()
+                  .finite(command.gravity, "gravity")
+                  .in_range(detail::within(command.gravity, Limits<S>::speed()), "gravity",
+                            "components up to Limits::speed()")
+                  .report())) {
+    return false;
+  }
   state_.settings.gravity = command.gravity;
   while (!state_.frozen.empty()) unlist(static_cast<std::uint32_t>(state_.frozen.size() - 1));
   merge_woken();

@@ -8,6 +8,20 @@
 
 namespace isostep {
 
+namespace detail {
+/// No two ends have the same slots: a body that took another's slot has not been through a step.
+struct EndKey {
+  ISO_INLINE std::uint64_t operator()(const ContactEnd& end) const { return pair_key(end.a.slot, end.b.slot); }
+  ISO_INLINE std::uint64_t operator()(const SensorEvent& end) const {
+    return std::uint64_t{end.sensor.slot} << 32 | end.other.slot;
+  }
+};
+template <class End> void sort_ends(std::vector<End>& ends, std::vector<End>& scratch) {
+  scratch.resize(ends.size());
+  stable_sort(ends.data(), scratch.data(), static_cast<std::uint32_t>(ends.size()), EndKey{});
+}
+}  // namespace detail
+
 template <class S> std::uint32_t WorldEngine<S>::row_of(std::uint32_t slot) const {
   if (slot == kNoBody) return 0;
   const Location at = locations_[slot];
@@ -73,6 +87,7 @@ template <class S> void WorldEngine<S>::update_sensors() {
     return SensorEvent{state_.body_slots.template id_of<BodyId>(o.sensor),
                        state_.body_slots.template id_of<BodyId>(o.other)};
   };
+  const bool told = !events_.sensor_end.empty();
   std::size_t i = 0, j = 0;
   while (i < state_.overlaps.size() || j < new_overlaps_.size()) {
     const bool old_first =
@@ -84,9 +99,11 @@ template <class S> void WorldEngine<S>::update_sensors() {
     else ++i, ++j;
   }
   state_.overlaps.swap(new_overlaps_);
+  if (told) detail::sort_ends(events_.sensor_end, sensor_end_scratch_);
 }
 
-/// Two bodies touch when any of their contacts carried an impulse. Both lists ascend, so the events do.
+/// Two bodies touch when any of their contacts carried an impulse. Both lists ascend, so the events do, but for ends that
+/// commands made.
 template <class S> void WorldEngine<S>::emit_contact_events() {
   const std::vector<Contact<S>>& now = state_.contacts;
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
@@ -95,6 +112,7 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
     return at < list.size() ? pair_key(list[at].key.body_a, list[at].key.body_b) : kNone;
   };
   const auto touching = [](const Contact<S>& c) { return (c.flags & contact_flag::kTouching) != 0; };
+  const bool told = !events_.contact_end.empty();
   std::size_t i = 0, j = 0;
   std::uint64_t old_pair = pair_at(old_contacts_, 0), new_pair = pair_at(now, 0);
   while (min(old_pair, new_pair) != kNone) {
@@ -108,6 +126,7 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
       events_.contact_begin.push_back(
           {id(pair_a(pair)), id(pair_b(pair)), pressing(first, j), geometry_[first].normal});
   }
+  if (told) detail::sort_ends(events_.contact_end, contact_end_scratch_);
 }
 
 /// What contacts first..end-1 gave over the step along their normals [kg m/s].

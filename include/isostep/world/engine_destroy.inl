@@ -4,6 +4,7 @@
 
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/engine.hpp"
+#include "isostep/world/engine_contacts.inl"
 
 namespace isostep {
 
@@ -19,7 +20,10 @@ template <class Accepted>
 std::size_t WorldEngine<S>::destroy_all(std::span<const BodyId> bodies, const Accepted& accepted) {
   std::size_t count = 0;
   for (const BodyId body : bodies) {
-    if (!doom(body)) continue;
+    if (!doom(body)) {
+      sign("destroy_body");
+      continue;
+    }
     accepted(DestroyBody{body});
     ++count;
     // Sleepers are woken to be destroyed: so that the awake stay few, those that are gone leave now and then.
@@ -29,25 +33,45 @@ std::size_t WorldEngine<S>::destroy_all(std::span<const BodyId> bodies, const Ac
   return count;
 }
 
-/// All of destroying a body but what takes a pass over the world: its records stay, unreachable, until `bury_doomed`.
+/// All of destroying a body but what takes a pass over the world: its id and its records stay until `bury_doomed`.
 template <class S> bool WorldEngine<S>::doom(BodyId body) {
-  const Location at = locate(body);
-  if (at.set == Location::kNone) return refuse(Fault::stale_id);
+  if (!known(body)) return false;
+  if (is_doomed_.test(body.slot)) return refuse({Fault::stale_id, "", "body", ""});
   const std::uint32_t slot = body.slot;
+  const Location at = locations_[slot];
   if (at.is_frozen()) thaw_body(slot);
   wake_touching(slot);
   destroy_joints_of(slot);
   if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
   proxies_.remove(slot);
-  state_.body_slots.give_back(slot);
   doomed_.push_back(slot);
   is_doomed_.set(slot);
   return true;
 }
 
-/// Drops the records of doomed bodies and all that names them, in one pass over each array.
+/// The next step tells that what touched the doomed, or was inside them, does so no more.
+template <class S> void WorldEngine<S>::end_touches_of_doomed() {
+  const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
+  const auto ends = [&](std::uint32_t a, std::uint32_t b) { return is_doomed_.test(a) || is_doomed_.test(b); };
+  std::uint64_t told = ~std::uint64_t{0};  // the last pair: its contacts stand side by side
+  for (const Contact<S>& contact : state_.contacts) {
+    const std::uint32_t a = contact.key.body_a, b = contact.key.body_b;
+    if ((contact.flags & contact_flag::kTouching) == 0 || pair_key(a, b) == told || !ends(a, b)) continue;
+    told = pair_key(a, b);
+    state_.untold.contact_end.push_back({id(a), id(b)});
+  }
+  for (const SensorOverlap overlap : state_.overlaps) {
+    if (ends(overlap.sensor, overlap.other))
+      state_.untold.sensor_end.push_back({id(overlap.sensor), id(overlap.other)});
+  }
+  detail::sort_ends(state_.untold.contact_end, contact_end_scratch_);
+  detail::sort_ends(state_.untold.sensor_end, sensor_end_scratch_);
+}
+
+/// Drops the ids and records of doomed bodies and all that names them, in one pass over each array.
 template <class S> void WorldEngine<S>::bury_doomed() {
   if (doomed_.empty()) return;
+  end_touches_of_doomed();
   const auto gone = [&](std::uint32_t slot) { return is_doomed_.test(slot); };
   std::erase_if(state_.contacts, [&](const Contact<S>& c) { return gone(c.key.body_a) || gone(c.key.body_b); });
   std::erase_if(state_.overlaps, [&](SensorOverlap o) { return gone(o.sensor) || gone(o.other); });
@@ -72,6 +96,7 @@ template <class S> void WorldEngine<S>::bury_doomed() {
   if (first_awake != Location::kNone) erase(state_.awake, Location::kAwake, first_awake);
   if (first_fixed != Location::kNone) erase(state_.fixed.change(), Location::kFixed, first_fixed);
   for (const std::uint32_t slot : doomed_) {
+    state_.body_slots.give_back(slot);
     locations_[slot] = Location{};
     is_doomed_.reset(slot);
   }

@@ -12,22 +12,21 @@ template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command
   if (!accept(detail::fault_of(joint, state_.settings.hz * state_.settings.substeps))) return {};
   const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
   const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
+  constexpr const char *kBodies[2] = {"body_a", "body_b"}, *kFrames[2] = {"frame_a.position", "frame_b.position"};
   bool moves = false;
   for (int end = 0; end < 2; ++end) {
     if (ends[end].slot == kNoBody) continue;
-    if (!state_.body_slots.holds(ends[end])) {
-      refuse(Fault::stale_id);
-      return {};
-    }
+    if (!known(state_.body_slots, ends[end], kBodies[end])) return {};
     const BodyProperties<S>& body = properties_at(locations_[ends[end].slot]);
     if (detail::overreaches(body.kappa, body.principal, arms[end])) {
-      refuse(Fault::out_of_range);
+      refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
       return {};
     }
     moves = moves || body.type == BodyType::dynamic;
   }
   if (!moves || joint.body_a == joint.body_b) {
-    refuse(moves ? Fault::bad_argument : Fault::not_dynamic);
+    if (moves) refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
+    else refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
     return {};
   }
   for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
@@ -36,7 +35,7 @@ template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command
   }
   joint.frame_a.orientation = normalise(joint.frame_a.orientation);
   joint.frame_b.orientation = normalise(joint.frame_b.orientation);
-  const JointId id = state_.joint_slots.template take<JointId>();
+  const JointId id = state_.joint_slots.template take<JointId>(state_.settings.id_space);
   JointState<S> state = {};
   state.slot = id.slot;
   insert_joint(state, joint);
@@ -58,7 +57,7 @@ template <class S> std::uint32_t WorldEngine<S>::wake_joint(JointId joint) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
-  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const std::uint32_t slot = command.joint.slot;
   const std::uint32_t index = wake_joint(command.joint);
   const auto at = static_cast<std::ptrdiff_t>(index);
@@ -71,10 +70,11 @@ template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
-  if (!state_.joint_slots.holds(command.joint)) return refuse(Fault::stale_id);
+  if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
   if (!accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
-  if (next.type != properties_of(command.joint)->type) return refuse(Fault::bad_argument);
+  if (next.type != properties_of(command.joint)->type)
+    return refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
   JointProperties<S>& joint = state_.joints.properties[wake_joint(command.joint)];
   joint.flags = next.flags;
   joint.lower = next.lower;

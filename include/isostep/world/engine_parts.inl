@@ -138,7 +138,6 @@ template <class S> void WorldEngine<S>::gather_parts() {
 template <class S> void WorldEngine<S>::gather_others(Framed at_a, Framed at_b) {
   const std::uint32_t either = at_a.traits | at_b.traits;
   const bool sensor = (either & Framed::kSensor) != 0;
-  if ((at_a.traits & at_b.traits & Framed::kSensor) != 0) return;
   if (!sensor && (either & Framed::kFrozen) != 0) return;  // a kinematic body at rest against sleepers
   const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
   visit_parts(frames_[at_a.index], frames_[at_b.index], margin, [&](std::uint32_t i, std::uint32_t j) {

@@ -280,7 +280,7 @@ template <class S> void WorldEngine<S>::merge_woken() {
       const std::uint32_t index = locations_[frozen.slot].index;
       state_.awake.states[index].sleep_clock = 0;
       proxies_.place(state_.awake.states[index], state_.awake.properties[index], true);
-      events_.woke.push_back(state_.body_slots.template id_of<BodyId>(frozen.slot));
+      state_.untold.woke.push_back(state_.body_slots.template id_of<BodyId>(frozen.slot));
     }
   }
   woken_.clear();

@@ -42,6 +42,14 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
   return root.value();
 }
 
+namespace detail {
+/// What a world was made with: gravity alone is changed by commands.
+template <class S> bool same_making(const Settings<S>& a, const Settings<S>& b) {
+  return a.hz == b.hz && a.substeps == b.substeps && a.allow_sleep == b.allow_sleep && a.solver == b.solver &&
+         a.id_space == b.id_space;
+}
+}  // namespace detail
+
 /// Takes time for what is awake in either state, for the islands that only one of them has at their place, and for what
 /// is fixed if that differs.
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
@@ -54,8 +62,7 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   ++loads_;
   events_.clear();
   report_ = {};
-  fault_ = Fault::none;
-  woke_reported_ = 0;
+  fault_ = {};
   start_slots_.clear();
   renew_places(other_fixed);
 }

@@ -16,9 +16,9 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
     if (trace_ != nullptr) trace_->push_back(hash());
   };
   if (trace_ != nullptr) trace_->push_back(hash());
-  begin_events();
   report_ = {};
   find_pairs();
+  tell_untold();
   after(Stage::find_pairs);
   apply_forces();
   after(Stage::apply_forces);
@@ -35,7 +35,6 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   update_sleep();
   after(Stage::update_sleep);
   ++state_.tick;
-  woke_reported_ = events_.woke.size();
   return report_;
 }
 
@@ -73,10 +72,12 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   after(Stage::store_impulses);
 }
 
-/// What commands woke since the last step belongs to this one.
-template <class S> void WorldEngine<S>::begin_events() {
-  events_.woke.erase(events_.woke.begin(), events_.woke.begin() + static_cast<std::ptrdiff_t>(woke_reported_));
-  events_.clear_step();
+/// What commands ended and woke since the last step, and what this one woke, is told by this one.
+template <class S> void WorldEngine<S>::tell_untold() {
+  events_.clear();
+  events_.contact_end.swap(state_.untold.contact_end);
+  events_.sensor_end.swap(state_.untold.sensor_end);
+  events_.woke.swap(state_.untold.woke);
 }
 
 template <class S> void WorldEngine<S>::apply_forces() {
@@ -150,6 +151,24 @@ template <class S> void WorldEngine<S>::discard_bad_impulses() {
   }
 }
 
+namespace detail {
+/// Most are not half as long along any axis, and need no square root.
+template <class V> bool is_longer(Vec3<V> v, V limit) {
+  return limit * V(0.5) < max_abs(v) && limit < direction_of(v.x, v.y, v.z).length;
+}
+/// To `limit`, or to 2^-12 less where rounding leads beyond.
+template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
+  if (!is_longer(v, limit)) return v;
+  const auto way = direction_of(v.x, v.y, v.z);
+  const auto along = [&](V length) {
+    const auto part = [&](auto x) { return round_to<V>(product(length, x)); };
+    return Vec3<V>{part(way.x), part(way.y), part(way.z)};
+  };
+  const Vec3<V> cut = along(limit);
+  return is_longer(cut, limit) ? along(limit - limit * V(0x1p-12)) : cut;
+}
+}  // namespace detail
+
 /// Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or stopped, and reported.
 template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
   using V = Velocity<S>;
@@ -166,14 +185,11 @@ template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
   }
   const V speed = convert<V>(Limits<S>::speed());
   const V spin = spin_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
-  const auto bounded = [](Vec3<V> v, V limit) {
-    return Vec3<V>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
-  };
   const bool overspins = detail::overspins(state.spin, state.fat);
-  if (speed < max_abs(state.velocity) || spin < max_abs(state.spin) || overspins) {
-    state.velocity = bounded(state.velocity, speed);
+  if (detail::is_longer(state.velocity, speed) || detail::is_longer(state.spin, spin) || overspins) {
     const S most = overspins ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low) : Limits<S>::spin();
-    state.spin = bounded(state.spin, min(spin, convert<V>(most)));
+    state.velocity = detail::shortened(state.velocity, speed);
+    state.spin = detail::shortened(state.spin, min(spin, convert<V>(most)));
     ++report_.clamped_speed;
   }
   const S edge = Limits<S>::position();

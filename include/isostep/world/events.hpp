@@ -1,5 +1,5 @@
-// What a step tells the game: output of one step, in canonical order, never state. What a command takes away ends
-// without an event; what it wakes is told by the next step.
+// What a step tells the game: output of one step, in canonical order, never state. What commands end and wake is told by
+// the next step; until then it is state (UntoldEvents).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -48,18 +48,22 @@ template <class S> struct Events {
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<BodyId> fell_asleep, woke;
 
-  /// All but what woke: commands wake too, before the step that tells.
-  ISO_INLINE void clear_step() {
+  ISO_INLINE void clear() {
     contact_begin.clear();
     contact_end.clear();
     sensor_begin.clear();
     sensor_end.clear();
     fell_asleep.clear();
-  }
-  ISO_INLINE void clear() {
-    clear_step();
     woke.clear();
   }
+};
+
+/// What commands ended and woke since the last step, for the next one to tell. A game that counts its events must count
+/// the same after a load, so this is state. By id: the bodies may be gone, and their slots taken, before the step.
+struct UntoldEvents {
+  std::vector<ContactEnd> contact_end;  // ascending by slots
+  std::vector<SensorEvent> sensor_end;  // ascending by slots
+  std::vector<BodyId> woke;             // as they woke
 };
 
 /// What a step had to mend. Identical on every peer.

@@ -12,8 +12,8 @@
 
 namespace isostep {
 
-/// A cache, not state: the pairs are a function of every body's fat box, type, filter and whether it is awake, all of
-/// them state. `place` compares with what it knew, so that loading a snapshot renews only what differs.
+/// A cache, not state: the pairs are a function of every body's fat box, type, filter, and whether it is awake and a
+/// sensor, all of them state. `place` compares with what it knew, so that loading a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
@@ -31,15 +31,16 @@ template <class S> class Proxies {
   struct Key {
     Aabb<S> box;
     Filter filter;
-    bool present, awake, dynamic, collides;
+    bool present, awake, dynamic, sensor, collides;
   };
   struct MayCollide {
     const std::vector<Key>* keys;
     ISO_INLINE bool operator()(std::uint32_t a, std::uint32_t b) const {
       const Key& ka = (*keys)[a];
       const Key& kb = (*keys)[b];
-      return (ka.awake || kb.awake) && (ka.dynamic || kb.dynamic) && ka.collides && kb.collides &&
-             should_collide(ka.filter, kb.filter);
+      // A sensor sees whatever moves, and what it passes when it moves itself; no other sensor.
+      const bool meet = ka.sensor != kb.sensor || (!ka.sensor && (ka.dynamic || kb.dynamic));
+      return meet && (ka.awake || kb.awake) && ka.collides && kb.collides && should_collide(ka.filter, kb.filter);
     }
   };
 

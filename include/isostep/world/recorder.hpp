@@ -18,6 +18,7 @@ template <class S> ISO_INLINE std::uint64_t settings_digest(const Settings<S>& s
   Writer writer(bytes);
   writer.write(settings.gravity);
   writer.write(settings.allow_sleep);
+  writer.write(settings.id_space);
   return hash_bytes(bytes.data(), bytes.size());
 }
 

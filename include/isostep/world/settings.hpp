@@ -21,6 +21,7 @@ template <class S> struct Settings {
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
   bool allow_sleep = true;
   SolverName solver = SolverName::soft_step;
+  std::uint32_t id_space = 0;  // 0..255, in every id: worlds of one game with spaces of their own refuse each other's
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("hz", self.hz);
@@ -28,6 +29,7 @@ template <class S> struct Settings {
     visit("gravity", self.gravity);
     visit("allow_sleep", self.allow_sleep);
     visit("solver", self.solver);
+    visit("id_space", self.id_space);
   }
 };
 

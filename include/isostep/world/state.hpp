@@ -14,6 +14,7 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/geometry/shape.hpp"
+#include "isostep/world/events.hpp"
 #include "isostep/world/settings.hpp"
 
 namespace isostep {
@@ -113,6 +114,7 @@ template <class S> struct WorldState {
   JointSet<S> joints;
   std::vector<PendingForce<S>> forces;
   std::vector<SensorOverlap> overlaps;
+  UntoldEvents untold;
   FrozenIslands<S> frozen;
 
   /// The arrays that are hashed and written whole: visit("name", array) in a fixed order, the shared ones first.
@@ -139,6 +141,9 @@ template <class S> struct WorldState {
     visit("joint_properties", self.joints.properties);
     visit("forces", self.forces);
     visit("overlaps", self.overlaps);
+    visit("untold_contact_end", self.untold.contact_end);
+    visit("untold_sensor_end", self.untold.sensor_end);
+    visit("untold_woke", self.untold.woke);
   }
 };
 

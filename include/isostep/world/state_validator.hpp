@@ -20,12 +20,15 @@ template <class S> class StateValidator {
     const Settings<S>& s = state_.settings;
     if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
-        static_cast<std::uint32_t>(s.solver) >= kSolvers) {
+        static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces) {
       return "settings out of range";
     }
     set_of_body_.assign(state_.body_slots.entries().size(), kNowhere);
     type_of_body_.assign(set_of_body_.size(), BodyType::fixed);
     joint_met_.assign(state_.joint_slots.entries().size(), 0);
+    for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
+      if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
+    }
     if (const char* rule = shapes()) return rule;
     if (const char* rule = bodies(*state_.fixed, kFixed)) return rule;
     if (const char* rule = bodies(state_.awake, kAwake)) return rule;
@@ -51,6 +54,12 @@ template <class S> class StateValidator {
  private:
   static constexpr std::uint32_t kNowhere = 0xffffffffu, kFixed = 0xfffffffeu, kAwake = 0xfffffffdu;
 
+  static bool lie_in(const SlotMap& slots, std::uint32_t space) {
+    bool all = true;
+    for (std::uint32_t i = 0; i < slots.entries().size(); ++i)
+      all = all && SlotMap::space_of(slots.id_of<BodyId>(i)) == space;
+    return all;
+  }
   bool is_body(std::uint32_t slot) const { return slot < set_of_body_.size() && set_of_body_[slot] != kNowhere; }
 
   /// The taken shapes' parts fill the pool without gap or overlap.
@@ -126,7 +135,7 @@ template <class S> class StateValidator {
         !detail::is_unit<S>(b.orientation)) {
       return "a body's pose is out of range";
     }
-    // Commands cut speeds a quarter above the limits.
+    // Impulses cut speeds a quarter above the limits, axis by axis.
     const S quarter = S(1.25);
     if (!is_finite(b.velocity) || !is_finite(b.spin) ||
         convert<Velocity<S>>(Limits<S>::speed() * quarter) < max_abs(b.velocity) ||
@@ -231,7 +240,33 @@ template <class S> class StateValidator {
         return "an overlap names no two bodies";
       if (i > 0 && !(state_.overlaps[i - 1] < state_.overlaps[i])) return "overlaps ascend";
     }
+    return untold();
+  }
+  const char* untold() const {
+    const std::vector<ContactEnd>& contacts = state_.untold.contact_end;
+    const std::vector<SensorEvent>& overlaps = state_.untold.sensor_end;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!was_body(contacts[i].a) || !was_body(contacts[i].b) || !(contacts[i].a.slot < contacts[i].b.slot))
+        return "an ended contact names no two bodies";
+      if (i > 0 && !ascend(contacts[i - 1].a, contacts[i - 1].b, contacts[i].a, contacts[i].b))
+        return "ended contacts ascend";
+    }
+    for (std::size_t i = 0; i < overlaps.size(); ++i) {
+      if (!was_body(overlaps[i].sensor) || !was_body(overlaps[i].other)) return "an ended overlap names no two bodies";
+      if (i > 0 && !ascend(overlaps[i - 1].sensor, overlaps[i - 1].other, overlaps[i].sensor, overlaps[i].other))
+        return "ended overlaps ascend";
+    }
+    for (const BodyId body : state_.untold.woke) {
+      if (!was_body(body)) return "who woke is no body";
+    }
     return nullptr;
+  }
+  /// Of a slot that was given: the body may be gone.
+  bool was_body(BodyId body) const {
+    return body && body.slot < set_of_body_.size() && SlotMap::space_of(body) == state_.settings.id_space;
+  }
+  static bool ascend(BodyId a, BodyId b, BodyId next_a, BodyId next_b) {
+    return a.slot != next_a.slot ? a.slot < next_a.slot : b.slot < next_b.slot;
   }
 
   const WorldState<S>& state_;

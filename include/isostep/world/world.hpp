@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/fault.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/simd.hpp"
@@ -68,7 +69,8 @@ struct WorldCounts {
 /// A rigid-body world over any scalar.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
-/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every
+/// in `fault()`. Observers of stages call none. One thread at a time calls mutators and `step`; between them any number
+/// may ask. Two worlds of one type that were told the same things in the same order have equal hashes at every
 /// tick, on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
@@ -79,8 +81,10 @@ template <class S> class World {
   using Scalar = S;
   using Command = isostep::Command<S>;
 
+  /// Settings out of range are brought into it, and that is a fault.
   explicit World(const Settings<S>& settings = {});
   ~World();
+  /// `other` is empty then, with its settings, and as usable as a new one.
   World(World&& other) noexcept;
   World& operator=(World&& other) noexcept;
 
@@ -136,7 +140,14 @@ template <class S> class World {
 
   /// Any command, as recorded ones are.
   bool apply(const Command& command);
+  /// Why the last call was refused. Commands clear it; queries that are answered and steps leave it.
   Fault fault() const;
+  /// The same with the names of the call and the field; `describe` makes a sentence of it.
+  const FaultReport& fault_report() const;
+  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what was
+  /// refused has no id.
+  const FaultReport& first_fault() const;
+  void forget_faults();
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);
@@ -197,8 +208,9 @@ template <class S> class World {
     std::unique_ptr<WorldState<S>> state_;
   };
   void save(Snapshot& to) const;
-  /// A snapshot that was moved from holds nothing, and loading it does nothing; one never saved to is an empty world.
-  void load(const Snapshot& from);
+  /// False, no change and a fault where `from` was never saved to, was moved from, or is of a world that was made with
+  /// other settings; gravity may differ. The portable form brings its settings along.
+  bool load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);

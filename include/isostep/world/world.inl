@@ -31,24 +31,39 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
   if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
+  s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
   const S limit = Limits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];
     s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
   }
-  if (s.hz != settings.hz || s.substeps != settings.substeps || s.solver != settings.solver ||
-      !(s.gravity == settings.gravity))
-    fault_ = Fault::out_of_range;
+  accept(detail::Checklist()
+             .in_range(s.hz == settings.hz, "hz", "10 to 1000")
+             .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
+             .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
+             .in_range(s.solver == settings.solver, "solver", "one of SolverName")
+             .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
+             .report());
+  sign("World");
 }
 
 template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
 template <class S> World<S>::~World() = default;
-template <class S> World<S>::World(World&& other) noexcept = default;
-template <class S> World<S>& World<S>::operator=(World&& other) noexcept = default;
+template <class S> World<S>::World(World&& other) noexcept : engine_(std::move(other.engine_)) {
+  other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
+}
+template <class S> World<S>& World<S>::operator=(World&& other) noexcept {
+  if (this == &other) return *this;
+  engine_ = std::move(other.engine_);
+  other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
+  return *this;
+}
 
 template <class S> const Settings<S>& World<S>::settings() const { return engine_->state_.settings; }
 template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool World<S>::use_simd(Simd simd) {
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) return engine_->refuse_in_step("use_simd");
   const ContactKernels<S>* kernels = contact_kernels<S>(simd);
   if (kernels == nullptr) return false;
   engine_->kernels_ = kernels;
@@ -58,6 +73,8 @@ template <class S> bool World<S>::use_simd(Simd simd) {
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) {
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) return static_cast<void>(engine_->refuse_in_step("use_threads"));
   engine_->runner_ = runner;
   engine_->runner_.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
 }
@@ -65,14 +82,24 @@ template <class S> void World<S>::use_threads(const TaskRunner& runner) {
 namespace detail {
 /// Executes under a pinned float environment and, when accepted, records.
 template <class S, class C> auto run(WorldEngine<S>& engine, const C& command) {
+  constexpr const char* kName = kCommandNames[IndexOf<C, Command<S>>::kValue];
   const FloatEnvironment environment;
-  engine.fault_ = Fault::none;
+  const OneAtATime::Entry entry(engine.one_at_a_time_);
+  if (!entry.alone()) {
+    engine.refuse_in_step(kName);
+    return decltype(engine.execute(command)){};
+  }
+  engine.fault_ = {};
   const auto result = engine.execute(command);
+  engine.sign(kName);
   if (static_cast<bool>(result) && engine.tape_ != nullptr) {
     Writer writer(*engine.tape_);
     write_command<Command<S>>(writer, command);
   }
   return result;
+}
+template <class S> bool accept_point(const WorldEngine<S>& engine, Vec3<S> point, const char* call) {
+  return engine.accept_query(call, Checklist().also(fault_of_place(point, "point")));
 }
 template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& shape) {
   const Child<S> child = {primitive_of(shape), Pose<S>::identity()};
@@ -108,7 +135,9 @@ template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) 
 template <class S> bool World<S>::destroy(BodyId body) { return detail::run(*engine_, DestroyBody{body}); }
 template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies) {
   const FloatEnvironment environment;
-  engine_->fault_ = Fault::none;
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) return engine_->refuse_in_step("destroy");
+  engine_->fault_ = {};
   return engine_->destroy_all(bodies, [&](const DestroyBody& command) {
     if (engine_->tape_ == nullptr) return;
     Writer writer(*engine_->tape_);
@@ -141,7 +170,7 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!engine_->accept(detail::fault_of_place(point))) return false;
+  if (!detail::accept_point(*engine_, point, "apply_force_at")) return false;
   return apply_force(body, force, detail::saturated_cross(point - centre(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
@@ -149,7 +178,7 @@ template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Ve
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!engine_->accept(detail::fault_of_place(point))) return false;
+  if (!detail::accept_point(*engine_, point, "apply_impulse_at")) return false;
   return apply_impulse(body, impulse, detail::saturated_cross(point - centre(body), impulse));
 }
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) {
@@ -190,7 +219,10 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
 template <class S> bool World<S>::apply(const Command& command) {
   return std::visit([&](const auto& c) { return static_cast<bool>(detail::run(*engine_, c)); }, command);
 }
-template <class S> Fault World<S>::fault() const { return engine_->fault_; }
+template <class S> Fault World<S>::fault() const { return engine_->fault_.fault; }
+template <class S> const FaultReport& World<S>::fault_report() const { return engine_->fault_; }
+template <class S> const FaultReport& World<S>::first_fault() const { return engine_->first_fault_; }
+template <class S> void World<S>::forget_faults() { engine_->fault_ = engine_->first_fault_ = {}; }
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
 template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->trace_ = hashes; }
 template <class S> std::uint64_t World<S>::loads() const { return engine_->loads_; }
@@ -299,6 +331,11 @@ template <class S> BodyView<S> World<S>::view(BodyId body) const {
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) {
+    engine_->refuse_in_step("step");
+    return {};
+  }
   if (engine_->tape_ != nullptr) engine_->tape_->push_back(kStepMarker);
   return engine_->step(observer);
 }
@@ -308,12 +345,12 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
   return engine_->render_poses_;
 }
 
-template <class S> World<S>::Snapshot::Snapshot() : state_(std::make_unique<WorldState<S>>()) {}
+template <class S> World<S>::Snapshot::Snapshot() = default;
 template <class S> World<S>::Snapshot::~Snapshot() = default;
 template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = default;
 template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
 template <class S> std::size_t World<S>::Snapshot::bytes() const {
-  if (state_ == nullptr) return 0;  // moved from
+  if (state_ == nullptr) return 0;  // never saved to, or moved from
   std::size_t total = sizeof(WorldState<S>);
   WorldState<S>::own_sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); },
                               *state_);
@@ -322,17 +359,32 @@ template <class S> std::size_t World<S>::Snapshot::bytes() const {
   return total + state_->frozen.pages() * sizeof(void*);
 }
 template <class S> void World<S>::save(Snapshot& to) const {
-  if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();  // moved from: as good as new
+  if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();
   *to.state_ = engine_->state_;
 }
-template <class S> void World<S>::load(const Snapshot& from) {
+template <class S> bool World<S>::load(const Snapshot& from) {
   const FloatEnvironment environment;
-  if (from.state_ != nullptr) engine_->load(*from.state_);
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) return engine_->refuse_in_step("load");
+  const char* expected = from.state_ == nullptr ? "one that was saved to" : "one of a world with the same settings";
+  if (from.state_ == nullptr || !detail::same_making(from.state_->settings, engine_->state_.settings)) {
+    engine_->refuse({Fault::bad_snapshot, "", "from", expected});
+    engine_->sign("load");
+    return false;
+  }
+  engine_->load(*from.state_);
+  return true;
 }
 template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
 template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
 template <class S> Result<void> World<S>::read_portable(Reader& reader) {
   const FloatEnvironment environment;
+  const OneAtATime::Entry entry(engine_->one_at_a_time_);
+  if (!entry.alone()) {
+    engine_->refuse_in_step("read_portable");
+    reader.fail(ErrorCode::invalid, "read while the world steps");
+    return reader.result("world");
+  }
   return engine_->read_portable(reader);
 }
 

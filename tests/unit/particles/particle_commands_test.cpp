@@ -79,6 +79,19 @@ TYPED_TEST(ParticleCommands, a_new_world_is_empty_and_without_fault) {
   EXPECT_EQ(fresh.tick(), 1u);
 }
 
+TYPED_TEST(ParticleCommands, a_world_that_was_moved_from_is_empty_and_of_use) {
+  using S = TypeParam;
+  const std::uint64_t before = this->world.hash();
+  ParticleWorld<S> taken = std::move(this->world);
+  EXPECT_EQ(taken.hash(), before);
+  EXPECT_TRUE(this->world.particles().empty());
+  EXPECT_EQ(this->world.hash(), ParticleWorld<S>(taken.settings()).hash());
+  EXPECT_TRUE(this->world.step().clean());
+  this->world = std::move(taken);
+  EXPECT_EQ(this->world.hash(), before);
+  EXPECT_TRUE(taken.particles().empty());
+}
+
 TYPED_TEST(ParticleCommands, settings_out_of_range_are_brought_into_range_and_reported) {
   using S = TypeParam;
   ParticleSettings<S> wild;

@@ -264,7 +264,7 @@ TYPED_TEST(DebugDraws, TellsTheSameAfterALoad) {
     run(crate.world, steps);
     typename World<S>::Snapshot saved;
     crate.world.save(saved);
-    World<S> other;
+    World<S> other(crate.world.settings());
     other.load(saved);
     const Told here = told(crate.world), there = told(other);
     EXPECT_FALSE(here.contacts.empty());

@@ -79,7 +79,7 @@ TYPED_TEST(WorldSleep, falling_asleep_and_waking_are_told_once_in_order_of_islan
   ASSERT_EQ(slept.size(), 6u);
   for (const BodyId id : w.bodies()) EXPECT_EQ(std::count(slept.begin(), slept.end(), id), id == this->ground ? 0 : 1);
   ASSERT_TRUE(w.wake(this->left[1]));
-  EXPECT_EQ(w.events().woke.size(), 3u);
+  EXPECT_TRUE(w.events().woke.empty()) << "the next step tells";
   w.step();
   ASSERT_EQ(w.events().woke.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(w.events().woke[static_cast<std::size_t>(i)], this->left[i]);
@@ -158,10 +158,9 @@ TYPED_TEST(WorldSleep, every_command_on_a_sleeper_wakes_its_island_alone) {
     for (const BodyId id : this->left) EXPECT_TRUE(w.is_awake(id)) << what;
     this->expect_right(false);
   };
-  const Vec3<S> zero = Vec3<S>::zero();
   check("wake", [&] { return w.wake(top); });
   check("pose", [&] { return w.set_pose(top, w.pose(top)); });
-  check("velocity", [&] { return w.set_velocity(top, zero, zero); });
+  check("velocity", [&] { return w.set_velocity(top, vec<S>(0, 0.01, 0), Vec3<S>::zero()); });
   check("force", [&] { return w.apply_force(top, vec<S>(0, 1, 0)); });
   check("impulse", [&] { return w.apply_impulse(top, vec<S>(0, 0.01, 0)); });
   check("material", [&] { return w.set_material(top, {}); });

@@ -34,27 +34,9 @@ template <class S> struct JointBlock {
   Mat3<S> coupling;           // [1] K = J M^-1 J^T per reduced mass
   Mat3<S> inverse;            // [1] of K, and of its Schur complement inside a tree
   Vec3<Velocity<S>> error;    // [m]
-<<<<<<< HEAD
   Vec3<Velocity<S>> impulse;  // [m/s] accumulated, of equalities
   Vec3<S> give;               // [1] added to the diagonal: springs yield
-=======
-  Vec3<Velocity<S>> impulse;  // [m/s] accumulated
   Vec3<Velocity<S>> curve;    // [m/s] what the arms' turning adds to the speed of a point: curve_of()
-};
-
-/// One coordinate of a joint that may be driven and bounded.
-template <class S> struct JointDrive {
-  JointRow<S> row;
-  S radius;                // [m] of an angle
-  S effective_mass;        // [1]
-  S position;              // [m] an angle times the radius, or a length
-  S lower, upper, target;  // [m]
-  bool bounded_below, bounded_above, sprung, driven;
-  Velocity<S> speed;  // [m/s] of the motor
-  Softness<S> spring;
-  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it is
-  Velocity<S> motor_impulse, spring_impulse, lower_impulse, upper_impulse;  // [m/s]
->>>>>>> b3e3449 (Spinning bodies under torque keep their spin, their energy and their height)
 };
 
 /// Velocities of the two bodies, worked on together; written back only where mass is.

@@ -163,7 +163,7 @@ template <class S> void Sequential<S>::find_carried(const SolverInput<S>& input)
     const auto width = static_cast<std::uint32_t>(run.kernels->width);
     const std::uint32_t at = place - run.first;
     const std::size_t rolling = detail::Variant::of(run.variant).rolling ? sizeof(RollingRows<S, 1>) * width : 0;
-    carried_[i] = {memory_.data()->bytes + place_of(run, at / width) + rolling + (at % width) * sizeof(S), width};
+    carried_[i] = {memory_.data() + place_of(run, at / width) + rolling + (at % width) * sizeof(S), width};
   }
 }
 template <class S> void Sequential<S>::carry(const SolverInput<S>& input) {
