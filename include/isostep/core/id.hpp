@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used, and so is that of
+/// Names one thing of a world. A default id names nothing; a stale one is refused wherever it is used, and so is one of
 /// a world with another Settings::id_space. Two worlds with the same space cannot tell their ids apart.
 template <class Tag> struct Id {
   std::uint32_t slot = 0;

@@ -170,7 +170,7 @@ ISO_TELL(confirmed)
 }  // namespace detail
 
 namespace detail {
-/// A sync test changes so many bytes of each state, one bit each: a state of 10 kB is gone through in some 40 s of play.
+/// A sync test changes so many bytes of each state, one bit each: one of 10 kB is gone through in some 40 s of play.
 inline constexpr std::uint64_t kProbes = 4;
 
 template <class Game> void write_whole(const Game& game, std::vector<std::uint8_t>& bytes) {

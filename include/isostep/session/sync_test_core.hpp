@@ -9,9 +9,9 @@ namespace isostep {
 
 /// Every input is known to the session `window` frames late, so the frames in between are first stepped on guesses, as
 /// in a match; then the newest `window` frames are stepped once more with the same inputs, and must give the same
-/// roots, although all inputs are now shown as confirmed. A difference means that something shapes the future and is not
-/// saved, or is no function of state and inputs, or that the game looks at which inputs are guesses. And of games that can
-/// be written down some bytes of every new state are changed: the hash must be another one.
+/// roots, although all inputs are now shown as confirmed. A difference means that something shapes the future and is
+/// not saved, or is no function of state and inputs, or that the game looks at which inputs are guesses. And of games
+/// that can be written down some bytes of every new state are changed: the hash must be another one.
 class SyncTestCore : public SessionCore {
  public:
   SyncTestCore(const SessionConfig& config, const InputRules& rules);

@@ -102,8 +102,8 @@ template <class S> void WorldEngine<S>::update_sensors() {
   if (told) detail::sort_ends(events_.sensor_end, sensor_end_scratch_);
 }
 
-/// Two bodies touch when any of their contacts carried an impulse. Both lists ascend, so the events do, but for ends that
-/// commands made.
+/// Two bodies touch when any of their contacts carried an impulse. Both lists ascend, so the events do, but for ends
+/// that commands made.
 template <class S> void WorldEngine<S>::emit_contact_events() {
   const std::vector<Contact<S>>& now = state_.contacts;
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };

@@ -144,8 +144,8 @@ template <class S> class World {
   Fault fault() const;
   /// The same with the names of the call and the field; `describe` makes a sentence of it.
   const FaultReport& fault_report() const;
-  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what was
-  /// refused has no id.
+  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
+  /// was refused has no id.
   const FaultReport& first_fault() const;
   void forget_faults();
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it

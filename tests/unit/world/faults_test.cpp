@@ -1,4 +1,4 @@
-// What a world says of calls that make no sense: which call, which field, what it expects; and that it comes to no harm.
+// What a world says of calls that make no sense: which call, which field, what it expects; and that no harm comes of it.
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <string>
