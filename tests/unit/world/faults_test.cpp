@@ -1,4 +1,4 @@
-// What a world says of calls that make no sense: which call, which field, what it expects; and that no harm comes of it.
+// What a world says of calls that make no sense: which call, which field, what it expects. No harm comes of them.
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <string>
