@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/particles/particle.hpp"
+#include "isostep/scalar/math.hpp"
 
 namespace isostep {
 
@@ -36,6 +37,9 @@ template <class S> struct ParticleConstraint {
   Vec3<Velocity<S>> total;             // [m/s] all impulses of the step, where b is no particle
   Velocity<S> impulse;                 // [m/s] along n; >= 0 but of rods
   Vec3<Velocity<S>> friction_impulse;  // [m/s] across n
+  std::uint32_t meets;                 // 1: its sides met in this sub-step ...
+  Velocity<S> closing;                 // [m/s] ... as fast as this, before anything held them
+  Velocity<S> shift;                   // [m/s] along n, by which the sub-step pushes an overlap apart
   Velocity<S> impulse_seen;            // [m/s] largest of the step
   Velocity<S> approach;                // [m/s] lowest n.(v_b - v_a) at which they met in the step, <= 0
   SumOf<Velocity<S>, Velocity<S>> work;  // [m^2/s^2] by which impulses of the step changed the square of its speed
@@ -58,10 +62,25 @@ template <class S> struct ParticleConstraint {
     visit("total", self.total);
     visit("impulse", self.impulse);
     visit("friction_impulse", self.friction_impulse);
+    visit("meets", self.meets);
+    visit("closing", self.closing);
+    visit("shift", self.shift);
     visit("impulse_seen", self.impulse_seen);
     visit("approach", self.approach);
     visit("work", self.work);
   }
 };
+
+/// sqrt(v^2 + 2 g w) [m/s] of v >= 0: what forces that add g to a speed in a sub-step make of it on the way of w times
+/// the sub-step; 0 where they stop it before.
+template <class S> ISO_INLINE Velocity<S> worked_speed(Velocity<S> v, Velocity<S> g, Velocity<S> w) {
+  using V = Velocity<S>;
+  const bool adds = (g < V(0)) == (w < V(0));
+  const V root = sqrt(g < V(0) ? -g : g) * sqrt(w < V(0) ? -w : w);
+  const V part = saturating_add(root, root * V(0.41421356237309503));  // times the root of 2
+  if (part == V(0)) return v;
+  if (adds) return direction_of(v, part, V(0)).length;
+  return part < v ? sqrt(v - part) * sqrt(v + part) : V(0);
+}
 
 }  // namespace isostep

@@ -26,6 +26,7 @@ template <class S> void ParticleEngine<S>::find_contacts() {
   state_.contacts.clear();
   rows_.clear();
   add_links();
+  find_pulls();
   first_contact_ = static_cast<std::uint32_t>(rows_.size());
   find_pairs();
   std::size_t old = 0, pair = 0;
@@ -41,11 +42,37 @@ template <class S> void ParticleEngine<S>::find_contacts() {
   add_touches();
 }
 
+/// Whether any particle may meet anything but touches and links.
+template <class S> bool ParticleEngine<S>::may_meet() const {
+  bool collides = false;
+  for (const ParticleMaterial<S>& material : state_.materials.all()) collides = collides || material.collides;
+  return collides || !state_.colliders.all().empty() || !state_.cohesions.all().empty();
+}
+/// How far springs may carry their ends in a step beside their velocity: k h^2 / m of the extension, and to its other
+/// side at most.
+template <class S> void ParticleEngine<S>::find_pulls() {
+  pulls_.clear();
+  if (state_.springs.all().empty() || !may_meet()) return;
+  pulls_.assign(state_.material.size(), S(0));
+  const S rate = S(state_.settings.hz);
+  for (const Spring<S>& spring : state_.springs.all()) {
+    if (!spring.a) continue;
+    const Vec3<S> d = state_.position[spring.a.slot] - (spring.b ? state_.position[spring.b.slot] : spring.anchor);
+    const S extension = abs(direction_of(d.x, d.y, d.z).length - spring.rest_length);
+    const auto pull = [&](std::uint32_t slot) {
+      const S part = saturate_to<S>(product(spring.stiffness, state_.inverse_mass[slot])) / rate / rate;
+      pulls_[slot] = saturating_add(pulls_[slot], saturate_to<S>(product(extension, min(part, S(2)))));
+    };
+    pull(spring.a.slot);
+    if (spring.b) pull(spring.b.slot);
+  }
+}
 /// How far a particle may come in a step [m], more or less: what it meets sooner is found now.
 template <class S> ISO_INLINE S ParticleEngine<S>::reach_of(std::uint32_t slot) const {
   const Vec3<V> v = state_.velocity[slot];
   const V most = max(max_abs(v), V(1));  // [m/s] what a force may do within a step
-  return convert<S>(most) * (h_ * Step<S>(0.5)) * S(4 * state_.settings.substeps);
+  const S way = convert<S>(most) * (h_ * Step<S>(0.5)) * S(4 * state_.settings.substeps);
+  return pulls_.empty() ? way : min(saturating_add(way, pulls_[slot]), ParticleLimits<S>::position());
 }
 
 /// Particles that collide with each other, pair by pair, ascending.
@@ -68,7 +95,8 @@ template <class S> void ParticleEngine<S>::find_pairs() {
   }
   if (slots_.size() < 2) return;
   const auto count = static_cast<std::uint32_t>(slots_.size());
-  const bool all = grid_.find_pairs(state_.position, slots_.data(), reaches_.data(), count, pairs_, most_pairs(count));
+  const std::uint32_t most = most_pairs(state_.settings.pairs, count);
+  const bool all = grid_.find_pairs(state_.position, slots_.data(), reaches_.data(), count, pairs_, most);
   if (!all) ++report_.lost_pairs;
 }
 template <class S> void ParticleEngine<S>::find_pair(std::uint32_t a, std::uint32_t b, std::size_t& old) {
@@ -164,8 +192,9 @@ template <class S> ISO_INLINE void ParticleEngine<S>::look_at_link(ParticleConst
   const Vec3<S> b = row.b == kNoParticle ? link.anchor : scratch_.now[row.b];
   const Vec3<S> d = b - scratch_.now[row.a];
   const Direction<S> way = direction_of(d.x, d.y, d.z);
-  const Vec3<U> n = {way.x, way.y, way.z};
   const bool rod = row.kind == ConstraintKind::rod;
+  // Upwards a rod opens whose ends are in one place, as particles part that are.
+  const Vec3<U> n = rod && way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : Vec3<U>{way.x, way.y, way.z};
   row.normal = rod ? n : -n;
   row.separation = rod ? way.length - link.length : link.length - way.length;
 }

@@ -99,7 +99,8 @@ template <class S> void ParticleEngine<S>::find_cohering() {
       reaches_.push_back(half + min(reach_of(slot), half));
     }
     const auto count = static_cast<std::uint32_t>(slots_.size());
-    if (!grid_.find_pairs(state_.position, slots_.data(), reaches_.data(), count, cohering_, most_pairs(count)))
+    const std::uint32_t most = most_pairs(state_.settings.pairs, count);
+    if (!grid_.find_pairs(state_.position, slots_.data(), reaches_.data(), count, cohering_, most))
       ++report_.lost_pairs;
     cohering_ends_.push_back(cohering_.size());
   }

@@ -50,10 +50,13 @@ template <class S> void ParticleEngine<S>::accelerate() {
 /// Where nothing joins particles, each goes through all sub-steps at once.
 template <class S> void ParticleEngine<S>::fly_free() { kernels_->fly(flight()); }
 
+/// Velocities become those with which particles move through the sub-step, and displacements follow them. With these
+/// velocities constraints have to do; arrive() then makes them those of the sub-step's end. A second stage that saw
+/// where forces alone would take the particles would feed the spring beside a rod with energy.
 template <class S> void ParticleEngine<S>::integrate() {
   switch (state_.settings.integrator) {
-    case Integrator::velocity_verlet: integrate_verlet(); break;
-    case Integrator::rk4: integrate_rk4(); break;
+    case Integrator::velocity_verlet: drift_verlet(); break;
+    case Integrator::rk4: drift_rk4(); break;
     case Integrator::implicit_euler: integrate_implicit(); break;
     case Integrator::explicit_euler:
     case Integrator::semi_implicit_euler:
@@ -62,6 +65,28 @@ template <class S> void ParticleEngine<S>::integrate() {
       break;
   }
   swing_stiff_springs();
+  if (state_.settings.integrator != Integrator::rk4 || rows_.empty()) return;
+  renew_positions();
+  accelerate();
+  scratch_.first = scratch_.acceleration;
+}
+/// Of the methods whose velocities at the end are not those of the way.
+template <class S> void ParticleEngine<S>::arrive() {
+  if (state_.settings.integrator == Integrator::velocity_verlet) return arrive_verlet();
+  if (!rows_.empty()) turn_end();
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
+    const Vec3<V> changed = saturating_subtract(state_.velocity[i], scratch_.mean[i]);
+    keep_velocity(i, held_within(saturating_add(scratch_.end[i], changed), passing_speed<S>()));
+  }
+}
+/// A sub-step of particles that springs and forces join, but no constraint.
+template <class S> void ParticleEngine<S>::fly_joined() {
+  integrate();
+  if (arrives()) arrive();
+}
+template <class S> bool ParticleEngine<S>::arrives() const {
+  const Integrator integrator = state_.settings.integrator;
+  return integrator == Integrator::velocity_verlet || integrator == Integrator::rk4;
 }
 
 namespace detail {
@@ -79,41 +104,43 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> pushed(Vec3<Velocity<S>> v, Vec3
 template <class S> ISO_INLINE Vec3<Velocity<S>> travelled(Vec3<Velocity<S>> v, Step<S> h) {
   return {v.x * h, v.y * h, v.z * h};
 }
-/// The mean of two, which may add up beyond the format.
-template <class S> ISO_INLINE Vec3<S> mean(Vec3<S> a, Vec3<S> b) {
-  const S half = S(0.5);
-  return saturating_add(a * half, b * half);
-}
 }  // namespace detail
 
-/// Velocity Verlet: positions by v h + a h^2 / 2, velocities by the mean of both ends' accelerations; what depends on
-/// velocity is evaluated at the end with v + a h.
-template <class S> void ParticleEngine<S>::integrate_verlet() {
+/// Velocity Verlet as kick, drift, kick: half of the accelerations at the start, the way, half of those at its end. What
+/// depends on velocity is evaluated at the end with both halves of the first.
+template <class S> void ParticleEngine<S>::drift_verlet() {
   accelerate();
   scratch_.first = scratch_.acceleration;
-  scratch_.start = state_.velocity;
-  const auto count = static_cast<std::uint32_t>(state_.material.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3<V> v = state_.velocity[i];
-    const Vec3<V> next = detail::pushed<S>(v, scratch_.acceleration[i], h_);
-    scratch_.displacement.add(i, detail::travelled<S>(detail::mean(v, next), h_));
-    state_.velocity.set(i, next);
+  const Step<S> half = h_ * Step<S>(0.5);
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
+    const Vec3<V> v = detail::pushed<S>(state_.velocity[i], scratch_.acceleration[i], half);
+    scratch_.displacement.add(i, detail::travelled<S>(v, h_));
+    state_.velocity.set(i, v);
   }
+}
+template <class S> void ParticleEngine<S>::arrive_verlet() {
   renew_positions();
+  scratch_.start = state_.velocity;
+  const Step<S> half = h_ * Step<S>(0.5);
+  const auto count = static_cast<std::uint32_t>(state_.material.size());
+  for (std::uint32_t i = 0; i < count; ++i)
+    state_.velocity.set(i, detail::pushed<S>(scratch_.start[i], scratch_.first[i], half));
   accelerate();
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3<S> a = detail::mean(scratch_.first[i], scratch_.acceleration[i]);
-    keep_velocity(i, detail::pushed<S>(scratch_.start[i], a, h_));
+    state_.velocity.set(i, scratch_.start[i]);
+    keep_velocity(i, detail::pushed<S>(scratch_.start[i], scratch_.acceleration[i], half));
   }
 }
 
-/// The classical fourth-order method of Kutta (1901): slopes at the start, twice in the middle, at the end.
-template <class S> void ParticleEngine<S>::integrate_rk4() {
+/// The classical fourth-order method of Kutta (1901): slopes at the start, twice in the middle, at the end. The mean of
+/// the velocities is that of the way.
+template <class S> void ParticleEngine<S>::drift_rk4() {
   const auto count = static_cast<std::uint32_t>(state_.material.size());
   scratch_.start = state_.velocity;
   scratch_.first_displacement = scratch_.displacement;
   scratch_.sum.resize(count);
-  scratch_.velocity_sum.resize(count);
+  scratch_.mean.resize(count);
+  scratch_.end.resize(count);
   const Step<S> half = h_ * Step<S>(0.5);
   for (int stage = 0; stage < 4; ++stage) {
     accelerate();
@@ -124,9 +151,9 @@ template <class S> void ParticleEngine<S>::integrate_rk4() {
       const Vec3<S> a = scratch_.acceleration[i];
       // Weights of a sixth and a third, taken one by one so that the sum stays within the format.
       const Vec3<S> part = outer ? a * S(1.0 / 6) : a * S(1.0 / 3);
-      const Vec3<V> way = detail::travelled<S>(outer ? v * V(1.0 / 6) : v * V(1.0 / 3), h_);
+      const Vec3<V> of_mean = v * (outer ? U(1.0 / 6) : U(1.0 / 3));
       scratch_.sum.set(i, stage == 0 ? part : saturating_add(scratch_.sum[i], part));
-      scratch_.velocity_sum.set(i, stage == 0 ? way : scratch_.velocity_sum[i] + way);
+      scratch_.mean.set(i, stage == 0 ? of_mean : scratch_.mean[i] + of_mean);
       if (stage == 3) continue;
       scratch_.displacement.set(i, scratch_.first_displacement[i] + detail::travelled<S>(v, ahead));
       state_.velocity.set(i, detail::pushed<S>(scratch_.start[i], a, ahead));
@@ -134,8 +161,23 @@ template <class S> void ParticleEngine<S>::integrate_rk4() {
     if (stage < 3) renew_positions();
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    scratch_.displacement.set(i, scratch_.first_displacement[i] + scratch_.velocity_sum[i]);
-    keep_velocity(i, detail::pushed<S>(scratch_.start[i], scratch_.sum[i], h_));
+    const bool moves = InverseMass<S>(0) < state_.inverse_mass[i];
+    const Vec3<V> mean = moves ? scratch_.mean[i] : scratch_.start[i];
+    scratch_.displacement.set(i, scratch_.first_displacement[i] + detail::travelled<S>(mean, h_));
+    scratch_.mean.set(i, mean);
+    scratch_.end.set(i, detail::pushed<S>(scratch_.start[i], scratch_.sum[i], h_));
+    state_.velocity.set(i, mean);
+  }
+}
+
+/// rk4's velocities at the end are of where forces alone lead. What forces do elsewhere counts half, as Verlet has it.
+template <class S> void ParticleEngine<S>::turn_end() {
+  renew_positions();
+  accelerate();
+  const Step<S> half = h_ * Step<S>(0.5);
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
+    const Vec3<S> more = saturating_subtract(scratch_.acceleration[i], scratch_.first[i]);
+    scratch_.end.set(i, detail::pushed<S>(scratch_.end[i], more, half));
   }
 }
 
@@ -152,25 +194,47 @@ template <class S> void ParticleEngine<S>::integrate_implicit() {
   }
 }
 
+/// What holds each particle besides forces: stiff springs and constraints.
+template <class S> void ParticleEngine<S>::count_holds() {
+  bool any = false;
+  for (const Spring<S>& spring : state_.springs.all()) any = any || (spring.a && spring.type == SpringType::stiff);
+  if (!any) return;
+  holds_.assign(state_.material.size(), 0);
+  const auto hold = [this](std::uint32_t slot) { holds_[slot] = min(holds_[slot] + 1u, 2u); };
+  for (const Spring<S>& spring : state_.springs.all()) {
+    if (!spring.a || spring.type != SpringType::stiff) continue;
+    hold(spring.a.slot);
+    if (spring.b) hold(spring.b.slot);
+  }
+  for (const ParticleConstraint<S>& row : rows_) {
+    hold(row.a);
+    if (row.b != kNoParticle) hold(row.b);
+  }
+}
 template <class S> void ParticleEngine<S>::prepare_springs() {
   spring_rows_.begin(state_.springs.all().size());
   oscillators_.clear();
   springs_yield_ = false;
   const auto particles = static_cast<std::uint32_t>(state_.material.size());
+  count_holds();
   for (const Spring<S>& spring : state_.springs.all()) {
     if (!spring.a) continue;
     const InverseMass<S> of_a = state_.inverse_mass[spring.a.slot];
     const InverseMass<S> of_b = spring.b ? state_.inverse_mass[spring.b.slot] : InverseMass<S>(0);
     const InverseMass<S> both = saturating_add(of_a, of_b);
     if (S(0) < spring.elastic_limit) springs_yield_ = true;
-    if (spring.type == SpringType::stiff)
-      oscillators_.push_back(oscillator_step(spring.stiffness, spring.damping, both, rate_));
-    else if (InverseMass<S>(0) < both) spring_rows_.add(spring, particles, of_a, of_b);
+    if (spring.type == SpringType::stiff) {
+      const bool alone = holds_[spring.a.slot] == 1 && (!spring.b || holds_[spring.b.slot] == 1);
+      oscillators_.push_back(
+          (alone ? oscillator_step<S> : implicit_oscillator_step<S>)(spring.stiffness, spring.damping, both, rate_));
+    } else if (InverseMass<S>(0) < both) spring_rows_.add(spring, particles, of_a, of_b);
   }
   if (spring_rows_.count > 0) spring_rows_.place_anchors(particles);
 }
-/// After everything else has moved its ends as if it were not there, a stiff spring moves them on by what its exact
-/// motion differs from that.
+/// After everything else has moved its ends as if it were not there, a stiff spring moves them on by what its motion
+/// differs from that: the exact one where nothing else holds its ends. A constraint would undo the velocity of the
+/// exact motion's end, which says nothing about the way, and give the energy back as displacement: there the spring is
+/// taken by backward Euler, whose end velocity is that of the way.
 template <class S> void ParticleEngine<S>::swing_stiff_springs() {
   if (oscillators_.empty()) return;
   std::size_t next = 0;
@@ -203,6 +267,23 @@ template <class S> void ParticleEngine<S>::swing_stiff_springs() {
     change = held_within(change, highest<V>());
     swing(a, way * share_a, change * share_a);
     if (spring.b) swing(b, -(way * share_b), -(change * share_b));
+  }
+}
+/// As forces, which accelerate() leaves out.
+template <class S> void ParticleEngine<S>::pull_stiff_springs() {
+  if (oscillators_.empty()) return;
+  for (const Spring<S>& spring : state_.springs.all()) {
+    if (!spring.a || spring.type != SpringType::stiff) continue;
+    const Vec3<S> d = (spring.b ? scratch_.now[spring.b.slot] : spring.anchor) - scratch_.now[spring.a.slot];
+    const auto tension = [&](S part) { return saturate_to<S>(product(spring.stiffness, part)); };
+    const Vec3<S> force = held_within<S>({tension(d.x), tension(d.y), tension(d.z)}, highest<S>());
+    const auto pull = [&](std::uint32_t slot, Vec3<S> f) {
+      const InverseMass<S> w = state_.inverse_mass[slot];
+      const auto part = [w](S x) { return saturate_to<S>(product(x, w)); };
+      add_acceleration(slot, {part(f.x), part(f.y), part(f.z)});
+    };
+    pull(spring.a.slot, force);
+    if (spring.b) pull(spring.b.slot, -force);
   }
 }
 template <class S> ISO_INLINE void ParticleEngine<S>::swing(std::uint32_t slot, Vec3<V> way, Vec3<V> change) {

@@ -44,6 +44,7 @@ template <class S> void ParticleEngine<S>::begin_step() {
   const std::size_t count = state_.material.size();
   scratch_.acceleration.resize(count);
   scratch_.displacement.assign(count, V(0));
+  looks_left_ = most_looks(state_.settings.looks, count);
   prepare_flight();
   contact_softness_ = soften(detail::kParticleContactAngle<S>, detail::kParticleContactDamping<S>, rate_);
   link_softness_ = soften(detail::kLinkAngle<S>, detail::kLinkDamping<S>, rate_);
@@ -62,9 +63,8 @@ template <class S> void ParticleEngine<S>::solve_substeps() {
   find_cohering();
   for (std::int32_t i = 0; i < state_.settings.substeps; ++i) {
     hurry_surfaces();
-    if (rows_.empty() && !resolves) integrate();
+    if (rows_.empty() && !resolves) fly_joined();
     else if (is_soft()) soften_substep();
-    else if (state_.settings.stepping == Stepping::time_division) divide_substep();
     else resolve_substep();
     move_surfaces();
     renew_positions();

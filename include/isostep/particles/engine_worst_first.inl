@@ -17,17 +17,21 @@ template <class S> void ParticleEngine<S>::integrate_velocities() {
   scratch_.before = state_.velocity;
   scratch_.first_displacement = scratch_.displacement;
   integrate();
-  const auto count = static_cast<std::uint32_t>(state_.material.size());
-  scratch_.way.resize(count);
-  scratch_.gained.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
+  note_gained();
+  scratch_.way.resize(state_.material.size());
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i)
     scratch_.way.set(i, saturating_subtract(scratch_.displacement[i], scratch_.first_displacement[i]));
-    const bool moves = InverseMass<S>(0) < state_.inverse_mass[i];
-    scratch_.gained.set(i, moves ? state_.velocity[i] - scratch_.before[i] : Vec3<V>::zero());
-  }
   scratch_.displacement = scratch_.first_displacement;
-  scratch_.before = state_.velocity;
   renew_positions();
+}
+/// What forces added to the velocities since `before`, which are `before` from now on.
+template <class S> void ParticleEngine<S>::note_gained() {
+  scratch_.gained.resize(state_.material.size());
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
+    const bool moves = InverseMass<S>(0) < state_.inverse_mass[i];
+    scratch_.gained.set(i, moves ? saturating_subtract(state_.velocity[i], scratch_.before[i]) : Vec3<V>::zero());
+  }
+  scratch_.before = state_.velocity;
 }
 
 /// Rows as WorstFirst has them: separations as the step began. What rounding alone keeps apart touches.
@@ -35,6 +39,7 @@ template <class S> void ParticleEngine<S>::place_rows() {
   look();
   const Axes<V>& d = scratch_.displacement;
   for (ParticleConstraint<S>& row : rows_) {
+    row.shift = max(-saturate_to<V>(product(row.separation, rate_)), V(0));
     if (is_touching(row)) row.separation = min(row.separation, S(0));
     const auto of_b = dot_sum(row.normal, row.b == kNoParticle ? Vec3<V>::zero() : d[row.b]);
     row.separation -= convert<S>(saturate_to<V>(of_b - dot_sum(row.normal, d[row.a])));
@@ -44,22 +49,65 @@ template <class S> bool ParticleEngine<S>::is_touching(const ParticleConstraint<
   const S tolerance = spacing_at(max_abs(scratch_.now[row.a])) * S(16);
   return row.kind == ConstraintKind::contact && row.separation <= tolerance;
 }
+/// Looks at rows, of those that a step has.
+template <class S> void ParticleEngine<S>::spend(std::uint64_t looks) {
+  if (looks_left_ <= looks && looks != 0) ++report_.spent;
+  looks_left_ -= min(looks, looks_left_);
+}
 template <class S> void ParticleEngine<S>::resolve_rows() {
   const auto count = static_cast<std::uint32_t>(rows_.size());
   const std::uint32_t asked = state_.settings.iterations;
-  std::optional<std::uint32_t> shared;
-  if (asked != 0) shared = asked;
+  ResolverTerms<S> terms = {arrives() ? rate_ + rate_ : rate_, !arrives(), std::nullopt, looks_left_};
+  if (asked != 0) terms.iterations = asked;
   report_.unresolved +=
-      worst_first_.resolve(rows_.data(), count, state_.velocity, scratch_.displacement, scratch_.gained, shared);
+      worst_first_.resolve(rows_.data(), count, state_.velocity, scratch_.displacement, scratch_.gained, terms);
+  spend(worst_first_.looks());
   for (ParticleConstraint<S>& row : rows_) row.impulse_seen = max(row.impulse_seen, row.impulse);
+}
+
+/// What came back out of an overlap has its speed from where it was. Where the forces that it was pushed against are
+/// stronger at the surface than they were there, the difference is to be paid too.
+template <class S> void ParticleEngine<S>::pay_for_ways() {
+  const auto pays = [](const ParticleConstraint<S>& row) {
+    return V(0) < row.shift && S(0) < row.restitution && V(0) < row.impulse && row.kind != ConstraintKind::rod;
+  };
+  bool any = false;
+  for (const ParticleConstraint<S>& row : rows_) any = any || pays(row);
+  if (!any || !has_forces()) return;
+  renew_positions();
+  accelerate();
+  pull_stiff_springs();
+  for (ParticleConstraint<S>& row : rows_) {
+    const V speed = separating_speed(row);
+    if (!pays(row) || !(V(0) < speed)) continue;
+    const Vec3<V> of_b = row.b == kNoParticle ? row.surface_gain : scratch_.gained[row.b];
+    V paid = saturate_to<V>(dot_sum(row.normal, scratch_.gained[row.a]) - dot_sum(row.normal, of_b));
+    if (arrives()) paid = saturating_add(paid, paid);
+    const V more = saturating_subtract(closing_gain(row), max(paid, V(0)));
+    if (V(0) < more) give(row, row.normal * saturating_subtract(worked_speed<S>(speed, -more, row.shift), speed));
+  }
 }
 
 template <class S> void ParticleEngine<S>::resolve_substep() {
   integrate_velocities();
+  if (state_.settings.stepping == Stepping::time_division) {
+    divide_way();
+  } else {
+    place_rows();
+    resolve_rows();
+    pay_for_ways();
+    for (std::uint32_t i = 0; i < state_.material.size(); ++i) move_on(i, scratch_.way[i]);
+    move_by_constraints();
+  }
+  if (!arrives()) return;
+  // What presses with the other half of the forces must not leave with it.
+  scratch_.before = state_.velocity;
+  arrive();
+  note_gained();
+  renew_positions();
   place_rows();
   resolve_rows();
-  for (std::uint32_t i = 0; i < state_.material.size(); ++i) move_on(i, scratch_.way[i]);
-  move_by_constraints();
+  pay_for_ways();
 }
 
 // ---- time division
@@ -152,22 +200,26 @@ template <class S> void ParticleEngine<S>::turn_ways(Unit<S> left) {
 
 /// Source:  Millington, ch. 7.4.2.  Differs: between contacts particles move in straight lines, the sub-step's way.
 ///          What touches already is resolved as the sub-step begins; cables and rods are, whenever anything is.
-template <class S> void ParticleEngine<S>::divide_substep() {
-  integrate_velocities();
+template <class S> void ParticleEngine<S>::divide_way() {
   U left = U(1);  // [1] of the sub-step
   for (std::uint32_t division = 0;; ++division) {
     place_rows();
     resolve_rows();
+    pay_for_ways();
     turn_ways(left);
     renew_positions();
     look();
     U when;
-    const std::uint32_t next = division < kMostDivisions ? next_contact(when) : kNoParticle;
-    if (division == kMostDivisions) ++report_.undivided;
+    const bool divides = division < kMostDivisions && looks_left_ != 0;
+    if (!divides) ++report_.undivided;
+    const std::uint32_t next = divides ? next_contact(when) : kNoParticle;
+    if (divides) spend(rows_.size());
     if (next == kNoParticle) break;
     travel(when);
     left = left - left * when;
-    for (std::uint32_t i = 0; i < state_.material.size(); ++i) scratch_.gained.set(i, Vec3<V>::zero());
+    // The rest of what forces give comes after the contact.
+    for (std::uint32_t i = 0; i < state_.material.size(); ++i)
+      scratch_.gained.set(i, scratch_.gained[i] - scratch_.gained[i] * when);
   }
   travel(U(1));
 }

@@ -20,11 +20,17 @@
 
 namespace isostep {
 
-/// Pairs of particles that one step may find [1]: 64 a particle, no fewer than 2^21 and no more than 2^24. With rows
-/// and contacts a pair takes up to 250 bytes. Beyond, a crowd is one point.
-inline constexpr std::uint32_t kCrowdPairs = 1u << 21, kMostPairs = 1u << 24;
-ISO_INLINE constexpr std::uint32_t most_pairs(std::uint32_t particles) {
-  return particles < kMostPairs / 64 ? max(64 * particles, kCrowdPairs) : kMostPairs;
+/// Pairs of particles that one search may find [1] where settings name none: 64 a particle, no fewer than 2^21 and no
+/// more than kMostParticlePairs. With rows and contacts a pair takes up to 250 bytes. Beyond, a crowd is one point.
+inline constexpr std::uint32_t kCrowdPairs = 1u << 21;
+ISO_INLINE constexpr std::uint32_t most_pairs(std::uint32_t asked, std::uint32_t particles) {
+  if (asked != 0) return asked;
+  return particles < kMostParticlePairs / 64 ? max(64 * particles, kCrowdPairs) : kMostParticlePairs;
+}
+/// Looks at rows that one step may take [1] where settings name none: a fifth of a second, and 2048 a particle, of
+/// which a pile takes 1200 in four sub-steps.
+ISO_INLINE constexpr std::uint64_t most_looks(std::uint32_t asked, std::uint64_t particles) {
+  return asked != 0 ? asked : (std::uint64_t{1} << 22) + 2048 * particles;
 }
 
 template <class S> class ParticleEngine {
@@ -85,13 +91,15 @@ template <class S> class ParticleEngine {
     Axes<V> displacement;               // [m] since the step began: finer than positions where S is narrow
     Axes<S> now;                        // [m] position + displacement
     Axes<S> acceleration;               // [m/s^2]
-    Axes<V> before;                     // [m/s] velocity before constraints, or before forces
+    Axes<V> came;                       // [m/s] velocity before forces
+    Axes<V> before;                     // [m/s] velocity before constraints
     Axes<V> start, first_displacement;  // where a sub-step began
     Axes<S> first;                      // [m/s^2] acceleration there
     Axes<S> sum;                        // [m/s^2] weighted mean of the stages' accelerations
     Axes<V> gained;                     // [m/s] what forces added in the sub-step
     Axes<V> way;                        // [m] of the sub-step, if nothing is met
-    Axes<V> velocity_sum;               // [m] weighted mean of their velocities, times h
+    Axes<V> mean, end;                  // [m/s] weighted mean of their velocities; the velocity after the sub-step
+    Axes<V> shift;                      // [m/s] with which overlaps are pushed apart; no velocity that lasts
   };
 
   // engine_commands.inl
@@ -128,11 +136,18 @@ template <class S> class ParticleEngine {
   void accelerate();
   void fly_free();
   void integrate();
-  void integrate_verlet();
-  void integrate_rk4();
+  void arrive();
+  void turn_end();
+  void fly_joined();
+  bool arrives() const;
+  void drift_verlet();
+  void arrive_verlet();
+  void drift_rk4();
   void integrate_implicit();
+  void count_holds();
   void prepare_springs();
   void swing_stiff_springs();
+  void pull_stiff_springs();
   void swing(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
   void move_on(std::uint32_t slot, Vec3<V> way);
   void keep_velocity(std::uint32_t slot, Vec3<V> velocity);
@@ -140,6 +155,8 @@ template <class S> class ParticleEngine {
 
   // engine_contacts.inl
   void find_contacts();
+  bool may_meet() const;
+  void find_pulls();
   S reach_of(std::uint32_t slot) const;
   void find_pairs();
   void find_pair(std::uint32_t a, std::uint32_t b, std::size_t& old);
@@ -157,8 +174,13 @@ template <class S> class ParticleEngine {
 
   // engine_soft_step.inl
   V separating_speed(const ParticleConstraint<S>& row) const;
-  V unheld_speed(const ParticleConstraint<S>& row) const;
+  V speed_of(const Axes<V>& velocity, const ParticleConstraint<S>& row) const;
   void give(ParticleConstraint<S>& row, Vec3<V> impulse);
+  V closing_gain(const ParticleConstraint<S>& row) const;
+  V meeting_speed(const ParticleConstraint<S>& row, V there) const;
+  void note_meetings();
+  bool is_shifted(const ParticleConstraint<S>& row) const;
+  void push_apart(ParticleConstraint<S>& row);
   void warm_start();
   void solve(bool biased);
   void solve_normal(ParticleConstraint<S>& row, const Softness<S>& softness, bool biased);
@@ -170,12 +192,15 @@ template <class S> class ParticleEngine {
 
   // engine_worst_first.inl
   void integrate_velocities();
+  void note_gained();
   void resolve_substep();
   bool is_touching(const ParticleConstraint<S>& row) const;
+  void divide_way();
   void turn_ways(Unit<S> left);
   void place_rows();
+  void spend(std::uint64_t looks);
   void resolve_rows();
-  void divide_substep();
+  void pay_for_ways();
   std::uint32_t next_contact(Unit<S>& when) const;
   Unit<S> time_to(const ParticleConstraint<S>& row) const;
   void travel(Unit<S> share);
@@ -207,13 +232,16 @@ template <class S> class ParticleEngine {
   Softness<S> contact_softness_ = Softness<S>::rigid(), link_softness_ = contact_softness_;
   static constexpr Softness<S> rigid_softness_ = Softness<S>::rigid();
   WorstFirst<S> worst_first_;
+  std::uint64_t looks_left_ = 0;  // of the step's
   ImplicitSprings<S> implicit_springs_;
   SpringRows<S> spring_rows_;
   bool springs_yield_ = false;
   std::vector<OscillatorStep<S>> oscillators_;  // of the stiff springs, ascending by slot
+  std::vector<std::uint32_t> holds_;            // by slot: stiff springs and constraints, 2 for more
   ParticleGrid<S> grid_;
   std::vector<std::uint32_t> slots_;         // of what collides
   std::vector<S> reaches_;                   // [m] of those
+  std::vector<S> pulls_;                     // [m] by slot, or empty: how far springs may carry it in the step
   std::vector<std::uint64_t> cohering_;      // pairs as below, of one cohesion after the other
   std::vector<std::size_t> cohering_ends_;   // in cohering_, one a cohesion
   std::vector<std::uint64_t> pairs_;         // a << 32 | b, ascending

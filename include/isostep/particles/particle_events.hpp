@@ -61,10 +61,11 @@ struct ParticleReport {
   std::uint32_t unresolved = 0;        // constraints that worst_first left when its iterations were over
   std::uint32_t undivided = 0;         // sub-steps that time_division ended with contacts left to come
   std::uint32_t unsolved = 0;          // sub-steps whose implicit system had no solution: taken explicitly
-  std::uint32_t lost_pairs = 0;        // searches for pairs that found more than most_pairs(): the rest was passed over
+  std::uint32_t lost_pairs = 0;  // searches for pairs that found more than settings allow: the rest was passed over
+  std::uint32_t spent = 0;       // resolutions that ended in one plain pass: the step's looks were over
   ISO_INLINE constexpr bool clean() const {
     return clamped_speed == 0 && clamped_position == 0 && stopped == 0 && unresolved == 0 && undivided == 0 &&
-           unsolved == 0 && lost_pairs == 0;
+           unsolved == 0 && lost_pairs == 0 && spent == 0;
   }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("clamped_speed", self.clamped_speed);
@@ -74,6 +75,7 @@ struct ParticleReport {
     visit("undivided", self.undivided);
     visit("unsolved", self.unsolved);
     visit("lost_pairs", self.lost_pairs);
+    visit("spent", self.spent);
   }
 };
 

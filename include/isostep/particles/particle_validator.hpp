@@ -30,7 +30,7 @@ template <class S> class ParticleValidator {
            detail::fault_of_velocity(s.gravity) == Fault::none &&
            static_cast<std::uint32_t>(s.integrator) < kIntegrators &&
            static_cast<std::uint32_t>(s.solver) < kParticleSolvers &&
-           static_cast<std::uint32_t>(s.stepping) < kSteppings;
+           static_cast<std::uint32_t>(s.stepping) < kSteppings && s.pairs <= kMostParticlePairs;
   }
   const char* sizes() const {
     const std::size_t count = state_.particles.entries().size();

@@ -32,8 +32,10 @@ ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& settings) : kernels
   if (static_cast<std::uint32_t>(s.integrator) >= kIntegrators) s.integrator = Integrator::semi_implicit_euler;
   if (static_cast<std::uint32_t>(s.solver) >= kParticleSolvers) s.solver = ParticleSolver::soft_step;
   if (static_cast<std::uint32_t>(s.stepping) >= kSteppings) s.stepping = Stepping::fixed;
+  s.pairs = min(s.pairs, kMostParticlePairs);
   if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity) ||
-      s.integrator != settings.integrator || s.solver != settings.solver || s.stepping != settings.stepping) {
+      s.integrator != settings.integrator || s.solver != settings.solver || s.stepping != settings.stepping ||
+      s.pairs != settings.pairs) {
     fault_ = Fault::out_of_range;
   }
   state_.materials.add(ParticleMaterial<S>{});

@@ -24,6 +24,8 @@ template <class S> ISO_INLINE std::uint64_t settings_digest(const ParticleSettin
   writer.write(settings.integrator);
   writer.write(settings.stepping);
   writer.write(settings.iterations);
+  writer.write(settings.pairs);
+  writer.write(settings.looks);
   return hash_bytes(bytes.data(), bytes.size());
 }
 

@@ -36,6 +36,9 @@ inline constexpr std::uint32_t kSteppings = 2;
 /// Sub-steps a second that every scalar can count and divide by.
 inline constexpr std::int32_t kMaxParticleRate = 16384;
 
+/// [1] that a search may find, whatever settings ask for: 4 GB of contacts.
+inline constexpr std::uint32_t kMostParticlePairs = 1u << 24;
+
 /// Rates are whole numbers, so that the time step is exact and the same everywhere.
 template <class S> struct ParticleSettings {
   std::int32_t hz = 60;                    // [1/s] steps, 10..1000
@@ -45,6 +48,9 @@ template <class S> struct ParticleSettings {
   ParticleSolver solver = ParticleSolver::soft_step;
   Stepping stepping = Stepping::fixed;
   std::uint32_t iterations = 0;  // of worst_first a sub-step, of all; 0: two a constraint, each island its own
+  // What a crowd may cost; ParticleReport tells what was over, and it is over alike everywhere.
+  std::uint32_t pairs = 0;  // that a step's search may find, up to kMostParticlePairs; 0: 64 a particle, at least 2^21
+  std::uint32_t looks = 0;  // at constraints, of worst_first a step; 0: 2^22 and 2048 a particle
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("hz", self.hz);
@@ -54,6 +60,8 @@ template <class S> struct ParticleSettings {
     visit("solver", self.solver);
     visit("stepping", self.stepping);
     visit("iterations", self.iterations);
+    visit("pairs", self.pairs);
+    visit("looks", self.looks);
   }
 };
 

@@ -12,8 +12,9 @@ using SpringId = Id<struct SpringTag>;
 
 /// spring  pulls and pushes
 /// bungee  pulls only
-/// stiff   is taken along its exact motion (a damped oscillator of rest length 0), stable at any stiffness; meant to be
-///         the only force beside gravity on its particles (Millington, ch. 6.3)
+/// stiff   is taken along its exact motion (a damped oscillator of rest length 0), meant to be the only force beside
+///         gravity on its particles (Millington, ch. 6.3); where a constraint or another stiff spring holds one of them
+///         too, or may within the step, by backward Euler, which damps. Stable at any stiffness.
 enum class SpringType : std::uint32_t { spring, bungee, stiff };
 
 /// f = -(stiffness (|d| - rest_length) + damping d|d|/dt) d/|d| on a, the opposite on b, where d goes from b to a. Ends

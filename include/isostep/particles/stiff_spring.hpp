@@ -31,7 +31,13 @@ template <class S> struct OscillatorStep {
 /// Limits:  delta counts up to 1024: beyond, the ends only creep.
 template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate);
 
-#define ISO_EXTERN(S) extern template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);
+/// The same by backward Euler, which is stable beside whatever else moves the ends, and damps. d' = d + v' h:
+/// with D = 1 + 2 delta + kappa, vv = dv = 1 / D, dd = 1 - kappa / D, vd = -kappa / (h D).
+template <class S> OscillatorStep<S> implicit_oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate);
+
+#define ISO_EXTERN(S)                                                            \
+  extern template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S); \
+  extern template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -52,16 +52,32 @@ template <class S> ISO_INLINE OscillatorStep<S> oscillator_of(S kappa, S delta) 
   const U slowing = convert<U>((delta / theta) * s);
   return {c + slowing, divide_to<U>(convert<S>(s), theta), c - slowing, -((kappa / theta) * s)};
 }
+/// kappa and delta, where they are fine enough.
+template <class F> struct Oscillator { F kappa, delta; };
+template <class S> ISO_INLINE Oscillator<Finer<S>> oscillator(S stiffness, S damping, InverseMass<S> w, S rate) {
+  using F = Finer<S>;
+  const F mass_inverse = finer<F>(w), fine_rate = finer<F>(rate);
+  return {saturate_to<F>(product(finer<F>(stiffness), mass_inverse)) / fine_rate / fine_rate,
+          saturate_to<F>(product(finer<F>(damping), mass_inverse)) / (fine_rate + fine_rate)};
+}
+/// Rounded to the scalar; vd comes times h.
+template <class S, class F> ISO_INLINE OscillatorStep<S> coarse_step(const OscillatorStep<F>& step, S rate) {
+  const F vd = saturate_to<F>(product(step.vd, finer<F>(rate)));
+  return {coarser<Unit<S>>(step.dd), coarser<Unit<S>>(step.dv), coarser<Unit<S>>(step.vv), coarser<S>(vd)};
+}
 }  // namespace detail
 
 template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate) {
+  const detail::Oscillator<Finer<S>> o = detail::oscillator(stiffness, damping, w, rate);
+  return detail::coarse_step<S>(detail::oscillator_of(o.kappa, min(o.delta, Finer<S>(1024))), rate);
+}
+
+template <class S> OscillatorStep<S> implicit_oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate) {
   using F = Finer<S>;
-  const F mass_inverse = finer<F>(w), fine_rate = finer<F>(rate);
-  const F kappa = saturate_to<F>(product(finer<F>(stiffness), mass_inverse)) / fine_rate / fine_rate;
-  const F delta = saturate_to<F>(product(finer<F>(damping), mass_inverse)) / (fine_rate + fine_rate);
-  const OscillatorStep<F> step = detail::oscillator_of(kappa, min(delta, F(1024)));
-  const F vd = saturate_to<F>(product(step.vd, fine_rate));
-  return {coarser<Unit<S>>(step.dd), coarser<Unit<S>>(step.dv), coarser<Unit<S>>(step.vv), coarser<S>(vd)};
+  const detail::Oscillator<F> o = detail::oscillator(stiffness, damping, w, rate);
+  const F slow = saturating_add(F(1), saturating_add(o.delta, o.delta)), all = saturating_add(slow, o.kappa);
+  const Unit<F> rest = divide_to<Unit<F>>(F(1), all);
+  return detail::coarse_step<S>(OscillatorStep<F>{divide_to<Unit<F>>(slow, all), rest, rest, -(o.kappa / all)}, rate);
 }
 
 }  // namespace isostep

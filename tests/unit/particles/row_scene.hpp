@@ -32,6 +32,8 @@ template <class S> struct Scene {
   std::vector<double> mass;
   std::vector<ParticleConstraint<S>> rows;
   WorstFirst<S> resolver;
+  double gain_rate = 64;  // [1/s] of what made `gained`
+  std::uint64_t looks = ~std::uint64_t{0};
 
   static Vec3<V> vector(D3 a) { return {from_double<V>(a.x), from_double<V>(a.y), from_double<V>(a.z)}; }
   static D3 doubles(Vec3<V> a) { return {to_double(a.x), to_double(a.y), to_double(a.z)}; }
@@ -77,9 +79,11 @@ template <class S> struct Scene {
   }
 
   std::uint32_t resolve(std::uint32_t most = kMany) {
-    return resolver.resolve(rows.data(), static_cast<std::uint32_t>(rows.size()), velocity, displacement, gained, most);
+    return resolver.resolve(rows.data(), static_cast<std::uint32_t>(rows.size()), velocity, displacement, gained,
+                            {from_double<S>(gain_rate), true, most, looks});
   }
   void accelerate(D3 gravity, double rate) {
+    gain_rate = rate;
     for (std::uint32_t i = 0; i < mass.size(); ++i) {
       if (mass[i] == kPinned) continue;
       gained.set(i, vector((1 / rate) * gravity));

@@ -15,20 +15,33 @@
 
 namespace isostep {
 
+/// What a call is told beside its rows.
+template <class S> struct ResolverTerms {
+  S rate;                                   // [1/s] gained [m/s] is what forces give in 1 / rate
+  bool lags;                                // velocities without gained are those of half that time ago
+  std::optional<std::uint32_t> iterations;  // shared by all islands; none: default_iterations() for each
+  std::uint64_t looks = ~std::uint64_t{0};  // at rows; when they are over, one pass ends the call
+};
+
 /// Source:  Millington 2007, ch. 7.1-7.2 (impulses, linear projection, resting contacts, order), p. 140 (friction).
 /// Symbols: v_s = n.(v_b - v_a) [m/s] separating speed; C [m] = separation + n.(d_b - d_a); e = restitution;
 ///          g = n.(gained_b - gained_a), the part of v_s that this sub-step's forces made; N = impulse of this call.
-///          Bounce: v_s' = max(0, -e (v_s - min(g, 0))), so that one sub-step's gravity does not bounce.
+///          f = v_s - min(g, 0), how fast they came; p = -C, as deep as they overlap; h = the time that g took.
+///          Bounce: v_s' = max(0, e sqrt(f^2 - 2 p |g| / h) + min(g, 0)), so that one sub-step's gravity does not bounce;
+///          where velocities lag, f has half of |g| more.
 /// Order:   first what moves wrongly, by speed: contacts and cables that touch and close, rods that change length,
 ///          friction that has to change. Then what only overlaps, by depth: projection changes no speed, so it cannot
 ///          undo what came first. Ties go to the lowest index.
-/// Differs: the deepest overlap first, where the book takes the lowest v_s: two slow contacts that push each other to
+/// Differs: of what came back the book takes no g off and pays nothing for the way out of an overlap, against the
+///          forces: both add energy at each bounce.
+///          The deepest overlap first, where the book takes the lowest v_s: two slow contacts that push each other to
 ///          and fro would keep a deep one waiting. What an impulse takes from g it takes from both sides' share of g,
 ///          so gravity that comes through a stack is known as gravity by its upper contacts. Friction has a total
 ///          within the cone mu N, is a vector, and is looked at whenever a neighbour moves, not only when its contact
 ///          is the worst. A contact or cable with C above 0 waits; once it has touched it counts till the call ends.
 /// Cost:    O(log rows) for each row that shares a movable particle with the resolved one; where hundreds share one, a
-///          call ends after most_looks(). No allocation once warm.
+///          call ends after most_looks(), and after terms.looks. Then every row is resolved once, in their order: a
+///          caller who puts scenery after all else of a particle loses nothing through it. No allocation once warm.
 /// Limits:  relative speeds and C beyond the ends of Velocity<S> count as those ends; velocities and displacements are
 ///          held within passing_speed() and passing_distance().
 template <class S> class WorstFirst {
@@ -45,13 +58,13 @@ template <class S> class WorstFirst {
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
 
   /// After the integration of a sub-step, or between its velocity and its position. Answers how many rows are still
-  /// unsettled when the iterations have run out: `shared` by all islands, or else default_iterations() for each.
+  /// unsettled when the iterations or looks have run out.
   /// `displacement` [m] is the way since the rows' separation was measured, the integration's part too; it is moved,
-  /// separation stays. `gained` [m/s] is what forces have added to velocity in this sub-step, 0 of pinned particles.
+  /// separation stays. `gained` [m/s] is what forces have added to velocity in 1 / terms.rate s, 0 of pinned particles.
   /// Rows' impulses are those of this call, approach is lowered.
   /// Where positions are integrated first, gravity's way along a slope, g h^2 a sub-step, is not friction's to undo.
   std::uint32_t resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity, Axes<V>& displacement,
-                        const Axes<V>& gained, std::optional<std::uint32_t> shared);
+                        const Axes<V>& gained, const ResolverTerms<S>& terms);
 
   /// Of the last call: rows resolved, and looks at rows for their urgency.
   ISO_INLINE std::uint32_t iterations() const { return iterations_; }
@@ -84,11 +97,14 @@ template <class S> class WorstFirst {
   void apply(Row& row, std::uint32_t index);
   void share_out(const Row* rows, std::uint32_t count);
   std::uint32_t leave_island(std::uint32_t row);
+  std::uint32_t resolve_worst(Row* rows, std::uint32_t count, const ResolverTerms<S>& terms);
+  std::uint32_t pass_over(Row* rows, std::uint32_t count);
 
   ISO_INLINE Vec3<V> velocity_of_b(const Row& row, Sides sides) const;
   ISO_INLINE V separating_speed(const Row& row, Sides sides) const;
   ISO_INLINE V gained_speed(const Row& row, Sides sides) const;
   ISO_INLINE V gap(const Row& row, Sides sides) const;
+  ISO_INLINE V bounced_speed(const Row& row, V former, V gained, V separation) const;
   ISO_INLINE V fastest_of(const Row& row, Sides sides) const;
   ISO_INLINE Vec3<V> friction_change(const Row& row, Sides sides, V speed) const;
   ISO_INLINE void push(const Row& row, Sides sides, Vec3<V> change, Vec3<V> Point::*of, V most);
@@ -115,6 +131,8 @@ template <class S> class WorstFirst {
   std::vector<Urgency> urgency_;           // by row
   IslandPurses purses_;                    // of a call
   KnockoutTree worst_;                     // of urgency_
+  S rate_ = S(0);                          // [1/s] of a call, as lags_
+  bool lags_ = false;
   std::uint32_t iterations_ = 0;
   std::uint64_t looks_ = 0;
 };

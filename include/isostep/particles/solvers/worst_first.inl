@@ -94,6 +94,14 @@ template <class S> ISO_INLINE void WorstFirst<S>::hit(Row& row, Sides sides, Vec
   row.total = saturating_add(row.total, change);
 }
 
+/// `gained` <= 0 presses on while they part, and on the way out of an overlap.
+template <class S>
+ISO_INLINE Velocity<S> WorstFirst<S>::bounced_speed(const Row& row, V former, V gained, V separation) const {
+  const V overlap = min(saturate_to<V>(product(separation, rate_)), V(0));
+  const V came = lags_ ? former - gained * V(0.5) : former;
+  return max(round_to<V>(product(row.restitution, worked_speed<S>(came, -gained, overlap))) + gained, V(0));
+}
+
 /// Velocity, then friction within the cone that this opens, then position (pp. 111, 140, 115). Moves are applied to the
 /// particles at once and never kept: none can be applied twice.
 template <class S> void WorstFirst<S>::apply(Row& row, std::uint32_t index) {
@@ -103,7 +111,7 @@ template <class S> void WorstFirst<S>::apply(Row& row, std::uint32_t index) {
   if (rod || speed < V(0)) {
     const V gained = rod ? gained_speed(row, sides) : min(gained_speed(row, sides), V(0));
     const V former = max(saturating_subtract(speed, gained), -highest<V>());
-    const V bounce = rod || former >= -kLeastBounce<S> ? V(0) : -round_to<V>(product(row.restitution, former));
+    const V bounce = rod || former >= -kLeastBounce<S> ? V(0) : bounced_speed(row, -former, gained, gap(row, sides));
     const V impulse = saturating_subtract(bounce, speed);
     hit(row, sides, row.normal * impulse);
     push(row, sides, row.normal * (rod ? -gained : -max(gained, speed)), &Point::gained, highest<V>());
@@ -135,25 +143,35 @@ template <class S> void WorstFirst<S>::look_at_neighbours(const Row* rows, std::
 
 template <class S>
 std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity,
-                                     Axes<V>& displacement, const Axes<V>& gained,
-                                     std::optional<std::uint32_t> shared) {
+                                     Axes<V>& displacement, const Axes<V>& gained, const ResolverTerms<S>& terms) {
+  rate_ = terms.rate;
+  lags_ = terms.lags;
   iterations_ = 0;
   looks_ = 0;
   if (count == 0) return 0;
   gather(rows, count, velocity, displacement, gained);
-  list_neighbours(rows, count);
   for (std::uint32_t i = 0; i < count; ++i) {
     rows[i].impulse = V(0);
     rows[i].friction_impulse = Vec3<V>::zero();
     touched_[i] = 0;
-    look(rows[i], i);
   }
+  const std::uint32_t unsettled = terms.looks < count ? pass_over(rows, count) : resolve_worst(rows, count, terms);
+  scatter(velocity, displacement);
+  return unsettled;
+}
+
+template <class S>
+std::uint32_t WorstFirst<S>::resolve_worst(Row* rows, std::uint32_t count, const ResolverTerms<S>& terms) {
+  list_neighbours(rows, count);
+  for (std::uint32_t i = 0; i < count; ++i) look(rows[i], i);
   worst_.plant(count, before());
   share_out(rows, count);
+  const std::optional<std::uint32_t> shared = terms.iterations;
   std::uint32_t unsettled = 0;
   while (!shared || iterations_ < *shared) {
     const std::uint32_t worst = worst_.first();
     if (urgency_[worst].need == Need::nothing) break;
+    if (terms.looks <= looks_) return pass_over(rows, count);
     ++iterations_;
     const std::uint64_t before_it = looks_;
     apply(rows[worst], worst);
@@ -167,7 +185,6 @@ std::uint32_t WorstFirst<S>::resolve(ParticleConstraint<S>* rows, std::uint32_t 
     const bool spent = !shared && purse.iterations == 0;
     if (spent || purse.looks == 0) unsettled += leave_island(worst);
   }
-  scatter(velocity, displacement);
   for (std::uint32_t i = 0; i < count; ++i) unsettled += urgency_[i].need != Need::nothing;
   return unsettled;
 }
@@ -194,6 +211,18 @@ template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) 
     ++unsettled;
     urgency_[i] = {Need::nothing, V(0)};
     worst_.replay(i, before());
+  }
+  return unsettled;
+}
+
+/// Every row once, as it comes. Answers how many had something to do.
+template <class S> std::uint32_t WorstFirst<S>::pass_over(Row* rows, std::uint32_t count) {
+  std::uint32_t unsettled = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    look(rows[i], i);
+    if (urgency_[i].need == Need::nothing) continue;
+    apply(rows[i], i);
+    ++unsettled;
   }
   return unsettled;
 }

@@ -1,0 +1,193 @@
+// Random particle worlds whose energy can be told: springs, links, contacts and scenery, by every method.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <sstream>
+
+#include "laws/particle_laws.hpp"
+#include "unit/particles/particle_worlds.hpp"
+
+namespace isostep::test {
+
+/// A function of the seed. Three families in turn:
+///   joined   particles apart from each other over a floor, with springs, bungees, stiff springs, cables and rods
+///   pressed  few particles that springs press into planes, at steps from fine to coarse
+///   crowded  particles in one place or nearly, without weight: there is no energy to gain
+/// Nothing in them is beyond what the particles' page calls stable: of springs that are no stiff ones, all at one
+/// particle have together k h^2 (1/m_a + 1/m_b) below 0.3, a thirteenth of the least bound of an integrator.
+template <class S> class RandomParticleWorld {
+ public:
+  explicit RandomParticleWorld(std::uint64_t seed) : chance_(seed), world_(settings(seed)) {
+    const ParticleMaterial<S> ball = material();
+    material_ = world_.add(ball);
+    radius_ = to_double(ball.radius);
+    switch (seed % 3) {
+      case 0: join(); break;
+      case 1: press(); break;
+      default: crowd(); break;
+    }
+    start_ = energy();
+    text_ << ", " << ids_.size() << " particles, " << springs_.size() << " springs, e " << to_double(ball.restitution)
+          << ", radius " << radius_ << ", " << start_ << " J";
+  }
+
+  ParticleReport step() { return world_.step(); }
+  int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
+  double energy() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const D3 v = real(world_.state().velocity[ids_[i].slot]);
+      sum += masses_[i] * (dot(v, v) / 2 - gravity_ * to_double(world_.position(ids_[i]).y));
+    }
+    for (const Spring<S>& spring : springs_) {
+      const D3 b = spring.b ? real(world_.position(spring.b)) : real(spring.anchor);
+      const double longer = length(real(world_.position(spring.a)) - b) - to_double(spring.rest_length);
+      if (spring.type != SpringType::bungee || longer > 0) sum += to_double(spring.stiffness) * longer * longer / 2;
+    }
+    return sum;
+  }
+  /// [J] what it had at first, counted from the floor and from springs at rest, and half of that: a method of first
+  /// order with springs of k h^2 / m = 0.3 swings within 1 / (1 - sqrt(0.3) / 2) = 1.38. And what a grain of a crowd
+  /// has at 0.1 m/s.
+  double most() const { return 1.5 * start_ + 0.005 * static_cast<double>(ids_.size()); }
+  double start() const { return start_; }
+  std::string telling() const { return text_.str(); }
+  const ParticleWorld<S>& world() const { return world_; }
+
+ private:
+  ParticleSettings<S> settings(std::uint64_t seed) {
+    constexpr int kRates[] = {20, 30, 60, 120}, kSubsteps[] = {1, 2, 4, 8, 16};
+    constexpr Integrator kIntegrators[] = {Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+                                           Integrator::rk4, Integrator::implicit_euler};
+    ParticleSettings<S> s = at_rate<S>(0, kRates[chance_.below(4)], kSubsteps[chance_.below(5)]);
+    s.integrator = kIntegrators[chance_.below(4)];
+    s.solver = chance_.one_in(2) ? ParticleSolver::soft_step : ParticleSolver::worst_first;
+    s.stepping =
+        s.solver == ParticleSolver::worst_first && chance_.one_in(2) ? Stepping::time_division : Stepping::fixed;
+    if (seed % 3 != 2 && !chance_.one_in(4)) gravity_ = -10;
+    s.gravity = vec<S>(0, gravity_, 0);
+    h_ = 1.0 / (s.hz * s.substeps);
+    text_ << "world " << seed << ": " << kIntegratorNames[static_cast<int>(s.integrator)] << " "
+          << kParticleSolverNames[static_cast<int>(s.solver)] << " " << kSteppingNames[static_cast<int>(s.stepping)]
+          << " " << s.hz << " x " << s.substeps;
+    return s;
+  }
+  ParticleMaterial<S> material() {
+    const double e = chance_.one_in(3) ? 1 : chance_.one_in(3) ? 0 : chance_.in(0, 1);
+    return grain_of<S>(chance_.in(0.05, 0.2), e, chance_.one_in(2) ? 0 : chance_.in(0, 1), true);
+  }
+  void add(D3 at, D3 v, bool pinned = false) {
+    ParticleDefinition<S> d = point<S>(at, v, chance_.one_in(2) ? 1 : chance_.in(0.5, 4), material_);
+    d.pinned = pinned;
+    ids_.push_back(world_.create(d));
+    EXPECT_TRUE(ids_.back());
+    masses_.push_back(pinned ? 0 : to_double(d.mass));
+    strain_.push_back(0);
+  }
+  double inverse(std::size_t i) const { return masses_[i] > 0 ? 1 / masses_[i] : 0; }
+  /// Between two, or from one to an anchor; with what a particle still bears.
+  void add_spring(SpringType type, std::size_t a, std::size_t b, D3 anchor, double rest) {
+    Spring<S> s;
+    s.type = type;
+    s.a = ids_[a];
+    const bool joins = b != a;
+    if (joins) s.b = ids_[b];
+    else s.anchor = vec<S>(anchor);
+    const double mass = inverse(a) + (joins ? inverse(b) : 0);
+    if (mass == 0) return;
+    // A bungee that goes slack is no smooth force: what a method of first order errs there it does not give back.
+    double part = type == SpringType::bungee ? chance_.in(0.005, 0.03) : chance_.in(0.01, 0.15);
+    if (type == SpringType::stiff) {
+      s.stiffness = num<S>(chance_.one_in(2) ? chance_.in(10, 1000) : chance_.in(1000, 20000));
+    } else {
+      part = std::min({part, 0.3 - strain_[a], joins ? 0.3 - strain_[b] : 1});
+      const double stiffness = std::min(part / (h_ * h_ * mass), 20000.0);
+      if (stiffness < 1) return;
+      strain_[a] += stiffness * h_ * h_ * mass;
+      if (joins) strain_[b] += stiffness * h_ * h_ * mass;
+      s.stiffness = num<S>(stiffness);
+      s.rest_length = num<S>(rest);
+    }
+    if (chance_.one_in(4)) s.damping = num<S>(std::min(chance_.in(0, 5), 0.05 / (h_ * mass)));
+    EXPECT_TRUE(world_.add(s));
+    springs_.push_back(s);
+  }
+  SpringType kind() { return static_cast<SpringType>(chance_.below(3)); }
+
+  void join() {
+    add_scenery();
+    const auto count = 2 + chance_.below(9);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const D3 at = D3{0.8 * (i % 2) - 0.4, 0.4 + 0.8 * (i / 4), 0.8 * (i / 2 % 2) - 0.4} + chance_.point(0.15);
+      add(at, chance_.point(3), i > 0 && chance_.one_in(12));
+      if (masses_.back() == 0) world_.set_motion(ids_.back(), world_.position(ids_.back()), vec<S>(0, 0, 0));
+    }
+    const auto joints = chance_.below(2 * count);
+    for (std::uint32_t i = 0; i < joints; ++i) {
+      const std::size_t a = chance_.below(count), b = chance_.below(count);
+      const D3 from = real(world_.position(ids_[a])), anchor = from + chance_.point(1);
+      const double apart = length(from - (b == a ? anchor : real(world_.position(ids_[b]))));
+      if (!chance_.one_in(3)) {
+        add_spring(kind(), a, b, anchor, chance_.one_in(2) ? apart : chance_.in(0, 1.5));
+        continue;
+      }
+      if (apart < 0.1) continue;
+      Link<S> link;
+      link.type = chance_.one_in(2) ? LinkType::rod : LinkType::cable;
+      link.a = ids_[a];
+      if (b != a) link.b = ids_[b];
+      else link.anchor = vec<S>(anchor);
+      link.length = num<S>(link.type == LinkType::rod ? apart : apart * chance_.in(1, 1.5));
+      link.restitution = num<S>(chance_.one_in(2) ? 0 : chance_.in(0, 1));
+      EXPECT_TRUE(world_.add(link));
+      ++links_;
+    }
+    text_ << ", " << links_ << " links";
+  }
+  void add_scenery() {
+    world_.add(plane<S>({0, 1, 0}, 0));
+    if (chance_.one_in(2)) {
+      for (const double side : {-1.0, 1.0}) {
+        world_.add(plane<S>({side, 0, 0}, -1.2));
+        world_.add(plane<S>({0, 0, side}, -1.2));
+      }
+    }
+    if (chance_.one_in(4)) {
+      Collider<S> line;
+      line.type = ColliderType::line;
+      line.start = vec<S>(-1, 3.5, 0);
+      line.end = vec<S>(1, 3.5, 0.5);
+      line.radius = num<S>(0.1);
+      world_.add(line);
+    }
+  }
+  void press() {
+    world_.add(plane<S>({0, 1, 0}, 0));
+    const auto count = 1 + chance_.below(3);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      add({1.0 * i, radius_ + (chance_.one_in(2) ? 0 : chance_.in(0, 0.5)), 0},
+          chance_.one_in(2) ? D3{0, 0, 0} : chance_.point(3));
+      const D3 under = {1.0 * i, -chance_.in(0.05, 1), 0};
+      add_spring(kind(), i, i, under, chance_.one_in(2) ? 0 : chance_.in(0, 0.5));
+    }
+  }
+  void crowd() {
+    if (chance_.one_in(2)) world_.add(plane<S>({0, 1, 0}, 0));
+    const auto count = 2 + chance_.below(chance_.one_in(4) ? 40 : 12);
+    const double apart = chance_.one_in(3) ? 0 : chance_.in(0, 0.1);
+    for (std::uint32_t i = 0; i < count; ++i) add(D3{0, 0.2, 0} + chance_.point(apart), {0, 0, 0});
+  }
+
+  Chance chance_;
+  std::ostringstream text_;
+  double h_ = 0, gravity_ = 0, radius_ = 0, start_ = 0;
+  ParticleWorld<S> world_;
+  ParticleMaterialId material_;
+  std::vector<ParticleId> ids_;
+  std::vector<double> masses_, strain_;
+  std::vector<Spring<S>> springs_;
+  int links_ = 0;
+};
+
+}  // namespace isostep::test
