@@ -46,7 +46,7 @@ template <class S> ISO_INLINE Velocity<S> ParticleEngine<S>::closing_gain(const 
 /// add in that half is due once, what they hold back twice.
 template <class S>
 ISO_INLINE Velocity<S> ParticleEngine<S>::meeting_speed(const ParticleConstraint<S>& row, V there) const {
-  const auto gained = [&](std::uint32_t slot) { return scratch_.before[slot] - scratch_.came[slot]; };
+  const auto gained = [&](std::uint32_t slot) ISO_INLINE_LAMBDA { return scratch_.before[slot] - scratch_.came[slot]; };
   const Vec3<V> of_b = row.b == kNoParticle ? row.surface_gain : gained(row.b);
   V here = saturate_to<V>(dot_sum(row.normal, gained(row.a)) - dot_sum(row.normal, of_b));
   const V came = saturating_subtract(row.closing, here);

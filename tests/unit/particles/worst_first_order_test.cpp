@@ -55,6 +55,27 @@ TYPED_TEST(WorstFirstOrder, TellsHowManyRowsAreLeftWhenIterationsRunOut) {
   EXPECT_EQ(WorstFirst<S>::default_iterations(0xf0000000u), 0xffffffffu);
 }
 
+TYPED_TEST(WorstFirstOrder, EndsInOnePassOverAllRowsWhenLooksAreOver) {
+  using S = TypeParam;
+  constexpr std::uint32_t kCount = 24, kRows = kCount * (kCount - 1) / 2 + kCount;
+  for (const std::uint64_t looks : {std::uint64_t{0}, std::uint64_t{kRows}, std::uint64_t{3 * kRows}}) {
+    Scene<S> scene;
+    for (std::uint32_t i = 0; i < kCount; ++i) scene.add(1, {0, -1, 0});
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      for (std::uint32_t j = i + 1; j < kCount; ++j) scene.touch(i, j, kUp, -0.25);
+      scene.ground(i);
+    }
+    scene.looks = looks;
+    EXPECT_GT(scene.resolve(), 0u);
+    // One resolved row looks at its neighbours before the end is seen, and the last pass looks at each row once.
+    EXPECT_LE(scene.resolver.looks(), looks + 2 * kCount + kRows);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      EXPECT_GE(scene.v(i).y, -1e-3) << "on its ground, which comes last: " << i;
+      EXPECT_GE(scene.d(i).y, -1e-3);
+    }
+  }
+}
+
 TYPED_TEST(WorstFirstOrder, NothingMovesWhereNothingTouches) {
   using S = TypeParam;
   Scene<S> scene;
