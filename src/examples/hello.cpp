@@ -27,7 +27,7 @@ int main() {
   world.save(frame);                                       // into the caller's object: no allocation once warm
   iso::Q32_32 hardest = 0;
   for (int i = 0; i < 120; ++i) {
-    iso::StepReport report = world.step();                 // clean() unless a limit of the scalar was met
+    iso::StepReport report = world.step();                 // clean() unless a limit was met
     for (const auto& touch : world.events().contact_begin) hardest = iso::max(hardest, touch.impulse);
     if (!report.clean()) return 1;
   }

@@ -173,6 +173,7 @@ template <class S> class WorldEngine {
 
   // engine_contacts.inl
   void find_pairs();
+  void update_pairs();
   void wake_touched_islands();
   bool bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const;
   std::uint32_t row_of(std::uint32_t slot) const;
@@ -200,11 +201,19 @@ template <class S> class WorldEngine {
   void frame_awake_body(std::size_t index);
   void frame_body(std::uint32_t slot);
   template <class Visit>
-  static ISO_INLINE void visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit);
+  static ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
+                                     Visit&& visit);
   static void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, S margin,
                             Manifold<S>& out);
+  /// What compounds may take: two of their parts that are compared, and two that are collided. Both are some times as
+  /// many as pairs of bodies may be: comparing takes a hundredth of what a contact takes.
+  struct PartBudget {
+    std::uint64_t looks, parts;
+  };
+  static constexpr std::uint64_t kLooksPerPair = 64, kPartsPerPair = 2;
   void gather_parts();
-  void gather_others(Framed at_a, Framed at_b);
+  bool gather_parts(PartBudget each, PartBudget all);
+  bool gather_others(Framed at_a, Framed at_b, const PartBudget& each, PartBudget& all);
   void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
   ListEnds list_ends() const;
   ListEnds ends_of(std::size_t group) const;

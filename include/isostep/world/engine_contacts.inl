@@ -29,15 +29,20 @@ template <class S> std::uint32_t WorldEngine<S>::row_of(std::uint32_t slot) cons
 }
 
 template <class S> void WorldEngine<S>::find_pairs() {
-  proxies_.update();
+  update_pairs();
   wake_touched_islands();
+  report_.crowded = proxies_.bodies_left_out();
+}
+template <class S> void WorldEngine<S>::update_pairs() {
+  proxies_.update(state_.contacts, static_cast<std::size_t>(state_.settings.most_pairs));
 }
 
 template <class S> bool WorldEngine<S>::bodies_touch(std::uint32_t slot_a, std::uint32_t slot_b) const {
   constexpr S kMargin = detail::kSpeculativeDistance<S>;
   const BodyFrame<S> a = frame_at(locations_[slot_a]), b = frame_at(locations_[slot_b]);
   bool touch = false;
-  visit_parts(a, b, kMargin, [&](std::uint32_t i, std::uint32_t j) {
+  std::uint64_t looks = ~std::uint64_t{0};
+  visit_parts(a, b, kMargin, looks, [&](std::uint32_t i, std::uint32_t j) {
     Manifold<S> manifold;
     collide_parts(a, i, b, j, kMargin, manifold);
     touch = manifold.count > 0;
@@ -66,7 +71,7 @@ template <class S> void WorldEngine<S>::wake_touched_islands() {
       if (bodies_touch(pair_a(key), pair_b(key))) touched.push_back(a.is_frozen() ? pair_a(key) : pair_b(key));
     }
     thaw_bodies(touched);
-    if (!touched.empty()) proxies_.update();
+    if (!touched.empty()) update_pairs();
   } while (!touched.empty());
 }
 

@@ -40,23 +40,24 @@ template <class S> BodyFrame<S> WorldEngine<S>::frame_at(Location at) const {
 }
 
 /// visit(child_a, child_b) for every two parts whose bounds meet within the margin, in order of their indices, until it
-/// answers false.
+/// answers false or `looks`, which counts down, are used up. False: that came before the end.
 template <class S>
 template <class Visit>
-ISO_INLINE void WorldEngine<S>::visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit) {
-  if (a.child_count == 1 && b.child_count == 1) {
-    visit(0u, 0u);
-    return;
-  }
+ISO_INLINE bool WorldEngine<S>::visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin,
+                                            std::uint64_t& looks, Visit&& visit) {
+  if (a.child_count == 1 && b.child_count == 1) return visit(0u, 0u);
   const Transform<S> origin_b = origin_beside(a, b);
   for (std::uint32_t i = 0; i < a.child_count; ++i) {
     const Transform<S> ta = detail::placed(a.origin, a.children[i]);
     const Aabb<S> box_a = grow(bounds(a.children[i].primitive, ta), margin);
     for (std::uint32_t j = 0; j < b.child_count; ++j) {
+      if (looks == 0) return false;
+      --looks;
       const Transform<S> tb = detail::placed(origin_b, b.children[j]);
-      if (overlap(box_a, bounds(b.children[j].primitive, tb)) && !visit(i, j)) return;
+      if (overlap(box_a, bounds(b.children[j].primitive, tb)) && !visit(i, j)) return false;
     }
   }
+  return true;
 }
 
 template <class S>
@@ -112,8 +113,17 @@ template <class S> std::uint32_t WorldEngine<S>::traits_of(const BodyFrame<S>& f
          (frame.frozen ? Framed::kFrozen : 0u);
 }
 
-/// The parts that might touch, in order of their contacts' keys, and which of them are of one kind.
+/// The parts that might touch, in order of their contacts' keys, and which of them are of one kind. Where compounds have
+/// too many, every pair of bodies gets the same share of them.
 template <class S> void WorldEngine<S>::gather_parts() {
+  const auto budget = static_cast<std::uint64_t>(state_.settings.most_pairs);
+  const PartBudget all = {budget * kLooksPerPair, budget * kPartsPerPair};
+  if (gather_parts(all, all)) return;
+  const std::uint64_t pairs = proxies_.pairs().size();
+  gather_parts({all.looks / pairs, all.parts / pairs}, {~std::uint64_t{0}, ~std::uint64_t{0}});
+}
+/// False: all together do not fit.
+template <class S> bool WorldEngine<S>::gather_parts(PartBudget each, PartBudget all) {
   parts_.clear();
   groups_.clear();
   sphere_pairs_.clear();
@@ -130,20 +140,32 @@ template <class S> void WorldEngine<S>::gather_parts() {
     if (a.traits == b.traits && a.traits < static_cast<std::uint32_t>(PartKind::other)) {  // awake and no sensors
       const bool spheres = a.traits == static_cast<std::uint32_t>(PartKind::sphere);
       add_part(spheres ? sphere_pairs_ : box_pairs_, {a.index, b.index, 0, 0});
-    } else {
-      gather_others(a, b);
+    } else if (!gather_others(a, b, each, all)) {
+      if (all.looks == 0 || all.parts == 0) return false;
+      ++report_.cut_compounds;
     }
   }
+  return true;
 }
-template <class S> void WorldEngine<S>::gather_others(Framed at_a, Framed at_b) {
+/// Takes from `all` what it uses, at most `each`. False: more was there.
+template <class S>
+bool WorldEngine<S>::gather_others(Framed at_a, Framed at_b, const PartBudget& each, PartBudget& all) {
   const std::uint32_t either = at_a.traits | at_b.traits;
   const bool sensor = (either & Framed::kSensor) != 0;
-  if (!sensor && (either & Framed::kFrozen) != 0) return;  // a kinematic body at rest against sleepers
+  if (!sensor && (either & Framed::kFrozen) != 0) return true;  // a kinematic body at rest against sleepers
   const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
-  visit_parts(frames_[at_a.index], frames_[at_b.index], margin, [&](std::uint32_t i, std::uint32_t j) {
-    add_part(other_pairs_, {at_a.index, at_b.index, i, j});
-    return true;
-  });
+  const std::uint64_t most_looks = min(each.looks, all.looks), most_parts = min(each.parts, all.parts);
+  std::uint64_t looks = most_looks, parts = most_parts;
+  const bool whole = visit_parts(frames_[at_a.index], frames_[at_b.index], margin, looks,
+                                 [&](std::uint32_t i, std::uint32_t j) {
+                                   if (parts == 0) return false;
+                                   --parts;
+                                   add_part(other_pairs_, {at_a.index, at_b.index, i, j});
+                                   return true;
+                                 });
+  all.looks -= most_looks - looks;
+  all.parts -= most_parts - parts;
+  return whole;
 }
 template <class S> ISO_INLINE void WorldEngine<S>::add_part(std::vector<std::uint32_t>& list, const PartPair& part) {
   const auto place = static_cast<std::uint32_t>(parts_.size() % kGroup);

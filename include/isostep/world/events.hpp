@@ -72,14 +72,19 @@ struct StepReport {
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
+  std::uint32_t crowded = 0;           // bodies some of whose pairs were left out: beyond Settings::most_pairs
+  std::uint32_t cut_compounds = 0;     // pairs of bodies some of whose parts were left out, by the same budget
   ISO_INLINE constexpr bool clean() const {
-    return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0;
+    return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && crowded == 0 &&
+           cut_compounds == 0;
   }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("clamped_speed", self.clamped_speed);
     visit("clamped_force", self.clamped_force);
     visit("clamped_position", self.clamped_position);
     visit("stopped", self.stopped);
+    visit("crowded", self.crowded);
+    visit("cut_compounds", self.cut_compounds);
   }
 };
 

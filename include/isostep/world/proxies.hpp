@@ -4,49 +4,48 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/collision/broadphase/tree.hpp"
 #include "isostep/dynamics/body.hpp"
+#include "isostep/world/crowd.hpp"
+#include "isostep/world/proxy.hpp"
 
 namespace isostep {
 
-/// A cache, not state: the pairs are a function of every body's fat box, type, filter, and whether it is awake and a
-/// sensor, all of them state. `place` compares with what it knew, so that loading a snapshot renews only what differs.
+/// A cache, not state: the pairs are a function of every body's fat box, type, filter and whether it is awake, all of
+/// them state, and where they are more than the budget of the contacts too. `place` compares with what it knew, so that
+/// loading a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
-  void update();
+  /// `contacts` of the last step: of pairs beyond `budget` they decide which are looked at.
+  void update(std::span<const Contact<S>> contacts, std::size_t budget);
   /// One past the largest slot met.
-  std::size_t slots() const { return keys_.size(); }
-  bool present(std::uint32_t slot) const { return slot < keys_.size() && keys_[slot].present; }
+  std::size_t slots() const { return proxies_.size(); }
+  bool present(std::uint32_t slot) const { return slot < proxies_.size() && proxies_[slot].present; }
 
   ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
+  /// Bodies that the budget keeps from some of their pairs.
+  std::uint32_t bodies_left_out() const { return left_out_; }
   const AabbTree<S>& tree() const { return tree_; }
 
  private:
-  /// All that decides whether a body pairs with another.
-  struct Key {
-    Aabb<S> box;
-    Filter filter;
-    bool present, awake, dynamic, sensor, collides;
-  };
   struct MayCollide {
-    const std::vector<Key>* keys;
+    const std::vector<Proxy<S>>* proxies;
     ISO_INLINE bool operator()(std::uint32_t a, std::uint32_t b) const {
-      const Key& ka = (*keys)[a];
-      const Key& kb = (*keys)[b];
-      // A sensor sees whatever moves, and what it passes when it moves itself; no other sensor.
-      const bool meet = ka.sensor != kb.sensor || (!ka.sensor && (ka.dynamic || kb.dynamic));
-      return meet && (ka.awake || kb.awake) && ka.collides && kb.collides && should_collide(ka.filter, kb.filter);
+      return (*proxies)[a].traits.pairs_with((*proxies)[b].traits);
     }
   };
 
   AabbTree<S> tree_;
   PairSet<S> pairs_;
-  std::vector<Key> keys_;  // by slot
+  Crowd<S> crowd_;
+  std::uint32_t left_out_ = 0;
+  std::vector<Proxy<S>> proxies_;  // by slot
 };
 
 }  // namespace isostep

@@ -2,30 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/world/crowd.inl"
 #include "isostep/world/proxies.hpp"
 
 namespace isostep {
 
 template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) {
-  if (keys_.size() <= state.slot) keys_.resize(state.slot + 1, Key{});
-  Key& key = keys_[state.slot];
-  const Key next = {state.fat,
-                    body.filter,
-                    true,
-                    awake,
-                    body.type == BodyType::dynamic,
-                    (body.flags & body_flag::kSensor) != 0,
-                    (body.flags & body_flag::kCollide) != 0};
-  if (!key.present) {
+  if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
+  Proxy<S>& known = proxies_[state.slot];
+  const Proxy<S> next = {state.fat, ProxyTraits::of(body, awake), true};
+  if (!known.present) {
     tree_.insert(state.slot, state.fat);
-  } else if (!(key.box == next.box)) {
+  } else if (!(known.box == next.box)) {
     tree_.update(state.slot, state.fat);
-  } else if (key.awake == next.awake && key.dynamic == next.dynamic && key.sensor == next.sensor &&
-             key.collides == next.collides && key.filter.category == next.filter.category &&
-             key.filter.mask == next.filter.mask && key.filter.group == next.filter.group) {
+  } else if (known.traits == next.traits) {
     return;
   }
-  key = next;
+  known = next;
   pairs_.mark_moved(state.slot);
 }
 
@@ -33,12 +26,16 @@ template <class S> void Proxies<S>::remove(std::uint32_t slot) {
   if (!present(slot)) return;
   tree_.remove(slot);
   pairs_.mark_removed(slot);
-  keys_[slot] = Key{};
+  proxies_[slot] = Proxy<S>{};
 }
 
-template <class S> void Proxies<S>::update() {
+template <class S> void Proxies<S>::update(std::span<const Contact<S>> contacts, std::size_t budget) {
   tree_.optimise();
-  pairs_.update(tree_, MayCollide{&keys_});
+  left_out_ = 0;
+  if (pairs_.update(tree_, MayCollide{&proxies_}, budget)) return;
+  crowd_.choose(proxies_, contacts, budget);
+  pairs_.choose(crowd_.keys(), crowd_.whole());
+  left_out_ = crowd_.bodies_left_out();
 }
 
 }  // namespace isostep

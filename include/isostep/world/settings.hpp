@@ -14,6 +14,9 @@ namespace isostep {
 /// angles below two.
 inline constexpr std::int32_t kMaxRate = 16384;
 
+/// Budgets of pairs that a world takes: the most needs some 20 GB in float.
+inline constexpr std::int32_t kLeastPairs = 64, kMostPairs = 1 << 24;
+
 /// Rates are whole numbers, so that the time step is exact and the same everywhere.
 template <class S> struct Settings {
   std::int32_t hz = 60;                    // [1/s] steps, 10..1000
@@ -22,6 +25,11 @@ template <class S> struct Settings {
   bool allow_sleep = true;
   SolverName solver = SolverName::soft_step;
   std::uint32_t id_space = 0;  // 0..255, in every id: worlds of one game with spaces of their own refuse each other's
+  /// [1] kLeastPairs..kMostPairs: pairs of bodies whose boxes meet that a step looks at. Each takes up to 2 kB and some
+  /// microseconds; a heap of equal bodies has eight a body, so the default is met by 65 000 of them awake at once, more
+  /// than a core steps in real time. Beyond it a step leaves out pairs, those last that hold bodies up, and reports
+  /// StepReport::crowded (crowd.hpp). Twice as many pairs of compounds' parts are collided, StepReport::cut_compounds.
+  std::int32_t most_pairs = 1 << 19;
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("hz", self.hz);
@@ -30,6 +38,7 @@ template <class S> struct Settings {
     visit("allow_sleep", self.allow_sleep);
     visit("solver", self.solver);
     visit("id_space", self.id_space);
+    visit("most_pairs", self.most_pairs);
   }
 };
 

@@ -20,7 +20,8 @@ template <class S> class StateValidator {
     const Settings<S>& s = state_.settings;
     if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
-        static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces) {
+        static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces ||
+        s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs) {
       return "settings out of range";
     }
     set_of_body_.assign(state_.body_slots.entries().size(), kNowhere);

@@ -32,6 +32,7 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
   if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
   s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
+  s.most_pairs = clamp(s.most_pairs, kLeastPairs, kMostPairs);
   const S limit = Limits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];
@@ -43,6 +44,7 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
              .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
              .in_range(s.solver == settings.solver, "solver", "one of SolverName")
              .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
+             .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
              .report());
   sign("World");
 }

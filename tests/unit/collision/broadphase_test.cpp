@@ -267,6 +267,39 @@ TYPED_TEST(Broadphase, SortedAndCoincidentInsertionsStayBelowTheGreatestHeight) 
             (std::vector<std::uint32_t>{99, 100, 101}));
 }
 
+TYPED_TEST(Broadphase, BoxesInOnePlaceMakeNoListOfTheTree) {
+  using S = TypeParam;
+  AabbTree<S> tree;
+  for (std::uint32_t i = 0; i < 1000; ++i) tree.insert(i, {{S(7), S(7), S(7)}, {S(8), S(8), S(8)}});
+  EXPECT_LE(tree.height(), 20u);  // twice the least
+}
+
+TYPED_TEST(Broadphase, MorePairsThanTheBudgetAreForTheCallerToChooseUntilThereAreFewer) {
+  using S = TypeParam;
+  AabbTree<S> tree;
+  PairSet<S> pairs;
+  const Aabb<S> box = {{S(0), S(0), S(0)}, {S(1), S(1), S(1)}};
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    tree.insert(i, box);
+    pairs.mark_moved(i);
+  }
+  EXPECT_FALSE(pairs.update(tree, Everything{}, 14));
+  std::vector<std::uint64_t> chosen = {pair_key(0, 1), pair_key(2, 3)};
+  pairs.choose(chosen, false);
+  EXPECT_EQ(pairs.keys().size(), 2u);
+  EXPECT_FALSE(pairs.update(tree, Everything{}, 15));  // what was chosen is not the set to go on from
+  std::vector<std::uint64_t> all;
+  for (std::uint32_t a = 0; a < 6; ++a) {
+    for (std::uint32_t b = a + 1; b < 6; ++b) all.push_back(pair_key(a, b));
+  }
+  pairs.choose(all, true);
+  tree.remove(5);
+  pairs.mark_removed(5);
+  EXPECT_TRUE(pairs.update(tree, Everything{}, 15));
+  EXPECT_EQ(pairs.keys().size(), 10u);
+  EXPECT_FALSE(pairs.update(tree, Everything{}, 9));  // a lower budget alone
+}
+
 TYPED_TEST(Broadphase, BoxesThatShrinkTowardsAPointInPowersOfTwoStayBelowTheGreatestHeight) {
   using S = TypeParam;
   AabbTree<S> tree;

@@ -21,8 +21,10 @@ ISO_INLINE constexpr std::uint32_t pair_b(std::uint64_t key) { return static_cas
 /// Holds { (a, b) : a < b, the tree's boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
 /// depends on the boxes and on the predicate alone, not on what happened before nor on the tree's shape, as long as
 /// every slot whose box, presence or filter changed was marked. Not state: a loaded world clears it and marks all.
+/// That set is held while it has `most` pairs or fewer. Beyond, or where the search takes too many steps to tell, keys()
+/// are what the caller `choose`s instead, at every update, until it says that they are the whole set again.
 /// Cost: O(pairs + marked log n); from a third of the leaves on, one join of the tree with itself (measured break-even
-/// 0.33 to 0.41). No allocation once warm.
+/// 0.33 to 0.41). Memory and time end at a few times `most` and the leaves. No allocation once warm.
 template <class S> class PairSet {
  public:
   /// The slot's box changed, or it was inserted, or what the predicate says of it changed. Repeats are free.
@@ -30,7 +32,11 @@ template <class S> class PairSet {
   /// The slot left the tree. It may be inserted again before `update`, and is then marked moved as well.
   void mark_removed(std::uint32_t slot);
   /// Brings the pairs up to date with the tree. may_collide(a, b) -> bool, a < b, is asked only of overlapping pairs.
-  template <class Predicate> ISO_INLINE void update(const AabbTree<S>& tree, const Predicate& may_collide);
+  /// False: the caller is to choose.
+  template <class Predicate>
+  ISO_INLINE bool update(const AabbTree<S>& tree, const Predicate& may_collide, std::uint64_t most = kAnyNumber);
+  /// Takes the place of the pairs, ascending; whole: they are all that there are.
+  void choose(std::vector<std::uint64_t>& keys, bool whole);
   /// Forgets pairs and marks, keeps the memory.
   void clear();
 
@@ -38,8 +44,11 @@ template <class S> class PairSet {
   ISO_INLINE const std::vector<std::uint64_t>& keys() const { return keys_; }
 
  private:
+  static constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0} >> 2;
   template <class Predicate> struct Take;
 
+  bool give_up();
+  void forget_marks();
   void drop_marked();
   void merge_found();
 
@@ -48,6 +57,7 @@ template <class S> class PairSet {
   std::vector<std::uint64_t> scratch_;
   std::vector<std::uint32_t> marked_;
   Bitset is_marked_;
+  bool whole_ = true;
   typename AabbTree<S>::Matches matches_;
 };
 
@@ -66,16 +76,22 @@ template <class S> template <class Predicate> struct PairSet<S>::Take {
 
 template <class S>
 template <class Predicate>
-ISO_INLINE void PairSet<S>::update(const AabbTree<S>& tree, const Predicate& may_collide) {
-  if (marked_.empty()) return;
+ISO_INLINE bool PairSet<S>::update(const AabbTree<S>& tree, const Predicate& may_collide, std::uint64_t most) {
+  if (!whole_ || most < keys_.size()) return give_up();
+  if (marked_.empty()) return true;
+  const std::uint64_t most_steps =
+      2u * most + 32u * std::uint64_t{tree.size()};  // a search takes a few a pair and a leaf
+  bool found_all = false;
   if (marked_.size() >= tree.size() / 3u) {
     keys_.clear();
-    tree.overlapping_pairs(matches_, Take<Predicate>{this, &may_collide, false});
+    found_all = tree.overlapping_pairs(matches_, most_steps, Take<Predicate>{this, &may_collide, false});
   } else {
     drop_marked();
-    tree.overlapping_pairs_of(marked_, matches_, Take<Predicate>{this, &may_collide, true});
+    found_all = tree.overlapping_pairs_of(marked_, matches_, most_steps, Take<Predicate>{this, &may_collide, true});
   }
+  if (!found_all || most < keys_.size() + found_.size()) return give_up();
   merge_found();
+  return true;
 }
 
 #define ISO_EXTERN_PAIR_SET(S) extern template class PairSet<S>;

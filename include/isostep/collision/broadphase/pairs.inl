@@ -14,6 +14,21 @@ template <class S> void PairSet<S>::mark_removed(std::uint32_t slot) {
   mark_moved(slot);  // `update` drops the pairs of every marked slot and looks for new ones only of those in the tree
 }
 
+template <class S> void PairSet<S>::forget_marks() {
+  for (const std::uint32_t slot : marked_) is_marked_.reset(slot);
+  marked_.clear();
+}
+template <class S> bool PairSet<S>::give_up() {
+  forget_marks();
+  found_.clear();
+  whole_ = false;
+  return false;
+}
+template <class S> void PairSet<S>::choose(std::vector<std::uint64_t>& keys, bool whole) {
+  keys_.swap(keys);
+  whole_ = whole;
+}
+
 template <class S> void PairSet<S>::drop_marked() {
   std::size_t kept = 0;
   for (const std::uint64_t key : keys_) {
@@ -25,8 +40,7 @@ template <class S> void PairSet<S>::drop_marked() {
 
 /// Sorts what was found and merges it into what was kept, from the back; the two have no key in common.
 template <class S> void PairSet<S>::merge_found() {
-  for (const std::uint32_t slot : marked_) is_marked_.reset(slot);
-  marked_.clear();
+  forget_marks();
   std::size_t found = found_.size();
   if (scratch_.size() < found) scratch_.resize(found);
   stable_sort(found_.data(), scratch_.data(), static_cast<std::uint32_t>(found), OwnKey{});
@@ -42,10 +56,10 @@ template <class S> void PairSet<S>::merge_found() {
 }
 
 template <class S> void PairSet<S>::clear() {
-  for (const std::uint32_t slot : marked_) is_marked_.reset(slot);
-  marked_.clear();
+  forget_marks();
   keys_.clear();
   found_.clear();
+  whole_ = true;
 }
 
 }  // namespace isostep

@@ -120,13 +120,26 @@ template <class S> class AabbTree {
   /// A visitor of this class is a struct with an ISO_INLINE call operator wherever weak symbols matter.
   template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const;
 
-  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first.
-  template <class Visit> ISO_INLINE void overlapping_pairs(Matches& matches, Visit&& visit) const;
+  /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
+  /// box, nearest in the tree first; false ends it. enter(node) -> bool, of `fold`: whether to look at a node at all.
+  template <class Enter, class Visit>
+  ISO_INLINE void query_behind(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
+  /// The same for all leaves, the slot's own among them, in the order of the walk.
+  template <class Enter, class Visit>
+  ISO_INLINE void query_all(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
+  /// A value for every node: leaf(slot) of a leaf, both(a, b) of what its two children have. Of a tree just rebuilt.
+  template <class Value, class Leaf, class Both>
+  ISO_INLINE void fold(std::vector<Value>& values, const Leaf& leaf, const Both& both) const;
+
+  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first. False:
+  /// given up after `most` overlaps, of leaves and of what is above them; some pairs were not visited.
+  template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
 
   /// visit(slot, other) -> void for every one of `slots` that is in the tree and every leaf, itself included, whose box
-  /// overlaps its own, in no stated order. Half the time of as many queries.
+  /// overlaps its own, in no stated order. Half the time of as many queries. False: given up, as above.
   template <class Visit>
-  ISO_INLINE void overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, Visit&& visit) const;
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+                                       Visit&& visit) const;
 
   /// visit(slot, max_fraction) -> the new max_fraction, not larger, for every leaf whose box the sweep touches within
   /// the fraction of the moment, nearer ones first as a rule. The visitor may be shown leaves that it must refuse, and
@@ -158,7 +171,10 @@ template <class S> class AabbTree {
     std::uint32_t begin, end, node, depth;
   };
 
-  template <class Visit> ISO_INLINE void resolve(Matches& matches, std::uint32_t count, Visit&& visit) const;
+  template <class Visit>
+  ISO_INLINE bool resolve(Matches& matches, std::uint32_t count, std::uint64_t most, Visit&& visit) const;
+  template <class Enter, class Visit>
+  ISO_INLINE bool query_below(std::uint32_t at, const Aabb<S>& box, const Enter& enter, const Visit& visit) const;
   std::uint32_t allocate_pair();
   void free_pair(std::uint32_t pair);
   void place(std::uint32_t at, const Node& node);
@@ -197,9 +213,58 @@ template <class S> template <class Visit> ISO_INLINE void AabbTree<S>::query(con
   }
 }
 
+/// False: the visitor wants no more.
+template <class S>
+template <class Enter, class Visit>
+ISO_INLINE bool AabbTree<S>::query_below(std::uint32_t top, const Aabb<S>& box, const Enter& enter,
+                                         const Visit& visit) const {
+  std::uint32_t stack[kMaxHeight + 1u];
+  std::uint32_t waiting = 0;
+  stack[waiting++] = top;
+  while (waiting != 0) {
+    const std::uint32_t at = stack[--waiting];
+    const Node& node = nodes_[at];
+    if (!overlap(node.box, box) || !enter(at)) continue;
+    if (node.height == 0) {
+      if (!visit(node.child)) return false;
+      continue;
+    }
+    stack[waiting++] = node.child + 1u;
+    stack[waiting++] = node.child;
+  }
+  return true;
+}
+template <class S>
+template <class Enter, class Visit>
+ISO_INLINE void AabbTree<S>::query_behind(std::uint32_t slot, const Enter& enter, const Visit& visit) const {
+  const Aabb<S>& box = nodes_[leaf_of_[slot]].box;
+  for (std::uint32_t at = leaf_of_[slot]; at != kRoot; at = nodes_[at].parent) {
+    const bool first = at % 2u == 0;
+    if (first && !query_below(at + 1u, box, enter, visit)) return;
+  }
+}
+template <class S>
+template <class Enter, class Visit>
+ISO_INLINE void AabbTree<S>::query_all(std::uint32_t slot, const Enter& enter, const Visit& visit) const {
+  query_below(kRoot, nodes_[leaf_of_[slot]].box, enter, visit);
+}
+
+template <class S>
+template <class Value, class Leaf, class Both>
+ISO_INLINE void AabbTree<S>::fold(std::vector<Value>& values, const Leaf& leaf, const Both& both) const {
+  values.resize(top_);
+  for (std::uint32_t at = kRoot; at < top_; at += at == kRoot ? 2u : 1u) {  // node 1 is never used
+    if (nodes_[at].height == 0) values[at] = leaf(nodes_[at].child);
+  }
+  for (std::size_t i = order_.size(); i-- > 0;) {  // of the build: parents before children
+    const std::uint32_t child = nodes_[order_[i]].child;
+    values[order_[i]] = both(values[child], values[child + 1u]);
+  }
+}
+
 template <class S>
 template <class Visit>
-ISO_INLINE void AabbTree<S>::overlapping_pairs(Matches& matches, Visit&& visit) const {
+ISO_INLINE bool AabbTree<S>::overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const {
   // Two leaves have one lowest common ancestor, so it is enough to match the two children of every inner node.
   if (matches.now.size() < top_) matches.now.resize(top_);
   std::uint32_t count = 0;
@@ -207,19 +272,19 @@ ISO_INLINE void AabbTree<S>::overlapping_pairs(Matches& matches, Visit&& visit) 
     matches.now[count] = {pair, pair + 1u};
     count += nodes_[pair].height != kFreeHeight ? detail::overlap_flag(nodes_[pair].box, nodes_[pair + 1u].box) : 0u;
   }
-  resolve(matches, count, visit);
+  return resolve(matches, count, most, visit);
 }
 
 template <class S>
 template <class Visit>
-ISO_INLINE void AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches,
-                                                  Visit&& visit) const {
+ISO_INLINE bool AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches,
+                                                  std::uint64_t most, Visit&& visit) const {
   if (matches.now.size() < slots.size()) matches.now.resize(slots.size());
   std::uint32_t count = 0;
   for (const std::uint32_t slot : slots) {
     if (contains(slot)) matches.now[count++] = {leaf_of_[slot], kRoot};
   }
-  resolve(matches, count, visit);
+  return resolve(matches, count, most, visit);
 }
 
 /// Opens matches until both sides are leaves. Level by level rather than depth first: the matches of a level wait for
@@ -227,8 +292,10 @@ ISO_INLINE void AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t>
 /// (measured: twice the time).
 template <class S>
 template <class Visit>
-ISO_INLINE void AabbTree<S>::resolve(Matches& matches, std::uint32_t count, Visit&& visit) const {
+ISO_INLINE bool AabbTree<S>::resolve(Matches& matches, std::uint32_t count, std::uint64_t most, Visit&& visit) const {
   while (count != 0) {
+    if (most < count) return false;
+    most -= count;
     const std::size_t room = 4u * std::size_t{count};
     if (matches.next.size() < room) matches.next.resize(room);
     const NodePair* const now = matches.now.data();
@@ -254,6 +321,7 @@ ISO_INLINE void AabbTree<S>::resolve(Matches& matches, std::uint32_t count, Visi
     matches.now.swap(matches.next);
     count = made;
   }
+  return true;
 }
 
 template <class S>

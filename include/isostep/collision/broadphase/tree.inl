@@ -56,19 +56,22 @@ template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
 /// The node to pair a new leaf with: down the cheaper child while that adds less surface than stopping.
 /// Stopping at n costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an
 /// inner c at least its growth and area(box). What the ancestors of n grow is common to both; n's growth, taken from
-/// both, leaves area(n) against the child's part.
+/// both, leaves area(n) against the child's part. Of what costs the same the lower: boxes in one place would make a list
+/// of the tree otherwise, which is built anew each time that it is too high.
 template <class S> std::uint32_t AabbTree<S>::find_sibling(const Aabb<S>& box) const {
   const Sum<S> own = half_area(box);
   std::uint32_t at = kRoot;
   while (nodes_[at].height != 0) {
+    const Node* const children = nodes_.data() + nodes_[at].child;
     Sum<S> cost[2];
     for (std::uint32_t side = 0; side < 2; ++side) {
-      const Node& child = nodes_[nodes_[at].child + side];
+      const Node& child = children[side];
       cost[side] = half_area(merge(child.box, box));
       if (child.height != 0) cost[side] = cost[side] - half_area(child.box) + own;
     }
-    const std::uint32_t cheaper = cost[1] < cost[0] ? 1u : 0u;
-    if (half_area(nodes_[at].box) <= cost[cheaper]) break;
+    const bool even = cost[0] == cost[1];
+    const std::uint32_t cheaper = (even ? children[1].height < children[0].height : cost[1] < cost[0]) ? 1u : 0u;
+    if (half_area(nodes_[at].box) < cost[cheaper]) break;
     at = nodes_[at].child + cheaper;
   }
   return at;

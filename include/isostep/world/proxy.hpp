@@ -1,0 +1,69 @@
+// Proxy<S>: what the broad phase knows of a body.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "isostep/dynamics/body.hpp"
+
+namespace isostep {
+
+/// What a body is to others, as an index of bits; those who collide with nothing are of no kind.
+namespace proxy_kind {
+inline constexpr std::uint32_t kAwake = 1, kDynamic = 2, kSensor = 4;
+inline constexpr std::uint32_t kCount = 8;
+
+/// Whether bodies of two kinds pair: one of them is awake, and one can be pushed or one alone is a sensor. A sensor sees
+/// whatever moves, and what it passes when it moves itself; no other sensor.
+ISO_INLINE constexpr bool pair(std::uint32_t a, std::uint32_t b) {
+  const bool sees = ((a ^ b) & kSensor) != 0, touches = ((a | b) & kSensor) == 0 && ((a | b) & kDynamic) != 0;
+  return ((a | b) & kAwake) != 0 && (sees || touches);
+}
+/// A bit for every kind that pairs with this one.
+ISO_INLINE constexpr std::uint32_t partners(std::uint32_t kind) {
+  std::uint32_t set = 0;
+  for (std::uint32_t other = 0; other < kCount; ++other) set |= pair(kind, other) ? 1u << other : 0u;
+  return set;
+}
+inline constexpr std::array<std::uint32_t, kCount> kPartners = {partners(0), partners(1), partners(2), partners(3),
+                                                                partners(4), partners(5), partners(6), partners(7)};
+/// Bits: what is awake, and what of it can be pushed.
+inline constexpr std::uint32_t kAllAwake = 0xaau;
+inline constexpr std::uint32_t kFree = 1u << (kAwake | kDynamic) | 1u << (kAwake | kDynamic | kSensor);
+}  // namespace proxy_kind
+
+/// All but its box that decides with whom a body pairs. Of a subtree of bodies: no less than any of them would allow.
+struct ProxyTraits {
+  std::uint32_t kinds = 0;     // a bit of proxy_kind
+  std::uint32_t partners = 0;  // bits: the kinds it pairs with
+  Filter filter = {};
+
+  template <class S> static ISO_INLINE ProxyTraits of(const BodyProperties<S>& body, bool awake) {
+    if ((body.flags & body_flag::kCollide) == 0) return {0, 0, body.filter};
+    const std::uint32_t kind = (awake ? proxy_kind::kAwake : 0u) |
+                               (body.type == BodyType::dynamic ? proxy_kind::kDynamic : 0u) |
+                               ((body.flags & body_flag::kSensor) != 0 ? proxy_kind::kSensor : 0u);
+    return {1u << kind, proxy_kind::kPartners[kind], body.filter};
+  }
+  static ISO_INLINE ProxyTraits of_both(const ProxyTraits& a, const ProxyTraits& b) {
+    const Filter filter = {a.filter.category | b.filter.category, a.filter.mask | b.filter.mask,
+                           a.filter.group == b.filter.group ? a.filter.group : 0u};
+    return {a.kinds | b.kinds, a.partners | b.partners, filter};
+  }
+  ISO_INLINE bool pairs_with(const ProxyTraits& other) const {
+    return (partners & other.kinds) != 0 && should_collide(filter, other.filter);
+  }
+  friend ISO_INLINE bool operator==(const ProxyTraits& a, const ProxyTraits& b) {
+    return a.kinds == b.kinds && a.partners == b.partners && a.filter.category == b.filter.category &&
+           a.filter.mask == b.filter.mask && a.filter.group == b.filter.group;
+  }
+};
+
+template <class S> struct Proxy {
+  Aabb<S> box;
+  ProxyTraits traits;
+  bool present;
+};
+
+}  // namespace isostep
