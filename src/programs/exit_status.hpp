@@ -4,7 +4,8 @@
 
 namespace isostep {
 
-/// sysexits.h. Who verifies has its own before: 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.
+/// sysexits.h. Who verifies has its own before: 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt,
+/// 5 stopped by a limit.
 namespace exit_status {
 inline constexpr int kOk = 0;
 inline constexpr int kDifferent = 1;

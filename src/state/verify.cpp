@@ -57,6 +57,13 @@ VerifyResult too_short(const ReplayReader& replay) {
   return result;
 }
 
+VerifyResult stopped(std::uint64_t frames) {
+  VerifyResult result{};
+  result.outcome = VerifyOutcome::stopped;
+  result.frames = frames;
+  return result;
+}
+
 VerifyResult diverged(VerifyResult::Where where, std::uint64_t frames, std::uint64_t expected, std::uint64_t actual) {
   VerifyResult result{};
   result.outcome = VerifyOutcome::diverged;
@@ -103,6 +110,7 @@ std::string describe(const VerifyResult& result) {
     case VerifyOutcome::truncated: return text_of("TRUNCATED at frame " + frames + ": ", result.error);
     case VerifyOutcome::corrupt:
       return text_of("CORRUPT at byte " + std::to_string(result.offset) + ": ", result.error);
+    case VerifyOutcome::stopped: return "STOPPED before frame " + frames;
   }
   const char* where = result.where == VerifyResult::Where::start      ? "DIVERGED at the start"
                       : result.where == VerifyResult::Where::keyframe ? "DIVERGED at the keyframe before frame "

@@ -120,7 +120,11 @@ class CommandLine {
     command->add_option("paths", verify_.paths, "replays, golden lists, or directories of them")->required();
     command->add_option("--jobs", verify_.jobs, "files at a time")->check(CLI::Range(1, 256))->capture_default_str();
     command->add_flag("--json", verify_.json, "one JSON object");
-    command->footer("Exits with the worst: 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.");
+    command->add_option("--max-seconds", verify_.max_seconds, "stop after so long")->check(CLI::Range(0.001, 1e6));
+    command->add_option("--max-memory", verify_.max_memory, "stop where replaying takes more MiB (Linux)")
+        ->check(CLI::Range(1, 1 << 24));
+    command->footer(
+        "Exits with the worst: 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt, 5 stopped by a limit.");
   }
   void add_diff() {
     CLI::App* command =

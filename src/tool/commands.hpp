@@ -35,6 +35,8 @@ struct VerifyOptions {
   std::vector<std::string> paths;
   int jobs = 1;
   bool json = false;
+  double max_seconds = 0;  // [s] of all files together; 0: any number
+  int max_memory = 0;      // [MiB] beyond what the program takes itself; 0: any number
 };
 int command_verify(const VerifyOptions& options);
 

@@ -13,14 +13,14 @@
 namespace isostep {
 
 /// In the order of the tool's exit codes.
-enum class VerifyOutcome : std::uint8_t { verified, diverged, incompatible, truncated, corrupt };
+enum class VerifyOutcome : std::uint8_t { verified, diverged, incompatible, truncated, corrupt, stopped };
 
 struct VerifyResult {
   enum class Where : std::uint8_t { start, frame, keyframe };
 
   VerifyOutcome outcome;
   Where where;              // diverged: at the initial state, after a frame, or a stored keyframe is not the state
-  std::uint64_t frames;     // verified: compared; else the frame that diverged, or the first that is missing
+  std::uint64_t frames;  // verified: compared; else the frame that diverged, or the first that is missing or not played
   std::uint64_t expected;   // diverged: the replay's hash
   std::uint64_t actual;     // diverged: ours
   std::size_t offset;       // truncated, corrupt: the place in the file [bytes]
@@ -35,9 +35,12 @@ struct VerifySpan {
   std::uint64_t first = 0;           // frames before it
   std::uint64_t count = kAllFrames;  // at most
   Bytes state = {};  // portable, after `first` frames; empty: the replay's own start, where `first` is 0
+  /// Asked before every frame; false: verify has no more of the time, or whatever its caller counts.
+  bool (*go_on)(void* user) = nullptr;
+  void* user = nullptr;
 };
 
-/// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt.
+/// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt, 5 stopped by its caller.
 int exit_code(VerifyOutcome outcome);
 /// "DIVERGED at frame 17: 0123456789abcdef in the replay, fedcba9876543210 here"
 std::string describe(const VerifyResult& result);
@@ -48,6 +51,7 @@ VerifyResult verify_file(const ReplayReader& replay);
 /// The answer when every frame that was to be compared agreed, so many.
 VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared);
 VerifyResult too_short(const ReplayReader& replay);
+VerifyResult stopped(std::uint64_t frames);
 VerifyResult diverged(VerifyResult::Where where, std::uint64_t frames, std::uint64_t expected, std::uint64_t actual);
 VerifyResult corrupt(std::uint64_t frames, std::size_t offset, const Error& error);
 VerifyResult incompatible(const HeaderMismatch& mismatch);
@@ -94,6 +98,7 @@ ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, cons
       }
     }
     if (i == span.first + count) return verify_end(replay, count);
+    if (span.go_on != nullptr && !span.go_on(span.user)) return stopped(i);
     const ReplayFrame frame = replay.frame(i);
     const Result<void> stepped = sim.step_recorded(frame.input);
     if (!stepped) return corrupt(i, replay.offset_of(frame.input), stepped.error());

@@ -42,6 +42,28 @@ TEST(Replay, WatchingTwiceWithOneSimulationGivesTheSame) {
   EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
 }
 
+TEST(Replay, EndsWhereItsCallerHasNoMoreTime) {
+  const Buffer file = toy::record(200);
+  const ReplayReader replay(file);
+  const ReplayHeader here = toy::header();
+  for (const int frames : {0, 1, 60, 199, 200}) {
+    toy::Game game;
+    int left = frames;
+    VerifySpan span;
+    span.go_on = [](void* user) { return (*static_cast<int*>(user))-- > 0; };
+    span.user = &left;
+    const VerifyResult result = verify(replay, game, SameHeader{here}, span);
+    if (frames == 200) {  // nobody is asked once all is done
+      EXPECT_EQ(result.outcome, VerifyOutcome::verified);
+      continue;
+    }
+    EXPECT_EQ(result.outcome, VerifyOutcome::stopped);
+    EXPECT_EQ(result.frames, static_cast<std::uint64_t>(frames));
+    EXPECT_EQ(exit_code(result.outcome), 5);
+    EXPECT_EQ(describe(result), "STOPPED before frame " + std::to_string(frames));
+  }
+}
+
 TEST(Replay, AnotherSimulationDivergesAtTheFrameWhereItDiffers) {
   const Buffer file = toy::record(200);
   const ReplayReader replay(file);
