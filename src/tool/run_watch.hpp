@@ -30,7 +30,8 @@ template <class S> class RigidWatch {
   }
   /// `last_second`: of the run.
   void stepped(const World<S>& world, const StepReport& step, int frame, bool last_second) {
-    found_.faults += std::uint64_t{step.clamped_speed} + step.clamped_force + step.clamped_position + step.stopped;
+    found_.faults += std::uint64_t{step.clamped_speed} + step.clamped_force + step.clamped_position + step.stopped +
+                     step.crowded + step.cut_compounds;
     if (found_.asleep_at < 0 && world.state().awake.states.empty()) found_.asleep_at = frame;
     observe_joints(world);
     if (trial_) trial_->see(world, step);

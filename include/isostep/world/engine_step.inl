@@ -67,6 +67,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   after_solving(Stage::restitution);
   solver.store_impulses(input);
   solver.run(input);
+  report_.unsolved = solver.unsolved();
   for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
     store_joint(joint_constraints_[i], state_.joints.states[i]);
   after(Stage::store_impulses);

@@ -74,6 +74,8 @@ struct StepReport {
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
   std::uint32_t crowded = 0;           // bodies some of whose pairs were left out: beyond Settings::most_pairs
   std::uint32_t cut_compounds = 0;     // pairs of bodies some of whose parts were left out, by the same budget
+  std::uint32_t unsolved = 0;          // islands that `direct` or, for each of its passes, `worst_first` left too early
+  /// Nothing was lost. What is unsolved is only less exact.
   ISO_INLINE constexpr bool clean() const {
     return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && crowded == 0 &&
            cut_compounds == 0;
@@ -85,6 +87,7 @@ struct StepReport {
     visit("stopped", self.stopped);
     visit("crowded", self.crowded);
     visit("cut_compounds", self.cut_compounds);
+    visit("unsolved", self.unsolved);
   }
 };
 

@@ -14,6 +14,7 @@
 namespace isostep {
 namespace {
 
+constexpr std::uint64_t kWork = 2'000'000;
 constexpr double kScale = 0x1p-24;  // of right-hand sides and answers: room for answers of a million in fixed point
 
 template <class N> N number(double x) {
@@ -64,9 +65,9 @@ template <class N> class DirectSystemOf : public testing::Test {
     high_[r] = kind == DirectBound::below ? 0 : kind == DirectBound::boxed ? 0.3 : kFar;
   }
   bool solve() {
-    system_.tie(bodies_, 1000);
+    system_.tie(bodies_, 1000, kWork);
     system_.assemble();
-    return system_.solve(false);
+    return system_.solve(false, kWork);
   }
   double answer(std::uint32_t r) const { return to_double(system_.row(r).answer) / kScale; }
   /// K with what rows yield, as the class says it.
@@ -164,6 +165,24 @@ TYPED_TEST(DirectSystemOf, PivotsOnRedundantProblemsComeToAnEnd) {
   }
 }
 
+TYPED_TEST(DirectSystemOf, PivotsEndWithTheirBudget) {
+  int ended = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    this->build(24, 6, 6);
+    for (std::uint32_t r = 0; r < 72; ++r) this->bound(r, r % 3 == 0 ? DirectBound::above : DirectBound::boxed);
+    this->system_.tie(this->bodies_, 1000, kWork);
+    this->system_.assemble();
+    const std::uint64_t one = this->system_.least_work() / DirectSystem<TypeParam>::kLeastPivots;
+    ended += this->system_.solve(false, 2 * one) ? 0 : 1;
+    EXPECT_LE(this->system_.work(), 3 * one);  // with what equations take at the end
+    for (std::uint32_t r = 0; r < 72; ++r) {
+      EXPECT_LE(this->low_[r], this->answer(r));
+      EXPECT_LE(this->answer(r), this->high_[r] + 1e-9);
+    }
+  }
+  EXPECT_GT(ended, 10);
+}
+
 TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
   using N = TypeParam;
   // One body on one point: tangents x and z, normal y.
@@ -179,10 +198,10 @@ TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
     this->bound(2, DirectBound::above);
     this->system_.patches().clear();
     this->system_.patches().push_back({0, 2, 1, DirectPatch<N>::kNoRolling, number<N>(0.5), N(0), 0, 0});
-    this->system_.tie(this->bodies_, 1000);
+    this->system_.tie(this->bodies_, 1000, kWork);
     this->system_.assemble();
     this->system_.guess_friction(0, true);
-    ASSERT_TRUE(this->system_.solve(false));
+    ASSERT_TRUE(this->system_.solve(false, kWork));
     EXPECT_NEAR(this->answer(2), 4, 2e-3);
     EXPECT_NEAR(this->answer(0), push < 0.5 ? 4 * push : 2, 2e-3);
     EXPECT_NEAR(this->answer(1), 0, 1e-6);

@@ -57,6 +57,23 @@ TYPED_TEST(Direct, ContactsOfAStackBearTheWeightsAboveThem) {
   }
 }
 
+/// Thirty boxes on one plank: each of their 90 blocks meets all others, so a factorisation takes 180 000 products.
+TYPED_TEST(Direct, AnIslandBeyondItsBudgetIsSweptAndCounted) {
+  using S = TypeParam;
+  DirectWorld<S> world;
+  const std::uint32_t plank = world.add_box({0, 0.5, 0}, 20, {16, 0.5, 0.5});
+  world.rest(kNoBody, plank, 0.5);
+  world.step();
+  EXPECT_EQ(world.solver.unsolved(), 0u);
+  for (int i = 0; i < 30; ++i) world.rest(plank, world.add_box({i - 14.5, 1.5, 0}, 1, {0.25, 0.5, 0.25}), 0.5);
+  world.rest(kNoBody, world.add_box({0, 0.5, 9}, 1, {0.5, 0.5, 0.5}), 0.5);  // an island of its own
+  for (int frame = 0; frame < 10; ++frame) {
+    world.step();
+    EXPECT_EQ(world.solver.unsolved(), 1u);
+  }
+  for (std::uint32_t b = 1; b <= 30; ++b) EXPECT_NEAR(world.centre(b).y, 1.5, 0.02) << b;
+}
+
 TYPED_TEST(Direct, AHeavyBoxDoesNotSinkIntoALightOne) {
   using S = TypeParam;
   DirectWorld<S> world;

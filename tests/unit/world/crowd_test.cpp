@@ -150,6 +150,23 @@ TYPED_TEST(Crowds, of_compounds_collide_some_parts_of_every_pair) {
   EXPECT_LE(world.state().contacts.size(), 2u * static_cast<std::size_t>(kLeastPairs));
 }
 
+/// The direct solver's island of them all has a budget of its own; that is reported, and nothing was lost.
+TYPED_TEST(Crowds, are_swept_by_the_direct_solver_which_says_so) {
+  using S = TypeParam;
+  Settings<S> s = with_budget<S>(10000);
+  s.solver = SolverName::direct;
+  World<S> world(s);
+  BodyDefinition<S> alone = moving<S>(add_ball(world, 0.25), {9, 0.25, 0});
+  add_ground(world);
+  world.create(alone);
+  StepReport report = world.step();
+  EXPECT_EQ(report.unsolved, 0u);
+  add_crowd(world, 40, moving<S>({}, {0, 4, 0}));
+  report = world.step();
+  EXPECT_EQ(report.unsolved, 1u);
+  EXPECT_TRUE(report.clean());
+}
+
 TYPED_TEST(Crowds, come_apart_until_the_budget_is_enough) {
   using S = TypeParam;
   World<S> world(with_budget<S>(400, 0));

@@ -22,7 +22,8 @@ namespace isostep {
 ///          whole sub-step's, and those of the step before are no more than a guess at who pushes.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
 /// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
-///          their bound, what is bounded stays as it was swept and joints are solved for the rest. Friction is an
+///          their share of kMostWork, a count, what is bounded stays as it was swept and joints are solved for the rest:
+///          an island's step ends after some 25 ms of double a sub-step. unsolved() tells how many islands. Friction is an
 ///          octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the nearer counts.
 ///          Impulses that are stored are held within the speed limit. Restitution: one solve more without friction.
 ///          While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not angular momentum.
@@ -39,6 +40,8 @@ template <class S> class DirectSolver {
   void restitute(const SolverInput<S>& input);
   void store_impulses(const SolverInput<S>& input);
   ISO_INLINE void run(const SolverInput<S>&) {}
+  /// Some solve was swept, or its pivots came to no end.
+  std::uint32_t unsolved() const;
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
 
  private:
@@ -52,6 +55,10 @@ template <class S> class DirectSolver {
   /// Blocks of three rows that an island may have: with twice as many (a wall of 210 boxes, 1200) a factorisation takes
   /// 8 ms and a wall that falls needs hundreds.
   static constexpr std::uint32_t kMostBlocks = 600;
+  /// DirectSystem::work of an island, for each of a step's sub-steps: some 25 ms of double. Of a tower of 400 blocks that
+  /// stands they take 50 000, of a heap that falls into place ten times as much, of one in a corner any number. A solve
+  /// may take all that is left but kLeastPivots for each that comes.
+  static constexpr std::uint64_t kMostWork = 500'000;
 
   /// biased: errors are closed; relaxed: they are left; bounced: what is left of an approach is returned.
   enum class Pass : std::uint32_t { biased, relaxed, bounced };
@@ -85,6 +92,9 @@ template <class S> class DirectSolver {
     std::vector<V> asked;                                     // [m/s] of each row: by how much its speed is to change
     int exponent;                                             // of the system's answers
     bool begun;                                               // answers are this step's
+    std::uint64_t work_left;                                  // of this step
+    std::uint32_t solves_left;
+    bool unsolved;  // some solve of this step was swept, or came to no end
   };
   struct alignas(64) ContactMemory {
     unsigned char bytes[sizeof(RollingBlock<S, 1, kMaxContactPoints>)];

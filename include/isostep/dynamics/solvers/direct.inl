@@ -99,7 +99,12 @@ template <class S> void DirectSolver<S>::solve(const SolverInput<S>& input, Isla
     island.begun = true;
   }
   system.settle();
-  system.solve(pass != Pass::biased);  // what yields in positions is closed, in velocities it would stay
+  const bool firm = pass != Pass::biased;  // what yields in positions is closed, in velocities it would stay
+  const std::uint64_t even = island.work_left / island.solves_left--;
+  const std::uint64_t kept = min(island.work_left, system.least_work() * island.solves_left);
+  const bool solved = system.solve(firm, system.is_swept() ? even : island.work_left - kept);
+  island.work_left -= min(island.work_left, system.work());
+  island.unsolved = island.unsolved || !solved;
   apply(island);
 }
 
@@ -123,6 +128,12 @@ template <class S> void DirectSolver<S>::apply(const Island& island) {
     v.angular = {add(free.angular.x, root.root * x, turning), add(free.angular.y, root.root * y, turning),
                  add(free.angular.z, root.root * z, turning)};
   }
+}
+
+template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < island_count_; ++i) count += islands_[i].unsolved ? 1u : 0u;
+  return count;
 }
 
 template <class S> void DirectSolver<S>::solve_substeps(const SolverInput<S>& input) {

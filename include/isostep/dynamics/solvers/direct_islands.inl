@@ -22,6 +22,7 @@ typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a
     island.ends.clear();
     island.exponent = 0;
     island.begun = false;
+    island.unsolved = false;
     island.system.begin();
   }
   Island& island = islands_[island_of_[set] - 1];
@@ -93,7 +94,10 @@ template <class S> void DirectSolver<S>::find_islands(const SolverInput<S>& inpu
     Island& island = islands_[i];
     island.shapes.resize(3 * island.system.block_count());
     island.asked.resize(3 * island.system.block_count());
-    island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks);
+    island.work_left = kMostWork * static_cast<std::uint64_t>(input.substeps);
+    island.solves_left = 2 * static_cast<std::uint32_t>(input.substeps) + 1;  // the last for restitution
+    island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks,
+                      island.work_left / island.solves_left);
   }
 }
 

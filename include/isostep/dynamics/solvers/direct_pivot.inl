@@ -174,10 +174,10 @@ template <class N> bool DirectSystem<N>::yielded(bool firm) const {
 }
 
 /// Each pass finds limits again and takes back the compliance of the last: rows no longer yield to what it answered.
-template <class N> bool DirectSystem<N>::solve(bool firm) {
+template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_work) {
   pivots_ = 0;
-  const int most = static_cast<int>(kMostWork / (elimination_work() + 1)) + kPasses;
-  most_pivots_ = most < kMostPivots ? most : kMostPivots;
+  const std::uint64_t most = most_work / elimination_work();
+  most_pivots_ = most < kMostPivots ? static_cast<int>(most) : kMostPivots;
   bool solved = !too_large_;
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.last = N(0);
@@ -202,7 +202,14 @@ template <class N> bool DirectSystem<N>::solve(bool firm) {
     }
   }
   if (!solved && !too_large_) solve_equations();
-  if (too_large_) sweep(kSweeps);
+  work_ = static_cast<std::uint64_t>(pivots_) * elimination_work();
+  if (too_large_) {
+    const std::uint64_t one = kSweepWork * block_count(), most_sweeps = most_work / one;
+    const int sweeps =
+        most_sweeps < kLeastSweeps ? kLeastSweeps : most_sweeps < kSweeps ? static_cast<int>(most_sweeps) : kSweeps;
+    sweep(sweeps);
+    work_ = static_cast<std::uint64_t>(sweeps) * one;
+  }
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);
   }

@@ -73,12 +73,12 @@ template <class N> class DirectSystem {
   using D = DirectNumber<N>;
   static constexpr N kContactGive = N(0x1p-12), kEquationGive = N(0x1p-20);
   static constexpr int kLeastGive = -20;                 // their least exponent
-  static constexpr int kMostPivots = 200;                // factorisations for one problem,
-  static constexpr std::uint64_t kMostWork = 2'000'000;  // and those times elimination_work: some 0.1 s of double,
-  static constexpr int kLeastPivots = 4;                 // of which a problem is worth beginning with
+  static constexpr int kMostPivots = 200;  // factorisations for one problem, as far as the caller's budget allows
+  static constexpr int kLeastPivots = 4;   // of which a problem is worth beginning with
   static constexpr int kPasses = 3;                      // limits come within 1/32, as a rule in two
   static constexpr int kPatience = 3;  // exchanges that may bring nothing before rows are taken one by one
-  static constexpr int kSweeps = 16;
+  static constexpr int kSweeps = 16, kLeastSweeps = 4;
+  static constexpr std::uint64_t kSweepWork = 4;  // of a block in a sweep: three rows at two ends
 
   /// No blocks.
   void begin();
@@ -90,9 +90,9 @@ template <class N> class DirectSystem {
   /// u of a body.
   ISO_INLINE const DirectMotion<N>& motion(std::uint32_t body) const { return motions_[body]; }
 
-  /// Once all blocks between bodies 0..body_count are there. More than most_blocks, and blocks that meet
-  /// too many others (a heap at one place), are swept, never factorised.
-  void tie(std::uint32_t body_count, std::uint32_t most_blocks);
+  /// Once all blocks between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many others
+  /// (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
+  void tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work);
   /// K from the rows as they are now.
   void assemble();
   /// Answers and limits times 2^by: the exponent that they share becomes another.
@@ -103,13 +103,19 @@ template <class N> class DirectSystem {
   void settle();
   /// From now on only what cannot give way is solved: neither friction nor motors nor springs.
   void release();
-  /// False: no end was found. Then, bounded answers are within bounds and joints hold.
-  /// Firm: contacts, too, are not to yield, at the price of more passes. Equations never are.
-  bool solve(bool firm);
+  /// False: no end was found within most_work. Then, bounded answers are within bounds, and joints hold unless all was
+  /// swept, as often as that allows, and kLeastSweeps at least. Firm: contacts, too, are not to yield, at the price of
+  /// more passes. Equations never are.
+  bool solve(bool firm, std::uint64_t most_work);
   /// Projected Gauss-Seidel from the answers so far.
   void sweep(int sweeps);
 
   ISO_INLINE int pivots() const { return pivots_; }  // of the last solve
+  /// Of a problem that is worth beginning with.
+  ISO_INLINE std::uint64_t least_work() const { return kLeastPivots * elimination_work(); }
+  /// Products of blocks that the last solve took, near enough: some 50 ns each in double.
+  ISO_INLINE std::uint64_t work() const { return work_; }
+  ISO_INLINE bool is_swept() const { return too_large_; }
 
  private:
   using Pair = typename SparseCholesky<N>::Pair;
@@ -152,6 +158,7 @@ template <class N> class DirectSystem {
   std::vector<DirectState> wanted_;
   N answer_slack_ = N(0), right_slack_ = N(0);
   int pivots_ = 0, most_pivots_ = 0;
+  std::uint64_t work_ = 0;
 };
 
 extern template class DirectSystem<Exact<double>>;

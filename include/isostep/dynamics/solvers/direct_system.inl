@@ -17,9 +17,10 @@ template <class N> std::uint32_t DirectSystem<N>::add_block(std::uint32_t body_a
   return block_count() - 1;
 }
 
-template <class N> void DirectSystem<N>::tie(std::uint32_t body_count, std::uint32_t most_blocks) {
+template <class N> void DirectSystem<N>::tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work) {
   motions_.assign(body_count + 1, DirectMotion<N>::zero());
   is_factored_ = false;
+  pairs_.clear();
   too_large_ = block_count() > most_blocks;
   if (too_large_) return;
   first_.assign(motions_.size() + 1, 0);
@@ -34,7 +35,6 @@ template <class N> void DirectSystem<N>::tie(std::uint32_t body_count, std::uint
       if (body != 0) at_body_[next_[body]++] = b;
     }
   }
-  pairs_.clear();
   for (std::uint32_t body = 1; body < motions_.size(); ++body) {
     for (std::uint32_t i = first_[body]; i < first_[body + 1]; ++i) {
       for (std::uint32_t j = i + 1; j < first_[body + 1]; ++j) {
@@ -45,7 +45,7 @@ template <class N> void DirectSystem<N>::tie(std::uint32_t body_count, std::uint
       }
     }
   }
-  too_large_ = kLeastPivots * elimination_work() > kMostWork;
+  too_large_ = most_work < least_work();
   if (too_large_) return;
   if (cholesky_.is_analysed() && last_count_ == block_count() && last_pairs_ == pairs_) return;
   cholesky_.analyse(block_count(), pairs_);

@@ -64,6 +64,7 @@ template <class S> struct SolverInput {
 //   void restitute(const SolverInput<S>&);
 //   void store_impulses(const SolverInput<S>&);      into input.contacts, step_impulses, joints, states' velocities
 //   void run(const SolverInput<S>&);
+//   std::uint32_t unsolved() const;                  islands of this step that it left before they were solved
 //   void visit_scratch(const Visit&, SolverStage, const SolverInput<S>&);   what this stage left for the next ones, by
 //                                                                           name: state/leaves.hpp
 

@@ -50,6 +50,8 @@ template <class S> class WorstFirstResolver {
   void restitute(const SolverInput<S>&) {}  // done with the impacts
   void store_impulses(const SolverInput<S>& input);
   void run(const SolverInput<S>&) {}
+  /// As often as a pass left them.
+  ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
 
  private:
