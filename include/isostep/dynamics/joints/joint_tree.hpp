@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/aligned_bytes.hpp"
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
@@ -93,10 +94,6 @@ template <class S> class JointTrees {
     std::uint32_t lanes;
     std::size_t offset;  // [bytes] in memory_
   };
-  struct alignas(64) Chunk {
-    unsigned char bytes[64];
-  };
-
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
@@ -168,7 +165,7 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> shape_given_;
   std::vector<Batch> batches_;
   std::vector<std::uint32_t> lane_joints_, lane_rows_;
-  std::vector<Chunk> memory_;
+  AlignedBytes memory_;
 };
 
 }  // namespace isostep

@@ -110,7 +110,7 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, Sol
       first += taken;
     }
   }
-  memory_.resize(bytes / 64);
+  memory_.resize(bytes);
   for (const Batch& batch : batches_) batch.kernels->prepare(run_of(batch, &bodies), joints.data());
 }
 
@@ -178,7 +178,7 @@ template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBo
           &lane_joints_[batch.first_joint],
           &lane_rows_[batch.first_row],
           batch.lanes,
-          reinterpret_cast<unsigned char*>(memory_.data()) + batch.offset,
+          memory_.data() + batch.offset,
           bodies != nullptr ? bodies->velocity.data() : nullptr,
           bodies != nullptr ? bodies->mass.data() : nullptr};
 }

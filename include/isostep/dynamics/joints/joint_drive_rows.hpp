@@ -1,0 +1,73 @@
+// Drives as rows of their joint: which row a piece of the law is, how strong its spring, what it asks for.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_couplings.hpp"
+
+namespace isostep::detail {
+
+template <class S> ISO_INLINE JointRow<S> scaled_row(const JointRow<S>& row, Unit<S> s) {
+  return {row.linear * s, row.angular_a * s, row.angular_b * s, row.turn_a * s, row.turn_b * s};
+}
+/// A fixed speed is the row itself, a spring a weaker one that yields, a constant impulse none.
+template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
+  JointBlock<S>& block = joint.blocks[joint.block_count - 1];
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    const int at = static_cast<int>(drive.place);
+    const bool fixed = fixes_speed(drive.piece), springs = !fixed && drive.spring > S(0);
+    block.rows[at] = fixed     ? drive.row
+                     : springs ? scaled_row(drive.row, drive.spring_row.y)
+                               : JointRow<S>::zero();
+    const S share = convert<S>(drive.spring_row.x);
+    block.give.set(at, springs ? share * share : S(0));
+  }
+}
+
+/// Strength of a spring that has its frequency while the joint's own point holds and the rest of the world is still.
+/// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with e the effective mass and angle = 2 pi frequency h; roots are
+///          taken apart, for where a spring is weak their product keeps digits that w^2 loses.
+template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
+  JointDrive<S>& drive = joint.drives[0];
+  S k = self_coupling(drive.row, drive.row, joint.share);
+  if (joint.block_count > 1) {
+    const JointBlock<S>& point = joint.blocks[0];
+    const Mat3<S> inverse = invert_symmetric(point.coupling, kBlockCompliance<S>);
+    const auto with = [&](int r) { return self_coupling(drive.row, point.rows[r], joint.share); };
+    const Vec3<S> c = {with(0), with(1), with(2)};
+    k = max(k - dot(c, inverse * c), k * kLeastCompliance<S>);
+  }
+  drive.spring = k > S(0) ? drive.spring_root / sqrt(k) : S(0);
+  if (drive.spring < S(8) * resolution<S>()) drive.spring = S(0);
+  drive.spring_row = direction_of(S(1), drive.spring, S(0));
+  const S error = drive.position - drive.target;
+  drive.spring_speed = saturated<S>(product(drive.spring_rate, error));
+  drive.spring_push = drive.spring < S(1) ? saturated<S>(product(drive.spring * drive.spring_rate, error))
+                                          : saturated<S>(product(drive.spring, drive.spring_speed));
+}
+
+template <class S> ISO_INLINE Velocity<S> motor_limit(const JointConstraint<S>& joint, Step<S> h) {
+  return convert<Velocity<S>>(min(joint.motor_force * h, joint.most_motor));
+}
+template <class S>
+ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, const JointStep<S>& step, bool relax) {
+  return bounds_of(drive, step.rate, step.h, relax ? S(0) : step.softness.bias_rate);
+}
+/// Whether the drive's impulse is the same whatever its speed.
+template <class S> ISO_INLINE bool is_constant(const JointDrive<S>& drive, DrivePiece piece) {
+  return !fixes_speed(piece) && !(drive.spring > S(0));
+}
+
+/// `speed` is that of the row as it stands in its block.
+template <class S>
+ISO_INLINE Velocity<S> drive_right_side(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
+                                        Velocity<S> most) {
+  using V = Velocity<S>;
+  if (fixes_speed(drive.piece)) return fixed_speed(drive, drive.piece, bounds) - speed;
+  if (!(drive.spring > S(0))) return V(0);
+  const S share = convert<S>(drive.spring_row.x);
+  const V pushed = drive.impulse - motor_impulse(drive.piece, most);
+  return -(speed + scaled(share, drive.spring_push) + saturated<S>(product(share / drive.spring, pushed)));
+}
+
+}  // namespace isostep::detail

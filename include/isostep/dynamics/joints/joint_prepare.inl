@@ -1,0 +1,129 @@
+// What a step finds out of a joint once: its rows, their levers, last impulses. Part of joint.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint.hpp"
+
+namespace isostep {
+
+namespace detail {
+
+template <class S> ISO_INLINE S trace_bound(const SolverMass<S>& a, const SolverMass<S>& b, MassShare<S> share) {
+  const auto entry = [&](int i) { return share.a * a.kappa.rows[i][i] + share.b * b.kappa.rows[i][i]; };
+  return max(entry(0), max(entry(1), entry(2)));
+}
+
+/// [1/m^2] how easily the pair turns about an axis of frame a.
+template <class S>
+ISO_INLINE S turning_about(Vec3<S> axis, const SolverMass<S>& a, const SolverMass<S>& b, MassShare<S> share) {
+  return share.a * dot(axis, a.kappa * axis) + share.b * dot(axis, b.kappa * axis);
+}
+template <class S> ISO_INLINE S radius_of(S turning) { return turning > S(0) ? S(1) / sqrt(turning) : S(0); }
+
+/// Lever of an angle about the joint's z axis, and of one across it: thin bodies turn far more easily about one. It is
+/// the mean between the body's own radius of inertia, at which a row alone is one, and the one about the joint, at which
+/// it is one once the point holds: where the arm is long, entries and impulses then both keep within the format.
+template <class S>
+ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
+                          JointConstraint<S>& joint) {
+  joint.radius = S(0);
+  if (joint.block_count + joint.drive_count < 2) return;  // no row turns alone
+  joint.radius = radius_of(trace_bound(a, b, joint.share));
+  joint.drives[0].radius = joint.drives[1].radius = joint.radius;
+  if (joint.drive_count == 0 || joint.properties.type == JointType::distance) return;
+  const Mat3<Unit<S>> frame = to_matrix(end_a.pose.orientation * joint.properties.frame_a.orientation);
+  const auto about = [&](int i) { return turning_about(convert<S>(frame.column(i)), a, b, joint.share); };
+  const auto length_of = [](Vec3<S> arm) { return direction_of(arm.x, arm.y, arm.z).length; };
+  const S arm = joint.share.a * length_of(joint.properties.frame_a.position) +
+                joint.share.b * length_of(joint.properties.frame_b.position);
+  const auto mean = [&](S own) { return sqrt(own) * sqrt(direction_of(own, arm, S(0)).length); };
+  joint.drives[0].radius = mean(radius_of(about(2)));
+  joint.drives[1].radius = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
+}
+
+/// Which of the two kinds of row a joint has.
+template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
+  const JointProperties<S>& p = joint.properties;
+  const bool limit = (p.flags & joint_flag::kLimit) != 0, motor = (p.flags & joint_flag::kMotor) != 0;
+  const bool spring = (p.flags & joint_flag::kSpring) != 0, cone = (p.flags & joint_flag::kCone) != 0;
+  JointDrive<S>& main = joint.drives[0];
+  JointDrive<S>& swing = joint.drives[1];
+  main = {};
+  swing = {};
+  main.place = 2;
+  main.push_speed = swing.push_speed = kAnglePushSpeed<S>;
+  switch (p.type) {
+    case JointType::ball:
+      joint.block_count = cone || limit ? 2 : 1;
+      joint.drive_count = cone || limit ? 2 : 0;
+      main.bounded_below = main.bounded_above = limit;
+      swing.bounded_above = cone;
+      return;
+    case JointType::hinge:
+      joint.block_count = 2;
+      joint.drive_count = limit || motor || spring ? 1 : 0;
+      main.bounded_below = main.bounded_above = limit;
+      main.driven = motor;
+      main.sprung = spring;
+      return;
+    case JointType::fixed:
+      joint.block_count = 2;
+      joint.drive_count = 0;
+      return;
+    case JointType::distance: {
+      const bool bounded = limit || !spring;
+      const bool rod = bounded && !(p.lower < p.upper);
+      joint.block_count = 1;
+      joint.drive_count = rod ? 0 : 1;
+      main.place = 0;
+      main.push_speed = kJointPushSpeed<S>;
+      main.bounded_below = bounded && p.lower > S(0);
+      main.bounded_above = bounded;
+      main.sprung = spring;
+      return;
+    }
+  }
+}
+
+template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, JointConstraint<S>& joint) {
+  joint.blocks[0].impulse = state.point;
+  joint.blocks[1].impulse = state.angular;
+  JointDrive<S>& main = joint.drives[0];
+  JointDrive<S>& swing = joint.drives[1];
+  main.impulse = state.drive;
+  swing.impulse = state.swing;
+  main.piece = valid_piece(main, state.drive_piece());
+  swing.piece = valid_piece(swing, state.swing_piece());
+}
+
+}  // namespace detail
+
+template <class S>
+void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
+                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint) {
+  joint.properties = properties;
+  joint.row_a = a.row;
+  joint.row_b = b.row;
+  joint.pose_a = a.pose;
+  joint.pose_b = b.pose;
+  const SolverMass<S>& mass_a = bodies.mass[a.row];
+  const SolverMass<S>& mass_b = bodies.mass[b.row];
+  joint.share = mass_share(mass_a.mass, mass_b.mass);
+  joint.holds = a.row != b.row && joint.share.a + joint.share.b > S(0);
+  joint.blocks[0].give = joint.blocks[1].give = Vec3<S>::zero();
+  detail::count_rows(joint);
+  detail::load_impulses(state, joint);
+  detail::set_radii(a, mass_a, mass_b, joint);
+  joint.motor_force = joint.most_motor = S(0);
+  if (!joint.drives[0].driven) return;
+  // torque h / (reduced mass radius) is the impulse, in its unit, that the motor gives in h.
+  const S reduced = mass_a.mass > S(0) ? mass_a.mass * joint.share.a : mass_b.mass * joint.share.b;
+  const S radius = joint.drives[0].radius;
+  joint.motor_force = divide_to<S>(properties.motor_torque, reduced * radius);
+  // Alone, without what the point holds, it turns a body no faster than its points may move.
+  const S reach = max(S(1), max(max_abs(properties.frame_a.position), max_abs(properties.frame_b.position)));
+  const S turning = max(detail::trace_bound(mass_a, mass_b, joint.share) * radius, S(1));
+  joint.most_motor = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
+}
+
+}  // namespace isostep

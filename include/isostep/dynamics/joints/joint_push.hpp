@@ -1,0 +1,59 @@
+// JointPush<S>: all changes of impulse of a joint, applied to its bodies at once.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint.hpp"
+
+namespace isostep::detail {
+
+/// The changes of impulse of a joint's rows, for bodies to be pushed once by all: on a long arm a drive and the point
+/// turn a light body hard against each other, beyond the range of a spin, and what is left of both is little.
+template <class S> class JointPush {
+ public:
+  using V = Velocity<S>;
+
+  ISO_INLINE void add(const JointRow<S>& row, V change) {
+    if (change == V(0)) return;
+    rows_[count_] = &row;
+    changes_[count_++] = change;
+  }
+  ISO_INLINE void add(const JointBlock<S>& block, Vec3<V> change) {
+    for (int r = 0; r < 3; ++r) add(block.rows[r], change[r]);
+  }
+  ISO_INLINE void apply(const JointConstraint<S>& joint, SolverBodies<S>& bodies) const {
+    if (bodies.moves(joint.row_a)) {
+      const MotionRow<V> push = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
+      bodies.velocity[joint.row_a].linear -= push.linear;
+      bodies.velocity[joint.row_a].angular -= push.angular;
+    }
+    if (bodies.moves(joint.row_b)) {
+      const MotionRow<V> push = total(joint.share.b, [](const JointRow<S>& row) { return row.turn_b; });
+      bodies.velocity[joint.row_b].linear += push.linear;
+      bodies.velocity[joint.row_b].angular += push.angular;
+    }
+  }
+
+ private:
+  template <class Turn> ISO_INLINE MotionRow<V> total(S share, const Turn& turn) const {
+    const auto zero = product(S(0), V(0));
+    decltype(product(S(0), V(0))) linear[3] = {zero, zero, zero}, angular[3] = {zero, zero, zero};
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const V change = scaled(share, changes_[i]);
+      const Vec3<S> along = rows_[i]->linear, about = turn(*rows_[i]);
+      for (int k = 0; k < 3; ++k) {
+        linear[k] = linear[k] + product(along[k], change);
+        angular[k] = angular[k] + product(about[k], change);
+      }
+    }
+    const auto rounded = [](const auto(&sum)[3]) {
+      return Vec3<V>{round_to<V>(sum[0]), round_to<V>(sum[1]), round_to<V>(sum[2])};
+    };
+    return {rounded(linear), V(0), rounded(angular), V(0)};
+  }
+
+  const JointRow<S>* rows_[8];  // six of blocks, two of drives
+  V changes_[8];
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace isostep::detail
