@@ -35,6 +35,7 @@ const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::desync: return "DESYNC";
     case SessionEvent::Kind::bad_snapshot: return "bad snapshot";
     case SessionEvent::Kind::misuse: return "misuse";
+    case SessionEvent::Kind::unhashed: return "unhashed state";
   }
   return "?";
 }

@@ -131,6 +131,7 @@ template <class S> class JointWatch {
     weight_ = j.mass * kFall;
     inertia_ = inertia_about(view, at.anchor, at.axis);
     grain_ = kFall / rate + grain<S>(10) * rate;
+    slow_ = 0.5 * inertia_ * std::pow(to_double(rapid_spin<S>(60)), 2);
     if (j.has(joint_flag::kSpring)) {
       const double w2 = std::pow(2 * kPi * j.frequency, 2);
       sprung_ = 0.5 * inertia_ * w2 * std::pow(at.twist - j.target, 2);

@@ -157,7 +157,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
 /// Jacobian and error from the poses of now.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// For velocities, after linearise_joint() and from the spins of `step.bodies` as they are: how joints' arms curve.
+/// For velocities, after linearise_joint() and from the spins of `step.bodies` as they are: how joints' arms curve. Not
+/// for solvers that close errors of position by themselves: what the arms curved then stays as speed.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
 /// What the rows move, for bodies that turn by kappa, and how strong springs are.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);

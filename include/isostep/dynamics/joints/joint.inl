@@ -21,7 +21,7 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
 
 /// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
 /// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
-/// and a spinning top would sink.
+/// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second order.
 template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> spin, Step<S> h) {
   using V = Velocity<S>;
   const auto across = [](Vec3<V> w, Vec3<S> r) {
@@ -30,12 +30,15 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Veloc
                    saturated<S>(product(r.y, w.x) - product(r.x, w.y))};
   };
   const S half = S(0.5) * h;
-  return across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(across(spin, arm)));
+  const V most = kJointPushSpeed<S>;
+  const Vec3<V> bent =
+      across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(across(spin, arm)));
+  return {clamp(bent.x, -most, most), clamp(bent.y, -most, most), clamp(bent.z, -most, most)};
 }
 }  // namespace detail
 
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
-  if (joint.block_count == 0 || !joint.blocks[0].point) return;
+  if (!joint.blocks[0].point) return;
   const auto curve = [&](Vec3<S> arm, std::uint32_t row) {
     const Vec3<Velocity<S>> spin = step.bodies->velocity[row].angular;
     return step.rapid < max_abs(spin) ? detail::curve_of(arm, spin, step.h) : Vec3<Velocity<S>>::zero();

@@ -95,7 +95,8 @@ template <class V> ISO_INLINE V motor_impulse(DrivePiece piece, V most) {
   return piece == DrivePiece::forwards ? most : piece == DrivePiece::backwards ? -most : V(0);
 }
 template <class S> ISO_INLINE Velocity<S> spring_impulse(const JointDrive<S>& drive, Velocity<S> speed) {
-  return -saturated<S>(product(drive.spring, scaled(drive.spring, speed) + drive.spring_push));
+  const Velocity<S> damped = saturated<S>(product(drive.spring, speed));
+  return -saturated<S>(product(drive.spring, damped + drive.spring_push));
 }
 template <class S>
 ISO_INLINE Velocity<S> fixed_speed(const JointDrive<S>& drive, DrivePiece piece, const DriveBounds<S>& bounds) {

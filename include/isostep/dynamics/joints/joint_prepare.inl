@@ -41,7 +41,7 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   joint.drives[1].radius = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
 }
 
-/// Which of the two kinds of row a joint has.
+/// How many blocks and drives a joint has, and where its drives stand.
 template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   const bool limit = (p.flags & joint_flag::kLimit) != 0, motor = (p.flags & joint_flag::kMotor) != 0;
@@ -79,7 +79,7 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
       main.push_speed = kJointPushSpeed<S>;
       main.bounded_below = bounded && p.lower > S(0);
       main.bounded_above = bounded;
-      main.sprung = spring;
+      main.sprung = spring && !rod;
       return;
     }
   }
@@ -92,6 +92,10 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
   JointDrive<S>& swing = joint.drives[1];
   main.impulse = state.drive;
   swing.impulse = state.swing;
+  // What a drive's place held as an equality, before the joint's settings changed, is let go.
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    joint.blocks[joint.block_count - 1].impulse.set(static_cast<int>(joint.drives[i].place), Velocity<S>(0));
+  }
   main.piece = valid_piece(main, state.drive_piece());
   swing.piece = valid_piece(swing, state.swing_piece());
 }

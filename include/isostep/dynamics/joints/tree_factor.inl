@@ -101,7 +101,8 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     const Vec3<V> bent = across({times(half, w.x), times(half, w.y), times(half, w.z)},
                                 {convert<L>(v.x), convert<L>(v.y), convert<L>(v.z)});
     const auto spins = less(V::broadcast(least), max_abs(w));
-    const auto part = [&](V x) ISO_INLINE_LAMBDA { return select(spins, x, V::zero()); };
+    const V push = V::broadcast(detail::kJointPushSpeed<S>);
+    const auto part = [&](V x) ISO_INLINE_LAMBDA { return select(spins, clamp(x, -push, push), V::zero()); };
     return {part(bent.x), part(bent.y), part(bent.z)};
   }
 

@@ -96,7 +96,9 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       const Mat3<Unit<S>> axes = to_matrix(input.states[i].orientation * body.principal);
       const bool rapid = rapid_spin<S>(input.hz) < max_abs(row.angular);
       row.angular = FreeTurn<S>{axes, gyro_[i].inertia, h}.turn(row.angular, gyro_[i].known, rapid);
-      if (rapid) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+      detail::hold_locks(body.flags, row);
+      if (rapid_spin<S>(input.hz) < max_abs(row.angular)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+      continue;
     }
     detail::hold_locks(body.flags, row);
   }

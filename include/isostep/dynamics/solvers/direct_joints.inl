@@ -177,7 +177,8 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
     const std::uint32_t r = 3 * (first + joint.block_count + i);
     const V spring = impulse_of(island, r + detail::kSpringRow), motor = impulse_of(island, r + detail::kMotorRow);
     const V limit = impulse_of(island, r + detail::kLimitRow), most = motor_limit(joint) - resolution<V>();
-    drive.impulse = spring + motor + limit;
+    const V bound = convert<V>(Limits<S>::speed());
+    drive.impulse = clamp(spring + motor + limit, -bound, bound);
     drive.piece = V(0) < limit   ? DrivePiece::lower
                   : limit < V(0) ? DrivePiece::upper
                   : !drive.driven ? DrivePiece::free

@@ -48,7 +48,6 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
   for (const std::uint32_t j : joints_) {
     JointConstraint<S>& joint = input.joints[j];
     linearise_joint(joint, step);
-    curve_joint(joint, step);
     weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
     factor_joint(joint);
     apply_impulses(joint, step);
