@@ -83,7 +83,7 @@ template <class S> class RandomWorldLaws : public ::testing::Test {
   }
   /// [m] Joints that are solved one after another, or by the worst first, give way.
   static double apart_bar(SolverName solver) {
-    return solver == SolverName::soft_step ? kApart : solver == SolverName::pgs ? 2 * kApart : 8 * kApart;
+    return solver == SolverName::soft_step ? kApart : solver == SolverName::pgs ? 2 * kApart : 16 * kApart;
   }
 };
 TYPED_TEST_SUITE(RandomWorldLaws, AllScalars);
