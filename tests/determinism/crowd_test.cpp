@@ -89,7 +89,7 @@ TYPED_TEST(CrowdBits, are_the_same_for_every_thread_and_lane) {
 /// A loaded world has another tree, other caches, another past; one read from bytes has none.
 TYPED_TEST(CrowdBits, are_the_same_after_a_rollback_and_from_the_portable_form) {
   using S = TypeParam;
-  World<S> world(small_budget<S>()), dirty(settings<S>(-3, 30, 2));
+  World<S> world(small_budget<S>()), dirty(small_budget<S>());
   build_crowds(world);
   Pcg32 random = Pcg32::seeded(77);
   add_heap(dirty, random, 40, {1, 2, 3});

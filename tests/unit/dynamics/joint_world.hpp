@@ -88,7 +88,7 @@ template <class S> class JointWorld {
   }
   JointStep<S> substep() {
     const S rate = S(240);
-    return {states.data(), &bodies, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate)};
+    return {states.data(), &bodies, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate), rapid_spin<S>(60)};
   }
   template <class Act> void for_each_batch(const Act& act) {
     const std::uint32_t count = trees.batch_count();
