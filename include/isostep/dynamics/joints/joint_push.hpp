@@ -45,9 +45,12 @@ template <class S> class JointPush {
         angular[k] = angular[k] + product(about[k], change);
       }
     }
-    const auto rounded = [](const auto(&sum)[3]) {
-      return Vec3<V>{round_to<V>(sum[0]), round_to<V>(sum[1]), round_to<V>(sum[2])};
+    // What even all rows together throw out of range is cut: half of the format, so that a velocity can be added.
+    const auto bound = [](auto sum) {
+      const auto most = widen<decltype(sum)>(DriveBounds<S>::far());
+      return round_to<V>(clamp(sum, -most, most));
     };
+    const auto rounded = [&](const auto(&sum)[3]) { return Vec3<V>{bound(sum[0]), bound(sum[1]), bound(sum[2])}; };
     return {rounded(linear), V(0), rounded(angular), V(0)};
   }
 
