@@ -13,10 +13,11 @@ namespace isostep {
 
 /// A kinematic body that turns. Friction brings a rider to the speed w x d that its place has as a step begins; kept
 /// up for the step, that leads off the circle, and its radius grows as exp(w^2 t / (2 hz)), sub-steps or not. In a
-/// sub-step of h the place under the rider itself goes to R (d + D): friction aims at (R - 1) (d + D) / h. What that adds
-/// to w x d acts as a belt on the platform's surface.
+/// sub-step of h the place under the rider itself goes to R (d + D): friction aims at (R - 1) (d + D) / h. What that
+/// adds to w x d acts as a belt on the platform's surface.
 /// Symbols: w = spin [rad/s], d = from the platform's centre of mass to the rider's as the step begins [m], D = by how
-///          much that has changed since [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a sub-step's turn.
+///          much that has changed since [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a sub-step's
+///          turn.
 template <class S> struct Carrier {
   using V = Velocity<S>;
   std::uint32_t row;  // of SolverBodies

@@ -27,8 +27,8 @@ template <class S> struct FreeTurn {
   Vec3<S> inertia;
   Step<S> h;
 
-  /// Takes back what pushes since the last step did too much, where it is `rapid` enough to matter, then turns. What the
-  /// axes round is no push: taken for one it feeds on itself.
+  /// Takes back what pushes since the last step did too much, where it is `rapid` enough to matter, then turns. What
+  /// the axes round is no push: taken for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> spin, Vec3<V>& known, bool rapid) const {
     const Vec3<V> w = local(spin), f = bend(w);
     const bool pushed = rapid && convert<V>(S(64) * resolution<S>()) < max_abs(w - known);

@@ -106,8 +106,8 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> travelled(Vec3<Velocity<S>> v, S
 }
 }  // namespace detail
 
-/// Velocity Verlet as kick, drift, kick: half of the accelerations at the start, the way, half of those at its end. What
-/// depends on velocity is evaluated at the end with both halves of the first.
+/// Velocity Verlet as kick, drift, kick: half of the accelerations at the start, the way, half of those at its end.
+/// What depends on velocity is evaluated at the end with both halves of the first.
 template <class S> void ParticleEngine<S>::drift_verlet() {
   accelerate();
   scratch_.first = scratch_.acceleration;

@@ -195,8 +195,8 @@ template <class S, class Sum> S saturate_at(Sum sum, S highest) {
   return bound < sum ? highest : sum < -bound ? -highest : round_to<S>(sum);
 }
 
-/// [1/s^2 of `limit`'s unit s] What forces may do: from rest to a limit in one step, and no more than half of the format,
-/// so that two add up.
+/// [1/s^2 of `limit`'s unit s] What forces may do: from rest to a limit in one step, and no more than half of the
+/// format, so that two add up.
 template <class S> S most_acceleration(std::int32_t hz, S limit) {
   const S half = highest<S>() * S(0.5);
   return product(half, S(1)) < product(S(hz), limit) ? half : S(hz) * limit;

@@ -113,8 +113,8 @@ template <class S> std::uint32_t WorldEngine<S>::traits_of(const BodyFrame<S>& f
          (frame.frozen ? Framed::kFrozen : 0u);
 }
 
-/// The parts that might touch, in order of their contacts' keys, and which of them are of one kind. Where compounds have
-/// too many, every pair of bodies gets the same share of them.
+/// The parts that might touch, in order of their contacts' keys, and which of them are of one kind. Where compounds
+/// have too many, every pair of bodies gets the same share of them.
 template <class S> void WorldEngine<S>::gather_parts() {
   const auto budget = static_cast<std::uint64_t>(state_.settings.most_pairs);
   const PartBudget all = {budget * kLooksPerPair, budget * kPartsPerPair};

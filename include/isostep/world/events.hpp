@@ -72,7 +72,7 @@ struct StepReport {
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
-  std::uint32_t crowded = 0;           // bodies some of whose pairs were left out: beyond Settings::most_pairs
+  std::uint32_t crowded = 0;           // bodies that did not find all their pairs: beyond Settings::most_pairs
   std::uint32_t cut_compounds = 0;     // pairs of bodies some of whose parts were left out, by the same budget
   std::uint32_t unsolved = 0;          // islands that `direct` or, for each of its passes, `worst_first` left too early
   /// Nothing was lost. What is unsolved is only less exact.

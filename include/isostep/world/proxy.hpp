@@ -14,8 +14,8 @@ namespace proxy_kind {
 inline constexpr std::uint32_t kAwake = 1, kDynamic = 2, kSensor = 4;
 inline constexpr std::uint32_t kCount = 8;
 
-/// Whether bodies of two kinds pair: one of them is awake, and one can be pushed or one alone is a sensor. A sensor sees
-/// whatever moves, and what it passes when it moves itself; no other sensor.
+/// Whether bodies of two kinds pair: one of them is awake, and one can be pushed or one alone is a sensor. A sensor
+/// sees whatever moves, and what it passes when it moves itself; no other sensor.
 ISO_INLINE constexpr bool pair(std::uint32_t a, std::uint32_t b) {
   const bool sees = ((a ^ b) & kSensor) != 0, touches = ((a | b) & kSensor) == 0 && ((a | b) & kDynamic) != 0;
   return ((a | b) & kAwake) != 0 && (sees || touches);

@@ -21,8 +21,8 @@ ISO_INLINE constexpr std::uint32_t pair_b(std::uint64_t key) { return static_cas
 /// Holds { (a, b) : a < b, the tree's boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
 /// depends on the boxes and on the predicate alone, not on what happened before nor on the tree's shape, as long as
 /// every slot whose box, presence or filter changed was marked. Not state: a loaded world clears it and marks all.
-/// That set is held while it has `most` pairs or fewer. Beyond, or where the search takes too many steps to tell, keys()
-/// are what the caller `choose`s instead, at every update, until it says that they are the whole set again.
+/// That set is held while it has `most` pairs or fewer. Beyond, or where the search takes too many steps to tell,
+/// keys() are what the caller `choose`s instead, at every update, until it says that they are the whole set again.
 /// Cost: O(pairs + marked log n); from a third of the leaves on, one join of the tree with itself (measured break-even
 /// 0.33 to 0.41). Memory and time end at a few times `most` and the leaves. No allocation once warm.
 template <class S> class PairSet {

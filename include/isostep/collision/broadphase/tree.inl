@@ -56,8 +56,8 @@ template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
 /// The node to pair a new leaf with: down the cheaper child while that adds less surface than stopping.
 /// Stopping at n costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an
 /// inner c at least its growth and area(box). What the ancestors of n grow is common to both; n's growth, taken from
-/// both, leaves area(n) against the child's part. Of what costs the same the lower: boxes in one place would make a list
-/// of the tree otherwise, which is built anew each time that it is too high.
+/// both, leaves area(n) against the child's part. Of what costs the same the lower: boxes in one place would make a
+/// list of the tree otherwise, which is built anew each time that it is too high.
 template <class S> std::uint32_t AabbTree<S>::find_sibling(const Aabb<S>& box) const {
   const Sum<S> own = half_area(box);
   std::uint32_t at = kRoot;

@@ -175,8 +175,8 @@ template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
 /// Whether a drive is off its piece of the law.
 template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
-/// Then the pass begins again with the next pieces, from what it began with: a piece that was wrong may ask for impulses
-/// that are far from any that are right. Blocks have to couple anew.
+/// Then the pass begins again with the next pieces, from what it began with: a piece that was wrong may ask for
+/// impulses that are far from any that are right. Blocks have to couple anew.
 template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies);
 template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies);
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step);

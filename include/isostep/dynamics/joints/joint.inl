@@ -21,7 +21,8 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
 
 /// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
 /// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
-/// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second order.
+/// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second
+/// order.
 template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> spin, Step<S> h) {
   using V = Velocity<S>;
   const auto across = [](Vec3<V> w, Vec3<S> r) {

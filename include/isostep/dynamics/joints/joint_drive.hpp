@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kDrivePieces = 6;
 ///          speed and impulse (Brogliato 2016, Nonsmooth Mechanics, ch. 5): at every speed at most one part of it is
 ///          vertical. So one row is enough, and which piece of the law it is on decides the row: a fixed speed, a
 ///          spring, or a constant impulse.
-/// Symbols: v = speed along the row, lambda = impulse as velocity change of the reduced mass. Spring: lambda = -w (w v +
-///          push), w^2 = (h c + h^2 k) / effective mass. Motor: lambda in [-most, most]. A spring's row is scaled by
+/// Symbols: v = speed along the row, lambda = impulse as velocity change of the reduced mass. Spring: lambda = -w (w v
+///          + push), w^2 = (h c + h^2 k) / effective mass. Motor: lambda in [-most, most]. A spring's row is scaled by
 ///          w / sqrt(1 + w^2): its pivot stays near one however weak it is.
 template <class S> struct JointDrive {
   JointRow<S> row;
@@ -56,8 +56,8 @@ namespace detail {
 
 /// [m/s] a free drive passes a bound by less than this without being stopped: what rounding makes of a fixed speed.
 template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x1p-14);
-/// [m/s] an angle beyond its limit returns no faster, at its lever: a limb of five centimetres at five radians a second.
-/// pgs keeps as speed what closes an error, and gains no more than that.
+/// [m/s] an angle beyond its limit returns no faster, at its lever: a limb of five centimetres at five radians a
+/// second. pgs keeps as speed what closes an error, and gains no more than that.
 template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.25);
 /// Refactorisations of a pass for drives that change their piece: an impact in a chain of stops takes two or three, and
 /// what is left over after four is a stop that holds for one pass too long or begins one too late; neither adds energy.
@@ -81,7 +81,9 @@ ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, S rate, Step<S> 
   using V = Velocity<S>;
   DriveBounds<S> bounds = {-DriveBounds<S>::far(), DriveBounds<S>::far()};
   if (drive.bounded_below) bounds.low = least_speed(drive.position - drive.lower, drive.push_speed, rate, h, bias_rate);
-  if (drive.bounded_above) bounds.high = -least_speed(drive.upper - drive.position, drive.push_speed, rate, h, bias_rate);
+  if (drive.bounded_above) {
+    bounds.high = -least_speed(drive.upper - drive.position, drive.push_speed, rate, h, bias_rate);
+  }
   // Limits that are both passed, or nearer to each other than rounding: the middle.
   if (bounds.high < bounds.low) bounds.low = bounds.high = (bounds.low + bounds.high) * V(0.5);
   return bounds;

@@ -21,8 +21,8 @@ ISO_INLINE S turning_about(Vec3<S> axis, const SolverMass<S>& a, const SolverMas
 template <class S> ISO_INLINE S radius_of(S turning) { return turning > S(0) ? S(1) / sqrt(turning) : S(0); }
 
 /// Lever of an angle about the joint's z axis, and of one across it: thin bodies turn far more easily about one. It is
-/// the mean between the body's own radius of inertia, at which a row alone is one, and the one about the joint, at which
-/// it is one once the point holds: where the arm is long, entries and impulses then both keep within the format.
+/// the mean between the body's own radius of inertia, at which a row alone is one, and the one about the joint, at
+/// which it is one once the point holds: where the arm is long, entries and impulses then both keep within the format.
 template <class S>
 ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
                           JointConstraint<S>& joint) {

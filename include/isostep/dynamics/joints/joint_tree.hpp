@@ -30,6 +30,8 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 ///          than the format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may
 ///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
+/// Drives:  rows of their joint's last block. While one is off its piece of the law (joint_drive.hpp) the pass begins
+///          again with a new factorisation, at most kMostPieceChanges times. A ball with limits counts two blocks.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
 /// Batches: trees of ball joints without limits are solved by a TreeKernels, as many of one shape at once as it is
 ///          wide; all other joints, and trees that share a body with them, are one batch more. Batches write no body in

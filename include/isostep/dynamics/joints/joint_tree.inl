@@ -152,7 +152,9 @@ void JointTrees<S>::solve_tree(const Elimination& tree, std::span<JointConstrain
     bool off = false;
     for (const std::uint32_t j : driven) off = judge_drives(joints[j], step, relax) || off;
     if (!off) return;
-    each_joint([&](JointConstraint<S>& joint, const JointStart<S>& start) { restart_joint(joint, start, *step.bodies); });
+    each_joint([&](JointConstraint<S>& joint, const JointStart<S>& start) {
+      restart_joint(joint, start, *step.bodies);
+    });
     for (const std::uint32_t j : driven) change_pieces(joints[j], step);
     factor(tree, joints, *step.bodies);
   }

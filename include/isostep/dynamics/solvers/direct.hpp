@@ -22,11 +22,12 @@ namespace isostep {
 ///          whole sub-step's, and those of the step before are no more than a guess at who pushes.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
 /// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
-///          their share of kMostWork, a count, what is bounded stays as it was swept and joints are solved for the rest:
-///          an island's step ends after some 25 ms of double a sub-step. unsolved() tells how many islands. Friction is an
-///          octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the nearer counts.
-///          Impulses that are stored are held within the speed limit. Restitution: one solve more without friction.
-///          While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not angular momentum.
+///          their share of kMostWork, a count, what is bounded stays as it was swept and joints are solved for the
+///          rest: an island's step ends after some 25 ms of double a sub-step. unsolved() tells how many islands.
+///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
+///          nearer counts. Impulses that are stored are held within the speed limit. Restitution: one solve more
+///          without friction. While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not
+///          angular momentum.
 /// Order:   blocks stand in the order of joints, then contacts, of an island; islands touch nothing in common. One
 ///          thread.
 /// Memory:  warm, what SparseCholesky allocates; islands whose contacts or joints are others are analysed anew.
@@ -55,9 +56,9 @@ template <class S> class DirectSolver {
   /// Blocks of three rows that an island may have: with twice as many (a wall of 210 boxes, 1200) a factorisation takes
   /// 8 ms and a wall that falls needs hundreds.
   static constexpr std::uint32_t kMostBlocks = 600;
-  /// DirectSystem::work of an island, for each of a step's sub-steps: some 25 ms of double. Of a tower of 400 blocks that
-  /// stands they take 50 000, of a heap that falls into place ten times as much, of one in a corner any number. A solve
-  /// may take all that is left but kLeastPivots for each that comes.
+  /// DirectSystem::work of an island, for each of a step's sub-steps: some 25 ms of double. Of a tower of 400 blocks
+  /// that stands they take 50 000, of a heap that falls into place ten times as much, of one in a corner any number. A
+  /// solve may take all that is left but kLeastPivots for each that comes.
   static constexpr std::uint64_t kMostWork = 500'000;
 
   /// biased: errors are closed; relaxed: they are left; bounced: what is left of an approach is returned.

@@ -90,8 +90,8 @@ template <class N> class DirectSystem {
   /// u of a body.
   ISO_INLINE const DirectMotion<N>& motion(std::uint32_t body) const { return motions_[body]; }
 
-  /// Once all blocks between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many others
-  /// (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
+  /// Once all blocks between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many
+  /// others (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
   void tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work);
   /// K from the rows as they are now.
   void assemble();

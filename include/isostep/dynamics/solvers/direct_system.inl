@@ -17,7 +17,8 @@ template <class N> std::uint32_t DirectSystem<N>::add_block(std::uint32_t body_a
   return block_count() - 1;
 }
 
-template <class N> void DirectSystem<N>::tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work) {
+template <class N>
+void DirectSystem<N>::tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work) {
   motions_.assign(body_count + 1, DirectMotion<N>::zero());
   is_factored_ = false;
   pairs_.clear();

@@ -131,7 +131,8 @@ Velocity<S> WorstFirstResolver<S>::motion_urgency(const JointConstraint<S>& join
   const V limit = detail::motor_limit(joint, step.h);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
-    most = max(most, detail::drive_residual(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, true), limit));
+    const DriveBounds<S> bounds = detail::bounds_of(drive, step, true);
+    most = max(most, detail::drive_residual(drive, speed_along(drive.row, m), bounds, limit));
   }
   return detail::motion_tolerance<S>(m.a, m.b) < most ? most : V(0);
 }

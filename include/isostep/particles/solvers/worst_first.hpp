@@ -27,8 +27,8 @@ template <class S> struct ResolverTerms {
 /// Symbols: v_s = n.(v_b - v_a) [m/s] separating speed; C [m] = separation + n.(d_b - d_a); e = restitution;
 ///          g = n.(gained_b - gained_a), the part of v_s that this sub-step's forces made; N = impulse of this call.
 ///          f = v_s - min(g, 0), how fast they came; p = -C, as deep as they overlap; h = the time that g took.
-///          Bounce: v_s' = max(0, e sqrt(f^2 - 2 p |g| / h) + min(g, 0)), so that one sub-step's gravity does not bounce;
-///          where velocities lag, f has half of |g| more.
+///          Bounce: v_s' = max(0, e sqrt(f^2 - 2 p |g| / h) + min(g, 0)), so that one sub-step's gravity does not
+///          bounce; where velocities lag, f has half of |g| more.
 /// Order:   first what moves wrongly, by speed: contacts and cables that touch and close, rods that change length,
 ///          friction that has to change. Then what only overlaps, by depth: projection changes no speed, so it cannot
 ///          undo what came first. Ties go to the lowest index.
