@@ -23,17 +23,21 @@ template <class S> class JointPush {
   ISO_INLINE void apply(const JointConstraint<S>& joint, SolverBodies<S>& bodies) const {
     if (bodies.moves(joint.row_a)) {
       const MotionRow<V> push = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
-      bodies.velocity[joint.row_a].linear -= push.linear;
-      bodies.velocity[joint.row_a].angular -= push.angular;
+      add_to(bodies.velocity[joint.row_a].linear, -push.linear);
+      add_to(bodies.velocity[joint.row_a].angular, -push.angular);
     }
     if (bodies.moves(joint.row_b)) {
       const MotionRow<V> push = total(joint.share.b, [](const JointRow<S>& row) { return row.turn_b; });
-      bodies.velocity[joint.row_b].linear += push.linear;
-      bodies.velocity[joint.row_b].angular += push.angular;
+      add_to(bodies.velocity[joint.row_b].linear, push.linear);
+      add_to(bodies.velocity[joint.row_b].angular, push.angular);
     }
   }
 
  private:
+  static ISO_INLINE void add_to(Vec3<V>& velocity, Vec3<V> change) {
+    velocity = {saturating_add(velocity.x, change.x), saturating_add(velocity.y, change.y),
+                saturating_add(velocity.z, change.z)};
+  }
   template <class Turn> ISO_INLINE MotionRow<V> total(S share, const Turn& turn) const {
     const auto zero = product(S(0), V(0));
     decltype(product(S(0), V(0))) linear[3] = {zero, zero, zero}, angular[3] = {zero, zero, zero};
