@@ -252,10 +252,10 @@ TYPED_TEST(ParticleRegistries, a_removed_collider_takes_its_contacts) {
   ASSERT_TRUE(w.set(w.default_material(), ball_material<S>(0.5)));
   const ColliderId first = add_plane(w), second = add_plane(w, -0.0);
   const ParticleId ball = w.create(particle_at<S>({0, 0.5, 0}));
-  w.step();
-  ASSERT_GE(w.counts().contacts, 1u);
+  for (int i = 0; i < 10; ++i) w.step();
+  ASSERT_EQ(w.counts().contacts, 2u);
   ASSERT_TRUE(w.remove(first));
-  EXPECT_LE(w.counts().contacts, 1u);
+  EXPECT_EQ(w.counts().contacts, 1u);
   EXPECT_EQ(broken_rule(w), "");
   ASSERT_TRUE(w.remove(second));
   EXPECT_EQ(w.counts().contacts, 0u);
