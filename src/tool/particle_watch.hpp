@@ -22,8 +22,8 @@ template <class S> class ParticleWatch {
     observe(world);
   }
   void stepped(const ParticleWorld<S>& world, const ParticleReport& step, int, bool) {
-    found_.faults += std::uint64_t{step.clamped_speed} + step.clamped_position + step.stopped + step.undivided +
-                     step.unsolved + step.lost_pairs + step.spent;
+    found_.faults += std::uint64_t{step.clamped_speed} + step.clamped_force + step.clamped_position + step.stopped +
+                     step.undivided + step.unsolved + step.lost_pairs + step.spent;
     found_.unresolved += step.unresolved;
     observe(world);
   }

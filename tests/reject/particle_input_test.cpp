@@ -111,6 +111,39 @@ TYPED_TEST(ParticleInput, what_grows_too_fast_is_cut_to_the_speed_limit_and_repo
   }
 }
 
+TYPED_TEST(ParticleInput, what_commands_push_too_hard_is_cut_and_reported_once) {
+  using S = TypeParam;
+  const S most = ParticleLimits<S>::acceleration(), speed = ParticleLimits<S>::speed();
+  const Vec3<S> none = {S(0), S(0), S(0)};
+  const auto cut_by = [&](const auto& push) {
+    ParticleSettings<S> s = particle_settings<S>(0);
+    s.hz = 1000;
+    ParticleWorld<S> w(s);
+    const ParticleId id = w.create(particle_at<S>({0, 0, 0}));
+    push(w, id);
+    const ParticleReport report = w.step();
+    EXPECT_EQ(broken_rule(w), "");
+    EXPECT_TRUE(w.step().clean());
+    return report.clamped_force;
+  };
+  EXPECT_EQ(cut_by([&](auto& w, ParticleId id) { w.apply_force(id, {most, most, -most}); }), 0u);
+  EXPECT_EQ(cut_by([&](auto& w, ParticleId id) {
+              for (int i = 0; i < 2; ++i) w.apply_force(id, {most, S(0), S(0)});
+            }),
+            1u);
+  EXPECT_EQ(cut_by([&](auto& w, ParticleId id) {
+              w.apply_force(id, {S(0), highest<S>(), S(0)});
+              w.apply_force(id, none);
+            }),
+            1u);
+  EXPECT_EQ(cut_by([&](auto& w, ParticleId id) { w.apply_impulse(id, {speed, S(0), -speed}); }), 0u);
+  EXPECT_EQ(cut_by([&](auto& w, ParticleId id) {
+              w.apply_impulse(id, {speed, S(0), S(0)});
+              w.apply_impulse(id, {S(1), S(0), S(0)});
+            }),
+            1u);
+}
+
 /// k h^2 / m of 10^4 where 4 explodes.
 template <class S> std::vector<std::uint64_t> explode(ParticleReport& sum) {
   ParticleSettings<S> s = settings_with<S>(Integrator::explicit_euler);

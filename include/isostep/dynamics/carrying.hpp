@@ -53,7 +53,7 @@ template <class S> struct Carried {
     const Vec3<V> moved = bodies.displacement[rider].linear - bodies.displacement[carrier.row].linear;
     const Vec3<S> at = place + convert<S>(moved);
     const Vec3<V> w = carrier.spin;
-    const auto part = [&](int i, V u, V v) {
+    const auto part = [&](int i, V u, V v) ISO_INLINE_LAMBDA {
       const auto turned = product(w[(i + 1) % 3], v) - product(w[(i + 2) % 3], u);
       return round_to<V>(dot_sum(carrier.added.rows[i], at)) + round_to<V>(turned);
     };

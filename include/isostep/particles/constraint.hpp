@@ -72,15 +72,16 @@ template <class S> struct ParticleConstraint {
 };
 
 /// sqrt(v^2 + 2 g w) [m/s] of v >= 0: what forces that add g to a speed in a sub-step make of it on the way of w times
-/// the sub-step; 0 where they stop it before.
+/// the sub-step; 0 where they stop it before. Above the format's end it is held there.
 template <class S> ISO_INLINE Velocity<S> worked_speed(Velocity<S> v, Velocity<S> g, Velocity<S> w) {
   using V = Velocity<S>;
   const bool adds = (g < V(0)) == (w < V(0));
-  const V root = sqrt(g < V(0) ? -g : g) * sqrt(w < V(0) ? -w : w);
+  const auto root_of = [](V x) ISO_INLINE_LAMBDA { return sqrt(x < V(0) ? saturating_subtract(V(0), x) : x); };
+  const V root = saturate_to<V>(product(root_of(g), root_of(w)));
   const V part = saturating_add(root, root * V(0.41421356237309503));  // times the root of 2
   if (part == V(0)) return v;
   if (adds) return direction_of(v, part, V(0)).length;
-  return part < v ? sqrt(v - part) * sqrt(v + part) : V(0);
+  return part < v ? min(saturate_to<V>(product(sqrt(v - part), sqrt(saturating_add(v, part)))), v) : V(0);
 }
 
 }  // namespace isostep

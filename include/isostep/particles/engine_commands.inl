@@ -129,17 +129,22 @@ template <class S> bool ParticleEngine<S>::execute(const PushParticle<S>& comman
   const InverseMass<S> w = state_.inverse_mass[slot];
   if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
   const S most = ParticleLimits<S>::acceleration();
-  const auto part = [&](S old, S force) {
-    return clamp(saturating_add(old, saturate_to<S>(product(force, w))), -most, most);
-  };
-  const std::size_t at = detail::place_of(state_.pushes, slot);
-  if (at == state_.pushes.size() || state_.pushes[at].slot != slot) {
-    state_.pushes.insert(state_.pushes.begin() + static_cast<std::ptrdiff_t>(at),
-                         ParticlePush<S>{slot, 0, Vec3<S>::zero()});
-  }
-  Vec3<S>& a = state_.pushes[at].acceleration;
-  a = {part(a.x, command.force.x), part(a.y, command.force.y), part(a.z, command.force.z)};
+  const auto part = [w](S force) { return saturate_to<S>(product(force, w)); };
+  ParticlePush<S>& push = pending_push(slot);
+  const Vec3<S> more = {part(command.force.x), part(command.force.y), part(command.force.z)};
+  const Vec3<S> asked = saturating_add(push.acceleration, more);
+  push.acceleration = held_within(asked, most);
+  if (!detail::lies_within(more, most) || !detail::lies_within(asked, most)) push.cut = 1;
   return true;
+}
+/// What is asked of a particle until the next step.
+template <class S> ParticlePush<S>& ParticleEngine<S>::pending_push(std::uint32_t slot) {
+  std::vector<ParticlePush<S>>& pushes = state_.pushes;
+  const std::size_t at = detail::place_of(pushes, slot);
+  if (at == pushes.size() || pushes[at].slot != slot) {
+    pushes.insert(pushes.begin() + static_cast<std::ptrdiff_t>(at), ParticlePush<S>{slot, 0, Vec3<S>::zero()});
+  }
+  return pushes[at];
 }
 template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& command) {
   if (!holds(command.particle)) return refuse(Fault::stale_id);
@@ -148,11 +153,11 @@ template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& comman
   const InverseMass<S> w = state_.inverse_mass[slot];
   if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
   const V speed = convert<V>(ParticleLimits<S>::speed());
-  const auto part = [&](V old, S impulse) {
-    return clamp(saturating_add(old, saturate_to<V>(product(impulse, w))), -speed, speed);
-  };
-  const Vec3<V> v = state_.velocity[slot];
-  state_.velocity.set(slot, {part(v.x, command.impulse.x), part(v.y, command.impulse.y), part(v.z, command.impulse.z)});
+  const auto part = [w](S impulse) { return saturate_to<V>(product(impulse, w)); };
+  const Vec3<V> more = {part(command.impulse.x), part(command.impulse.y), part(command.impulse.z)};
+  const Vec3<V> asked = saturating_add(state_.velocity[slot], more);
+  state_.velocity.set(slot, held_within(asked, speed));
+  if (!detail::lies_within(asked, speed)) pending_push(slot).cut = 1;
   return true;
 }
 template <class S> bool ParticleEngine<S>::execute(const TouchParticle<S>& command) {

@@ -44,7 +44,18 @@ template <class S> FlightRun<S> ParticleEngine<S>::flight(std::uint32_t first) {
 /// All forces at the present positions and velocities.
 template <class S> void ParticleEngine<S>::accelerate() {
   kernels_->accelerate(flight());
-  if (has_forces()) add_forces();
+  if (!has_forces()) return;
+  add_forces();
+  const S most = ParticleLimits<S>::acceleration();
+  for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
+    if (!detail::lies_within(scratch_.acceleration[i], most)) note_cut_force(i);
+  }
+}
+/// Counts each particle once a step.
+template <class S> void ParticleEngine<S>::note_cut_force(std::uint32_t slot) {
+  if (report_.clamped_force == 0) cut_forces_.assign(state_.material.size(), 0);
+  report_.clamped_force += cut_forces_[slot] == 0 ? 1u : 0u;
+  cut_forces_[slot] = 1;
 }
 
 /// Where nothing joins particles, each goes through all sub-steps at once.

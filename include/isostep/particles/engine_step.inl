@@ -44,6 +44,9 @@ template <class S> void ParticleEngine<S>::begin_step() {
   const std::size_t count = state_.material.size();
   scratch_.acceleration.resize(count);
   scratch_.displacement.assign(count, V(0));
+  for (const ParticlePush<S>& push : state_.pushes) {
+    if (push.cut != 0) note_cut_force(push.slot);
+  }
   looks_left_ = most_looks(state_.settings.looks, count);
   prepare_flight();
   contact_softness_ = soften(detail::kParticleContactAngle<S>, detail::kParticleContactDamping<S>, rate_);

@@ -10,7 +10,8 @@ namespace isostep {
 /// they may be four times as fast as bodies of a narrow scalar.
 ///   position()     [m]     largest coordinate
 ///   speed()        [m/s]   largest component of a velocity
-///   acceleration() [m/s^2] largest component that gravity and drag may give, each
+///   acceleration() [m/s^2] largest component that gravity, drag and commands may give, each. All forces together end
+///                          at the format's end; beyond this the step reports them.
 ///   least_mass()   [kg]    smallest mass of what is not pinned
 ///   mass()         [kg]    largest mass
 template <class S> struct ParticleLimits;

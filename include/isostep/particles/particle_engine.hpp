@@ -118,6 +118,7 @@ template <class S> class ParticleEngine {
   Fault fault_of_ends(ParticleId a, ParticleId b) const;
   bool is_in_use(ParticleMaterialId material) const;
   void bury_doomed();
+  ParticlePush<S>& pending_push(std::uint32_t slot);
   template <class Records, class Names> void remove_naming(Records& records, const Names& names);
 
   // engine_forces.inl
@@ -134,6 +135,7 @@ template <class S> class ParticleEngine {
   void prepare_flight();
   FlightRun<S> flight(std::uint32_t first = 0);
   void accelerate();
+  void note_cut_force(std::uint32_t slot);
   void fly_free();
   void integrate();
   void arrive();
@@ -241,6 +243,7 @@ template <class S> class ParticleEngine {
   ParticleGrid<S> grid_;
   std::vector<std::uint32_t> slots_;         // of what collides
   std::vector<S> reaches_;                   // [m] of those
+  std::vector<std::uint8_t> cut_forces_;     // by slot: 1 once counted in report_.clamped_force
   std::vector<S> pulls_;                     // [m] by slot, or empty: how far springs may carry it in the step
   std::vector<std::uint64_t> cohering_;      // pairs as below, of one cohesion after the other
   std::vector<std::size_t> cohering_ends_;   // in cohering_, one a cohesion

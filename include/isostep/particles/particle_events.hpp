@@ -56,6 +56,7 @@ template <class S> struct ParticleEvents {
 /// What a step had to mend. Identical on every peer.
 struct ParticleReport {
   std::uint32_t clamped_speed = 0;     // particles whose speed was cut to ParticleLimits<S>
+  std::uint32_t clamped_force = 0;     // particles pushed harder than ParticleLimits<S>, by commands or by all forces
   std::uint32_t clamped_position = 0;  // particles held at the edge of the world
   std::uint32_t stopped = 0;           // particles put back and stopped because a number was not finite
   std::uint32_t unresolved = 0;        // constraints that worst_first left when its iterations were over
@@ -64,11 +65,12 @@ struct ParticleReport {
   std::uint32_t lost_pairs = 0;  // searches for pairs that found more than settings allow: the rest was passed over
   std::uint32_t spent = 0;       // resolutions that ended in one plain pass: the step's looks were over
   ISO_INLINE constexpr bool clean() const {
-    return clamped_speed == 0 && clamped_position == 0 && stopped == 0 && unresolved == 0 && undivided == 0 &&
-           unsolved == 0 && lost_pairs == 0 && spent == 0;
+    return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && unresolved == 0 &&
+           undivided == 0 && unsolved == 0 && lost_pairs == 0 && spent == 0;
   }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("clamped_speed", self.clamped_speed);
+    visit("clamped_force", self.clamped_force);
     visit("clamped_position", self.clamped_position);
     visit("stopped", self.stopped);
     visit("unresolved", self.unresolved);

@@ -41,12 +41,12 @@ static_assert(kHasNoPadding<ParticleContact<float>> && kHasNoPadding<ParticleCon
 /// Forces asked for since the last step, as acceleration. Ascending by slot, one a particle.
 template <class S> struct ParticlePush {
   std::uint32_t slot;
-  std::uint32_t reserved;  // 0
-  Vec3<S> acceleration;    // [m/s^2]
+  std::uint32_t cut;     // 1: what was asked for went beyond ParticleLimits<S>
+  Vec3<S> acceleration;  // [m/s^2]
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
-    visit("reserved", self.reserved);
+    visit("cut", self.cut);
     visit("acceleration", self.acceleration);
   }
 };

@@ -139,7 +139,7 @@ template <class S> class ParticleValidator {
     for (std::size_t i = 0; i < state_.pushes.size(); ++i) {
       const ParticlePush<S>& push = state_.pushes[i];
       const bool ascends = i == 0 || state_.pushes[i - 1].slot < push.slot;
-      if (!ascends || !is_particle(push.slot) || push.reserved != 0 || !is_finite(push.acceleration) ||
+      if (!ascends || !is_particle(push.slot) || 1 < push.cut || !is_finite(push.acceleration) ||
           !detail::lies_within(push.acceleration, ParticleLimits<S>::acceleration())) {
         return "a push breaks its rules";
       }

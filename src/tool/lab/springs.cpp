@@ -80,7 +80,7 @@ template <class S> class Springs {
       if (kSteps / 4 < i && i <= kSteps / 2) early += now.total();
       if (kSteps * 3 / 4 < i) late += now.total();
       if (kSteps - kRate < i) end += now.total() / kRate;
-      cut = report.clamped_speed + report.clamped_position + report.stopped > 0;
+      cut = report.clamped_speed + report.clamped_force + report.clamped_position + report.stopped > 0;
       if (cut) end = now.total();
     }
     SpringSample sample = {};

@@ -250,8 +250,13 @@ TYPED_TEST(ParticleRegistries, a_removed_collider_takes_its_contacts) {
   using S = TypeParam;
   ParticleWorld<S> w(particle_settings<S>());
   ASSERT_TRUE(w.set(w.default_material(), ball_material<S>(0.5)));
-  const ColliderId first = add_plane(w), second = add_plane(w, -0.0);
-  const ParticleId ball = w.create(particle_at<S>({0, 0.5, 0}));
+  // A groove whose sides both bear the ball.
+  Collider<S> side;
+  side.normal = {num<Unit<S>>(0.6), num<Unit<S>>(0.8), Unit<S>(0)};
+  const ColliderId first = w.add(side);
+  side.normal.x = -side.normal.x;
+  const ColliderId second = w.add(side);
+  const ParticleId ball = w.create(particle_at<S>({0, 0.625, 0}));  // 0.5 from both
   for (int i = 0; i < 10; ++i) w.step();
   ASSERT_EQ(w.counts().contacts, 2u);
   ASSERT_TRUE(w.remove(first));

@@ -202,7 +202,8 @@ TYPED_TEST(Crowds, have_budgets_within_limits) {
   Reader good(bytes);
   ASSERT_TRUE(other.read_portable(good));
   EXPECT_EQ(other.settings().most_pairs, kLeastPairs + 1);
-  const std::size_t place = 4 + 8 + sizeof(Vec3<S>) + 1 + 4 + 4;  // scalar, rates, gravity, allow_sleep, solver, id_space
+  // scalar, rates, gravity, allow_sleep, solver, id_space
+  const std::size_t place = 4 + 8 + sizeof(Vec3<S>) + 1 + 4 + 4;
   ASSERT_EQ(load_le<std::uint32_t>(bytes.data() + place), static_cast<std::uint32_t>(kLeastPairs + 1));
   store_le(bytes.data() + place, static_cast<std::uint32_t>(kLeastPairs - 1));
   Reader bad(bytes);

@@ -120,7 +120,9 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
                                  Velocity<S> most) {
   using V = Velocity<S>;
   const V slack = kPieceTolerance<S>;
-  const auto law = [&](DrivePiece piece, V v) { return motor_impulse(piece, most) + spring_impulse(drive, v); };
+  const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
+    return motor_impulse(piece, most) + spring_impulse(drive, v);
+  };
   switch (drive.piece) {
     case DrivePiece::lower: {
       const DrivePiece above = !drive.driven               ? DrivePiece::free

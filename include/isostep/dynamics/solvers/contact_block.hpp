@@ -92,7 +92,7 @@ template <class S, int W> ISO_INLINE constexpr std::size_t block_bytes(std::int3
 }
 
 /// The friction of one contact follows the surface velocity [m/s] of b against a. `words`: of its lane.
-template <class S> void set_surface(unsigned char* words, std::size_t width, Vec3<Velocity<S>> surface) {
+template <class S> ISO_INLINE void set_surface(unsigned char* words, std::size_t width, Vec3<Velocity<S>> surface) {
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
   using Row = FrictionRow<S, 1>;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -98,8 +98,9 @@ template <class S> ISO_INLINE void WorstFirst<S>::hit(Row& row, Sides sides, Vec
 template <class S>
 ISO_INLINE Velocity<S> WorstFirst<S>::bounced_speed(const Row& row, V former, V gained, V separation) const {
   const V overlap = min(saturate_to<V>(product(separation, rate_)), V(0));
-  const V came = lags_ ? former - gained * V(0.5) : former;
-  return max(round_to<V>(product(row.restitution, worked_speed<S>(came, -gained, overlap))) + gained, V(0));
+  const V came = lags_ ? saturating_subtract(former, gained * V(0.5)) : former;
+  const V met = worked_speed<S>(came, saturating_subtract(V(0), gained), overlap);
+  return max(round_to<V>(product(row.restitution, met)) + gained, V(0));
 }
 
 /// Velocity, then friction within the cone that this opens, then position (pp. 111, 140, 115). Moves are applied to the
