@@ -53,7 +53,7 @@ template <class S> struct BodyState {
 /// What a surface is like. Two surfaces mix: friction by the root of the product, the rest by the larger.
 template <class S> struct Material {
   S friction = S(0.6);                            // [1] Coulomb
-  S restitution = S(0);                           // [1] 0..1
+  S restitution = S(0);                           // [1] 0..1, of what meets at 0.25 m/s or more
   S rolling_resistance = S(0);                    // [m] lever arm of the normal force that resists rolling
   Vec3<S> surface_velocity = {S(0), S(0), S(0)};  // [m/s] world, a conveyor belt's
 

@@ -1,4 +1,4 @@
-// Carrying: a body that turns as told takes what stands on it along its arc, and not along the tangent of it.
+// Carrying: a kinematic body that turns takes what stands on it along its arc, and not along the tangent of it.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -8,7 +8,7 @@ namespace isostep {
 
 /// Published range of a scalar. All are powers of two, so that they are exact in every format.
 ///   extent()        [m]      largest coordinate of a shape in its body's frame
-///   minimum_size()  [m]      smallest radius, half extent or half height
+///   minimum_size()  [m]      smallest radius, half extent or half height; four boxes stand on each other from 1/64 m
 ///   position()      [m]      largest coordinate of a body
 ///   speed()         [m/s]    largest length of a velocity
 ///   spin()          [rad/s]  largest length of an angular velocity

@@ -41,14 +41,22 @@ template <class S> FlightRun<S> ParticleEngine<S>::flight(std::uint32_t first) {
           state_.settings.integrator == Integrator::explicit_euler};
 }
 
+namespace detail {
+/// As long as the format allows: one force or their sum was cut there.
+template <class S> ISO_INLINE bool is_cut(Vec3<S> a) {
+  const S most = highest<S>();
+  if (lies_within(a, most * S(0.5))) return false;  // the largest component of such a length is above 0.57 of it
+  return !(direction_of(a.x, a.y, a.z).length < most - most * S(1.0 / 1024));
+}
+}  // namespace detail
+
 /// All forces at the present positions and velocities.
 template <class S> void ParticleEngine<S>::accelerate() {
   kernels_->accelerate(flight());
   if (!has_forces()) return;
   add_forces();
-  const S most = ParticleLimits<S>::acceleration();
   for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
-    if (!detail::lies_within(scratch_.acceleration[i], most)) note_cut_force(i);
+    if (detail::is_cut(scratch_.acceleration[i])) note_cut_force(i);
   }
 }
 /// Counts each particle once a step.

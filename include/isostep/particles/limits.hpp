@@ -10,8 +10,7 @@ namespace isostep {
 /// they may be four times as fast as bodies of a narrow scalar.
 ///   position()     [m]     largest coordinate
 ///   speed()        [m/s]   largest component of a velocity
-///   acceleration() [m/s^2] largest component that gravity, drag and commands may give, each. All forces together end
-///                          at the format's end; beyond this the step reports them.
+///   acceleration() [m/s^2] largest component that gravity, drag and commands may give, each
 ///   least_mass()   [kg]    smallest mass of what is not pinned
 ///   mass()         [kg]    largest mass
 template <class S> struct ParticleLimits;

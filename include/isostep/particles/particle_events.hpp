@@ -56,7 +56,7 @@ template <class S> struct ParticleEvents {
 /// What a step had to mend. Identical on every peer.
 struct ParticleReport {
   std::uint32_t clamped_speed = 0;     // particles whose speed was cut to ParticleLimits<S>
-  std::uint32_t clamped_force = 0;     // particles pushed harder than ParticleLimits<S>, by commands or by all forces
+  std::uint32_t clamped_force = 0;     // particles pushed harder than limits.hpp allows, or than the format does
   std::uint32_t clamped_position = 0;  // particles held at the edge of the world
   std::uint32_t stopped = 0;           // particles put back and stopped because a number was not finite
   std::uint32_t unresolved = 0;        // constraints that worst_first left when its iterations were over

@@ -106,7 +106,7 @@ ISO_INLINE void WorldEngine<S>::fill_contact(const PartPair& parts, const Manifo
   detail::inherit_impulses(old, contact);
 }
 
-/// Makes room for a group's contacts behind those there are; notes which sensors it touches. Answers where they begin.
+/// Makes room for a group's contacts behind those there are; notes which sensors it touches. Returns where they begin.
 /// Contacts are written over those of the step before the last: nothing is cleared first.
 template <class S> std::size_t WorldEngine<S>::place_group(std::size_t group, const std::uint8_t* counts) {
   const std::size_t first = placed_, parts = parts_of(group);

@@ -70,7 +70,7 @@ template <class S> struct JointProperties {
   S motor_torque = S(0);      // [N m] most that the motor gives; less where in one sub-step it would turn the bodies,
                               // were they free, beyond Limits<S>::surface_speed()
   S spring_target = S(0);     // [rad] or, distance, [m] rest length
-  S spring_frequency = S(0);  // [Hz] below half the sub-step rate
+  S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step
   S spring_damping = S(0);    // [1] ratio, 1 = critical
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {

@@ -38,7 +38,8 @@ template <class S> struct JointDrive {
   S spring_root, spring_rate;  // [1] w of an effective mass of one; [1/s] speed asked for per metre
   S spring;                  // [1] w; 0: no spring, or one too weak for the format to feel
   Direction<S> spring_row;   // [1] x = 1 / sqrt(1 + w^2), y = w / sqrt(1 + w^2)
-  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it is
+  Velocity<S> spring_came;   // [m] since where the spring's force is taken
+  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it was
   Velocity<S> spring_push;   // [m/s] w times that
   Velocity<S> impulse;       // [m/s] accumulated, of all that acts along the row
   DrivePiece piece, next;
@@ -59,6 +60,8 @@ template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x
 /// [m/s] an angle beyond its limit returns no faster, at its lever: a limb of five centimetres at five radians a
 /// second. pgs keeps as speed what closes an error, and gains no more than that.
 template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.25);
+/// [rad] a sub-step: a spring of this frequency still keeps its energy, and sags by a sixteenth more than it should.
+template <class S> inline constexpr S kSpringLag = S(0.25);
 /// Refactorisations of a pass for drives that change their piece: an impact in a chain of stops takes two or three, and
 /// what is left over after four is a stop that holds for one pass too long or begins one too late; neither adds energy.
 inline constexpr int kMostPieceChanges = 4;

@@ -40,7 +40,8 @@ template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
   drive.spring = k > S(0) ? drive.spring_root / sqrt(k) : S(0);
   if (drive.spring < S(8) * resolution<S>()) drive.spring = S(0);
   drive.spring_row = direction_of(S(1), drive.spring, S(0));
-  const S error = drive.position - drive.target;
+  using V = Velocity<S>;
+  const V error = saturate_to<V>(product(drive.position - drive.target, V(1)) - product(S(1), drive.spring_came));
   drive.spring_speed = saturated<S>(product(drive.spring_rate, error));
   drive.spring_push = drive.spring < S(1) ? saturated<S>(product(drive.spring * drive.spring_rate, error))
                                           : saturated<S>(product(drive.spring, drive.spring_speed));

@@ -123,6 +123,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   // torque h / (reduced mass radius) is the impulse, in its unit, that the motor gives in h.
   const S reduced = mass_a.mass > S(0) ? mass_a.mass * joint.share.a : mass_b.mass * joint.share.b;
   const S radius = joint.drives[0].radius;
+  if (!(radius > S(0))) return;  // nothing turns
   joint.motor_force = divide_to<S>(properties.motor_torque, reduced * radius);
   // Alone, without what the point holds, it turns a body no faster than its points may move.
   const S reach = max(S(1), max(max_abs(properties.frame_a.position), max_abs(properties.frame_b.position)));

@@ -67,7 +67,7 @@ template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
   return {round_to<V>(product(v.x, s)), round_to<V>(product(v.y, s)), round_to<V>(product(v.z, s))};
 }
 template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
-/// A sum as a velocity, held within the speed limit: where a joint cannot win, its impulse must not wrap.
+/// A sum as a velocity, held within the speed limit: the impulse of a joint that is asked for too much must not wrap.
 template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
   const Sum most = widen<Sum>(convert<Velocity<S>>(Limits<S>::speed()));
   return round_to<Velocity<S>>(clamp(sum, -most, most));

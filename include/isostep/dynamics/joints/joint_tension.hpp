@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "isostep/dynamics/joints/joint.hpp"
 
 namespace isostep::detail {
@@ -14,8 +17,10 @@ template <class S> struct Pull {
 template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, bool on_a, Step<S> h) {
   const JointBlock<S>& block = joint.blocks[0];
   const Vec3<S> arm = on_a ? joint.arm_a : joint.arm_b;
-  const Vec3<Velocity<S>> f =
-      joint.properties.type == JointType::distance ? scaled(block.rows[0].linear, block.impulse.x) : block.impulse;
+  const Velocity<S> of_drive = joint.drive_count > 0 ? joint.drives[0].impulse : Velocity<S>(0);
+  const Vec3<Velocity<S>> f = joint.properties.type == JointType::distance
+                                  ? scaled(block.rows[0].linear, block.impulse.x + of_drive)
+                                  : block.impulse;
   const S share = on_a ? -joint.share.a : joint.share.b;
   const S along = share * round_to<S>(dot_sum(arm, f));  // [m^2/s]
   if (!(along > S(0))) return {Vec3<Unit<S>>::zero(), S(0)};
@@ -26,6 +31,20 @@ template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, b
 template <class S> ISO_INLINE Mat3<S> across(Vec3<Unit<S>> n, S s) {
   const S xy = -(s * (n.x * n.y)), xz = -(s * (n.x * n.z)), yz = -(s * (n.y * n.z));
   return {{{s - s * (n.x * n.x), xy, xz}, {xy, s - s * (n.y * n.y), yz}, {xz, yz, s - s * (n.z * n.z)}}};
+}
+/// How a joint pulls at its bodies, by row. Rows that nothing pulled at before join `taut`.
+template <class S>
+ISO_INLINE void add_tension(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, Step<S> h,
+                            std::vector<Mat3<S>>& tension, std::vector<std::uint32_t>& taut) {
+  for (const bool is_a : {true, false}) {
+    const std::uint32_t row = is_a ? joint.row_a : joint.row_b;
+    if (!bodies.moves(row)) continue;
+    const Pull<S> pull = pull_on(joint, is_a, h);
+    if (!(pull.stiffness > S(0))) continue;
+    Mat3<S>& sum = tension[row];
+    if (sum.rows[0].x + sum.rows[1].y + sum.rows[2].z == S(0)) taut.push_back(row);
+    sum = sum + across(pull.axis, pull.stiffness);
+  }
 }
 /// Source:  Andrews, Teichmann, Kovecses 2017, Geometric Stiffness for Real-time Constrained Multibody Dynamics,
 ///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link enters its inertia as an

@@ -86,18 +86,7 @@ void JointTrees<S>::factor(const Elimination& tree, std::span<JointConstraint<S>
 template <class S> void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
   taut_.clear();
-  for (const std::uint32_t j : rest_) {
-    const JointConstraint<S>& joint = joints[j];
-    if (joint.block_count == 0) continue;
-    for (const bool is_a : {true, false}) {
-      const std::uint32_t row = is_a ? joint.row_a : joint.row_b;
-      if (!bodies.moves(row)) continue;
-      const detail::Pull<S> pull = detail::pull_on(joint, is_a, step.h);
-      if (!(pull.stiffness > S(0))) continue;
-      if (tension_[row].rows[0].x + tension_[row].rows[1].y + tension_[row].rows[2].z == S(0)) taut_.push_back(row);
-      tension_[row] = tension_[row] + detail::across(pull.axis, pull.stiffness);
-    }
-  }
+  for (const std::uint32_t j : rest_) detail::add_tension(joints[j], bodies, step.h, tension_, taut_);
 }
 
 template <class S> void JointTrees<S>::stiffen(const SolverBodies<S>& bodies) {

@@ -48,7 +48,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
     const JointConstraint<S>& joint = joints[j];
     if (!joint.holds) continue;
     const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
-    bool fits = joint.block_count > 0 && order == JointOrder::trees;
+    bool fits = order == JointOrder::trees;
     for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
       if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
     }

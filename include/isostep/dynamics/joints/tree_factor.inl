@@ -77,7 +77,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
              {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
   }
 
-  /// Masses of those that spin, as BodyRows left them. Answers whether any does.
+  /// Masses of those that spin, as BodyRows left them. Returns whether any does.
   static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
     bool some = false;
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {

@@ -58,18 +58,7 @@ template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& 
 template <class S>
 void DirectSolver<S>::stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h) {
   taut_.clear();
-  for (const std::uint32_t j : island.joints) {
-    const JointConstraint<S>& joint = joints[j];
-    if (joint.block_count == 0) continue;
-    for (const bool is_a : {true, false}) {
-      const std::uint32_t row = is_a ? joint.row_a : joint.row_b;
-      if (!bodies_.rows().moves(row)) continue;
-      const detail::Pull<S> pull = detail::pull_on(joint, is_a, h);
-      if (!(pull.stiffness > S(0))) continue;
-      if (tension_[row].rows[0].x + tension_[row].rows[1].y + tension_[row].rows[2].z == S(0)) taut_.push_back(row);
-      tension_[row] = tension_[row] + detail::across(pull.axis, pull.stiffness);
-    }
-  }
+  for (const std::uint32_t j : island.joints) detail::add_tension(joints[j], bodies_.rows(), h, tension_, taut_);
   for (const std::uint32_t row : taut_) {
     kappa_[row] = detail::stiffened(kappa_[row], tension_[row]);
     tension_[row] = Mat3<S>::diagonal(Vec3<S>::zero());

@@ -40,6 +40,7 @@ template <class S> class Sequential {
   struct Run {
     const ContactKernels<S>* kernels;
     std::uint32_t variant, colour;
+    bool deep;                   // all of its contacts overlap by more than kDeepOverlap
     std::uint32_t first, count;  // in order_
     std::uint32_t first_block, blocks;
     std::size_t offset;  // [bytes] in memory_
@@ -66,6 +67,7 @@ template <class S> class Sequential {
     carry,
     relax_joints,
     relax,
+    relax_deep,
     store_joints,
     restitute,
     store,
@@ -84,8 +86,7 @@ template <class S> class Sequential {
   };
 
   // sequential.inl
-  void add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour, std::uint32_t first,
-               std::uint32_t count);
+  void add_run(const ContactKernels<S>& kernels, std::uint32_t bucket, std::uint32_t first, std::uint32_t count);
   void plan_passes(const TaskRunner& runner);
   std::size_t place_of(const Run& run, std::uint32_t block) const;
   static Contacts contacts_of(const Run& run, const PassPlan::Slice& slice);
@@ -108,7 +109,7 @@ template <class S> class Sequential {
   BodyRows<S> bodies_;
   JointTrees<S> joint_trees_;
   Colouring colouring_;
-  std::vector<std::uint32_t> bucket_;  // of each contact: colour * variants + variant
+  std::vector<std::uint32_t> bucket_;  // of each contact: (colour * 2 + deep) * variants + variant
   std::vector<std::uint32_t> bucket_ends_;
   std::vector<std::uint32_t> order_;  // contacts, grouped
   std::vector<Run> runs_;
@@ -120,6 +121,7 @@ template <class S> class Sequential {
   std::size_t memory_bytes_ = 0;
   TaskRunner runner_;  // the input's, or none where the work is too little to share
   PassPlan colours_;   // colour after colour
+  PassPlan deep_;      // of those, what overlaps deeply
   PassPlan all_;       // every block at once, for what touches no body
   std::uint32_t body_pieces_ = 1;
   std::vector<Stage> stages_;

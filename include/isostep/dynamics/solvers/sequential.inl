@@ -19,6 +19,12 @@ struct Variant {
   }
 };
 
+template <class S> ISO_INLINE bool is_deep(const ContactGeometry<S>& geometry, std::uint32_t points) {
+  bool deep = false;
+  for (std::uint32_t p = 0; p < points; ++p) deep = deep || geometry.points[p].separation < -kDeepOverlap<S>;
+  return deep;
+}
+
 // [rows] With less to do in a pass a world stays on its thread: waking another costs more than it saves.
 inline constexpr std::uint32_t kLeastShared = 512;
 
@@ -30,11 +36,12 @@ template <class S> void Sequential<S>::gather_bodies(const SolverInput<S>& input
 }
 
 template <class S>
-void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t variant, std::uint32_t colour,
-                            std::uint32_t first, std::uint32_t count) {
+void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t bucket, std::uint32_t first,
+                            std::uint32_t count) {
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const std::uint32_t blocks = (count + width - 1) / width;
-  runs_.push_back({&kernels, variant, colour, first, count, block_count_, blocks, memory_bytes_});
+  const std::uint32_t variant = bucket % kContactVariants, kind = bucket / kContactVariants;
+  runs_.push_back({&kernels, variant, kind / 2, kind % 2 != 0, first, count, block_count_, blocks, memory_bytes_});
   block_count_ += blocks;
   const detail::Variant shape = detail::Variant::of(variant);
   memory_bytes_ += blocks * width * block_bytes<S, 1>(shape.points, shape.rolling);
@@ -42,7 +49,7 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t vari
 }
 
 template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& input) {
-  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * kContactVariants;
+  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * 2 * kContactVariants;
   const std::size_t count = input.contacts.size();
   const SolverBodies<S>& bodies = bodies_.rows();
   colouring_.begin(bodies.mass.size());
@@ -54,20 +61,21 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
   pieces_.clear();
   block_count_ = 0;
   memory_bytes_ = 0;
-  const auto variant_of = [&](std::size_t i) {
+  const auto kind_of = [&](std::size_t i) {
+    const std::uint32_t points = input.contacts[i].count;
     const bool rolling = input.geometry[i].material.rolling_resistance > S(0);
-    return input.contacts[i].count - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
+    const std::uint32_t variant = points - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
+    return variant + (detail::is_deep(input.geometry[i], points) ? std::uint32_t{kContactVariants} : 0u);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const ContactGeometry<S>& g = input.geometry[i];
     const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
-    bucket_[i] = colour == Colouring::kUncoloured ? kUncolouredBucket : colour * kContactVariants + variant_of(i);
+    bucket_[i] = colour == Colouring::kUncoloured ? kUncolouredBucket : colour * 2 * kContactVariants + kind_of(i);
     ++bucket_ends_[bucket_[i]];
   }
   std::uint32_t total = 0;
   for (std::uint32_t b = 0; b < kUncolouredBucket; ++b) {
-    if (bucket_ends_[b] != 0)
-      add_run(*input.contact_kernels, b % kContactVariants, b / kContactVariants, total, bucket_ends_[b]);
+    if (bucket_ends_[b] != 0) add_run(*input.contact_kernels, b, total, bucket_ends_[b]);
     total += bucket_ends_[b];
     bucket_ends_[b] = total - bucket_ends_[b];
   }
@@ -76,10 +84,10 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
   // What found no colour is solved one by one, in canonical order, at every width.
   const ContactKernels<S>& narrow = *contact_kernels<S>(Simd::scalar);
   for (std::uint32_t first = total; first < count;) {
-    const std::uint32_t variant = variant_of(order_[first]);
+    const std::uint32_t kind = kind_of(order_[first]);
     std::uint32_t end = first + 1;
-    while (end < count && variant_of(order_[end]) == variant) ++end;
-    add_run(narrow, variant, Colouring::kUncoloured, first, end - first);
+    while (end < count && kind_of(order_[end]) == kind) ++end;
+    add_run(narrow, kUncolouredBucket + kind, first, end - first);
     first = end;
   }
   plan_passes(input.runner);
@@ -98,16 +106,17 @@ template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
   const auto threads = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
   body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads);
-  colours_.begin(threads);
-  all_.begin(threads);
+  for (PassPlan* plan : {&colours_, &deep_, &all_}) plan->begin(threads);
   for (std::uint32_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
-    if (run.colour == Colouring::kUncoloured) colours_.add_alone(i, run.blocks);
-    if (run.colour != Colouring::kUncoloured) colours_.add(run.colour, i, run.blocks, rows_of(run));
+    for (PassPlan* plan : {&colours_, &deep_}) {
+      if (plan == &deep_ && !run.deep) continue;
+      if (run.colour == Colouring::kUncoloured) plan->add_alone(i, run.blocks);
+      if (run.colour != Colouring::kUncoloured) plan->add(run.colour, i, run.blocks, rows_of(run));
+    }
     all_.add(0, i, run.blocks, rows_of(run));
   }
-  colours_.end();
-  all_.end();
+  for (PassPlan* plan : {&colours_, &deep_, &all_}) plan->end();
 }
 
 template <class S> std::size_t Sequential<S>::place_of(const Run& run, std::uint32_t block) const {

@@ -58,7 +58,9 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     default: break;
   }
   const bool all = what.work == Work::prepare || what.work == Work::store;
-  const PassPlan& plan = all ? solver.all_ : solver.colours_;
+  const PassPlan& plan = all                              ? solver.all_
+                         : what.work == Work::relax_deep ? solver.deep_
+                                                         : solver.colours_;
   for (const PassPlan::Slice& slice : plan.piece(what.of_plan, piece)) solver.do_slice(job, what.work, slice);
 }
 
@@ -68,7 +70,8 @@ template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const
     case Work::prepare: return prepare_slice(job.input, slice);
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
     case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
-    case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
+    case Work::relax:
+    case Work::relax_deep: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
     case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
     case Work::store: return store_slice(job.input, slice);
     default: return;
@@ -117,6 +120,7 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
     if (!schedule_.relaxes) continue;
     add_stage(Work::relax_joints, 0, joints);
     add_stages(Work::relax, colours_);
+    for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax_deep, deep_);
   }
   add_stage(Work::store_joints, 0, joints);
 }

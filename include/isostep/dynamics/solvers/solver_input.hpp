@@ -71,8 +71,9 @@ template <class S> struct SolverInput {
 enum class SolverStage : std::uint32_t { colour, prepare, solve, restitute, store };
 
 namespace detail {
-template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);         // [m/s] overlap ends no faster
-template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(1);  // [m/s] slower ones do not bounce
+template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);  // [m/s] overlap ends no faster
+/// [m/s] Slower ones do not bounce. Of a gas at restitution 1 glancing blows below it lose their energy.
+template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(0.25);
 }  // namespace detail
 
 }  // namespace isostep

@@ -57,7 +57,7 @@ template <class S> class WorstFirst {
   /// would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
 
-  /// After the integration of a sub-step, or between its velocity and its position. Answers how many rows are still
+  /// After the integration of a sub-step, or between its velocity and its position. Returns how many rows are still
   /// unsettled when the iterations or looks have run out.
   /// `displacement` [m] is the way since the rows' separation was measured, the integration's part too; it is moved,
   /// separation stays. `gained` [m/s] is what forces have added to velocity in 1 / terms.rate s, 0 of pinned particles.

@@ -204,7 +204,7 @@ template <class S> void WorstFirst<S>::share_out(const Row* rows, std::uint32_t 
     purse.looks = most_looks(purse.rows) - purse.rows;
   });
 }
-/// Its purse is empty: nothing of it is urgent any more. Answers how many rows are left unsettled.
+/// Its purse is empty: nothing of it is urgent any more. Returns how many rows are left unsettled.
 template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) {
   std::uint32_t unsettled = 0;
   for (std::uint32_t i = purses_.purse_of(row).first_row; i != IslandPurses::kNobody; i = purses_.next_of(i)) {
@@ -216,7 +216,7 @@ template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) 
   return unsettled;
 }
 
-/// Every row once, as it comes. Answers how many had something to do.
+/// Every row once, as it comes. Returns how many had something to do.
 template <class S> std::uint32_t WorstFirst<S>::pass_over(Row* rows, std::uint32_t count) {
   std::uint32_t unsettled = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
