@@ -36,10 +36,8 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Veloc
       across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(across(spin, arm)));
   return {clamp(bent.x, -most, most), clamp(bent.y, -most, most), clamp(bent.z, -most, most)};
 }
-}  // namespace detail
 
-namespace detail {
-/// How far a spring came in the sub-step before. With its force taken there, at x - h v + h v', an undamped spring keeps
+/// How far a spring came in the sub-step before. With its force taken there, at x - h v + h v', an undamped one keeps
 /// its energy whatever its frequency, as if its bodies were heavier by angle^2 of themselves. At x + h v', implicit
 /// Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies on a fast
 /// spring would sag.

@@ -40,7 +40,7 @@ template <class S> class Sequential {
   struct Run {
     const ContactKernels<S>* kernels;
     std::uint32_t variant, colour;
-    bool deep;                   // all of its contacts overlap by more than kDeepOverlap
+    std::uint32_t depth;         // of all of its contacts: detail::depth_of()
     std::uint32_t first, count;  // in order_
     std::uint32_t first_block, blocks;
     std::size_t offset;  // [bytes] in memory_
@@ -67,6 +67,7 @@ template <class S> class Sequential {
     carry,
     relax_joints,
     relax,
+    solve_pressed,
     relax_deep,
     store_joints,
     restitute,
@@ -109,7 +110,7 @@ template <class S> class Sequential {
   BodyRows<S> bodies_;
   JointTrees<S> joint_trees_;
   Colouring colouring_;
-  std::vector<std::uint32_t> bucket_;  // of each contact: (colour * 2 + deep) * variants + variant
+  std::vector<std::uint32_t> bucket_;  // of each contact: (colour * depths + depth) * variants + variant
   std::vector<std::uint32_t> bucket_ends_;
   std::vector<std::uint32_t> order_;  // contacts, grouped
   std::vector<Run> runs_;
@@ -122,6 +123,7 @@ template <class S> class Sequential {
   TaskRunner runner_;  // the input's, or none where the work is too little to share
   PassPlan colours_;   // colour after colour
   PassPlan deep_;      // of those, what overlaps deeply
+  PassPlan pressed_;   // of those, what overlaps with bodies that nothing moves
   PassPlan all_;       // every block at once, for what touches no body
   std::uint32_t body_pieces_ = 1;
   std::vector<Stage> stages_;

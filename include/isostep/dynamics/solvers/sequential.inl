@@ -19,10 +19,14 @@ struct Variant {
   }
 };
 
-template <class S> ISO_INLINE bool is_deep(const ContactGeometry<S>& geometry, std::uint32_t points) {
+inline constexpr std::uint32_t kDepths = 3;
+/// 0: rests or touches; 1: overlaps by more than kDeepOverlap; 2: does so with a body that nothing moves.
+template <class S>
+ISO_INLINE std::uint32_t depth_of(const ContactGeometry<S>& g, std::uint32_t points, const SolverBodies<S>& bodies) {
   bool deep = false;
-  for (std::uint32_t p = 0; p < points; ++p) deep = deep || geometry.points[p].separation < -kDeepOverlap<S>;
-  return deep;
+  for (std::uint32_t p = 0; p < points; ++p) deep = deep || g.points[p].separation < -kDeepOverlap<S>;
+  if (!deep) return 0;
+  return bodies.moves(g.row_a) && bodies.moves(g.row_b) ? 1 : 2;
 }
 
 // [rows] With less to do in a pass a world stays on its thread: waking another costs more than it saves.
@@ -41,7 +45,8 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t buck
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const std::uint32_t blocks = (count + width - 1) / width;
   const std::uint32_t variant = bucket % kContactVariants, kind = bucket / kContactVariants;
-  runs_.push_back({&kernels, variant, kind / 2, kind % 2 != 0, first, count, block_count_, blocks, memory_bytes_});
+  const std::uint32_t colour = kind / detail::kDepths, depth = kind % detail::kDepths;
+  runs_.push_back({&kernels, variant, colour, depth, first, count, block_count_, blocks, memory_bytes_});
   block_count_ += blocks;
   const detail::Variant shape = detail::Variant::of(variant);
   memory_bytes_ += blocks * width * block_bytes<S, 1>(shape.points, shape.rolling);
@@ -49,7 +54,7 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t buck
 }
 
 template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& input) {
-  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * 2 * kContactVariants;
+  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
   const std::size_t count = input.contacts.size();
   const SolverBodies<S>& bodies = bodies_.rows();
   colouring_.begin(bodies.mass.size());
@@ -65,12 +70,13 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
     const std::uint32_t points = input.contacts[i].count;
     const bool rolling = input.geometry[i].material.rolling_resistance > S(0);
     const std::uint32_t variant = points - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
-    return variant + (detail::is_deep(input.geometry[i], points) ? std::uint32_t{kContactVariants} : 0u);
+    return variant + detail::depth_of(input.geometry[i], points, bodies) * kContactVariants;
   };
   for (std::size_t i = 0; i < count; ++i) {
     const ContactGeometry<S>& g = input.geometry[i];
     const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
-    bucket_[i] = colour == Colouring::kUncoloured ? kUncolouredBucket : colour * 2 * kContactVariants + kind_of(i);
+    bucket_[i] = kUncolouredBucket;
+    if (colour != Colouring::kUncoloured) bucket_[i] = colour * detail::kDepths * kContactVariants + kind_of(i);
     ++bucket_ends_[bucket_[i]];
   }
   std::uint32_t total = 0;
@@ -106,17 +112,17 @@ template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
   const auto threads = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
   body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads);
-  for (PassPlan* plan : {&colours_, &deep_, &all_}) plan->begin(threads);
+  for (PassPlan* plan : {&colours_, &deep_, &pressed_, &all_}) plan->begin(threads);
   for (std::uint32_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
-    for (PassPlan* plan : {&colours_, &deep_}) {
-      if (plan == &deep_ && !run.deep) continue;
+    for (PassPlan* plan : {&colours_, &deep_, &pressed_}) {
+      if (run.depth < (plan == &colours_ ? 0u : plan == &deep_ ? 1u : 2u)) continue;
       if (run.colour == Colouring::kUncoloured) plan->add_alone(i, run.blocks);
       if (run.colour != Colouring::kUncoloured) plan->add(run.colour, i, run.blocks, rows_of(run));
     }
     all_.add(0, i, run.blocks, rows_of(run));
   }
-  for (PassPlan* plan : {&colours_, &deep_, &all_}) plan->end();
+  for (PassPlan* plan : {&colours_, &deep_, &pressed_, &all_}) plan->end();
 }
 
 template <class S> std::size_t Sequential<S>::place_of(const Run& run, std::uint32_t block) const {

@@ -58,9 +58,10 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     default: break;
   }
   const bool all = what.work == Work::prepare || what.work == Work::store;
-  const PassPlan& plan = all                              ? solver.all_
-                         : what.work == Work::relax_deep ? solver.deep_
-                                                         : solver.colours_;
+  const PassPlan& plan = all                                 ? solver.all_
+                         : what.work == Work::relax_deep    ? solver.deep_
+                         : what.work == Work::solve_pressed ? solver.pressed_
+                                                            : solver.colours_;
   for (const PassPlan::Slice& slice : plan.piece(what.of_plan, piece)) solver.do_slice(job, what.work, slice);
 }
 
@@ -69,7 +70,8 @@ template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const
   switch (work) {
     case Work::prepare: return prepare_slice(job.input, slice);
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
-    case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
+    case Work::solve:
+    case Work::solve_pressed: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
     case Work::relax:
     case Work::relax_deep: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
     case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
@@ -116,6 +118,7 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
       add_stage(Work::solve_joints, 0, joints);
       add_stages(Work::solve, colours_);
     }
+    if (schedule_.relaxes) add_stages(Work::solve_pressed, pressed_);
     add_stage(Work::integrate_positions, 0, body_pieces_);
     if (!schedule_.relaxes) continue;
     add_stage(Work::relax_joints, 0, joints);
