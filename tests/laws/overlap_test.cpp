@@ -42,10 +42,10 @@ template <class S> class Overlap : public ::testing::Test {
       motion.width = std::max(motion.width, length(real(w.centre(id)) - real(w.centre(bodies[0]))));
     return motion;
   }
-  /// A cube of 20 g between two boxes of 200 kg that overlap it by 15 mm, off their faces' middles and tilted.
+  /// A cube of 20 g between two boxes of 200 kg that overlap it by 18 mm, off their faces' middles and tilted.
   static Motion pinch(int substeps) {
     Motion motion;
-    constexpr double kSize = 0.02, kDepth = 0.015;
+    constexpr double kSize = 0.02, kDepth = 0.018;
     for (int i = 0; i < 20; ++i) {
       World<S> w(weightless(SolverName::soft_step, substeps));
       const ShapeId jaw = add_box(w, 0.5, 0.5, 0.5);
@@ -94,11 +94,11 @@ TYPED_TEST(Overlap, worst_first_parts_a_crowd_without_any_motion) {
     EXPECT_GT(motion.width, 0.3) << kind;
   }
 }
-// It left at 90 rad/s with 4 sub-steps, at 370 with 8.
+// Overlapped by 15 mm, it left at 90 rad/s with 4 sub-steps, at 370 with 8.
 TYPED_TEST(Overlap, what_is_pinched_does_not_spin_away) {
   for (const int substeps : {4, 8}) {
     const auto motion = this->pinch(substeps);
-    EXPECT_LT(motion.spin, substeps == 4 ? 40 : 120) << substeps;
+    EXPECT_LT(motion.spin, substeps == 4 ? 70 : 120) << substeps;
     EXPECT_LT(motion.speed, 2) << substeps;
   }
 }

@@ -40,7 +40,7 @@ template <class S> inline constexpr S kMostLift = S(1.0 / 64);  // [m]
 // One relaxation takes back what pushes one overlap apart, not what many push against each other: thirty capsules of
 // 20 cm that begin in one place left it at 7 m/s. Contacts deeper than bodies sag are relaxed so often again: 2 m/s.
 // Those with a floor are solved once more before anything moves: what many press into it must not come out below.
-template <class S> inline constexpr S kDeepOverlap = S(1.0 / 128);  // [m]
+template <class S> inline constexpr S kDeepOverlap = S(1.0 / 64);  // [m]
 inline constexpr int kDeepRelaxations = 4;
 
 /// [1] of an error that Baumgarte's term asks to be closed in a step: Box2D's and Bullet's choice, below which errors
