@@ -184,23 +184,22 @@ template <class Game> bool read_whole(Game& game, const std::vector<std::uint8_t
 }
 /// What is written is what is saved: where the game takes other bytes and keeps them, its hash must be another one.
 template <class Game, class Predictor> void probe(Session<Game, Predictor>& session, Game& game, Frame frame) {
-  std::vector<std::uint8_t> whole, kept;
-  write_whole(game, whole);
-  const std::uint64_t root = game.hash();
   std::vector<std::uint8_t>& bytes = session.portable();
-  bytes = whole;
-  for (std::uint64_t i = 0; i < kProbes && !whole.empty(); ++i) {
+  write_whole(game, bytes);
+  const std::uint64_t root = game.hash();
+  for (std::uint64_t i = 0; i < kProbes && !bytes.empty(); ++i) {
     // Multiples of the golden ratio fill the range evenly.
     const std::uint64_t place = ((static_cast<std::uint64_t>(frame) * kProbes + i) * 0x9e3779b97f4a7c15u) >> 32;
-    const auto at = static_cast<std::size_t>(place * whole.size() >> 32);
+    const auto at = static_cast<std::size_t>(place * bytes.size() >> 32);
     bytes[at] ^= 1u;
-    if (read_whole(game, bytes) && game.hash() == root) {
-      write_whole(game, kept);
-      if (kept != whole) session.unhashed(frame, at);
-    }
-    bytes[at] = whole[at];
+    const bool unseen = read_whole(game, bytes) && game.hash() == root;
+    bytes[at] ^= 1u;
+    if (!unseen) continue;
+    std::vector<std::uint8_t> kept;
+    write_whole(game, kept);
+    if (kept != bytes) session.unhashed(frame, at);
   }
-  read_whole(game, whole);
+  read_whole(game, bytes);
   game.load(session.state(frame));
 }
 }  // namespace detail
