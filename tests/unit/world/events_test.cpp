@@ -192,7 +192,7 @@ TYPED_TEST(WorldEvents, a_sensor_sees_kinematic_bodies_come_and_go) {
     BodyDefinition<S> d = still<S>(ball);
     d.type = sensor_type;
     d.sensor = true;
-    const BodyId sensor = w.create(d);
+    const BodyId seer = w.create(d);
     d = moving<S>(ball, {-3, 0, 0}, {6, 0, 0});
     d.type = BodyType::kinematic;
     const BodyId mover = w.create(d);
@@ -203,8 +203,8 @@ TYPED_TEST(WorldEvents, a_sensor_sees_kinematic_bodies_come_and_go) {
       for (const BodyId body : bodies_of(w.events().sensor_end)) ended.push_back(body);
       EXPECT_EQ(w.counts().contacts, 0u);
     }
-    EXPECT_EQ(began, (std::vector<BodyId>{sensor, mover}));
-    EXPECT_EQ(ended, (std::vector<BodyId>{sensor, mover}));
+    EXPECT_EQ(began, (std::vector<BodyId>{seer, mover}));
+    EXPECT_EQ(ended, (std::vector<BodyId>{seer, mover}));
     EXPECT_EQ(w.velocity(mover), vec<S>(6, 0, 0));
   }
 }

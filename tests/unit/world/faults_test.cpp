@@ -200,16 +200,16 @@ TYPED_TEST(WorldFaults, an_observer_of_stages_that_changes_the_world_is_refused)
   twin.destroy(this->b);
   const StageObserver observer = {[](void* user, Stage, const StageView&) {
                                     Meddler& m = *static_cast<Meddler*>(user);
-                                    World<S>& world = *m.world;
-                                    m.count(world.apply_impulse(m.body, vec<S>(1, 0, 0)));
-                                    m.count(world.destroy(m.body));
-                                    m.count(world.destroy(std::span<const BodyId>(&m.body, 1)) > 0);
-                                    m.count(static_cast<bool>(world.create(moving<S>(m.shape, {9, 9, 9}))));
-                                    m.count(world.load(m.saved));
-                                    m.count(world.use_simd(Simd::scalar));
-                                    const std::uint64_t tick = world.tick();
-                                    world.step();
-                                    m.count(world.tick() != tick);
+                                    World<S>& within = *m.world;
+                                    m.count(within.apply_impulse(m.body, vec<S>(1, 0, 0)));
+                                    m.count(within.destroy(m.body));
+                                    m.count(within.destroy(std::span<const BodyId>(&m.body, 1)) > 0);
+                                    m.count(static_cast<bool>(within.create(moving<S>(m.shape, {9, 9, 9}))));
+                                    m.count(within.load(m.saved));
+                                    m.count(within.use_simd(Simd::scalar));
+                                    const std::uint64_t tick = within.tick();
+                                    within.step();
+                                    m.count(within.tick() != tick);
                                   },
                                   &meddler};
   for (int i = 0; i < 30; ++i) {

@@ -268,7 +268,7 @@ TYPED_TEST(Bundles, keep_what_was_confirmed_when_a_sync_test_goes_behind_it) {
 TYPED_TEST(Bundles, refuse_facts_that_are_cut_short_or_followed_by_more) {
   std::vector<std::uint8_t> bytes;
   Writer writer(bytes);
-  write_facts(writer, {1, 3, {4}, {1}, std::vector<std::uint64_t>(kTraceHashes)});
+  write_facts(writer, {1, 3, {4}, {1}, std::vector<std::uint64_t>(kTraceHashes), {}});
   for (std::size_t cut = 0; cut < bytes.size(); ++cut) EXPECT_FALSE(read_facts({bytes.data(), cut}, 1).ok()) << cut;
   EXPECT_TRUE(read_facts(bytes, 1).ok());
   bytes.push_back(0);
