@@ -44,7 +44,10 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
   reader.read_array(facts.roots, kReplayUnknownCap / 8);
   reader.read_array(facts.steps, kReplayUnknownCap / 4);
   reader.read_array(facts.stages, kReplayUnknownCap / 8);
-  if (reader.remaining() != 0) reader.read_array(facts.changed_before, kReplayUnknownCap / 4);
+  if (reader.remaining() != 0) {
+    reader.read_array(facts.changed_before, kReplayUnknownCap / 4);
+    if (facts.changed_before.empty()) reader.fail(ErrorCode::corrupt, "a list of changes that holds none");
+  }
   reader.expect_end();
   std::uint64_t steps = 0;  // fewer than 2^22 summands below 2^32
   for (const std::uint32_t n : facts.steps) steps += n;

@@ -273,6 +273,8 @@ TYPED_TEST(Bundles, refuse_facts_that_are_cut_short_or_followed_by_more) {
   EXPECT_TRUE(read_facts(bytes, 1).ok());
   bytes.push_back(0);
   EXPECT_FALSE(read_facts(bytes, 1).ok());
+  bytes.insert(bytes.end(), 3, 0);  // a list that nobody writes
+  EXPECT_FALSE(read_facts(bytes, 1).ok());
 }
 
 TYPED_TEST(Bundles, refuse_facts_that_do_not_fit_their_frames) {
