@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "unit/world/worlds.hpp"
+#include "random/dice.hpp"
 
 namespace isostep::test {
 namespace {
@@ -30,15 +30,10 @@ template <class S> class ManyContacts : public ::testing::Test {
     }
     const ShapeId ball = add_ball(w, 0.25);
     std::vector<BodyId> balls;
-    std::uint32_t dice = 12345;
-    const auto roll = [&] {
-      dice = dice * 1664525u + 1013904223u;
-      return (dice >> 8) / 16777216.0 * 2 - 1;
-    };
+    Dice dice(1);
     for (int i = 0; i < 30; ++i) {
-      const double x = roll(), y = roll(), z = roll();
       BodyDefinition<S> d = moving<S>(ball, {1.35 * (i % 4) - 2.1, 1.35 * (i / 4 % 4) - 2.1, 1.35 * (i / 16) - 2.1},
-                                      {speed * x, speed * y, speed * z});
+                                      dice.point(speed));
       d.mass = S(1);
       d.material.friction = S(0);
       d.material.restitution = S(1);

@@ -57,10 +57,8 @@ template <class S> struct Carried {
       const auto turned = product(w[(i + 1) % 3], v) - product(w[(i + 2) % 3], u);
       return round_to<V>(dot_sum(carrier.added.rows[i], at)) + round_to<V>(turned);
     };
-    const V most = convert<V>(Limits<S>::speed());
-    const Vec3<V> limit = {most, most, most};
     const Vec3<V> carried = {part(0, moved.y, moved.z), part(1, moved.z, moved.x), part(2, moved.x, moved.y)};
-    const Vec3<V> held = min(max(carried, -limit), limit);
+    const Vec3<V> held = held_within(carried, convert<V>(Limits<S>::speed()));
     return convert<V>(belt) + (on_b ? held : -held);
   }
 };

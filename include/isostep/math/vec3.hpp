@@ -61,6 +61,17 @@ template <class T> ISO_INLINE constexpr Vec3<T> min(Vec3<T> a, Vec3<T> b) {
 template <class T> ISO_INLINE constexpr Vec3<T> max(Vec3<T> a, Vec3<T> b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
+/// Each component within [-limit, limit].
+template <class T> ISO_INLINE constexpr Vec3<T> held_within(Vec3<T> v, T limit) {
+  return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
+}
+/// a + b and a - b, held at the ends of the format.
+template <class T> ISO_INLINE constexpr Vec3<T> saturating_add(Vec3<T> a, Vec3<T> b) {
+  return {saturating_add(a.x, b.x), saturating_add(a.y, b.y), saturating_add(a.z, b.z)};
+}
+template <class T> ISO_INLINE constexpr Vec3<T> saturating_subtract(Vec3<T> a, Vec3<T> b) {
+  return {saturating_subtract(a.x, b.x), saturating_subtract(a.y, b.y), saturating_subtract(a.z, b.z)};
+}
 /// The largest component's magnitude: a length that needs no square.
 template <class T> ISO_INLINE constexpr T max_abs(Vec3<T> a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
 

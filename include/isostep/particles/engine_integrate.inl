@@ -61,9 +61,8 @@ template <class S> void ParticleEngine<S>::accelerate() {
 }
 /// Counts each particle once a step.
 template <class S> void ParticleEngine<S>::note_cut_force(std::uint32_t slot) {
-  if (report_.clamped_force == 0) cut_forces_.assign(state_.material.size(), 0);
-  report_.clamped_force += cut_forces_[slot] == 0 ? 1u : 0u;
-  cut_forces_[slot] = 1;
+  if (report_.clamped_force == 0) cut_forces_.clear();
+  if (cut_forces_.insert(slot)) ++report_.clamped_force;
 }
 
 /// Where nothing joins particles, each goes through all sub-steps at once.

@@ -143,7 +143,7 @@ ISO_INLINE void ParticleEngine<S>::solve_normal(ParticleConstraint<S>& row, cons
   const V given = saturating_subtract(total, row.impulse);
   if (row.impulse == V(0) && V(0) < total) {
     row.meets = 1;
-    row.closing = max(saturating_subtract(V(0), speed_of(scratch_.before, row)), V(0));
+    row.closing = max(-speed_of(scratch_.before, row), V(0));
   }
   row.impulse = total;
   if (given == V(0)) return;

@@ -39,7 +39,7 @@ template <class S> void ParticleEngine<S>::place_rows() {
   look();
   const Axes<V>& d = scratch_.displacement;
   for (ParticleConstraint<S>& row : rows_) {
-    row.shift = max(saturating_subtract(V(0), saturate_to<V>(product(row.separation, rate_))), V(0));
+    row.shift = max(-saturate_to<V>(product(row.separation, rate_)), V(0));
     if (is_touching(row)) row.separation = min(row.separation, S(0));
     const auto of_b = dot_sum(row.normal, row.b == kNoParticle ? Vec3<V>::zero() : d[row.b]);
     row.separation -= convert<S>(saturate_to<V>(of_b - dot_sum(row.normal, d[row.a])));

@@ -77,15 +77,5 @@ template <class S> ISO_INLINE constexpr Velocity<S> passing_distance() {
   const Velocity<S> edge = convert<Velocity<S>>(ParticleLimits<S>::position());
   return edge + edge;
 }
-template <class T> ISO_INLINE constexpr Vec3<T> held_within(Vec3<T> v, T limit) {
-  return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
-}
-/// a + b and a - b, held at the ends of the format.
-template <class T> ISO_INLINE constexpr Vec3<T> saturating_add(Vec3<T> a, Vec3<T> b) {
-  return {saturating_add(a.x, b.x), saturating_add(a.y, b.y), saturating_add(a.z, b.z)};
-}
-template <class T> ISO_INLINE constexpr Vec3<T> saturating_subtract(Vec3<T> a, Vec3<T> b) {
-  return {saturating_subtract(a.x, b.x), saturating_subtract(a.y, b.y), saturating_subtract(a.z, b.z)};
-}
 
 }  // namespace isostep

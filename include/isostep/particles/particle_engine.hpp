@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/bitset.hpp"
 #include "isostep/math/softness.hpp"
 #include "isostep/particles/checks.hpp"
 #include "isostep/particles/constraint.hpp"
@@ -243,7 +244,7 @@ template <class S> class ParticleEngine {
   ParticleGrid<S> grid_;
   std::vector<std::uint32_t> slots_;         // of what collides
   std::vector<S> reaches_;                   // [m] of those
-  std::vector<std::uint8_t> cut_forces_;     // by slot: 1 once counted in report_.clamped_force
+  Bitset cut_forces_;                        // slots that report_.clamped_force has counted
   std::vector<S> pulls_;                     // [m] by slot, or empty: how far springs may carry it in the step
   std::vector<std::uint64_t> cohering_;      // pairs as below, of one cohesion after the other
   std::vector<std::size_t> cohering_ends_;   // in cohering_, one a cohesion

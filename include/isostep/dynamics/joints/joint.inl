@@ -34,7 +34,7 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Veloc
   const V most = kJointPushSpeed<S>;
   const Vec3<V> bent =
       across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(across(spin, arm)));
-  return {clamp(bent.x, -most, most), clamp(bent.y, -most, most), clamp(bent.z, -most, most)};
+  return held_within(bent, most);
 }
 
 /// How far a spring came in the sub-step before. With its force taken there, at x - h v + h v', an undamped one keeps

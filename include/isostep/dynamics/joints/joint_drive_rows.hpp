@@ -16,9 +16,7 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
     const JointDrive<S>& drive = joint.drives[i];
     const int at = static_cast<int>(drive.place);
     const bool fixed = fixes_speed(drive.piece), springs = !fixed && drive.spring > S(0);
-    block.rows[at] = fixed     ? drive.row
-                     : springs ? scaled_row(drive.row, drive.spring_row.y)
-                               : JointRow<S>::zero();
+    block.rows[at] = fixed ? drive.row : springs ? scaled_row(drive.row, drive.spring_row.y) : JointRow<S>::zero();
     const S share = convert<S>(drive.spring_row.x);
     block.give.set(at, springs ? share * share : S(0));
   }
@@ -28,6 +26,7 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
 /// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with e the effective mass and angle = 2 pi frequency h; roots are
 ///          taken apart, for where a spring is weak their product keeps digits that w^2 loses.
 template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
+  using V = Velocity<S>;
   JointDrive<S>& drive = joint.drives[0];
   S k = self_coupling(drive.row, drive.row, joint.share);
   if (joint.block_count > 1) {
@@ -40,7 +39,6 @@ template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
   drive.spring = k > S(0) ? drive.spring_root / sqrt(k) : S(0);
   if (drive.spring < S(8) * resolution<S>()) drive.spring = S(0);
   drive.spring_row = direction_of(S(1), drive.spring, S(0));
-  using V = Velocity<S>;
   const V error = saturate_to<V>(product(drive.position - drive.target, V(1)) - product(S(1), drive.spring_came));
   drive.spring_speed = saturated<S>(product(drive.spring_rate, error));
   drive.spring_push = drive.spring < S(1) ? saturated<S>(product(drive.spring * drive.spring_rate, error))

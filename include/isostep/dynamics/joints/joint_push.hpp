@@ -22,21 +22,19 @@ template <class S> class JointPush {
   }
   ISO_INLINE void apply(const JointConstraint<S>& joint, SolverBodies<S>& bodies) const {
     if (bodies.moves(joint.row_a)) {
-      const MotionRow<V> push = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
-      add_to(bodies.velocity[joint.row_a].linear, -push.linear);
-      add_to(bodies.velocity[joint.row_a].angular, -push.angular);
+      const MotionRow<V> change = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
+      push(bodies.velocity[joint.row_a], -change.linear, -change.angular);
     }
     if (bodies.moves(joint.row_b)) {
-      const MotionRow<V> push = total(joint.share.b, [](const JointRow<S>& row) { return row.turn_b; });
-      add_to(bodies.velocity[joint.row_b].linear, push.linear);
-      add_to(bodies.velocity[joint.row_b].angular, push.angular);
+      const MotionRow<V> change = total(joint.share.b, [](const JointRow<S>& row) { return row.turn_b; });
+      push(bodies.velocity[joint.row_b], change.linear, change.angular);
     }
   }
 
  private:
-  static ISO_INLINE void add_to(Vec3<V>& velocity, Vec3<V> change) {
-    velocity = {saturating_add(velocity.x, change.x), saturating_add(velocity.y, change.y),
-                saturating_add(velocity.z, change.z)};
+  static ISO_INLINE void push(MotionRow<V>& velocity, Vec3<V> linear, Vec3<V> angular) {
+    velocity.linear = saturating_add(velocity.linear, linear);
+    velocity.angular = saturating_add(velocity.angular, angular);
   }
   template <class Turn> ISO_INLINE MotionRow<V> total(S share, const Turn& turn) const {
     const auto zero = product(S(0), V(0));
@@ -49,12 +47,12 @@ template <class S> class JointPush {
         angular[k] = angular[k] + product(about[k], change);
       }
     }
-    // What even all rows together throw out of range is cut: half of the format, so that a velocity can be added.
-    const auto bound = [](auto sum) {
+    // A sum of all rows beyond half of the format is held there: a larger one does not fit with a velocity.
+    const auto held = [](auto sum) {
       const auto most = widen<decltype(sum)>(DriveBounds<S>::far());
       return round_to<V>(clamp(sum, -most, most));
     };
-    const auto rounded = [&](const auto(&sum)[3]) { return Vec3<V>{bound(sum[0]), bound(sum[1]), bound(sum[2])}; };
+    const auto rounded = [&](const auto(&sum)[3]) { return Vec3<V>{held(sum[0]), held(sum[1]), held(sum[2])}; };
     return {rounded(linear), V(0), rounded(angular), V(0)};
   }
 

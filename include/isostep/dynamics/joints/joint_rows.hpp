@@ -78,9 +78,7 @@ template <class S, class V> ISO_INLINE Vec3<V> saturated_times(const Mat3<S>& m,
 }
 /// old + change within the speed limit.
 template <class S> ISO_INLINE Vec3<Velocity<S>> saturated_sum(Vec3<Velocity<S>> old, Vec3<Velocity<S>> change) {
-  const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
-  const Vec3<Velocity<S>> bound = {most, most, most};
-  return min(max(old + change, -bound), bound);
+  return held_within(old + change, convert<Velocity<S>>(Limits<S>::speed()));
 }
 /// m v at the precision of velocities.
 template <class S, class V> ISO_INLINE Vec3<V> times(const Mat3<S>& m, Vec3<V> v) {

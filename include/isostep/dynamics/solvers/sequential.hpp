@@ -16,6 +16,12 @@
 
 namespace isostep {
 
+namespace detail {
+/// How deep a contact is as a step begins: it rests or touches; it overlaps by more than kDeepOverlap; it does so with
+/// a body that nothing moves.
+inline constexpr std::uint32_t kShallow = 0, kDeep = 1, kPressed = 2, kDepths = 3;
+}  // namespace detail
+
 /// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
 /// are solved before them, in trees or one by one. Schedule says the rest.
 /// Order:   that of solver_input.hpp. The calls from `prepare` on say what is to be done; `run` does it.
@@ -40,7 +46,7 @@ template <class S> class Sequential {
   struct Run {
     const ContactKernels<S>* kernels;
     std::uint32_t variant, colour;
-    std::uint32_t depth;         // of all of its contacts: detail::depth_of()
+    std::uint32_t depth;         // of each of its contacts: detail::depth_of()
     std::uint32_t first, count;  // in order_
     std::uint32_t first_block, blocks;
     std::size_t offset;  // [bytes] in memory_
@@ -67,8 +73,6 @@ template <class S> class Sequential {
     carry,
     relax_joints,
     relax,
-    solve_pressed,
-    relax_deep,
     store_joints,
     restitute,
     store,
@@ -76,7 +80,8 @@ template <class S> class Sequential {
   };
   struct Stage {
     Work work;
-    std::uint32_t of_plan;  // the stage of contact_plan_ or bodies' pieces
+    const PassPlan* plan;   // of contacts; null: bodies or joints
+    std::uint32_t of_plan;  // its stage
   };
   /// What every piece reads.
   struct Job {
@@ -98,7 +103,7 @@ template <class S> class Sequential {
   void carry(const SolverInput<S>& input);
 
   // sequential_stages.inl
-  void add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces);
+  void add_stage(Work work, std::uint32_t pieces, const PassPlan* plan = nullptr, std::uint32_t of_plan = 0);
   void add_stages(Work work, const PassPlan& plan);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
@@ -120,11 +125,9 @@ template <class S> class Sequential {
   std::vector<std::uint32_t> places_;  // of contacts in order_, where any is carried
   std::uint32_t block_count_ = 0;
   std::size_t memory_bytes_ = 0;
-  TaskRunner runner_;  // the input's, or none where the work is too little to share
-  PassPlan colours_;   // colour after colour
-  PassPlan deep_;      // of those, what overlaps deeply
-  PassPlan pressed_;   // of those, what overlaps with bodies that nothing moves
-  PassPlan all_;       // every block at once, for what touches no body
+  TaskRunner runner_;                  // the input's, or none where the work is too little to share
+  PassPlan colours_[detail::kDepths];  // colour after colour, of contacts of this depth and beyond
+  PassPlan all_;                       // every block at once, for what touches no body
   std::uint32_t body_pieces_ = 1;
   std::vector<Stage> stages_;
   std::vector<std::uint32_t> pieces_;  // of each stage

@@ -19,14 +19,12 @@ struct Variant {
   }
 };
 
-inline constexpr std::uint32_t kDepths = 3;
-/// 0: rests or touches; 1: overlaps by more than kDeepOverlap; 2: does so with a body that nothing moves.
 template <class S>
 ISO_INLINE std::uint32_t depth_of(const ContactGeometry<S>& g, std::uint32_t points, const SolverBodies<S>& bodies) {
   bool deep = false;
   for (std::uint32_t p = 0; p < points; ++p) deep = deep || g.points[p].separation < -kDeepOverlap<S>;
-  if (!deep) return 0;
-  return bodies.moves(g.row_a) && bodies.moves(g.row_b) ? 1 : 2;
+  if (!deep) return kShallow;
+  return bodies.moves(g.row_a) && bodies.moves(g.row_b) ? kDeep : kPressed;
 }
 
 // [rows] With less to do in a pass a world stays on its thread: waking another costs more than it saves.
@@ -112,17 +110,19 @@ template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
   const auto threads = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
   body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads);
-  for (PassPlan* plan : {&colours_, &deep_, &pressed_, &all_}) plan->begin(threads);
+  for (PassPlan& plan : colours_) plan.begin(threads);
+  all_.begin(threads);
   for (std::uint32_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
-    for (PassPlan* plan : {&colours_, &deep_, &pressed_}) {
-      if (run.depth < (plan == &colours_ ? 0u : plan == &deep_ ? 1u : 2u)) continue;
-      if (run.colour == Colouring::kUncoloured) plan->add_alone(i, run.blocks);
-      if (run.colour != Colouring::kUncoloured) plan->add(run.colour, i, run.blocks, rows_of(run));
+    for (std::uint32_t depth = 0; depth <= run.depth; ++depth) {
+      PassPlan& plan = colours_[depth];
+      if (run.colour == Colouring::kUncoloured) plan.add_alone(i, run.blocks);
+      if (run.colour != Colouring::kUncoloured) plan.add(run.colour, i, run.blocks, rows_of(run));
     }
     all_.add(0, i, run.blocks, rows_of(run));
   }
-  for (PassPlan* plan : {&colours_, &deep_, &pressed_, &all_}) plan->end();
+  for (PassPlan& plan : colours_) plan.end();
+  all_.end();
 }
 
 template <class S> std::size_t Sequential<S>::place_of(const Run& run, std::uint32_t block) const {

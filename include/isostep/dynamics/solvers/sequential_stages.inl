@@ -22,12 +22,13 @@ template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule) {
 }
 }  // namespace detail
 
-template <class S> void Sequential<S>::add_stage(Work work, std::uint32_t of_plan, std::uint32_t pieces) {
-  stages_.push_back({work, of_plan});
+template <class S>
+void Sequential<S>::add_stage(Work work, std::uint32_t pieces, const PassPlan* plan, std::uint32_t of_plan) {
+  stages_.push_back({work, plan, of_plan});
   pieces_.push_back(pieces);
 }
 template <class S> void Sequential<S>::add_stages(Work work, const PassPlan& plan) {
-  for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, i, plan.stages()[i]);
+  for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, plan.stages()[i], &plan, i);
 }
 
 template <class S> void Sequential<S>::run(const SolverInput<S>& input) {
@@ -57,12 +58,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::store_joints: return solver.do_joints(job, what.work, piece);
     default: break;
   }
-  const bool all = what.work == Work::prepare || what.work == Work::store;
-  const PassPlan& plan = all                                 ? solver.all_
-                         : what.work == Work::relax_deep    ? solver.deep_
-                         : what.work == Work::solve_pressed ? solver.pressed_
-                                                            : solver.colours_;
-  for (const PassPlan::Slice& slice : plan.piece(what.of_plan, piece)) solver.do_slice(job, what.work, slice);
+  for (const PassPlan::Slice& slice : what.plan->piece(what.of_plan, piece)) solver.do_slice(job, what.work, slice);
 }
 
 template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const PassPlan::Slice& slice) {
@@ -70,10 +66,8 @@ template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const
   switch (work) {
     case Work::prepare: return prepare_slice(job.input, slice);
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
-    case Work::solve:
-    case Work::solve_pressed: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
-    case Work::relax:
-    case Work::relax_deep: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
+    case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
+    case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
     case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
     case Work::store: return store_slice(job.input, slice);
     default: return;
@@ -110,33 +104,33 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
   joint_trees_.plan(input.joints, bodies_.rows(), input.tree_kernels, schedule_.joint_order);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
-    add_stage(Work::integrate_velocities, 0, body_pieces_);
-    if (!carried_.empty()) add_stage(Work::carry, 0, 1);
-    add_stage(Work::warm_start_joints, 0, joints);
-    add_stages(Work::warm_start, colours_);
+    add_stage(Work::integrate_velocities, body_pieces_);
+    if (!carried_.empty()) add_stage(Work::carry, 1);
+    add_stage(Work::warm_start_joints, joints);
+    add_stages(Work::warm_start, colours_[detail::kShallow]);
     for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
-      add_stage(Work::solve_joints, 0, joints);
-      add_stages(Work::solve, colours_);
+      add_stage(Work::solve_joints, joints);
+      add_stages(Work::solve, colours_[detail::kShallow]);
     }
-    if (schedule_.relaxes) add_stages(Work::solve_pressed, pressed_);
-    add_stage(Work::integrate_positions, 0, body_pieces_);
+    if (schedule_.relaxes) add_stages(Work::solve, colours_[detail::kPressed]);
+    add_stage(Work::integrate_positions, body_pieces_);
     if (!schedule_.relaxes) continue;
-    add_stage(Work::relax_joints, 0, joints);
-    add_stages(Work::relax, colours_);
-    for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax_deep, deep_);
+    add_stage(Work::relax_joints, joints);
+    add_stages(Work::relax, colours_[detail::kShallow]);
+    for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax, colours_[detail::kDeep]);
   }
-  add_stage(Work::store_joints, 0, joints);
+  add_stage(Work::store_joints, joints);
 }
 
 template <class S> void Sequential<S>::restitute(const SolverInput<S>& input) {
   bool bounces = false;
   for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
-  if (bounces) add_stages(Work::restitute, colours_);
+  if (bounces) add_stages(Work::restitute, colours_[detail::kShallow]);
 }
 
 template <class S> void Sequential<S>::store_impulses(const SolverInput<S>&) {
   add_stages(Work::store, all_);
-  add_stage(Work::store_bodies, 0, body_pieces_);
+  add_stage(Work::store_bodies, body_pieces_);
 }
 
 }  // namespace isostep

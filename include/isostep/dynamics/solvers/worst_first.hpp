@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/core/island_purses.hpp"
+#include "isostep/core/island_budgets.hpp"
 #include "isostep/core/knockout_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/solver_input.hpp"
@@ -110,7 +110,7 @@ template <class S> class WorstFirstResolver {
   std::vector<Ends> ends_;                 // of points, then of joints
   std::vector<std::uint32_t> first_;       // by row of the bodies, and more: its rows in neighbours_
   std::vector<std::uint32_t> neighbours_;  // rows that can move a body, ascending
-  IslandPurses purses_;                    // of a pass
+  IslandBudgets budgets_;                  // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
   KnockoutTree worst_;                     // of urgency_
   std::uint32_t islands_left_ = 0;         // by the passes of this step, with something still to be done

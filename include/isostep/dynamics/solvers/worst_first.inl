@@ -37,11 +37,11 @@ template <class S> void WorstFirstResolver<S>::colour_constraints(const SolverIn
   }
   urgency_.resize(ends_.size());
   list_neighbours();
-  const auto moved = [](std::uint32_t body) ISO_INLINE_LAMBDA { return body == 0 ? IslandPurses::kNobody : body; };
-  purses_.find(static_cast<std::uint32_t>(bodies.mass.size()), static_cast<std::uint32_t>(ends_.size()),
-               [&](std::uint32_t row) ISO_INLINE_LAMBDA -> IslandPurses::Ends {
-                 return {moved(ends_[row].a), moved(ends_[row].b)};
-               });
+  const auto moved = [](std::uint32_t body) ISO_INLINE_LAMBDA { return body == 0 ? IslandBudgets::kNobody : body; };
+  budgets_.find(static_cast<std::uint32_t>(bodies.mass.size()), static_cast<std::uint32_t>(ends_.size()),
+                [&](std::uint32_t row) ISO_INLINE_LAMBDA -> IslandBudgets::Ends {
+                  return {moved(ends_[row].a), moved(ends_[row].b)};
+                });
 }
 
 template <class S>
@@ -149,10 +149,10 @@ void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, st
   }
 }
 
-/// Its purse is empty: nothing of it is urgent any more.
+/// The row's island has spent its budget: none of its rows is resolved again.
 template <class S> void WorstFirstResolver<S>::leave_island(std::uint32_t row) {
   bool urgent = false;
-  for (std::uint32_t i = purses_.purse_of(row).first_row; i != IslandPurses::kNobody; i = purses_.next_of(i)) {
+  for (std::uint32_t i = budgets_.budget_of(row).first_row; i != IslandBudgets::kNobody; i = budgets_.next_of(i)) {
     if (urgency_[i] == V(0)) continue;
     urgent = true;
     urgency_[i] = V(0);
@@ -168,9 +168,9 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
   if (count == 0) return;
   for (std::uint32_t i = 0; i < count; ++i) urgency_[i] = look(i);
   worst_.plant(count, before());
-  purses_.fill([](IslandPurses::Purse& purse) ISO_INLINE_LAMBDA {
-    purse.iterations = most_iterations(purse.rows);
-    purse.looks = most_looks(purse.rows);
+  budgets_.fill([](IslandBudgets::Budget& budget) ISO_INLINE_LAMBDA {
+    budget.iterations = most_iterations(budget.rows);
+    budget.looks = most_looks(budget.rows);
   });
   for (;;) {
     const std::uint32_t worst = worst_.first();
@@ -184,9 +184,9 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
     look_again(look, worst, ends.a, 0);
     look_again(look, worst, ends.b, ends.a);
     const std::uint64_t looks = (first_[ends.a + 1] - first_[ends.a]) + (first_[ends.b + 1] - first_[ends.b]);
-    IslandPurses::Purse& purse = purses_.purse_of(worst);
-    purse.looks -= min(looks, purse.looks);
-    if (--purse.iterations == 0 || purse.looks == 0) leave_island(worst);
+    IslandBudgets::Budget& budget = budgets_.budget_of(worst);
+    budget.looks -= min(looks, budget.looks);
+    if (--budget.iterations == 0 || budget.looks == 0) leave_island(worst);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/core/island_purses.hpp"
+#include "isostep/core/island_budgets.hpp"
 #include "isostep/core/knockout_tree.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/constraint.hpp"
@@ -129,7 +129,7 @@ template <class S> class WorstFirst {
   std::vector<std::uint32_t> neighbours_;  // rows that can move a point, ascending
   std::vector<std::uint8_t> touched_;      // by row
   std::vector<Urgency> urgency_;           // by row
-  IslandPurses purses_;                    // of a call
+  IslandBudgets budgets_;                  // of a call
   KnockoutTree worst_;                     // of urgency_
   S rate_ = S(0);                          // [1/s] of a call, as lags_
   bool lags_ = false;

@@ -1,4 +1,4 @@
-// IslandPurses: for each island a purse, the iterations and looks that a solver has left for it, whatever others cost.
+// IslandBudgets: the iterations and looks that a solver has left for each island, whatever others cost.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,13 +12,13 @@ namespace isostep {
 
 /// Rows that share a member that moves make an island. A solver that stops at some limit must stop in each island where
 /// it would if there were no other: a world's order, and what else is in it, is no part of an island's future.
-class IslandPurses {
+class IslandBudgets {
  public:
   static constexpr std::uint32_t kNobody = 0xffffffffu;
   struct Ends {
     std::uint32_t a, b;  // of 0..members-1, or kNobody
   };
-  struct Purse {
+  struct Budget {
     std::uint32_t first_row;  // the least; next_of() leads on
     std::uint32_t rows;
     std::uint32_t iterations;  // left
@@ -31,7 +31,7 @@ class IslandPurses {
     of_member_.assign(members, kNobody);
     of_row_.resize(rows);
     next_.resize(rows);
-    purses_.clear();
+    budgets_.clear();
     for (std::uint32_t row = 0; row < rows; ++row) {
       const Ends ends = ends_of(row);
       if (ends.a != kNobody && ends.b != kNobody) sets_.join(ends.a, ends.b);
@@ -40,33 +40,33 @@ class IslandPurses {
       const Ends ends = ends_of(row);
       const std::uint32_t member = ends.a != kNobody ? ends.a : ends.b;
       std::uint32_t own = kNobody;
-      std::uint32_t& purse = member != kNobody ? of_member_[sets_.find(member)] : own;
-      if (purse == kNobody) {
-        purse = static_cast<std::uint32_t>(purses_.size());
-        purses_.push_back({kNobody, 0, 0, 0});
+      std::uint32_t& budget = member != kNobody ? of_member_[sets_.find(member)] : own;
+      if (budget == kNobody) {
+        budget = static_cast<std::uint32_t>(budgets_.size());
+        budgets_.push_back({kNobody, 0, 0, 0});
       }
-      of_row_[row] = purse;
-      Purse& of = purses_[purse];
+      of_row_[row] = budget;
+      Budget& of = budgets_[budget];
       next_[row] = of.first_row;
       of.first_row = row;
       ++of.rows;
     }
   }
-  /// `put(purse)` says what may be spent on so many rows.
+  /// `put(budget)` says what may be spent on so many rows.
   template <class Put> ISO_INLINE void fill(const Put& put) {
-    for (Purse& purse : purses_) put(purse);
+    for (Budget& budget : budgets_) put(budget);
   }
 
-  ISO_INLINE Purse& purse_of(std::uint32_t row) { return purses_[of_row_[row]]; }
+  ISO_INLINE Budget& budget_of(std::uint32_t row) { return budgets_[of_row_[row]]; }
   /// The next row of its island, ascending; kNobody after the last.
   ISO_INLINE std::uint32_t next_of(std::uint32_t row) const { return next_[row]; }
 
  private:
   DisjointSets sets_;
-  std::vector<std::uint32_t> of_member_;  // purse, by root
-  std::vector<std::uint32_t> of_row_;     // purse
+  std::vector<std::uint32_t> of_member_;  // budget, by root
+  std::vector<std::uint32_t> of_row_;     // budget
   std::vector<std::uint32_t> next_;       // row of the same island
-  std::vector<Purse> purses_;
+  std::vector<Budget> budgets_;
 };
 
 }  // namespace isostep
