@@ -115,8 +115,8 @@ struct JointFindings {
 template <class S> class JointWatch {
  public:
   static constexpr double kTenth = 1.1;    // speeds may be above what the energy allows by that much
-  static constexpr double kQuarter = 1.25;  // the same with pgs: what closes an error stays as speed
-  static constexpr double kPole = 2.8;      // [rad] of swing: beyond, twist jumps by a turn, and the way back is work
+  static constexpr double kCoarse = 1.15;  // the same at 60 solutions a second: limits strike half a radian in each
+  static constexpr double kPole = 2.8;     // [rad] of swing: beyond, twist jumps by a turn, and the way back is work
   static constexpr double kPassed = 0.02;  // [rad] past a limit, at rest on it
   static constexpr double kRest = 0.02;    // [m/s] slower is at rest
 
@@ -149,7 +149,7 @@ template <class S> class JointWatch {
     double energy = weight_ * (real(view.state->centre).y - lowest_) + kinetic_energy(view);
     if (j_.hold == Hold::heavy) energy += kinetic_energy(w.view({p.body_a, p.generation_a}));
     const double speed = std::isfinite(energy) ? speed_of(energy) : 1e30;
-    const double more = trial_.solver == SolverName::pgs ? kQuarter : kTenth;
+    const double more = integration_rate(trial_.solver, 60, trial_.substeps) > 60 ? kTenth : kCoarse;
     const double allowed = more * speed_of(allowed_energy()) + grain_;
     if (speed - allowed > excess_) {
       excess_ = speed - allowed;

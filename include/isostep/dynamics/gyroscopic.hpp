@@ -8,9 +8,11 @@ namespace isostep {
 
 /// Torque-free turning over time steps h, between which others push.
 ///
-/// One step: I (w' - w) + h m x I m = 0, m = (w + w') / 2, in the principal frame, by one Newton step. The rule keeps
-/// |I w| and w I w, one Newton step keeps them to third order; with w' in place of m a box at 10 rad/s loses a third of
-/// its energy in ten seconds. At a radian a sub-step, the most that a body turns, energy swings by 6 %.
+/// One step: I (w' - w) + h m x I m = 0, m = (w + w') / 2, in the principal frame. The rule keeps |I w| and w I w; with
+/// w' in place of m a box at 10 rad/s loses a third of its energy in ten seconds. A slow solid takes the explicit form,
+/// m at half of Euler's step: within a sixteenth of a radian it gains less than 4e-6 of its energy in a step. Others
+/// take one Newton step, which keeps both to third order: at a radian a sub-step, the most that a body turns, energy
+/// swings by 6 %.
 ///
 /// Pushes: the orientation follows w' as if it were the spin half a step later, so momentum is I w' + h/2 w' x I w'. A
 /// push of k after the step adds more to that than the torque h^-1 I k, and a fast top under torque would sink as under
@@ -19,20 +21,27 @@ namespace isostep {
 ///          Numerical Integration, on quadratic invariants; Lee, Leok, McClamroch 2005, A Lie group variational
 ///          integrator for the attitude dynamics of a rigid body, on momentum between two orientations.
 /// Symbols: inertia = principal moments over the largest of them [1]; only ratios matter, so no unit is needed.
+///          euler = (I_y - I_z) / I_x and so on around [1]: Euler's equations are dw_x/dt = euler_x w_y w_z.
 /// Frames:  `axes` leads from the principal frame to the world; spins in and out are in the world [rad/s], `known` is
 ///          in the principal frame: what it was after the last step, all pushes since being new.
 template <class S> struct FreeTurn {
   using V = Velocity<S>;
   const Mat3<Unit<S>>& axes;
-  Vec3<S> inertia;
+  Vec3<S> inertia, euler;
   Step<S> h;
 
-  /// Takes back what pushes since the last step did too much, where it is `rapid` enough to matter, then turns. What
-  /// the axes round is no push: taken for one it feeds on itself.
-  ISO_INLINE Vec3<V> turn(Vec3<V> spin, Vec3<V>& known, bool rapid) const {
-    const Vec3<V> w = local(spin), f = bend(w);
-    const bool pushed = rapid && convert<V>(S(64) * resolution<S>()) < max_abs(w - known);
-    const Vec3<V> change = solve(w, pushed ? f + half(f - bend(known)) : f);
+  static ISO_INLINE Vec3<S> euler_of(Vec3<S> i) {
+    const auto ratio = [](S over, S under) { return S(0) < under ? divide_to<S>(over, under) : S(0); };
+    return {ratio(i.y - i.z, i.x), ratio(i.z - i.x, i.y), ratio(i.x - i.y, i.z)};
+  }
+  /// A solid has none beyond 1, rounding aside. Moments that a user gives may be those of none.
+  static ISO_INLINE bool is_solid(Vec3<S> euler) { return max_abs(euler) < S(2); }
+
+  /// Turns. What is `slow` takes the explicit form, for others pushes since the last step first lose what they did too
+  /// much. What the axes round is no push: taken for one it feeds on itself.
+  ISO_INLINE Vec3<V> turn(Vec3<V> spin, Vec3<V>& known, bool slow) const {
+    const Vec3<V> w = local(spin);
+    const Vec3<V> change = slow ? -explicit_change(w + half(explicit_change(w))) : implicit_change(w, known);
     known = w - change;
     return spin - world(change);
   }
@@ -59,6 +68,16 @@ template <class S> struct FreeTurn {
     const Vec3<V> m = moment(w), hw = turned(w);
     return {round_to<V>(product(hw.y, m.z) - product(hw.z, m.y)), round_to<V>(product(hw.z, m.x) - product(hw.x, m.z)),
             round_to<V>(product(hw.x, m.y) - product(hw.y, m.x))};
+  }
+  /// -h I^-1 f(w), by Euler's equations.
+  ISO_INLINE Vec3<V> explicit_change(Vec3<V> w) const {
+    const Vec3<V> hw = turned(w);
+    return {times(euler.x, times(hw.y, w.z)), times(euler.y, times(hw.z, w.x)), times(euler.z, times(hw.x, w.y))};
+  }
+  ISO_INLINE Vec3<V> implicit_change(Vec3<V> w, Vec3<V> known) const {
+    const Vec3<V> f = bend(w);
+    const bool pushed = convert<V>(S(64) * resolution<S>()) < max_abs(w - known);
+    return solve(w, pushed ? f + half(f - bend(known)) : f);
   }
   /// J^-1 f, J = I + h/2 ([w]x I - [I w]x).
   ISO_INLINE Vec3<V> solve(Vec3<V> w, Vec3<V> f) const {

@@ -46,15 +46,21 @@ template <class Visit>
 ISO_INLINE bool WorldEngine<S>::visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin,
                                             std::uint64_t& looks, Visit&& visit) {
   if (a.child_count == 1 && b.child_count == 1) return visit(0u, 0u);
+  // Most compounds have few children: their boxes are found once, not once for each child of the other.
+  constexpr std::uint32_t kFew = 8;
   const Transform<S> origin_b = origin_beside(a, b);
+  const auto box_of_b = [&](std::uint32_t j) {
+    return bounds(b.children[j].primitive, detail::placed(origin_b, b.children[j]));
+  };
+  Aabb<S> boxes_b[kFew];
+  for (std::uint32_t j = 0; j < min(b.child_count, kFew); ++j) boxes_b[j] = box_of_b(j);
   for (std::uint32_t i = 0; i < a.child_count; ++i) {
     const Transform<S> ta = detail::placed(a.origin, a.children[i]);
     const Aabb<S> box_a = grow(bounds(a.children[i].primitive, ta), margin);
     for (std::uint32_t j = 0; j < b.child_count; ++j) {
       if (looks == 0) return false;
       --looks;
-      const Transform<S> tb = detail::placed(origin_b, b.children[j]);
-      if (overlap(box_a, bounds(b.children[j].primitive, tb)) && !visit(i, j)) return false;
+      if (overlap(box_a, j < kFew ? boxes_b[j] : box_of_b(j)) && !visit(i, j)) return false;
     }
   }
   return true;
@@ -156,13 +162,13 @@ bool WorldEngine<S>::gather_others(Framed at_a, Framed at_b, const PartBudget& e
   const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
   const std::uint64_t most_looks = min(each.looks, all.looks), most_parts = min(each.parts, all.parts);
   std::uint64_t looks = most_looks, parts = most_parts;
-  const bool whole = visit_parts(frames_[at_a.index], frames_[at_b.index], margin, looks,
-                                 [&](std::uint32_t i, std::uint32_t j) {
-                                   if (parts == 0) return false;
-                                   --parts;
-                                   add_part(other_pairs_, {at_a.index, at_b.index, i, j});
-                                   return true;
-                                 });
+  const bool whole =
+      visit_parts(frames_[at_a.index], frames_[at_b.index], margin, looks, [&](std::uint32_t i, std::uint32_t j) {
+        if (parts == 0) return false;
+        --parts;
+        add_part(other_pairs_, {at_a.index, at_b.index, i, j});
+        return true;
+      });
   all.looks -= most_looks - looks;
   all.parts -= most_parts - parts;
   return whole;

@@ -35,8 +35,9 @@ template <class S> class BodyRows {
 
  private:
   struct Gyro {
-    Vec3<S> inertia;          // [1] principal moments over the largest
-    Vec3<Velocity<S>> known;  // [rad/s] principal frame: spin after the last free turn (gyroscopic.hpp)
+    Vec3<S> inertia, euler;   // [1] gyroscopic.hpp
+    Vec3<Velocity<S>> known;  // [rad/s] principal frame: spin after the last free turn
+    bool solid;
   };
 
   SolverBodies<S> rows_;

@@ -18,6 +18,12 @@ template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>&
   }
 }
 
+/// From a body's principal axes to the world. Those of most shapes are the body's own.
+template <class S> ISO_INLINE Mat3<Unit<S>> principal_axes(Quat<Unit<S>> orientation, const BodyProperties<S>& body) {
+  const bool own = body.principal == Quat<Unit<S>>::identity();
+  return to_matrix(own ? orientation : orientation * body.principal);
+}
+
 /// Mass times inverse inertia in the world's axes [1/m^2]; about locked axes nothing turns.
 template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
   Mat3<S> kappa =
@@ -56,13 +62,14 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
     }
     mass.mass = body.mass;
     const bool spins = (body.flags & body_flag::kSpins) != 0;
-    const Mat3<Unit<S>> axes = spins ? to_matrix(state.orientation * body.principal) : Mat3<Unit<S>>{};
+    const Mat3<Unit<S>> axes = spins ? detail::principal_axes(state.orientation, body) : Mat3<Unit<S>>{};
     mass.kappa = detail::world_kappa(body, axes);
     if (!spins) continue;
     const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
     const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
-    gyro_[i] = {{ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)},
-                FreeTurn<S>{axes, {}, {}}.local(state.spin)};
+    const Vec3<S> inertia = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
+    const Vec3<S> euler = FreeTurn<S>::euler_of(inertia);
+    gyro_[i] = {inertia, euler, FreeTurn<S>{axes, inertia, euler, {}}.local(state.spin), FreeTurn<S>::is_solid(euler)};
   }
 }
 
@@ -71,6 +78,7 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
                                        std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const V rapid = rapid_spin<S>(input.hz);
   const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
     const BodyProperties<S>& body = input.properties[i];
@@ -93,11 +101,12 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
     }
     if ((body.flags & body_flag::kSpins) != 0) {
-      const Mat3<Unit<S>> axes = to_matrix(input.states[i].orientation * body.principal);
-      const bool rapid = rapid_spin<S>(input.hz) < max_abs(row.angular);
-      row.angular = FreeTurn<S>{axes, gyro_[i].inertia, h}.turn(row.angular, gyro_[i].known, rapid);
+      Gyro& gyro = gyro_[i];
+      const Mat3<Unit<S>> axes = detail::principal_axes(input.states[i].orientation, body);
+      const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
+      row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
       detail::hold_locks(body.flags, row);
-      if (rapid_spin<S>(input.hz) < max_abs(row.angular)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+      if (rapid < max_abs(row.angular)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
       continue;
     }
     detail::hold_locks(body.flags, row);
@@ -136,8 +145,8 @@ void BodyRows<S>::store(const SolverInput<S>& input, std::int32_t rate, std::siz
     MotionRow<Velocity<S>> row = rows_.velocity[i + 1];
     const bool turns = body.type == BodyType::dynamic && (body.flags & body_flag::kSpins) != 0;
     if (turns && rapid_spin<S>(input.hz) < max_abs(row.angular)) {
-      const Mat3<Unit<S>> axes = to_matrix(state.orientation * body.principal);
-      row.angular = FreeTurn<S>{axes, gyro_[i].inertia, h}.settle(row.angular, gyro_[i].known);
+      const Mat3<Unit<S>> axes = detail::principal_axes(state.orientation, body);
+      row.angular = FreeTurn<S>{axes, gyro_[i].inertia, gyro_[i].euler, h}.settle(row.angular, gyro_[i].known);
       detail::hold_locks(body.flags, row);
     }
     state.velocity = row.linear;

@@ -114,8 +114,8 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
     }
     if (schedule_.relaxes) add_stages(Work::solve, colours_[detail::kPressed]);
     add_stage(Work::integrate_positions, body_pieces_);
-    if (!schedule_.relaxes) continue;
     add_stage(Work::relax_joints, joints);
+    if (!schedule_.relaxes) continue;
     add_stages(Work::relax, colours_[detail::kShallow]);
     for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax, colours_[detail::kDeep]);
   }
