@@ -14,7 +14,7 @@ TYPED_TEST_SUITE(RandomParticleEnergy, AllScalars);
 
 std::uint64_t worlds() {
   const char* asked = std::getenv("ISOSTEP_PARTICLE_WORLDS");
-  return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 240;
+  return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 160;
 }
 
 TYPED_TEST(RandomParticleEnergy, is_never_above_what_was_put_in) {
