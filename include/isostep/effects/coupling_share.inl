@@ -70,9 +70,11 @@ template <class S> void ParticleCoupling<S>::weigh(const Met& met, Touching& tou
     touching.least_speed = saturating_add(dot(touching.touch.normal, surface), -speed) < least ? S(0) : least;
   } else if (S(0) < overlap) {
     // Particles are pushed out of what they overlap, bodies only by what changes their velocity: the body's part of the
-    // way is a speed.
+    // way is a speed. What bounces faster than that leaves by itself; with both the bounce would count the push too.
+    const S closing = saturating_add(speed, -dot(touching.touch.normal, surface));
+    const S leave = min(times(overlap, S(hz_) * detail::kOverlapShare<S>), detail::kLeaveSpeed<S>);
     const U share = divide_to<U>(touching.answer, saturating_add(touching.answer, touching.own));
-    touching.least_speed = min(times(overlap, S(hz_) * detail::kOverlapShare<S>), detail::kLeaveSpeed<S>) * share;
+    touching.least_speed = leave <= times(touching.touch.restitution, closing) ? S(0) : leave * share;
   }
 }
 /// What a touch feels of a push and a turning lever of another, in mass-scaled units.

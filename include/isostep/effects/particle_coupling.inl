@@ -159,7 +159,8 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
       gap = nearest.distance - radius;
       if (gone == along.length && gap <= margin_) break;
     }
-    gap = dot(nearest.normal, flier.position - nearest.point) - radius;
+    // Where the way has passed the nearest place, the plane there has the start behind it; yet it overlaps nothing.
+    gap = max(dot(nearest.normal, flier.position - nearest.point) - radius, S(0));
   }
   meeting = {nearest.point, nearest.normal, gap};
   return true;
