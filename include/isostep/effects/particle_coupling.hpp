@@ -62,9 +62,9 @@ struct CouplingReport {
 ///          pushed too far by what was not foreseen. Motion within a step is straight: what spins fast is met where its
 ///          surface goes at first. Springs between particles are not foreseen: a stiff net under a body trembles by
 ///          some millimetres. Nor are particles that bounce between a body and what is below within one step: under
-///          worst_first, with restitution above 0.5, each bounces off all of the body, and a blow in which several do so
-///          can leave with some times its energy. What begins deep inside a body and hangs on springs stretches them by
-///          that depth.
+///          worst_first, with restitution above 0.5, each bounces off all of the body, and a blow in which several do
+///          so can leave with some times its energy. What begins deep inside a body and hangs on springs stretches them
+///          by that depth.
 template <class S> class ParticleCoupling {
  public:
   explicit ParticleCoupling(const CouplingSettings<S>& settings = {});

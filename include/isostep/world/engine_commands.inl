@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
@@ -256,7 +257,7 @@ template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
   if (command.force == Vec3<S>::zero() && command.torque == Vec3<S>::zero()) return true;
   BodyState<S>* state = wake_for_change(command.body.slot);
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
-  const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
+  const Mat3<S> kappa = detail::world_kappa(body, detail::world_axes(state->orientation, body));
   // From rest to the limit in one step: velocities then stay within their format.
   const std::int32_t hz = state_.settings.hz;
   const S most = detail::most_acceleration(hz, Limits<S>::speed());
@@ -279,7 +280,7 @@ template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) 
   if (command.linear == Vec3<S>::zero() && command.angular == Vec3<S>::zero()) return true;
   BodyState<S>* state = wake_for_change(command.body.slot);
   const BodyProperties<S>& body = state_.awake.properties[locations_[state->slot].index];
-  const Mat3<S> kappa = rotate_diagonal(to_matrix(state->orientation * body.principal), body.kappa);
+  const Mat3<S> kappa = detail::world_kappa(body, detail::world_axes(state->orientation, body));
   // A quarter above the limit: the step then cuts them again and reports it.
   const S speed = Limits<S>::speed() * S(1.25), spin = Limits<S>::spin() * S(1.25);
   detail::Bounder<S> bounder;

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Order:   velocity before position (semi-implicit Euler), gyroscopic term implicit, damping implicit.
+/// Order:   velocity before position (semi-implicit Euler), gyroscopic term by the midpoint rule, damping implicit.
 /// Threads: ranges of bodies that do not meet may be integrated side by side.
 template <class S> class BodyRows {
  public:

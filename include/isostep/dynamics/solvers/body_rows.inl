@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 
@@ -16,27 +17,6 @@ template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>&
     if ((flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
     if ((flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
   }
-}
-
-/// From a body's principal axes to the world. Those of most shapes are the body's own.
-template <class S> ISO_INLINE Mat3<Unit<S>> principal_axes(Quat<Unit<S>> orientation, const BodyProperties<S>& body) {
-  const bool own = body.principal == Quat<Unit<S>>::identity();
-  return to_matrix(own ? orientation : orientation * body.principal);
-}
-
-/// Mass times inverse inertia in the world's axes [1/m^2]; about locked axes nothing turns.
-template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
-  Mat3<S> kappa =
-      (body.flags & body_flag::kSpins) != 0 ? rotate_diagonal(axes, body.kappa) : Mat3<S>::diagonal(body.kappa);
-  if ((body.flags & (7u * body_flag::kLockAngularX)) == 0) return kappa;
-  for (int axis = 0; axis < 3; ++axis) {
-    if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
-    for (int k = 0; k < 3; ++k) {
-      kappa.rows[axis].set(k, S(0));
-      kappa.rows[k].set(axis, S(0));
-    }
-  }
-  return kappa;
 }
 
 }  // namespace detail
@@ -62,9 +42,9 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
     }
     mass.mass = body.mass;
     const bool spins = (body.flags & body_flag::kSpins) != 0;
-    const Mat3<Unit<S>> axes = spins ? detail::principal_axes(state.orientation, body) : Mat3<Unit<S>>{};
+    const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
     mass.kappa = detail::world_kappa(body, axes);
-    if (!spins) continue;
+    if (!detail::turns_freely(body)) continue;
     const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
     const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
     const Vec3<S> inertia = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
@@ -78,7 +58,7 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
                                        std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V rapid = rapid_spin<S>(input.hz);
+  const V rapid = rapid_spin<S>(input.hz), most = spin_to_follow<S>(rate);
   const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
     const BodyProperties<S>& body = input.properties[i];
@@ -101,12 +81,15 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
     }
     if ((body.flags & body_flag::kSpins) != 0) {
-      Gyro& gyro = gyro_[i];
-      const Mat3<Unit<S>> axes = detail::principal_axes(input.states[i].orientation, body);
-      const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
-      row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
+      const Mat3<Unit<S>> axes = detail::world_axes(input.states[i].orientation, body);
+      if (detail::turns_freely(body)) {
+        Gyro& gyro = gyro_[i];
+        const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
+        row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
+      }
       detail::hold_locks(body.flags, row);
-      if (rapid < max_abs(row.angular)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+      const V spin = max_abs(row.angular);
+      if (rapid < spin && !(most < spin)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
       continue;
     }
     detail::hold_locks(body.flags, row);
@@ -143,9 +126,9 @@ void BodyRows<S>::store(const SolverInput<S>& input, std::int32_t rate, std::siz
     BodyState<S>& state = input.states[i];
     const BodyProperties<S>& body = input.properties[i];
     MotionRow<Velocity<S>> row = rows_.velocity[i + 1];
-    const bool turns = body.type == BodyType::dynamic && (body.flags & body_flag::kSpins) != 0;
+    const bool turns = body.type == BodyType::dynamic && detail::turns_freely(body);
     if (turns && rapid_spin<S>(input.hz) < max_abs(row.angular)) {
-      const Mat3<Unit<S>> axes = detail::principal_axes(state.orientation, body);
+      const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       row.angular = FreeTurn<S>{axes, gyro_[i].inertia, gyro_[i].euler, h}.settle(row.angular, gyro_[i].known);
       detail::hold_locks(body.flags, row);
     }

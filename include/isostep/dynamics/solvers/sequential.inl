@@ -70,15 +70,19 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
     const std::uint32_t variant = points - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
     return variant + detail::depth_of(input.geometry[i], points, bodies) * kContactVariants;
   };
+  std::uint32_t buckets = 0;  // up to the last that is used
   for (std::size_t i = 0; i < count; ++i) {
     const ContactGeometry<S>& g = input.geometry[i];
     const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
     bucket_[i] = kUncolouredBucket;
-    if (colour != Colouring::kUncoloured) bucket_[i] = colour * detail::kDepths * kContactVariants + kind_of(i);
+    if (colour != Colouring::kUncoloured) {
+      bucket_[i] = colour * detail::kDepths * kContactVariants + kind_of(i);
+      buckets = max(buckets, bucket_[i] + 1);
+    }
     ++bucket_ends_[bucket_[i]];
   }
   std::uint32_t total = 0;
-  for (std::uint32_t b = 0; b < kUncolouredBucket; ++b) {
+  for (std::uint32_t b = 0; b < buckets; ++b) {
     if (bucket_ends_[b] != 0) add_run(*input.contact_kernels, b, total, bucket_ends_[b]);
     total += bucket_ends_[b];
     bucket_ends_[b] = total - bucket_ends_[b];

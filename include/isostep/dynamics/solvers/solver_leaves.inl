@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/solvers/contact_leaves.inl"
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
@@ -26,7 +27,7 @@ void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const Sol
   }
   for (std::size_t i = 0; i < gyro_.size(); ++i) {  // the rest are those of other steps
     const BodyProperties<S>& body = input.properties[i];
-    if (body.type != BodyType::dynamic || (body.flags & body_flag::kSpins) == 0) continue;
+    if (body.type != BodyType::dynamic || !detail::turns_freely(body)) continue;
     visit.one("solver_inertia", i, [&](const auto& of_body) {
       if (begun) of_body("moments", gyro_[i].inertia);
       of_body("known", gyro_[i].known);
