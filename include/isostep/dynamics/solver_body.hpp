@@ -29,8 +29,9 @@ template <class S> ISO_INLINE Velocity<S> rapid_spin(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
 
-/// What turns faster [rad/s], an eighth of a radian a sub-step, keeps the inertia about the world's axes that it has:
-/// contacts are prepared once a step, and with joints that follow a limb in a pinch is spun up to the limit of spins.
+/// What turns faster [rad/s], an eighth of a radian a sub-step, keeps the inertia about the world's axes that it has,
+/// and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a limb in a pinch is
+/// spun up to the limit of spins. Light links of a rope under load whip so fast, and what bends their arms drives them.
 template <class S> ISO_INLINE Velocity<S> spin_to_follow(std::int32_t rate) {
   return convert<Velocity<S>>(S(rate) * S(1.0 / 8));
 }

@@ -129,7 +129,8 @@ template <class S> struct JointStep {
   S rate;     // [1/s] sub-steps a second
   Step<S> h;  // [s]
   Softness<S> softness;
-  Velocity<S> rapid = Velocity<S>(0);  // [rad/s] rapid_spin(): slower, arms count as straight
+  // [rad/s] slower than rapid_spin() or faster than spin_to_follow(), arms count as straight
+  Velocity<S> rapid = Velocity<S>(0), fastest = highest<Velocity<S>>();
 };
 
 /// How soft joints are that no JointTrees solves at once, and how fast those that it does close their errors: a quarter

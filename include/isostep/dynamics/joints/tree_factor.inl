@@ -88,8 +88,8 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     }
     return some;
   }
-  /// curve_of() of joint.inl; of bodies that do not spin none.
-  static ISO_INLINE Vec3<V> curve(const Body& body, Vec3<L> arm, Step<S> h, Velocity<S> least) {
+  /// curve_of() of joint.inl; of bodies that do not spin, or too fast, none.
+  static ISO_INLINE Vec3<V> curve(const Body& body, Vec3<L> arm, const JointStep<S>& step) {
     const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
     const auto across = [most](Vec3<V> w, Vec3<L> r) ISO_INLINE_LAMBDA {
       return Vec3<V>{round_within<V>(product(r.z, w.y) - product(r.y, w.z), most),
@@ -97,10 +97,12 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
                      round_within<V>(product(r.y, w.x) - product(r.x, w.y), most)};
     };
     const Vec3<V> w = load(body.angular), v = across(w, arm);
-    const L half = number(S(0.5) * h);
+    const L half = number(S(0.5) * step.h);
     const Vec3<V> bent = across({times(half, w.x), times(half, w.y), times(half, w.z)},
                                 {convert<L>(v.x), convert<L>(v.y), convert<L>(v.z)});
-    const auto spins = less(V::broadcast(least), max_abs(w));
+    const V fast = max_abs(w), fastest = V::broadcast(step.fastest);
+    const V bends = round_within<V>(product(number(S(0.5)) * max_abs(arm), fastest), most);
+    const auto spins = less(V::broadcast(step.rapid), fast) & less(fast, fastest) & less(max_abs(v), bends);
     const V push = V::broadcast(detail::kJointPushSpeed<S>);
     const auto part = [&](V x) ISO_INLINE_LAMBDA { return select(spins, clamp(x, -push, push), V::zero()); };
     return {part(bent.x), part(bent.y), part(bent.z)};
@@ -119,7 +121,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     store(arm_b, joint.arm_b);
     store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, joint.error);
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-    store(rapid ? curve(b, arm_b, h, step.rapid) - curve(a, arm_a, h, step.rapid) : none, joint.curve);
+    store(rapid ? curve(b, arm_b, step) - curve(a, arm_a, step) : none, joint.curve);
     const Vec3<V> impulse = load(joint.impulse);
     const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(h);
     const auto pull = [&](Vec3<L> arm, L share, Body& body, S(&field)[W]) ISO_INLINE_LAMBDA {

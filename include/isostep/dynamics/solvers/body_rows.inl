@@ -89,7 +89,7 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       }
       detail::hold_locks(body.flags, row);
       const V spin = max_abs(row.angular);
-      if (rapid < spin && !(most < spin)) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+      if (rapid < spin && spin < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
       continue;
     }
     detail::hold_locks(body.flags, row);

@@ -35,7 +35,8 @@ template <class S> JointStep<S> DirectSolver<S>::joint_step(const SolverInput<S>
           rate,
           divide_to<Step<S>>(S(1), rate),
           {detail::kDirectJointShare<S> * rate, S(1), S(0)},
-          rapid_spin<S>(input.hz)};
+          rapid_spin<S>(input.hz),
+          spin_to_follow<S>(rate_)};
 }
 
 template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& input, Island& island) {

@@ -194,8 +194,9 @@ template <class S> void WorstFirstResolver<S>::prepare(const SolverInput<S>&) {}
 
 template <class S> void WorstFirstResolver<S>::solve_substeps(const SolverInput<S>& input) {
   const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
-  const JointStep<S> step = {input.states.data(),  &bodies_.rows(),        S(rate), divide_to<Step<S>>(S(1), S(rate)),
-                             Softness<S>::rigid(), rapid_spin<S>(input.hz)};
+  const JointStep<S> step = {
+      input.states.data(),     &bodies_.rows(),        S(rate), divide_to<Step<S>>(S(1), S(rate)), Softness<S>::rigid(),
+      rapid_spin<S>(input.hz), spin_to_follow<S>(rate)};
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return input.joints[joints_[i - points]]; };
   islands_left_ = 0;
