@@ -33,7 +33,7 @@ template <class S> ISO_INLINE Velocity<S> rapid_spin(std::int32_t hz) {
 /// and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a limb in a pinch is
 /// spun up to the limit of spins. Light links of a rope under load whip so fast, and what bends their arms drives them.
 template <class S> ISO_INLINE Velocity<S> spin_to_follow(std::int32_t rate) {
-  return convert<Velocity<S>>(S(rate) * S(1.0 / 8));
+  return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }
 
 /// What turns an impulse into a change of velocity.
