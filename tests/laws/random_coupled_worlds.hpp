@@ -6,9 +6,8 @@
 #include <sstream>
 
 #include "isostep/effects/particle_coupling.hpp"
-#include "laws/particle_laws.hpp"
+#include "laws/random_particle_laws.hpp"
 #include "scenes/measure.hpp"
-#include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
 
@@ -46,8 +45,8 @@ template <class S> class RandomCoupledWorld {
     const auto count = 1 + chance_.below(4);
     for (std::uint32_t i = 0; i < count; ++i) add_body();
     start_ = energy();
-    text_ << ", " << count << " bodies, " << ids_.size() << " particles, " << springs_.size() << " springs, " << start_
-          << " J";
+    text_ << ", " << count << " bodies, " << system_.ids.size() << " particles, " << system_.springs.size()
+          << " springs, " << start_ << " J";
   }
 
   /// False where a limit was met, or a touch refused.
@@ -61,23 +60,11 @@ template <class S> class RandomCoupledWorld {
     return moved.stopped + moved.clamped_speed + moved.clamped_position + turned.stopped == 0;
   }
   int steps(double seconds) const { return static_cast<int>(seconds * hz_); }
-  double energy() const {
-    double sum = scenes::measure_energy(bodies_).total();
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-      const D3 v = real(particles_.velocity(ids_[i]));
-      sum += masses_[i] * (dot(v, v) / 2 - gravity_ * to_double(particles_.position(ids_[i]).y));
-    }
-    for (const Spring<S>& spring : springs_) {
-      const D3 b = spring.b ? real(particles_.position(spring.b)) : real(spring.anchor);
-      const double longer = length(real(particles_.position(spring.a)) - b) - to_double(spring.rest_length);
-      if (spring.type != SpringType::bungee || longer > 0) sum += to_double(spring.stiffness) * longer * longer / 2;
-    }
-    return sum;
-  }
+  double energy() const { return scenes::measure_energy(bodies_).total() + system_.energy(particles_); }
   /// [J] what it had at first, counted from the floor and from springs at rest, and half of that, for the reason given
   /// in random_particle_worlds.hpp; what a grain has at 0.1 m/s; and what a body has as it leaves an overlap.
   double most() const {
-    return 1.5 * start_ + 0.005 * static_cast<double>(ids_.size()) + kLeaveSpeed * kLeaveSpeed / 2 * body_mass_;
+    return 1.5 * start_ + 0.005 * static_cast<double>(system_.ids.size()) + kLeaveSpeed * kLeaveSpeed / 2 * body_mass_;
   }
   double start() const { return start_; }
   std::uint64_t touches() const { return touches_; }
@@ -107,17 +94,12 @@ template <class S> class RandomCoupledWorld {
   }
   ParticleSettings<S> draw_particles() {
     constexpr int kSubsteps[] = {1, 2, 4, 8, 16};
-    constexpr Integrator kIntegrators[] = {Integrator::semi_implicit_euler, Integrator::velocity_verlet,
-                                           Integrator::rk4, Integrator::implicit_euler};
     ParticleSettings<S> s = at_rate<S>(gravity_, hz_, kSubsteps[chance_.below(5)]);
-    s.integrator = kIntegrators[chance_.below(4)];
-    s.solver = chance_.one_in(2) ? ParticleSolver::soft_step : ParticleSolver::worst_first;
-    s.stepping =
-        s.solver == ParticleSolver::worst_first && chance_.one_in(2) ? Stepping::time_division : Stepping::fixed;
+    draw_methods(chance_, s);
     h_ = 1.0 / (s.hz * s.substeps);
-    text_ << ", particles " << kIntegratorNames[static_cast<int>(s.integrator)] << " "
-          << kParticleSolverNames[static_cast<int>(s.solver)] << " " << kSteppingNames[static_cast<int>(s.stepping)]
-          << " x " << s.substeps;
+    text_ << ", particles ";
+    tell_methods(text_, s);
+    text_ << " x " << s.substeps;
     return s;
   }
   CouplingSettings<S> how() {
@@ -148,36 +130,42 @@ template <class S> class RandomCoupledWorld {
   std::size_t add(D3 at, D3 v, double mass, bool pinned = false) {
     ParticleDefinition<S> d = point<S>(at, pinned ? D3{0, 0, 0} : v, mass, material_);
     d.pinned = pinned;
-    ids_.push_back(particles_.create(d));
-    EXPECT_TRUE(ids_.back());
-    masses_.push_back(pinned ? 0 : to_double(d.mass));
-    return ids_.size() - 1;
+    system_.ids.push_back(particles_.create(d));
+    EXPECT_TRUE(system_.ids.back());
+    system_.masses.push_back(pinned ? 0 : to_double(d.mass));
+    return system_.ids.size() - 1;
   }
-  double inverse(std::size_t i) const { return masses_[i] > 0 ? 1 / masses_[i] : 0; }
+  double inverse(std::size_t i) const { return system_.masses[i] > 0 ? 1 / system_.masses[i] : 0; }
   /// `share` [1] of k h^2 (1/m_a + 1/m_b). At rest as it is made; b = a: to an anchor.
   void join(std::size_t a, std::size_t b, D3 anchor, double share, double damping) {
     Spring<S> s;
-    s.a = ids_[a];
-    if (b != a) s.b = ids_[b];
+    s.a = system_.ids[a];
+    if (b != a) s.b = system_.ids[b];
     else s.anchor = vec<S>(anchor);
     const double mass = inverse(a) + (b != a ? inverse(b) : 0);
     if (mass == 0) return;
-    const D3 end = b != a ? real(particles_.position(ids_[b])) : real(s.anchor);
+    const D3 end = b != a ? real(particles_.position(system_.ids[b])) : real(s.anchor);
     s.stiffness = num<S>(std::min(share / (h_ * h_ * mass), 20000.0));
-    s.rest_length = num<S>(length(real(particles_.position(ids_[a])) - end));
+    s.rest_length = num<S>(length(real(particles_.position(system_.ids[a])) - end));
     s.damping = num<S>(damping / (h_ * mass));
     EXPECT_TRUE(particles_.add(s));
-    springs_.push_back(s);
+    system_.springs.push_back(s);
   }
   void add_grains() {
     const auto count = 2 + chance_.below(15);
     const double speed = draw_speed();
-    for (std::uint32_t i = 0; i < count; ++i)
-      add(D3{0, 1 + radius_, 0} + chance_.point(1), chance_.point(speed), draw_mass());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double mass = draw_mass();
+      const D3 v = chance_.point(speed);
+      add(D3{0, 1 + radius_, 0} + chance_.point(1), v, mass);
+    }
     // What overlaps its like is pushed out of it, against springs.
     const bool joined = chance_.one_in(2) && !particles_.find(material_)->collides;
-    for (std::uint32_t i = 0; joined && i + 1 < count; i += 2)
-      join(i, chance_.one_in(2) ? i : i + 1, D3{0, 1, 0} + chance_.point(1), chance_.in(0.01, 0.3), 0);
+    for (std::uint32_t i = 0; joined && i + 1 < count; i += 2) {
+      const double share = chance_.in(0.01, 0.3);
+      const D3 anchor = D3{0, 1, 0} + chance_.point(1);
+      join(i, chance_.one_in(2) ? i : i + 1, anchor, share, 0);
+    }
   }
   /// All of a lattice of so many along each axis, then the springs between neighbours, diagonal ones too.
   void add_lattice(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz, D3 corner, D3 v, bool net) {
@@ -211,8 +199,12 @@ template <class S> class RandomCoupledWorld {
   void add_pegs() {
     const auto count = 2 + chance_.below(8);
     const double speed = draw_speed();
-    for (std::uint32_t i = 0; i < count; ++i)
-      add(D3{0, 1, 0} + chance_.point(0.8), chance_.point(speed), draw_mass(), !chance_.one_in(4));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const bool pinned = !chance_.one_in(4);
+      const double mass = draw_mass();
+      const D3 v = chance_.point(speed);
+      add(D3{0, 1, 0} + chance_.point(0.8), v, mass, pinned);
+    }
   }
 
   // ---- bodies
@@ -227,12 +219,12 @@ template <class S> class RandomCoupledWorld {
   }
   /// For a ball about a body: clear of particles where some are joined or pinned, and of other bodies under `pgs`.
   D3 clear_place(double reach) {
-    const bool loose = springs_.empty() && std::count(masses_.begin(), masses_.end(), 0) == 0;
+    const bool loose = system_.springs.empty() && std::count(system_.masses.begin(), system_.masses.end(), 0) == 0;
     const bool apart = bodies_.settings().solver == SolverName::pgs;
     for (double wide = 0.8;; wide += 0.02) {
       const D3 place = D3{0, reach + wide, 0} + chance_.point(wide);
       bool clear = true;
-      for (const ParticleId id : ids_)
+      for (const ParticleId id : system_.ids)
         clear = clear && (loose || length(real(particles_.position(id)) - place) > reach + radius_);
       for (const Ball& ball : balls_) clear = clear && (!apart || length(ball.centre - place) > reach + ball.radius);
       if (!clear) continue;
@@ -257,7 +249,8 @@ template <class S> class RandomCoupledWorld {
     double reach = 0;
     const ShapeId shape = draw_shape(reach);
     const double speed = draw_speed(), spin = chance_.one_in(2) ? 0 : 6;
-    BodyDefinition<S> d = moving<S>(shape, clear_place(reach), chance_.point(speed));
+    const D3 v = chance_.point(speed);
+    BodyDefinition<S> d = moving<S>(shape, clear_place(reach), v);
     d.angular_velocity = vec<S>(chance_.point(spin));
     d.orientation = turn<S>({0.6, 0, 0.8}, chance_.in(0, 6));
     d.mass = num<S>(chance_.one_in(2) ? 1 : chance_.in(0.25, 16));
@@ -276,9 +269,7 @@ template <class S> class RandomCoupledWorld {
   ParticleWorld<S> particles_;
   ParticleCoupling<S> coupling_;
   ParticleMaterialId material_;
-  std::vector<ParticleId> ids_;
-  std::vector<double> masses_;
-  std::vector<Spring<S>> springs_;
+  ParticleSystem<S> system_;
   std::vector<Ball> balls_;  // about the bodies
   std::uint64_t touches_ = 0;
 };

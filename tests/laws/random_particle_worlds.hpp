@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "laws/particle_laws.hpp"
-#include "unit/particles/particle_worlds.hpp"
+#include "laws/random_particle_laws.hpp"
 
 namespace isostep::test {
 
@@ -34,29 +33,21 @@ template <class S> class RandomParticleWorld {
       default: cohere(); break;
     }
     start_ = energy();
-    text_ << ", " << ids_.size() << " particles, " << springs_.size() << " springs, e " << to_double(ball.restitution)
-          << ", radius " << radius_ << ", " << start_ << " J";
+    text_ << ", " << system_.ids.size() << " particles, " << system_.springs.size() << " springs, e "
+          << to_double(ball.restitution) << ", radius " << radius_ << ", " << start_ << " J";
   }
 
-  ParticleReport step() { return world_.step(); }
-  int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
-  double energy() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-      const D3 v = real(world_.state().velocity[ids_[i].slot]);
-      sum += masses_[i] * (dot(v, v) / 2 - gravity_ * to_double(world_.position(ids_[i]).y));
-    }
-    for (const Spring<S>& spring : springs_) {
-      const D3 b = spring.b ? real(world_.position(spring.b)) : real(spring.anchor);
-      const double longer = length(real(world_.position(spring.a)) - b) - to_double(spring.rest_length);
-      if (spring.type != SpringType::bungee || longer > 0) sum += to_double(spring.stiffness) * longer * longer / 2;
-    }
-    return sum + energy_of_cohesion();
+  /// False where a limit was met.
+  bool step() {
+    const ParticleReport moved = world_.step();
+    return moved.stopped + moved.clamped_speed + moved.clamped_position == 0;
   }
+  int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
+  double energy() const { return system_.energy(world_) + energy_of_cohesion(); }
   /// [J] what it had at first, counted from the floor and from springs at rest, and half of that: a method of first
   /// order with springs of k h^2 / m = 0.3 swings within 1 / (1 - sqrt(0.3) / 2) = 1.38. And what a grain of a crowd
   /// has at 0.1 m/s.
-  double most() const { return 1.5 * start_ + 0.005 * static_cast<double>(ids_.size()); }
+  double most() const { return 1.5 * start_ + 0.005 * static_cast<double>(system_.ids.size()); }
   double start() const { return start_; }
   std::string telling() const { return text_.str(); }
   const ParticleWorld<S>& world() const { return world_; }
@@ -70,9 +61,9 @@ template <class S> class RandomParticleWorld {
     const double repel = to_double(cohesion_.repel_distance), start = to_double(cohesion_.attract_start);
     const double reach = to_double(cohesion_.attract_end) - start;
     double sum = 0;
-    for (std::size_t i = 0; cohesion_.material && i < ids_.size(); ++i) {
+    for (std::size_t i = 0; cohesion_.material && i < system_.ids.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        const double apart = length(real(world_.position(ids_[i])) - real(world_.position(ids_[k])));
+        const double apart = length(real(world_.position(system_.ids[i])) - real(world_.position(system_.ids[k])));
         const double into = repel - apart, beyond = std::min(apart - start, reach);
         if (into > 0) sum += to_double(cohesion_.repel_force) * into * into / (2 * repel);
         if (beyond > 0) sum += to_double(cohesion_.attract_force) * beyond * beyond / (2 * reach);
@@ -82,41 +73,38 @@ template <class S> class RandomParticleWorld {
   }
   ParticleSettings<S> settings(std::uint64_t seed) {
     constexpr int kRates[] = {20, 30, 60, 120}, kSubsteps[] = {1, 2, 4, 8, 16};
-    constexpr Integrator kIntegrators[] = {Integrator::semi_implicit_euler, Integrator::velocity_verlet,
-                                           Integrator::rk4, Integrator::implicit_euler};
-    ParticleSettings<S> s = at_rate<S>(0, kRates[chance_.below(4)], kSubsteps[chance_.below(5)]);
-    s.integrator = kIntegrators[chance_.below(4)];
-    s.solver = chance_.one_in(2) ? ParticleSolver::soft_step : ParticleSolver::worst_first;
-    s.stepping =
-        s.solver == ParticleSolver::worst_first && chance_.one_in(2) ? Stepping::time_division : Stepping::fixed;
+    const int substeps = kSubsteps[chance_.below(5)];
+    ParticleSettings<S> s = at_rate<S>(0, kRates[chance_.below(4)], substeps);
+    draw_methods(chance_, s);
     if (seed % kFamilies != kCrowd && !chance_.one_in(4)) gravity_ = -10;
     s.gravity = vec<S>(0, gravity_, 0);
     h_ = 1.0 / (s.hz * s.substeps);
-    text_ << "world " << seed << ": " << kIntegratorNames[static_cast<int>(s.integrator)] << " "
-          << kParticleSolverNames[static_cast<int>(s.solver)] << " " << kSteppingNames[static_cast<int>(s.stepping)]
-          << " " << s.hz << " x " << s.substeps;
+    text_ << "world " << seed << ": ";
+    tell_methods(text_, s);
+    text_ << " " << s.hz << " x " << s.substeps;
     return s;
   }
   ParticleMaterial<S> material(bool collides) {
     const double e = chance_.one_in(3) ? 1 : chance_.one_in(3) ? 0 : chance_.in(0, 1);
-    return grain_of<S>(chance_.in(0.05, 0.2), e, chance_.one_in(2) ? 0 : chance_.in(0, 1), collides);
+    const double friction = chance_.one_in(2) ? 0 : chance_.in(0, 1);
+    return grain_of<S>(chance_.in(0.05, 0.2), e, friction, collides);
   }
   void add(D3 at, D3 v, bool pinned = false) {
     ParticleDefinition<S> d = point<S>(at, v, chance_.one_in(2) ? 1 : chance_.in(0.5, 4), material_);
     d.pinned = pinned;
-    ids_.push_back(world_.create(d));
-    EXPECT_TRUE(ids_.back());
-    masses_.push_back(pinned ? 0 : to_double(d.mass));
+    system_.ids.push_back(world_.create(d));
+    EXPECT_TRUE(system_.ids.back());
+    system_.masses.push_back(pinned ? 0 : to_double(d.mass));
     strain_.push_back(0);
   }
-  double inverse(std::size_t i) const { return masses_[i] > 0 ? 1 / masses_[i] : 0; }
+  double inverse(std::size_t i) const { return system_.masses[i] > 0 ? 1 / system_.masses[i] : 0; }
   /// Between two, or from one to an anchor; with what a particle still bears.
   void add_spring(SpringType type, std::size_t a, std::size_t b, D3 anchor, double rest) {
     Spring<S> s;
     s.type = type;
-    s.a = ids_[a];
+    s.a = system_.ids[a];
     const bool joins = b != a;
-    if (joins) s.b = ids_[b];
+    if (joins) s.b = system_.ids[b];
     else s.anchor = vec<S>(anchor);
     const double mass = inverse(a) + (joins ? inverse(b) : 0);
     if (mass == 0) return;
@@ -135,7 +123,7 @@ template <class S> class RandomParticleWorld {
     }
     if (chance_.one_in(4)) s.damping = num<S>(std::min(chance_.in(0, 5), 0.05 / (h_ * mass)));
     EXPECT_TRUE(world_.add(s));
-    springs_.push_back(s);
+    system_.springs.push_back(s);
   }
   SpringType kind() { return static_cast<SpringType>(chance_.below(3)); }
 
@@ -144,23 +132,26 @@ template <class S> class RandomParticleWorld {
     const auto count = 2 + chance_.below(9);
     for (std::uint32_t i = 0; i < count; ++i) {
       const D3 at = D3{0.8 * (i % 2) - 0.4, 0.4 + 0.8 * (i / 4), 0.8 * (i / 2 % 2) - 0.4} + chance_.point(0.15);
-      add(at, chance_.point(3), i > 0 && chance_.one_in(12));
-      if (masses_.back() == 0) world_.set_motion(ids_.back(), world_.position(ids_.back()), vec<S>(0, 0, 0));
+      const bool pinned = i > 0 && chance_.one_in(12);
+      add(at, chance_.point(3), pinned);
+      if (system_.masses.back() == 0)
+        world_.set_motion(system_.ids.back(), world_.position(system_.ids.back()), vec<S>(0, 0, 0));
     }
     const auto joints = chance_.below(2 * count);
     for (std::uint32_t i = 0; i < joints; ++i) {
       const std::size_t a = chance_.below(count), b = chance_.below(count);
-      const D3 from = real(world_.position(ids_[a])), anchor = from + chance_.point(1);
-      const double apart = length(from - (b == a ? anchor : real(world_.position(ids_[b]))));
+      const D3 from = real(world_.position(system_.ids[a])), anchor = from + chance_.point(1);
+      const double apart = length(from - (b == a ? anchor : real(world_.position(system_.ids[b]))));
       if (!chance_.one_in(3)) {
-        add_spring(kind(), a, b, anchor, chance_.one_in(2) ? apart : chance_.in(0, 1.5));
+        const double rest = chance_.one_in(2) ? apart : chance_.in(0, 1.5);
+        add_spring(kind(), a, b, anchor, rest);
         continue;
       }
       if (apart < 0.1) continue;
       Link<S> link;
       link.type = chance_.one_in(2) ? LinkType::rod : LinkType::cable;
-      link.a = ids_[a];
-      if (b != a) link.b = ids_[b];
+      link.a = system_.ids[a];
+      if (b != a) link.b = system_.ids[b];
       else link.anchor = vec<S>(anchor);
       link.length = num<S>(link.type == LinkType::rod ? apart : apart * chance_.in(1, 1.5));
       link.restitution = num<S>(chance_.one_in(2) ? 0 : chance_.in(0, 1));
@@ -190,10 +181,11 @@ template <class S> class RandomParticleWorld {
     world_.add(plane<S>({0, 1, 0}, 0));
     const auto count = 1 + chance_.below(3);
     for (std::uint32_t i = 0; i < count; ++i) {
-      add({1.0 * i, radius_ + (chance_.one_in(2) ? 0 : chance_.in(0, 0.5)), 0},
-          chance_.one_in(2) ? D3{0, 0, 0} : chance_.point(3));
+      const D3 v = chance_.one_in(2) ? D3{0, 0, 0} : chance_.point(3);
+      add({1.0 * i, radius_ + (chance_.one_in(2) ? 0 : chance_.in(0, 0.5)), 0}, v);
       const D3 under = {1.0 * i, -chance_.in(0.05, 1), 0};
-      add_spring(kind(), i, i, under, chance_.one_in(2) ? 0 : chance_.in(0, 0.5));
+      const double rest = chance_.one_in(2) ? 0 : chance_.in(0, 0.5);
+      add_spring(kind(), i, i, under, rest);
     }
   }
   void crowd() {
@@ -213,14 +205,15 @@ template <class S> class RandomParticleWorld {
     const double speed = chance_.one_in(3) ? 0 : chance_.in(0, 2);
     for (std::uint32_t i = 0; i < count; ++i) {
       const D3 corner = D3{1.0 * (i % 2), 1.0 * (i / 4), 1.0 * (i / 2 % 2)} * pitch;
-      add(corner + D3{0, floor ? radius_ + astray : 0, 0} + chance_.point(astray), chance_.point(speed));
+      const D3 v = chance_.point(speed);
+      add(corner + D3{0, floor ? radius_ + astray : 0, 0} + chance_.point(astray), v);
     }
     add_cohesion(collides && world_.settings().solver == ParticleSolver::worst_first ? 2 * radius_ : 0);
   }
   /// Attraction begins at `least` or farther. Stiffness is as if all were near each other, and each the lightest.
   void add_cohesion(double least) {
-    const double lightest = *std::min_element(masses_.begin(), masses_.end());
-    const double most = lightest / (2 * h_ * h_ * static_cast<double>(masses_.size() - 1));  // [N/m]
+    const double lightest = *std::min_element(system_.masses.begin(), system_.masses.end());
+    const double most = lightest / (2 * h_ * h_ * static_cast<double>(system_.masses.size() - 1));  // [N/m]
     const double repel = chance_.in(0.1, 0.5), start = repel + (chance_.one_in(2) ? 0 : chance_.in(0, 0.3));
     const double reach = chance_.one_in(6) ? 0 : chance_.in(0.1, 0.6);
     cohesion_.material = material_;
@@ -239,10 +232,9 @@ template <class S> class RandomParticleWorld {
   double h_ = 0, gravity_ = 0, radius_ = 0, start_ = 0;
   ParticleWorld<S> world_;
   ParticleMaterialId material_;
-  std::vector<ParticleId> ids_;
-  std::vector<double> masses_, strain_;
-  std::vector<Spring<S>> springs_;
-  Cohesion<S> cohesion_;  // without a material: none
+  ParticleSystem<S> system_;
+  std::vector<double> strain_;  // [1] of each particle: k h^2 (1/m_a + 1/m_b) of its springs
+  Cohesion<S> cohesion_;        // without a material: none
   int links_ = 0;
 };
 

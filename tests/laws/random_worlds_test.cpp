@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 
+#include "random/asked.hpp"
 #include "random/world.hpp"
 
 namespace isostep::test {
@@ -52,13 +52,12 @@ template <class S> WorldFindings try_world(std::uint64_t seed, SolverName solver
 template <class S> class RandomWorldLaws : public ::testing::Test {
  protected:
   static void try_solver(SolverName solver) {
-    const char* asked = std::getenv("ISOSTEP_RANDOM_WORLDS");
-    const int count = asked == nullptr ? kSample : std::atoi(asked);
+    const int all = static_cast<int>(asked("ISOSTEP_RANDOM_WORLDS", 0)), count = all > 0 ? all : kSample;
     std::ostringstream lost;
     std::uint32_t joints = 0, contacts = 0;
     int found = 0;
     for (int seed = 0; seed < count; ++seed) {
-      if (std::is_same_v<S, Q16_16> && asked == nullptr && leaves_the_range(seed)) continue;
+      if (std::is_same_v<S, Q16_16> && all == 0 && leaves_the_range(seed)) continue;
       const WorldFindings f = try_world<S>(static_cast<std::uint64_t>(seed), solver, kFrames);
       joints += f.joints;
       contacts += f.contacts;

@@ -4,15 +4,12 @@
 
 #include "laws/single_joints.hpp"
 
+#include "random/asked.hpp"
+
 namespace isostep::test {
 namespace {
 
 constexpr int kTogether = 25;  // in one world
-
-int asked_for() {
-  const char* asked = std::getenv("ISOSTEP_SINGLE_JOINTS");
-  return asked == nullptr ? 0 : std::atoi(asked);
-}
 
 template <class S> class SingleJointLaws : public ::testing::Test {
  protected:
@@ -27,17 +24,17 @@ template <class S> class SingleJointLaws : public ::testing::Test {
   /// Every kind under every setting. A sample draws other joints for each, and ends sooner where steps are dear.
   static JointFindings try_all(std::initializer_list<JointKind> kinds) {
     constexpr int kSubsteps[] = {1, 4, 8, 32, 64};
-    const int asked = asked_for();
+    const int all_joints = static_cast<int>(asked("ISOSTEP_SINGLE_JOINTS", 0));
     JointFindings all;
     std::uint64_t first = 0;
     for (const SolverName solver : {SolverName::soft_step, SolverName::pgs}) {
       for (const int substeps : kSubsteps) {
         JointFindings here;
         for (const JointKind kind : kinds) {
-          here += asked > 0 ? try_kind(kind, {solver, substeps, 600}, 0, asked)
-                            : try_kind(kind, {solver, substeps, substeps > 8 ? 120 : 360}, first, 8);
+          here += all_joints > 0 ? try_kind(kind, {solver, substeps, 600}, 0, all_joints)
+                                 : try_kind(kind, {solver, substeps, substeps > 8 ? 120 : 360}, first, 8);
         }
-        if (asked > 0) report(solver, substeps, here);
+        if (all_joints > 0) report(solver, substeps, here);
         all += here;
         first += 8;
       }

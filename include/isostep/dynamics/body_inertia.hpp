@@ -19,7 +19,7 @@ template <class S> ISO_INLINE Mat3<Unit<S>> world_axes(Quat<Unit<S>> orientation
 /// Whether free turning changes its spin. What may not turn about each axis is held by what locks it: a change of the
 /// free body's spin, cut down to the free axes, would drive it like a motor.
 template <class S> ISO_INLINE bool turns_freely(const BodyProperties<S>& body) {
-  return (body.flags & (body_flag::kSpins | 7u * body_flag::kLockAngularX)) == body_flag::kSpins;
+  return (body.flags & (body_flag::kSpins | body_flag::kAngularLocks)) == body_flag::kSpins;
 }
 
 /// Mass times inverse inertia in the world's axes [1/m^2]. A locked axis gives whatever holds its spin at zero: what
@@ -27,7 +27,7 @@ template <class S> ISO_INLINE bool turns_freely(const BodyProperties<S>& body) {
 template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
   Mat3<S> kappa =
       (body.flags & body_flag::kSpins) != 0 ? rotate_diagonal(axes, body.kappa) : Mat3<S>::diagonal(body.kappa);
-  if ((body.flags & (7u * body_flag::kLockAngularX)) == 0) return kappa;
+  if ((body.flags & body_flag::kAngularLocks) == 0) return kappa;
   for (int axis = 0; axis < 3; ++axis) {
     if ((body.flags & (body_flag::kLockAngularX << axis)) == 0) continue;
     const Vec3<S> held = kappa.rows[axis];

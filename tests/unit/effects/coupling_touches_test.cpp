@@ -1,4 +1,4 @@
-// Which touches particles are told of, and how fast they part: ways round a body, turned shapes, bounces in an overlap.
+// Touches between bodies and particles: which ones the particles' step gets, and the speed with which they part.
 // SPDX-License-Identifier: MIT
 #include "unit/effects/coupled.hpp"
 

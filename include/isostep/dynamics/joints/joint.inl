@@ -22,8 +22,8 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
 /// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
 /// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
 /// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second
-/// order. An arm that turns by more than a sixteenth of a radian in the sub-step counts as straight: light links of a
-/// rope under load whip so fast, and what bends them would drive them.
+/// order. An arm that turns by more than a sixteenth of a radian in the sub-step, half of what spin_to_follow() allows,
+/// counts as straight: light links of a rope under load whip so fast, and what bends them would drive them.
 template <class S>
 ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> spin, Step<S> h, Velocity<S> fastest) {
   using V = Velocity<S>;

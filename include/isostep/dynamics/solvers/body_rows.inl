@@ -80,19 +80,19 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       const S keep = S(1) / (S(1) + body.angular_damping * h);
       row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
     }
-    if ((body.flags & body_flag::kSpins) != 0) {
-      const Mat3<Unit<S>> axes = detail::world_axes(input.states[i].orientation, body);
-      if (detail::turns_freely(body)) {
-        Gyro& gyro = gyro_[i];
-        const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
-        row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
-      }
+    if ((body.flags & body_flag::kSpins) == 0) {
       detail::hold_locks(body.flags, row);
-      const V spin = max_abs(row.angular);
-      if (rapid < spin && spin < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
       continue;
     }
+    const Mat3<Unit<S>> axes = detail::world_axes(input.states[i].orientation, body);
+    if (detail::turns_freely(body)) {
+      Gyro& gyro = gyro_[i];
+      const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
+      row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
+    }
     detail::hold_locks(body.flags, row);
+    const V spin = max_abs(row.angular);
+    if (rapid < spin && spin < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
   }
 }
 
