@@ -33,7 +33,7 @@ inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the
 
 /// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass.
 template <class S> struct JointState {
-  std::uint32_t slot;               // of its id
+  std::uint32_t slot;         // of its id
   std::uint32_t pieces;       // DrivePiece of the drive, and, eight bits up, of the swing
   Vec3<Velocity<S>> point;    // [m/s] world, on b; distance: x along the joint
   Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the joint's radius
@@ -174,8 +174,9 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
 /// Adds to the impulses of all rows, as softly as asked, and to the bodies.
 template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
-/// Whether a drive is off its piece of the law.
-template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
+/// Whether a drive is off its piece of the law. Without `may_hold` only those count that hold a speed and should not:
+/// they let go, and the pass ends.
+template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax, bool may_hold);
 /// Then the pass begins again with the next pieces, from what it began with: a piece that was wrong may ask for
 /// impulses that are far from any that are right. Blocks have to couple anew.
 template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies);
@@ -193,27 +194,26 @@ template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
 
-#define ISO_JOINTS_OF(KEYWORD, S)                                                                             \
-  KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&, \
-                                         const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);    \
-  KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                         \
-  KEYWORD template void curve_joint<S>(JointConstraint<S>&, const JointStep<S>&);                             \
-  KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                  \
-  KEYWORD template void couple_blocks<S>(JointConstraint<S>&);                                                \
-  KEYWORD template void apply_impulses<S>(JointConstraint<S>&, const JointStep<S>&);                          \
-  KEYWORD template Vec3<Velocity<S>> right_side<S>(const JointConstraint<S>&, std::uint32_t,                  \
-                                                   const JointMotion<S>&, const JointStep<S>&, bool);         \
-  KEYWORD template void push_joint<S>(JointConstraint<S>&, const JointRows<S>&, Softness<S>,                  \
-                                      SolverBodies<S>&);                                                      \
-  KEYWORD template bool judge_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool);                      \
-  KEYWORD template JointStart<S> start_of<S>(const JointConstraint<S>&, const SolverBodies<S>&);              \
-  KEYWORD template void restart_joint<S>(JointConstraint<S>&, const JointStart<S>&, SolverBodies<S>&);        \
-  KEYWORD template void change_pieces<S>(JointConstraint<S>&, const JointStep<S>&);                           \
-  KEYWORD template void factor_joint<S>(JointConstraint<S>&);                                                 \
-  KEYWORD template JointRows<S> substitute_joint<S>(const JointConstraint<S>&, JointRows<S>);                 \
-  KEYWORD template void solve_joint<S>(JointConstraint<S>&, const JointStep<S>&, bool);                       \
-  KEYWORD template void store_joint<S>(const JointConstraint<S>&, JointState<S>&);                            \
-  KEYWORD template void warm_start_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&);             \
+#define ISO_JOINTS_OF(KEYWORD, S)                                                                                   \
+  KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&,       \
+                                         const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);          \
+  KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                               \
+  KEYWORD template void curve_joint<S>(JointConstraint<S>&, const JointStep<S>&);                                   \
+  KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                        \
+  KEYWORD template void couple_blocks<S>(JointConstraint<S>&);                                                      \
+  KEYWORD template void apply_impulses<S>(JointConstraint<S>&, const JointStep<S>&);                                \
+  KEYWORD template Vec3<Velocity<S>> right_side<S>(const JointConstraint<S>&, std::uint32_t, const JointMotion<S>&, \
+                                                   const JointStep<S>&, bool);                                      \
+  KEYWORD template void push_joint<S>(JointConstraint<S>&, const JointRows<S>&, Softness<S>, SolverBodies<S>&);     \
+  KEYWORD template bool judge_drives<S>(JointConstraint<S>&, const JointStep<S>&, bool, bool);                      \
+  KEYWORD template JointStart<S> start_of<S>(const JointConstraint<S>&, const SolverBodies<S>&);                    \
+  KEYWORD template void restart_joint<S>(JointConstraint<S>&, const JointStart<S>&, SolverBodies<S>&);              \
+  KEYWORD template void change_pieces<S>(JointConstraint<S>&, const JointStep<S>&);                                 \
+  KEYWORD template void factor_joint<S>(JointConstraint<S>&);                                                       \
+  KEYWORD template JointRows<S> substitute_joint<S>(const JointConstraint<S>&, JointRows<S>);                       \
+  KEYWORD template void solve_joint<S>(JointConstraint<S>&, const JointStep<S>&, bool);                             \
+  KEYWORD template void store_joint<S>(const JointConstraint<S>&, JointState<S>&);                                  \
+  KEYWORD template void warm_start_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&);                   \
   KEYWORD template void solve_joints<S>(std::span<JointConstraint<S>>, const JointStep<S>&, bool);
 #define ISO_EXTERN_JOINTS(S) ISO_JOINTS_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_JOINTS)

@@ -166,13 +166,15 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
   push.apply(joint, bodies);
 }
 
-template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax) {
+template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax, bool may_hold) {
   const JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
   const Velocity<S> most = detail::motor_limit(joint, step.h);
   bool changes = false;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     drive.next = detail::next_piece(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, relax), most);
+    const bool lets_go = detail::fixes_speed(drive.piece) && !detail::fixes_speed(drive.next);
+    if (!may_hold && !lets_go) drive.next = drive.piece;
     changes = changes || drive.next != drive.piece;
   }
   return changes;
@@ -194,8 +196,8 @@ template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep
   JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
-    if (drive.next == drive.piece) continue;
     drive.piece = drive.next;
+    // Of one that let go in an earlier round too: the restart has given it the impulse again with which it held.
     if (!detail::is_constant(drive, drive.piece)) continue;
     const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::motor_limit(joint, step.h));
     push(drive.row, joint.share, impulse - drive.impulse, m);

@@ -40,7 +40,7 @@ template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S
     if (joint.block_count > 1) right.angular = right_side(joint, 1, m, step, relax);
     const JointRows<S> change = substitute_joint(joint, right);
     push_joint(joint, change, soft, *step.bodies);
-    if (changes == detail::kMostPieceChanges || !judge_drives(joint, step, relax)) return;
+    if (!judge_drives(joint, step, relax, changes < detail::kMostPieceChanges)) return;
     restart_joint(joint, start, *step.bodies);
     change_pieces(joint, step);
     factor_joint(joint);

@@ -33,15 +33,15 @@ template <class S> struct JointDrive {
   S position;              // [m] an angle times the radius, or a length
   S lower, upper, target;  // [m]
   bool bounded_below, bounded_above, sprung, driven;
-  Velocity<S> push_speed;    // [m/s] with which it returns from beyond a limit
-  Velocity<S> speed;         // [m/s] of the motor
+  Velocity<S> push_speed;      // [m/s] with which it returns from beyond a limit
+  Velocity<S> speed;           // [m/s] of the motor
   S spring_root, spring_rate;  // [1] w of an effective mass of one; [1/s] speed asked for per metre
-  S spring;                  // [1] w; 0: no spring, or one too weak for the format to feel
-  Direction<S> spring_row;   // [1] x = 1 / sqrt(1 + w^2), y = w / sqrt(1 + w^2)
-  Velocity<S> spring_came;   // [m] since where the spring's force is taken
-  Velocity<S> spring_speed;  // [m/s] that the spring asks for where it was
-  Velocity<S> spring_push;   // [m/s] w times that
-  Velocity<S> impulse;       // [m/s] accumulated, of all that acts along the row
+  S spring;                    // [1] w; 0: no spring, or one too weak for the format to feel
+  Direction<S> spring_row;     // [1] x = 1 / sqrt(1 + w^2), y = w / sqrt(1 + w^2)
+  Velocity<S> spring_came;     // [m] since where the spring's force is taken
+  Velocity<S> spring_speed;    // [m/s] that the spring asks for where it was
+  Velocity<S> spring_push;     // [m/s] w times that
+  Velocity<S> impulse;         // [m/s] accumulated, of all that acts along the row
   DrivePiece piece, next;
 };
 
@@ -62,14 +62,14 @@ template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x
 template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.25);
 /// [rad] a sub-step: a spring of this frequency still keeps its energy, and sags by a sixteenth more than it should.
 template <class S> inline constexpr S kSpringLag = S(0.25);
-/// Refactorisations of a pass for drives that change their piece: an impact in a chain of stops takes two or three, and
-/// what is left over after four is a stop that holds for one pass too long or begins one too late; neither adds energy.
+/// Refactorisations of a pass in which drives change to any piece: an impact in a chain of stops takes two or three.
+/// Beyond, drives only let go of speeds that they hold against their law, each once at most. What is left then is a
+/// stop that begins a pass too late, which adds no energy; one that pulls would add any amount.
 inline constexpr int kMostPieceChanges = 4;
 
 /// Least speed away from a bound at `gap` >= 0: it may be reached within the sub-step, not passed. Beyond it the drive
 /// is pushed back, no faster than `push_speed`.
-template <class S>
-ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_speed, S rate, Step<S> h, S bias_rate) {
+template <class S> ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_speed, S rate, Step<S> h, S bias_rate) {
   using V = Velocity<S>;
   if (gap > S(0)) {
     const S most = Limits<S>::speed() * h;  // farther away than anything moves in a sub-step
@@ -79,8 +79,7 @@ ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_speed, S rate, Step<S
   return min(-scaled(bias_rate, convert<V>(deep)), push_speed);
 }
 
-template <class S>
-ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, S rate, Step<S> h, S bias_rate) {
+template <class S> ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, S rate, Step<S> h, S bias_rate) {
   using V = Velocity<S>;
   DriveBounds<S> bounds = {-DriveBounds<S>::far(), DriveBounds<S>::far()};
   if (drive.bounded_below) bounds.low = least_speed(drive.position - drive.lower, drive.push_speed, rate, h, bias_rate);
@@ -123,18 +122,17 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
                                  Velocity<S> most) {
   using V = Velocity<S>;
   const V slack = kPieceTolerance<S>;
-  const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
-    return motor_impulse(piece, most) + spring_impulse(drive, v);
-  };
+  const auto law = [&](DrivePiece piece, V v)
+                       ISO_INLINE_LAMBDA { return motor_impulse(piece, most) + spring_impulse(drive, v); };
   switch (drive.piece) {
     case DrivePiece::lower: {
-      const DrivePiece above = !drive.driven               ? DrivePiece::free
+      const DrivePiece above = !drive.driven              ? DrivePiece::free
                                : bounds.low < drive.speed ? DrivePiece::forwards
                                                           : DrivePiece::backwards;
       return drive.impulse < law(above, bounds.low) ? above : drive.piece;
     }
     case DrivePiece::upper: {
-      const DrivePiece below = !drive.driven                ? DrivePiece::free
+      const DrivePiece below = !drive.driven               ? DrivePiece::free
                                : drive.speed < bounds.high ? DrivePiece::backwards
                                                            : DrivePiece::forwards;
       return law(below, bounds.high) < drive.impulse ? below : drive.piece;

@@ -31,7 +31,7 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 ///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
 /// Drives:  rows of their joint's last block. While one is off its piece of the law (joint_drive.hpp) the pass begins
-///          again with a new factorisation, at most kMostPieceChanges times. A ball with limits counts two blocks.
+///          again with a new factorisation, see kMostPieceChanges. A ball with limits counts two blocks.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
 /// Batches: trees of ball joints without limits are solved by a TreeKernels, as many of one shape at once as it is
 ///          wide; all other joints, and trees that share a body with them, are one batch more. Batches write no body in
@@ -149,8 +149,8 @@ template <class S> class JointTrees {
   std::vector<Link> links_;
   std::vector<Elimination> eliminations_;  // of the trees that no kernel solves
   std::vector<std::uint32_t> driven_;      // their joints that have drives
-  std::vector<Vec3<Velocity<S>>> right_;  // right-hand sides, then answers
-  std::vector<JointStart<S>> starts_;     // of a pass, by the node of a joint's point
+  std::vector<Vec3<Velocity<S>>> right_;   // right-hand sides, then answers
+  std::vector<JointStart<S>> starts_;      // of a pass, by the node of a joint's point
 
   std::vector<std::uint32_t> rest_;         // joints that no kernel solves
   std::vector<std::uint8_t> odd_;           // of each set of bodies: no kernel solves its tree

@@ -137,13 +137,12 @@ void JointTrees<S>::solve_tree(const Elimination& tree, std::span<JointConstrain
   for (int changes = 0;; ++changes) {
     find_right_sides(tree, joints, step, relax);
     substitute(tree, joints, *step.bodies);
-    if (changes == detail::kMostPieceChanges) return;
     bool off = false;
-    for (const std::uint32_t j : driven) off = judge_drives(joints[j], step, relax) || off;
+    const bool may_hold = changes < detail::kMostPieceChanges;
+    for (const std::uint32_t j : driven) off = judge_drives(joints[j], step, relax, may_hold) || off;
     if (!off) return;
-    each_joint([&](JointConstraint<S>& joint, const JointStart<S>& start) {
-      restart_joint(joint, start, *step.bodies);
-    });
+    each_joint(
+        [&](JointConstraint<S>& joint, const JointStart<S>& start) { restart_joint(joint, start, *step.bodies); });
     for (const std::uint32_t j : driven) change_pieces(joints[j], step);
     factor(tree, joints, *step.bodies);
   }
