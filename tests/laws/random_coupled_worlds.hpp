@@ -56,8 +56,7 @@ template <class S> class RandomCoupledWorld {
     EXPECT_TRUE(coupling_.after_step(bodies_, particles_));
     const StepReport turned = bodies_.step();
     touches_ += coupling_.report().touches;
-    if (coupling_.report().refused > 0) return false;
-    return moved.stopped + moved.clamped_speed + moved.clamped_position + turned.stopped == 0;
+    return coupling_.report().refused == 0 && keeps_limits(moved) && turned.stopped == 0;
   }
   int steps(double seconds) const { return static_cast<int>(seconds * hz_); }
   double energy() const { return scenes::measure_energy(bodies_).total() + system_.energy(particles_); }
@@ -130,19 +129,16 @@ template <class S> class RandomCoupledWorld {
   std::size_t add(D3 at, D3 v, double mass, bool pinned = false) {
     ParticleDefinition<S> d = point<S>(at, pinned ? D3{0, 0, 0} : v, mass, material_);
     d.pinned = pinned;
-    system_.ids.push_back(particles_.create(d));
-    EXPECT_TRUE(system_.ids.back());
-    system_.masses.push_back(pinned ? 0 : to_double(d.mass));
+    system_.add(particles_, d);
     return system_.ids.size() - 1;
   }
-  double inverse(std::size_t i) const { return system_.masses[i] > 0 ? 1 / system_.masses[i] : 0; }
   /// `share` [1] of k h^2 (1/m_a + 1/m_b). At rest as it is made; b = a: to an anchor.
   void join(std::size_t a, std::size_t b, D3 anchor, double share, double damping) {
     Spring<S> s;
     s.a = system_.ids[a];
     if (b != a) s.b = system_.ids[b];
     else s.anchor = vec<S>(anchor);
-    const double mass = inverse(a) + (b != a ? inverse(b) : 0);
+    const double mass = system_.inverse_mass(a) + (b != a ? system_.inverse_mass(b) : 0);
     if (mass == 0) return;
     const D3 end = b != a ? real(particles_.position(system_.ids[b])) : real(s.anchor);
     s.stiffness = num<S>(std::min(share / (h_ * h_ * mass), 20000.0));

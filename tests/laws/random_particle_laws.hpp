@@ -24,12 +24,24 @@ template <class S> void tell_methods(std::ostream& out, const ParticleSettings<S
       << " " << kSteppingNames[static_cast<int>(s.stepping)];
 }
 
+/// Whether a step met no limit.
+inline bool keeps_limits(const ParticleReport& report) {
+  return report.stopped + report.clamped_speed + report.clamped_position == 0;
+}
+
 /// Particles with their masses [kg], 0 for pinned ones, and the springs between them.
 template <class S> struct ParticleSystem {
   std::vector<ParticleId> ids;
   std::vector<double> masses;
   std::vector<Spring<S>> springs;
 
+  void add(ParticleWorld<S>& w, const ParticleDefinition<S>& definition) {
+    ids.push_back(w.create(definition));
+    EXPECT_TRUE(ids.back());
+    masses.push_back(definition.pinned ? 0 : to_double(definition.mass));
+  }
+  /// [1/kg] of the particle that was added as the i-th.
+  double inverse_mass(std::size_t i) const { return masses[i] > 0 ? 1 / masses[i] : 0; }
   /// [J] of motion, of height above 0, and in springs.
   double energy(const ParticleWorld<S>& w) const {
     const double gravity = to_double(w.settings().gravity.y);

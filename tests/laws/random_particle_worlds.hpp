@@ -38,10 +38,7 @@ template <class S> class RandomParticleWorld {
   }
 
   /// False where a limit was met.
-  bool step() {
-    const ParticleReport moved = world_.step();
-    return moved.stopped + moved.clamped_speed + moved.clamped_position == 0;
-  }
+  bool step() { return keeps_limits(world_.step()); }
   int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
   double energy() const { return system_.energy(world_) + energy_of_cohesion(); }
   /// [J] what it had at first, counted from the floor and from springs at rest, and half of that: a method of first
@@ -92,12 +89,9 @@ template <class S> class RandomParticleWorld {
   void add(D3 at, D3 v, bool pinned = false) {
     ParticleDefinition<S> d = point<S>(at, v, chance_.one_in(2) ? 1 : chance_.in(0.5, 4), material_);
     d.pinned = pinned;
-    system_.ids.push_back(world_.create(d));
-    EXPECT_TRUE(system_.ids.back());
-    system_.masses.push_back(pinned ? 0 : to_double(d.mass));
+    system_.add(world_, d);
     strain_.push_back(0);
   }
-  double inverse(std::size_t i) const { return system_.masses[i] > 0 ? 1 / system_.masses[i] : 0; }
   /// Between two, or from one to an anchor; with what a particle still bears.
   void add_spring(SpringType type, std::size_t a, std::size_t b, D3 anchor, double rest) {
     Spring<S> s;
@@ -106,7 +100,7 @@ template <class S> class RandomParticleWorld {
     const bool joins = b != a;
     if (joins) s.b = system_.ids[b];
     else s.anchor = vec<S>(anchor);
-    const double mass = inverse(a) + (joins ? inverse(b) : 0);
+    const double mass = system_.inverse_mass(a) + (joins ? system_.inverse_mass(b) : 0);
     if (mass == 0) return;
     // A bungee that goes slack is no smooth force: what a method of first order errs there it does not give back.
     double part = type == SpringType::bungee ? chance_.in(0.005, 0.03) : chance_.in(0.01, 0.15);
