@@ -77,7 +77,7 @@ template <class S> class RandomWorldLaws : public ::testing::Test {
 
   /// Crowds of joints under load that Q16.16 does not hold: known, and not yet mended.
   static bool leaves_the_range(int seed) {
-    constexpr int kSeeds[] = {1, 3, 25, 55};
+    constexpr int kSeeds[] = {25};
     return std::find(std::begin(kSeeds), std::end(kSeeds), seed) != std::end(kSeeds);
   }
   /// [m] Joints that are solved one after another, or by the worst first, give way.

@@ -405,6 +405,21 @@ template <class L> void check_bounded_sums() {
   }
 }
 
+/// Any number, and its products with numbers that leave sums their room.
+template <class L> void check_headroom() {
+  using S = typename L::Scalar;
+  Random random{11};
+  const S factors[] = {S(1), S(-1), isostep::from_double<S>(0.5), isostep::resolution<S>(), isostep::highest<S>()};
+  for (int round = 0; round < kRounds; ++round) {
+    const auto x = Block<L>::sampled(random);
+    Block<L> y;
+    for (S& factor : y.lane) factor = factors[random.below(5)];
+    EXPECT_LANES(same_bits, isostep::with_headroom(x.load()), isostep::with_headroom(x.lane[i]));
+    EXPECT_LANES(same_bits, isostep::round_with_headroom<L>(product(x.load(), y.load())),
+                 isostep::round_with_headroom<S>(product(x.lane[i], y.lane[i])));
+  }
+}
+
 /// Any number; in every other round all lanes of one size, as a fast path may ask for, and about powers of two.
 template <class L> void check_reciprocals() {
   using S = typename L::Scalar;
@@ -445,8 +460,9 @@ template <class S, int W, class Isa> void check_usual_sums(Lanes<S, W, Isa>) {
 }
 TYPED_TEST_P(LanesTest, SumsOfProductsRoundOnce) { check_usual_sums(TypeParam::zero()); }
 TYPED_TEST_P(LanesTest, SumsAreHeldWithinABound) { check_bounded_sums<TypeParam>(); }
+TYPED_TEST_P(LanesTest, HeadroomIsHalfOfTheFormat) { check_headroom<TypeParam>(); }
 TYPED_TEST_P(LanesTest, ReciprocalsAnswerTheScalars) { check_reciprocals<TypeParam>(); }
-REGISTER_TYPED_TEST_SUITE_P(LanesTest, ReciprocalsAnswerTheScalars, SumsAreHeldWithinABound,
+REGISTER_TYPED_TEST_SUITE_P(LanesTest, ReciprocalsAnswerTheScalars, SumsAreHeldWithinABound, HeadroomIsHalfOfTheFormat,
                             ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
                             RootsQuotientsAndDirectionsAnswerTheScalars, TransposesGatherAndScatterRecords,
                             SumsOfProductsRoundOnce);

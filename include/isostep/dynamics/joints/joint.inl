@@ -138,7 +138,7 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
 template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies) {
   using V = Velocity<S>;
-  const V limit = convert<V>(Limits<S>::speed());
+  const V limit = most_joint_impulse<S>();
   const auto next = [&](V old, V full) {
     return clamp(old + scaled(soft.mass_scale, full) - scaled(soft.impulse_scale, old), -limit, limit);
   };
@@ -193,17 +193,17 @@ template <class S> void restart_joint(JointConstraint<S>& joint, const JointStar
 }
 
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step) {
-  JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
+  detail::JointPush<S> push;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     drive.piece = drive.next;
     // Of one that let go in an earlier round too: the restart has given it the impulse again with which it held.
     if (!detail::is_constant(drive, drive.piece)) continue;
     const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::motor_limit(joint, step.h));
-    push(drive.row, joint.share, impulse - drive.impulse, m);
+    push.add(drive.row, impulse - drive.impulse);
     drive.impulse = impulse;
   }
-  scatter(*step.bodies, joint.row_a, joint.row_b, m);
+  push.apply(joint, *step.bodies);
 }
 
 template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state) {

@@ -24,10 +24,10 @@ template <class S> void factor_joint(JointConstraint<S>& joint) {
 }
 
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right) {
-  if (joint.block_count < 2) return {saturated_times(joint.blocks[0].inverse, right.point), Vec3<Velocity<S>>::zero()};
-  const Vec3<Velocity<S>> angular = saturated_times(joint.blocks[1].inverse, right.angular);
-  const Vec3<Velocity<S>> point = saturated_times(joint.blocks[0].inverse, right.point - times(joint.down, angular));
-  return {point, angular - saturated_times(joint.up, point)};
+  if (joint.block_count < 2) return {impulses(joint.blocks[0].inverse, right.point), Vec3<Velocity<S>>::zero()};
+  const Vec3<Velocity<S>> angular = impulses(joint.blocks[1].inverse, right.angular);
+  const Vec3<Velocity<S>> point = impulses(joint.blocks[0].inverse, less_moved(right.point, joint.down, angular));
+  return {point, angular - impulses(joint.up, point)};
 }
 
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax) {

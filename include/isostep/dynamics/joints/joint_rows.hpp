@@ -5,6 +5,7 @@
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/softness.hpp"
+#include "isostep/scalar/headroom.hpp"
 
 namespace isostep {
 
@@ -72,17 +73,28 @@ template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
   const Sum most = widen<Sum>(convert<Velocity<S>>(Limits<S>::speed()));
   return round_to<Velocity<S>>(clamp(sum, -most, most));
 }
-template <class S, class V> ISO_INLINE Vec3<V> saturated_times(const Mat3<S>& m, Vec3<V> v) {
-  return {saturated<S>(dot_sum(m.rows[0], v)), saturated<S>(dot_sum(m.rows[1], v)),
-          saturated<S>(dot_sum(m.rows[2], v))};
+/// [m/s] No impulse of a joint is larger: four times the speed limit, an eighth of what Velocity<Q16_16> holds. Chains
+/// of stops hold themselves out straight like a beam, and the first of them bears all the others.
+template <class S> ISO_INLINE constexpr Velocity<S> most_joint_impulse() {
+  return convert<Velocity<S>>(Limits<S>::speed()) * Velocity<S>(4);
+}
+/// m v as impulses of a joint.
+template <class S, class V> ISO_INLINE Vec3<V> impulses(const Mat3<S>& m, Vec3<V> v) {
+  const auto held = [](auto sum) {
+    const auto most = widen<decltype(sum)>(most_joint_impulse<S>());
+    return round_to<V>(clamp(sum, -most, most));
+  };
+  return {held(dot_sum(m.rows[0], v)), held(dot_sum(m.rows[1], v)), held(dot_sum(m.rows[2], v))};
+}
+/// right - m v: what impulses leave of a right-hand side. Large impulses on long arms do not wrap.
+template <class S, class V> ISO_INLINE Vec3<V> less_moved(Vec3<V> right, const Mat3<S>& m, Vec3<V> v) {
+  return {with_headroom(right.x - round_with_headroom<V>(dot_sum(m.rows[0], v))),
+          with_headroom(right.y - round_with_headroom<V>(dot_sum(m.rows[1], v))),
+          with_headroom(right.z - round_with_headroom<V>(dot_sum(m.rows[2], v)))};
 }
 /// old + change within the speed limit.
 template <class S> ISO_INLINE Vec3<Velocity<S>> saturated_sum(Vec3<Velocity<S>> old, Vec3<Velocity<S>> change) {
   return held_within(old + change, convert<Velocity<S>>(Limits<S>::speed()));
-}
-/// m v at the precision of velocities.
-template <class S, class V> ISO_INLINE Vec3<V> times(const Mat3<S>& m, Vec3<V> v) {
-  return {round_to<V>(dot_sum(m.rows[0], v)), round_to<V>(dot_sum(m.rows[1], v)), round_to<V>(dot_sum(m.rows[2], v))};
 }
 
 template <class S>

@@ -22,7 +22,7 @@ template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, b
                                   ? scaled(block.rows[0].linear, block.impulse.x + of_drive)
                                   : block.impulse;
   const S share = on_a ? -joint.share.a : joint.share.b;
-  const S along = share * round_to<S>(dot_sum(arm, f));  // [m^2/s]
+  const S along = share * saturate_to<S>(dot_sum(arm, f));  // [m^2/s]
   if (!(along > S(0))) return {Vec3<Unit<S>>::zero(), S(0)};
   const Direction<S> axis = direction_of(arm.x, arm.y, arm.z);
   return {{axis.x, axis.y, axis.z}, along * h};

@@ -154,17 +154,17 @@ void JointTrees<S>::substitute(const Elimination& tree, std::span<JointConstrain
   for (std::uint32_t i = tree.first_node; i < end; ++i) {
     const Node& node = nodes_[i];
     if (node.idle) continue;
-    right_[i] = saturated_times(joints[node.joint].blocks[node.block].inverse, right_[i]);
+    right_[i] = impulses(joints[node.joint].blocks[node.block].inverse, right_[i]);
     for (std::uint32_t l = 0; l < node.link_count; ++l) {
       const Link& link = links_[node.first_link + l];
-      if (!nodes_[link.to].idle) right_[link.to] -= times(link.down, right_[i]);
+      if (!nodes_[link.to].idle) right_[link.to] = less_moved(right_[link.to], link.down, right_[i]);
     }
   }
   for (std::uint32_t i = end; i-- > tree.first_node;) {
     const Node& node = nodes_[i];
     for (std::uint32_t l = 0; !node.idle && l < node.link_count; ++l) {
       const Link& link = links_[node.first_link + l];
-      if (!nodes_[link.to].idle) right_[i] -= saturated_times(link.up, right_[link.to]);
+      if (!nodes_[link.to].idle) right_[i] = less_moved(right_[i], link.up, right_[link.to]);
     }
     // A joint's angular block comes just before its point in the order of elimination, so just after it here.
     JointConstraint<S>& joint = joints[node.joint];

@@ -47,10 +47,16 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
     return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
   }
-  static ISO_INLINE Vec3<V> saturated_times(const Mat3<L>& a, Vec3<V> v) {
-    const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
+  /// As the functions of these names in joint_rows.hpp.
+  static ISO_INLINE Vec3<V> impulses(const Mat3<L>& a, Vec3<V> v) {
+    const Velocity<S> most = most_joint_impulse<S>();
     return {round_within<V>(dot_sum(a.rows[0], v), most), round_within<V>(dot_sum(a.rows[1], v), most),
             round_within<V>(dot_sum(a.rows[2], v), most)};
+  }
+  static ISO_INLINE Vec3<V> less_moved(Vec3<V> right, const Mat3<L>& a, Vec3<V> v) {
+    return {with_headroom(right.x - round_with_headroom<V>(dot_sum(a.rows[0], v))),
+            with_headroom(right.y - round_with_headroom<V>(dot_sum(a.rows[1], v))),
+            with_headroom(right.z - round_with_headroom<V>(dot_sum(a.rows[2], v)))};
   }
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
@@ -97,11 +103,11 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
   static ISO_INLINE void substitute_up(const TreeShape& shape, std::size_t j, Memory m) {
     const TreeJoint& of = shape.joints[j];
     Joint& joint = m.joints[j];
-    const Vec3<V> right = saturated_times(load(joint.inverse), load(joint.right));
+    const Vec3<V> right = impulses(load(joint.inverse), load(joint.right));
     store(right, joint.right);
     for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
       Joint& to = m.joints[shape.links[l].to];
-      store(load(to.right) - times(load(m.links[l].down), right), to.right);
+      store(less_moved(load(to.right), load(m.links[l].down), right), to.right);
     }
   }
   static ISO_INLINE void substitute_down(const TreeShape& shape, std::size_t j, Memory m) {
@@ -109,11 +115,11 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
     Joint& joint = m.joints[j];
     Vec3<V> change = load(joint.right);
     for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
-      change -= saturated_times(load(m.links[l].up), load(m.joints[shape.links[l].to].right));
+      change = less_moved(change, load(m.links[l].up), load(m.joints[shape.links[l].to].right));
     }
     store(change, joint.right);
     const Vec3<V> old = load(joint.impulse);
-    const Vec3<V> impulse = bounded(old + change, convert<Velocity<S>>(Limits<S>::speed()));
+    const Vec3<V> impulse = bounded(old + change, most_joint_impulse<S>());
     store(impulse, joint.impulse);
     push(of, m, joint, impulse - old);
   }

@@ -1,0 +1,34 @@
+// Numbers within half of what their format holds: two of them can be added without wrapping.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/scalar/scalar.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// 2^(n - 2) of n bits: a whole number in every format that has more than one bit before the point.
+template <class S> ISO_INLINE constexpr S half_of_range() {
+  return S::from_raw(static_cast<typename S::Raw>((highest<S>().raw() >> 1) + 1));
+}
+}  // namespace detail
+
+/// x, or the end of the half: of a fixed-point format. Floating point does not wrap.
+template <class S> ISO_INLINE constexpr S with_headroom(S x) {
+  if constexpr (kIsFixed<S>) {
+    return clamp(x, -detail::half_of_range<S>(), detail::half_of_range<S>());
+  } else {
+    return x;
+  }
+}
+/// An exact sum as such a number.
+template <class Out, class Sum> ISO_INLINE constexpr Out round_with_headroom(Sum sum) {
+  if constexpr (kIsFixed<Out>) {
+    const Sum half = widen<Sum>(detail::half_of_range<Out>());
+    return round_to<Out>(clamp(sum, -half, half));
+  } else {
+    return round_to<Out>(sum);
+  }
+}
+
+}  // namespace isostep
