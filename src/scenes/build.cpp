@@ -5,6 +5,7 @@
 #include <map>
 
 #include "isostep/geometry/validate.hpp"
+#include "shape_keys.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -29,20 +30,16 @@ template <class U> Quat<U> read(const Rotation& q, const std::string& place) {
   return {x, y, z, read<U>(q[3], place + "/3")};
 }
 
+/// See shape_of().
+template <class S> struct ReadSizes {
+  std::string place;
+  S size(const char* key, const Number& number) const { return read<S>(number, place + "/" + key); }
+  Vec3<S> sizes(const char* key, const Vector& v) const { return read<S>(v, place + "/" + key); }
+  Vec3<Unit<S>> direction(const char* key, const Vector& v) const { return read<Unit<S>>(v, place + "/" + key); }
+};
 template <class S> Primitive<S> primitive(const ScenePart& part, const std::string& place) {
-  switch (part.type) {
-    case ShapeType::sphere: return primitive_of(Sphere<S>{read<S>(part.radius, place + "/radius")});
-    case ShapeType::box: return primitive_of(Box<S>{read<S>(part.half_extents, place + "/half_extents")});
-    case ShapeType::capsule: {
-      const S radius = read<S>(part.radius, place + "/radius");
-      return primitive_of(Capsule<S>{radius, read<S>(part.half_height, place + "/half_height")});
-    }
-    case ShapeType::half_space: {
-      const Vec3<Unit<S>> normal = read<Unit<S>>(part.normal, place + "/normal");
-      return primitive_of(HalfSpace<S>{normal, read<S>(part.offset, place + "/offset")});
-    }
-  }
-  throw SceneError(place, "no such shape");
+  return visit_shape_type(part.type,
+                          [&](auto tag) { return primitive_of(shape_of<S>(tag, part, ReadSizes<S>{place})); });
 }
 
 template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, const std::string& place) {
@@ -52,8 +49,9 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
     const Primitive<S> shape = primitive<S>(body.parts[i], at);
     const Vec3<S> position = read<S>(body.parts[i].position, at + "/position");
     children.push_back({shape, {position, read<Unit<S>>(body.parts[i].orientation, at + "/orientation")}});
-    if (shape.type == ShapeType::half_space && body.type == BodyType::dynamic) {
-      throw SceneError(at, "a half_space is for static bodies");
+    if (!is_bounded(shape.type) && body.type == BodyType::dynamic) {
+      throw SceneError(at,
+                       std::string("a ") + kShapeNames[static_cast<std::size_t>(shape.type)] + " is for static bodies");
     }
     const ShapeFault fault = validate(std::span<const Child<S>>(&children.back(), 1));
     if (fault != ShapeFault::none) throw SceneError(at, describe(fault));
@@ -101,16 +99,19 @@ template <class S> BodyId create(World<S>& world, const BodyDefinition<S>& defin
   return id;
 }
 
+std::string text_of(const Number& number) { return ' ' + number.text(); }
+template <std::size_t N> std::string text_of(const std::array<Number, N>& numbers) {
+  std::string text;
+  for (const Number& number : numbers) text += text_of(number);
+  return text;
+}
 /// Bodies of equal parts share one shape.
 std::string key_of(const SceneBody& body) {
   std::string key;
   for (const ScenePart& part : body.parts) {
     key += std::to_string(static_cast<unsigned>(part.type));
-    for (const Vector* v : {&part.half_extents, &part.normal, &part.position}) {
-      for (const Number& number : *v) key += ' ' + number.text();
-    }
-    for (const Number& number : part.orientation) key += ' ' + number.text();
-    for (const Number* number : {&part.radius, &part.half_height, &part.offset}) key += ' ' + number->text();
+    visit_sizes(part, [&](const char*, const auto& size, SizeRule) { key += text_of(size); });
+    key += text_of(part.position) + text_of(part.orientation);
   }
   return key;
 }

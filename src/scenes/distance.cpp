@@ -9,6 +9,8 @@
 namespace isostep::scenes {
 namespace {
 
+static_assert(kShapeTypes == 4, "an oracle knows each shape by itself: see core_distance() and signed_distance()");
+
 using V = Vec3<double>;
 
 V column(const Mat3<double>& m, int i) { return m * V{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0}; }

@@ -4,6 +4,7 @@
 
 #include "object_reader.hpp"
 #include "scene_keys.hpp"
+#include "shape_keys.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -16,25 +17,12 @@ ScenePart read_part(const JsonNode& node, const std::string& place) {
   ObjectReader reader(node, place);
   ScenePart part;
   part.type = static_cast<ShapeType>(reader.choice("type", kShapeNames));
-  switch (part.type) {
-    case ShapeType::box:
-      reader.require("half_extents");
-      reader.vector("half_extents", part.half_extents);
-      break;
-    case ShapeType::capsule:
-      reader.require("half_height");
-      reader.positive("half_height", part.half_height);
-      [[fallthrough]];
-    case ShapeType::sphere:
-      reader.require("radius");
-      reader.positive("radius", part.radius);
-      break;
-    case ShapeType::half_space:
-      reader.require("normal");
-      reader.vector("normal", part.normal);
-      reader.number("offset", part.offset);
-      break;
-  }
+  visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
+    if (rule != SizeRule::optional) reader.require(key);
+    if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
+    else if (rule == SizeRule::positive) reader.positive(key, size);
+    else reader.number(key, size);
+  });
   reader.vector("position", part.position);
   reader.rotation("orientation", part.orientation);
   reader.finish();

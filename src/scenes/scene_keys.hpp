@@ -6,7 +6,6 @@
 
 namespace isostep::scenes {
 
-inline constexpr const char* kShapeNames[] = {"sphere", "box", "capsule", "half_space"};
 inline constexpr const char* kBodyNames[] = {"static", "kinematic", "dynamic"};
 inline constexpr const char* kJointNames[] = {"ball", "hinge", "fixed", "distance"};
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file.hpp"
 #include "scene_keys.hpp"
+#include "shape_keys.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -42,13 +43,7 @@ class ObjectWriter {
 std::string text_of(const ScenePart& part) {
   const ScenePart plain;
   ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
-  if (part.type == ShapeType::box) out.member("half_extents", part.half_extents);
-  if (part.type == ShapeType::sphere || part.type == ShapeType::capsule) out.member("radius", part.radius);
-  if (part.type == ShapeType::capsule) out.member("half_height", part.half_height);
-  if (part.type == ShapeType::half_space) {
-    out.member("normal", part.normal);
-    out.member("offset", part.offset);
-  }
+  visit_sizes(part, [&](const char* key, const auto& size, SizeRule) { out.member(key, size); });
   out.member("position", part.position, plain.position);
   out.member("orientation", part.orientation, plain.orientation);
   return out.text();

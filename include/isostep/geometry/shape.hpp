@@ -1,71 +1,73 @@
-// The closed set of shapes: what a user writes (Sphere, Box, ...) and the one record that the engine stores.
+// The closed set of shapes: all that their files say, asked of the one record that the engine stores.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <concepts>
 
-#include "isostep/math/aabb.hpp"
-#include "isostep/math/transform.hpp"
-#include "isostep/scalar/literal.hpp"
+#include "isostep/geometry/shapes/box.hpp"
+#include "isostep/geometry/shapes/capsule.hpp"
+#include "isostep/geometry/shapes/half_space.hpp"
+#include "isostep/geometry/shapes/sphere.hpp"
 
 namespace isostep {
 
-/// Centre at the local origin.
-template <class S = Literal> struct Sphere {
-  S radius;  // [m]
+/// What a shape's file says of it. Transforms lead from the shape's frame to the one that results are in.
+template <template <class> class Shape, class S>
+concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> literal, Transform<S> t, Vec3<S> v,
+                           S s) {
+  { Shape<S>::kType } -> std::convertible_to<ShapeType>;
+  { Shape<S>::kBounded } -> std::convertible_to<bool>;           // else for static bodies alone
+  { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;            // the inverse of primitive()
+  { Shape<S>::of(literal) } -> std::same_as<Shape<S>>;           // rounded once
+  { shape.primitive() } -> std::same_as<Primitive<S>>;           // unused fields are 0
+  { shape.fault() } -> std::same_as<ShapeFault>;                 // of finite numbers
+  { shape.normalised() } -> std::same_as<Shape<S>>;              // directions of unit length; bit for bit what was
+  { shape.bounds(t) } -> std::same_as<Aabb<S>>;                  // see bounds.hpp
+  { shape.mass(s) } -> std::same_as<S>;                          // [kg] of a density [kg/m^3]
+  { shape.kappa() } -> std::same_as<Vec3<S>>;                    // [1/m^2] see MassProperties, about its own axes
+  { shape.relative_volume(s) } -> std::same_as<Unit<S>>;         // [1] over (2 s)^3, s at least its half size [m]
+  { shape.relative_inertia(s) } -> std::same_as<Vec3<Unit<S>>>;  // [1] inertia over mass and s^2, about its own axes
+  { shape.cast(t, v, v) } -> std::same_as<detail::LocalHit<S>>;  // from origin v along translation v
+  { shape.closest(t, v) } -> std::same_as<ClosestPoint<S>>;      // see closest_point.hpp
 };
-template <class S = Literal> struct Box {
-  Vec3<S> half_extents;  // [m]
-};
-/// A segment along local y from -half_height to +half_height, thickened by radius.
-template <class S = Literal> struct Capsule {
-  S radius;       // [m]
-  S half_height;  // [m] of the cylinder alone
-};
-/// All points p with normal . p <= offset, in the body's frame. For static bodies.
-template <class S> struct HalfSpace {
-  Vec3<Unit<S>> normal;  // [1]
-  S offset;              // [m]
-};
-Sphere(Literal)->Sphere<Literal>;
-Box(Vec3<Literal>)->Box<Literal>;
-Capsule(Literal, Literal)->Capsule<Literal>;
+#define ISO_COMPLETE(name, Shape)                                        \
+  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member"); \
+  static_assert(Shape<float>::kType == ShapeType::name);
+ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
+#undef ISO_COMPLETE
 
-enum class ShapeType : std::uint32_t { sphere, box, capsule, half_space };
-inline constexpr int kShapeTypes = 4;
+/// A class of shapes, before a scalar is chosen.
+template <template <class> class Shape> struct ShapeClass { template <class S> using Of = Shape<S>; };
 
-/// One primitive as stored: a core box (a point for spheres, a segment along y for capsules) thickened by a radius, or
-/// a half-space. No padding: 2 x 4 bytes and eight numbers of one width.
-template <class S> struct Primitive {
-  ShapeType type;
-  std::uint32_t reserved;  // 0
-  Vec3<S> half;            // [m] half extents of the core
-  S radius;                // [m] added around the core
-  Vec3<Unit<S>> normal;    // [1] half-space only
-  S offset;                // [m] half-space only
-
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("reserved", self.reserved);
-    visit("half", self.half);
-    visit("radius", self.radius);
-    visit("normal", self.normal);
-    visit("offset", self.offset);
+/// visit(ShapeClass<Sphere>{}) for spheres, and so on. No world takes a record of a type that is not in the list.
+template <class Visit> ISO_INLINE constexpr decltype(auto) visit_shape_type(ShapeType type, Visit&& visit) {
+  switch (type) {
+#define ISO_CASE(name, Shape) \
+  case ShapeType::name: return visit(ShapeClass<Shape>{});
+    ISO_FOR_EACH_SHAPE(ISO_CASE)
+#undef ISO_CASE
   }
-};
+  ISO_TRAP();
+}
 
-template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Sphere<S>& sphere) {
-  return {ShapeType::sphere, 0, Vec3<S>::zero(), sphere.radius, Vec3<Unit<S>>::zero(), S(0)};
+/// visit(Sphere<S>), visit(Box<S>) ...: the shape that a valid record holds, as its file declares it.
+template <class S, class Visit>
+ISO_INLINE constexpr decltype(auto) visit_shape(const Primitive<S>& primitive, Visit&& visit) {
+  return visit_shape_type(primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> decltype(auto) {
+    return visit(decltype(tag)::template Of<S>::of(primitive));
+  });
 }
-template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Box<S>& box) {
-  return {ShapeType::box, 0, box.half_extents, S(0), Vec3<Unit<S>>::zero(), S(0)};
+
+/// Whether a dynamic body may have it.
+ISO_INLINE constexpr bool is_bounded(ShapeType type) {
+  return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kBounded; });
 }
-template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Capsule<S>& capsule) {
-  return {ShapeType::capsule, 0, {S(0), capsule.half_height, S(0)}, capsule.radius, Vec3<Unit<S>>::zero(), S(0)};
-}
-template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const HalfSpace<S>& half_space) {
-  return {ShapeType::half_space, 0, Vec3<S>::zero(), S(0), half_space.normal, half_space.offset};
-}
+
+/// As stored.
+#define ISO_PRIMITIVE_OF(name, Shape) \
+  template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Shape<S>& shape) { return shape.primitive(); }
+ISO_FOR_EACH_SHAPE(ISO_PRIMITIVE_OF)
+#undef ISO_PRIMITIVE_OF
 
 /// One part of a body's shape: a primitive at a pose in the body's frame.
 template <class S> struct Child {

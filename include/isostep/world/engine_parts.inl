@@ -22,9 +22,6 @@ template <class S> BodyFrame<S> WorldEngine<S>::frame_at(Location at) const {
   const Mat3<Unit<S>> turn = to_matrix(state.orientation);
   const Primitive<S>& first = children[0].primitive;
   const bool plain = children.size() == 1 && children[0].pose.is_identity();
-  const PartKind kind = first.type == ShapeType::sphere ? PartKind::sphere
-                        : first.type == ShapeType::box  ? PartKind::box
-                                                        : PartKind::other;
   return {first.half,
           first.radius,
           state.centre,
@@ -33,7 +30,7 @@ template <class S> BodyFrame<S> WorldEngine<S>::frame_at(Location at) const {
           static_cast<std::uint32_t>(children.size()),
           state.slot,
           at.set == Location::kAwake ? at.index + 1 : 0,
-          plain ? kind : PartKind::other,
+          plain ? part_kind_of(first.type) : PartKind::other,
           plain,
           (body.flags & body_flag::kSensor) != 0,
           at.is_frozen()};

@@ -97,15 +97,13 @@ template <class S> class World {
   /// calling thread. What `runner` points to outlives the world or the next call.
   void use_threads(const TaskRunner& runner);
 
-  // Shapes: shared by the bodies that name them.
-  ShapeId add_shape(const Sphere<S>& sphere);
-  ShapeId add_shape(const Box<S>& box);
-  ShapeId add_shape(const Capsule<S>& capsule);
-  ShapeId add_shape(const HalfSpace<S>& half_space);
-  // The same, written without a scalar: Box{{0.5, 0.5, 0.5}}.
-  ShapeId add_shape(const Sphere<Literal>& sphere);
-  ShapeId add_shape(const Box<Literal>& box);
-  ShapeId add_shape(const Capsule<Literal>& capsule);
+  // Shapes: shared by the bodies that name them. Any of the list, with the world's numbers, or without a scalar:
+  // Box{{0.5, 0.5, 0.5}}.
+#define ISO_ADD_SHAPE(name, Shape)          \
+  ShapeId add_shape(const Shape<S>& shape); \
+  ShapeId add_shape(const Shape<Literal>& shape);
+  ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
+#undef ISO_ADD_SHAPE
   ShapeId add_shape(std::span<const Child<S>> children);
   bool remove_shape(ShapeId shape);
 

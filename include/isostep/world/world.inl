@@ -109,24 +109,15 @@ template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& sh
 }
 }  // namespace detail
 
-template <class S> ShapeId World<S>::add_shape(const Sphere<S>& sphere) { return detail::add_one(*this, sphere); }
-template <class S> ShapeId World<S>::add_shape(const Box<S>& box) { return detail::add_one(*this, box); }
-template <class S> ShapeId World<S>::add_shape(const Capsule<S>& capsule) { return detail::add_one(*this, capsule); }
-template <class S> ShapeId World<S>::add_shape(const HalfSpace<S>& space) { return detail::add_one(*this, space); }
 // Literals become numbers here and not in the caller's code, which may round as it likes.
-template <class S> ShapeId World<S>::add_shape(const Sphere<Literal>& sphere) {
-  const FloatEnvironment environment;
-  return add_shape(Sphere<S>{from_literal<S>(sphere.radius)});
-}
-template <class S> ShapeId World<S>::add_shape(const Box<Literal>& box) {
-  const FloatEnvironment environment;
-  const Vec3<Literal>& h = box.half_extents;
-  return add_shape(Box<S>{{from_literal<S>(h.x), from_literal<S>(h.y), from_literal<S>(h.z)}});
-}
-template <class S> ShapeId World<S>::add_shape(const Capsule<Literal>& capsule) {
-  const FloatEnvironment environment;
-  return add_shape(Capsule<S>{from_literal<S>(capsule.radius), from_literal<S>(capsule.half_height)});
-}
+#define ISO_ADD_SHAPE(name, Shape)                                                                                \
+  template <class S> ShapeId World<S>::add_shape(const Shape<S>& shape) { return detail::add_one(*this, shape); } \
+  template <class S> ShapeId World<S>::add_shape(const Shape<Literal>& shape) {                                   \
+    const FloatEnvironment environment;                                                                           \
+    return detail::add_one(*this, Shape<S>::of(shape));                                                           \
+  }
+ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
+#undef ISO_ADD_SHAPE
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children) {
   return detail::run(*engine_, AddShape<S>{{children.begin(), children.end()}});
 }

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+static_assert(kShapeTypes == 4, "a judge knows each shape by itself: see volume_of() and gyration_of()");
+
 double volume_of(const ScenePart& part) {
   const Vec3<double> half = value(part.half_extents);
   const double r = value(part.radius);

@@ -4,38 +4,38 @@
 
 #include <cmath>
 
+#include "scenes/shape_keys.hpp"
+
 namespace isostep::tool::lab {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double volume_of(const scenes::Solid& solid) {
-  const double ball = 4 * kPi / 3 * std::pow(solid.radius, 3);
-  switch (solid.type) {
-    case ShapeType::sphere: return ball;
-    case ShapeType::box: return 8 * solid.half.x * solid.half.y * solid.half.z;
-    case ShapeType::capsule: return ball + kPi * solid.radius * solid.radius * 2 * solid.half.y;
-    case ShapeType::half_space: return 0;
-  }
-  return 0;
-}
-
 Mat3<double> axes_of(const scenes::Rotation& q) {
   return to_matrix(normalise(Quat<double>{value_of(q[0]), value_of(q[1]), value_of(q[2]), value_of(q[3])}));
 }
 
-scenes::Solid solid_of(const scenes::ScenePart& part, const Mat3<double>& axes, Vec3<double> origin) {
+/// See scenes::shape_of().
+struct ReadSizes {
+  double size(const char*, const scenes::Number& number) const { return value_of(number); }
+  Vec3<double> sizes(const char*, const scenes::Vector& v) const { return value_of(v); }
+  Vec3<double> direction(const char*, const scenes::Vector& v) const { return value_of(v); }
+};
+Primitive<double> primitive_in(const scenes::ScenePart& part) {
+  return visit_shape_type(part.type,
+                          [&](auto tag) { return scenes::shape_of<double>(tag, part, ReadSizes{}).primitive(); });
+}
+
+scenes::Solid solid_of(const scenes::ScenePart& part, const Primitive<double>& shape, const Mat3<double>& axes,
+                       Vec3<double> origin) {
   scenes::Solid solid = {};
-  solid.type = part.type;
+  solid.type = shape.type;
   solid.axes = axes * axes_of(part.orientation);
   solid.centre = origin + axes * value_of(part.position);
-  if (part.type == ShapeType::box) solid.half = value_of(part.half_extents);
-  if (part.type == ShapeType::capsule) solid.half = {0, value_of(part.half_height), 0};
-  if (part.type == ShapeType::sphere || part.type == ShapeType::capsule) solid.radius = value_of(part.radius);
-  if (part.type == ShapeType::half_space) {
-    solid.normal = solid.axes * value_of(part.normal);
-    solid.offset = value_of(part.offset) + dot(solid.normal, solid.centre);
-  }
+  solid.half = shape.half;
+  solid.radius = shape.radius;
+  solid.normal = solid.axes * shape.normal;
+  solid.offset = shape.offset + dot(solid.normal, solid.centre);
   return solid;
 }
 
@@ -56,8 +56,9 @@ BodyFacts facts_of(const scenes::SceneBody& body) {
   const Vec3<double> origin = value_of(body.position);
   Vec3<double> moment = {0, 0, 0};
   for (const scenes::ScenePart& part : body.parts) {
-    facts.solids.push_back(solid_of(part, axes, origin));
-    const double volume = volume_of(facts.solids.back());
+    const Primitive<double> shape = primitive_in(part);
+    facts.solids.push_back(solid_of(part, shape, axes, origin));
+    const double volume = visit_shape(shape, [](const auto& solid) { return solid.mass(1.0); });
     facts.volume += volume;
     moment += facts.solids.back().centre * volume;
   }

@@ -156,7 +156,7 @@ class Planner {
         const Vec3<double> half = solid.axes.column(1) * solid.half.y;
         scenery = {false, {}, 0, solid.centre - half, solid.centre + half, solid.radius};
       } else {
-        refuse(body_named(i) + " is a fixed sphere");
+        refuse(body_named(i) + " is a fixed " + kShapeNames[static_cast<std::size_t>(solid.type)]);
       }
       plan_.scenery.push_back(scenery);
     }

@@ -14,7 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPointRoom = 2'000'000;  // [bytes] of all runs' contact points
-constexpr const char* kShapeNames[] = {"sphere", "box", "capsule", "half_space"};
 constexpr const char* kTypeNames[] = {"fixed", "kinematic", "dynamic"};
 
 /// To the fifth digit: what is drawn needs no more.

@@ -14,6 +14,9 @@ namespace isostep {
 
 /// What a pair's kernel depends on.
 enum class PartKind : std::uint32_t { sphere, box, other };
+ISO_INLINE constexpr PartKind part_kind_of(ShapeType type) {
+  return type == ShapeType::sphere ? PartKind::sphere : type == ShapeType::box ? PartKind::box : PartKind::other;
+}
 
 /// What the narrow phase asks of a body. Lanes read the numbers in runs of four and eight.
 template <class S> struct BodyFrame {

@@ -7,12 +7,6 @@
 
 namespace isostep {
 
-template <class S> struct ClosestPoint {
-  Vec3<S> point;         // [m] on the surface, world frame
-  S distance;            // [m] negative inside
-  Vec3<Unit<S>> normal;  // [1] outward at `point`, world frame: the query is point + distance normal
-};
-
 /// Closest surface point to `query` [m], world frame, from outside or inside.
 /// Error:  fixed: point and distance within 4 raw units; float, double: 4 ulp of the largest coordinate. The normal is
 ///         as good as that error over the distance to the core (centre, segment or box).

@@ -1,0 +1,61 @@
+// The table of pairs of shapes: which function finds the contact points of which two.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/box_box.hpp"
+#include "isostep/collision/narrowphase/box_capsule.hpp"
+#include "isostep/collision/narrowphase/capsule_pairs.hpp"
+#include "isostep/collision/narrowphase/half_space_pairs.hpp"
+#include "isostep/collision/narrowphase/sphere_pairs.hpp"
+
+namespace isostep::detail {
+
+/// As collide(), for shapes whose types ascend.
+template <class S>
+using CollideShapes = void (*)(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                               const Transform<S>& tb, S margin, Manifold<S>& out);
+
+/// Of pairs that never meet: both are for static bodies alone.
+template <class S>
+void collide_never(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, const Transform<S>&, S,
+                   Manifold<S>& out) {
+  out.clear();
+}
+
+/// by_type[a][b], a <= b.
+template <class S> struct ShapePairs {
+  CollideShapes<S> by_type[kShapeTypes][kShapeTypes] = {};
+
+  constexpr ShapePairs() {
+    using enum ShapeType;
+    add(sphere, sphere, collide_sphere_sphere<S>);
+    add(sphere, box, collide_sphere_box<S>);
+    add(sphere, capsule, collide_sphere_capsule<S>);
+    add(sphere, half_space, collide_sphere_half_space<S>);
+    add(box, box, collide_box_box<S>);
+    add(box, capsule, collide_box_capsule<S>);
+    add(box, half_space, collide_box_half_space<S>);
+    add(capsule, capsule, collide_capsule_capsule<S>);
+    add(capsule, half_space, collide_capsule_half_space<S>);
+    add(half_space, half_space, collide_never<S>);
+  }
+  ISO_INLINE constexpr CollideShapes<S> of(ShapeType a, ShapeType b) const {
+    return by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)];
+  }
+  ISO_INLINE constexpr bool is_complete() const {
+    for (int a = 0; a < kShapeTypes; ++a) {
+      for (int b = a; b < kShapeTypes; ++b) {
+        if (by_type[a][b] == nullptr) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  constexpr void add(ShapeType a, ShapeType b, CollideShapes<S> collide) {
+    by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)] = collide;
+  }
+};
+template <class S> inline constexpr ShapePairs<S> kShapePairs{};
+
+}  // namespace isostep::detail

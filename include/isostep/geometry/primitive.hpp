@@ -1,0 +1,35 @@
+// Primitive: the record in which the engine stores one shape of any type.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/shape_type.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+/// A core box (a point for spheres, a segment along y for capsules) thickened by a radius, or a half-space. No padding:
+/// 2 x 4 bytes and eight numbers of one width. Fields that the type does not use are 0.
+template <class S> struct Primitive {
+  ShapeType type;
+  std::uint32_t reserved;  // 0
+  Vec3<S> half;            // [m] half extents of the core
+  S radius;                // [m] added around the core
+  Vec3<Unit<S>> normal;    // [1] half-space only
+  S offset;                // [m] half-space only
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("type", self.type);
+    visit("reserved", self.reserved);
+    visit("half", self.half);
+    visit("radius", self.radius);
+    visit("normal", self.normal);
+    visit("offset", self.offset);
+  }
+
+  friend ISO_INLINE constexpr bool operator==(const Primitive& a, const Primitive& b) {
+    return a.type == b.type && a.reserved == b.reserved && a.half == b.half && a.radius == b.radius &&
+           a.normal == b.normal && a.offset == b.offset;
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,45 @@
+// The name of every way in which a shape can fail.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/scalar/platform.hpp"
+
+namespace isostep {
+
+enum class ShapeFault : std::uint32_t {
+  none,
+  no_children,           // an empty list
+  unknown_type,          // a number that names no shape
+  not_finite,            // NaN or infinity anywhere
+  unused_field_set,      // a field that the type has no use for is not zero, so equal shapes would not hash alike
+  size_not_positive,     // a radius, half extent or half height of zero or less
+  size_too_small,        // below Limits<S>::minimum_size()
+  size_too_large,        // above Limits<S>::extent()
+  offset_too_large,      // a half-space further from the body's origin than Limits<S>::position()
+  normal_not_unit,       // squared length off one by more than 1/64
+  orientation_not_unit,  // likewise
+  outside_extent         // a child reaches further from the body's origin than Limits<S>::extent(), along some axis
+};
+
+/// The fault in words, for messages.
+ISO_INLINE constexpr const char* describe(ShapeFault fault) {
+  switch (fault) {
+    case ShapeFault::none: return "no fault";
+    case ShapeFault::no_children: return "a shape has no children";
+    case ShapeFault::unknown_type: return "the type names no shape";
+    case ShapeFault::not_finite: return "a number is not finite";
+    case ShapeFault::unused_field_set: return "a field that the type does not use is not zero";
+    case ShapeFault::size_not_positive: return "a radius, half extent or half height is not positive";
+    case ShapeFault::size_too_small: return "a size is below the scalar's smallest";
+    case ShapeFault::size_too_large: return "a size is above the scalar's largest extent";
+    case ShapeFault::offset_too_large: return "a half-space's offset is above the scalar's largest position";
+    case ShapeFault::normal_not_unit: return "a normal is not of unit length";
+    case ShapeFault::orientation_not_unit: return "an orientation is not of unit length";
+    case ShapeFault::outside_extent: return "a child reaches beyond the scalar's largest extent";
+  }
+  return "unknown fault";
+}
+
+}  // namespace isostep

@@ -1,0 +1,109 @@
+// The box.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/shapes/shape_parts.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// 3 / (x^2 + y^2), with both sides in units of the longer.
+template <class S> ISO_INLINE S kappa_of_rectangle(S x, S y) {
+  using U = Unit<S>;
+  const S longer = max(x, y);
+  const U ratio = divide_to<U>(min(x, y), longer);
+  return quotient<S>(U(1.5), U(0.5) + U(0.5) * (ratio * ratio), longer);
+}
+
+/// Slabs, each mirrored so that the ray runs towards plus. The near face passed last is the one hit; ties go to the
+/// lowest axis.
+template <class S> ISO_INLINE LocalHit<S> cast_box(const LocalRay<S>& ray, Vec3<S> half) {
+  const Vec3<S> o = abs(ray.origin);
+  if (o.x <= half.x && o.y <= half.y && o.z <= half.z) return inside_hit<S>();
+  S entry = S(0);
+  S exit = ray.length;
+  int face = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Unit<S> u = abs(ray.direction[axis]);
+    if (u == Unit<S>(0)) {
+      if (o[axis] > half[axis]) return no_hit<S>();
+      continue;
+    }
+    const S at = ray.direction[axis] < Unit<S>(0) ? -ray.origin[axis] : ray.origin[axis];
+    const S near = divide_to<S>(-half[axis] - at, u);
+    exit = min(exit, divide_to<S>(half[axis] - at, u));
+    if (near > entry) {
+      entry = near;
+      face = axis;
+    }
+  }
+  if (entry > exit) return no_hit<S>();
+  Vec3<Unit<S>> normal = Vec3<Unit<S>>::zero();
+  normal.set(face, ray.direction[face] < Unit<S>(0) ? Unit<S>(1) : Unit<S>(-1));
+  return {LocalHit<S>::entered, entry / ray.length, normal};
+}
+}  // namespace detail
+
+/// Centre at the local origin, sides along the local axes.
+template <class S = Literal> struct Box {
+  static constexpr ShapeType kType = ShapeType::box;
+  static constexpr bool kBounded = true;
+
+  Vec3<S> half_extents;  // [m]
+
+  static ISO_INLINE constexpr Box of(const Primitive<S>& p) { return {p.half}; }
+  static ISO_INLINE constexpr Box of(const Box<Literal>& box) {
+    const Vec3<Literal>& h = box.half_extents;
+    return {{from_literal<S>(h.x), from_literal<S>(h.y), from_literal<S>(h.z)}};
+  }
+  ISO_INLINE constexpr Primitive<S> primitive() const {
+    return {kType, 0, half_extents, S(0), Vec3<Unit<S>>::zero(), S(0)};
+  }
+
+  ISO_INLINE constexpr ShapeFault fault() const {
+    ShapeFault fault = ShapeFault::none;
+    for (int axis = 0; axis < 3 && fault == ShapeFault::none; ++axis) fault = detail::fault_of_size(half_extents[axis]);
+    return fault;
+  }
+  ISO_INLINE constexpr Box normalised() const { return *this; }
+  ISO_INLINE constexpr Aabb<S> bounds(const Transform<S>& t) const {
+    const Vec3<Unit<S>>(&rows)[3] = t.rotation.rows;
+    const Vec3<S>& h = half_extents;
+    return Aabb<S>::around(t.position, {dot(abs(rows[0]), h), dot(abs(rows[1]), h), dot(abs(rows[2]), h)});
+  }
+
+  ISO_INLINE S mass(S density) const {
+    return detail::saturating_product<S>({density, S(8), half_extents.x, half_extents.y, half_extents.z});
+  }
+  ISO_INLINE Vec3<S> kappa() const {
+    const Vec3<S>& h = half_extents;
+    return {detail::kappa_of_rectangle(h.y, h.z), detail::kappa_of_rectangle(h.z, h.x),
+            detail::kappa_of_rectangle(h.x, h.y)};
+  }
+  ISO_INLINE Unit<S> relative_volume(S scale) const {
+    const Vec3<Unit<S>> h = relative_to(scale);
+    return h.x * h.y * h.z;
+  }
+  ISO_INLINE Vec3<Unit<S>> relative_inertia(S scale) const {
+    const Vec3<Unit<S>> h = relative_to(scale);
+    const Unit<S> third = Unit<S>(1.0 / 3);
+    return {third * (h.y * h.y + h.z * h.z), third * (h.z * h.z + h.x * h.x), third * (h.x * h.x + h.y * h.y)};
+  }
+
+  ISO_INLINE detail::LocalHit<S> cast(const Transform<S>& t, Vec3<S> origin, Vec3<S> translation) const {
+    return detail::cast_box(detail::LocalRay<S>::of(t, origin, translation), half_extents);
+  }
+  ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const {
+    return detail::closest_on_core(half_extents, S(0), t, query);
+  }
+
+ private:
+  ISO_INLINE Vec3<Unit<S>> relative_to(S scale) const {
+    using U = Unit<S>;
+    const Vec3<S>& h = half_extents;
+    return {divide_to<U>(h.x, scale), divide_to<U>(h.y, scale), divide_to<U>(h.z, scale)};
+  }
+};
+Box(Vec3<Literal>)->Box<Literal>;
+
+}  // namespace isostep

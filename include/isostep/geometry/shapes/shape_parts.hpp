@@ -1,0 +1,40 @@
+// What the files of shapes are made of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/closest.hpp"
+#include "isostep/geometry/limits.hpp"
+#include "isostep/geometry/mass_terms.hpp"
+#include "isostep/geometry/primitive.hpp"
+#include "isostep/geometry/ray.hpp"
+#include "isostep/geometry/shape_fault.hpp"
+#include "isostep/math/aabb.hpp"
+#include "isostep/scalar/literal.hpp"
+
+namespace isostep::detail {
+
+inline constexpr double kPi = 3.141592653589793;
+
+template <class S> ISO_INLINE constexpr ShapeFault fault_of_size(S size) {
+  if (!(size > S(0))) return ShapeFault::size_not_positive;
+  if (size < Limits<S>::minimum_size()) return ShapeFault::size_too_small;
+  if (size > Limits<S>::extent()) return ShapeFault::size_too_large;
+  return ShapeFault::none;
+}
+
+/// c^2; a component beyond 9/8 counts as that: enough to be refused, and four of them fit the sum.
+template <class U> ISO_INLINE Sum<U> bounded_square(U c) {
+  const U bounded = clamp(c, U(-1.125), U(1.125));
+  return product(bounded, bounded);
+}
+template <class U> ISO_INLINE Sum<U> squared_norm(U x, U y, U z, U w) {
+  return bounded_square(x) + bounded_square(y) + bounded_square(z) + bounded_square(w);
+}
+template <class U> ISO_INLINE bool nearly_unit(U x, U y, U z, U w) {
+  const Sum<U> norm = squared_norm(x, y, z, w);
+  return norm > product(U(1), U(1 - 1.0 / 64)) && norm < product(U(1), U(1 + 1.0 / 64));
+}
+/// As close to one as the format can say.
+template <class U> ISO_INLINE bool is_unit(U x, U y, U z, U w) { return round_to<U>(squared_norm(x, y, z, w)) == U(1); }
+
+}  // namespace isostep::detail

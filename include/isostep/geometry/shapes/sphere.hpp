@@ -1,0 +1,53 @@
+// The sphere.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/shapes/shape_parts.hpp"
+
+namespace isostep {
+
+/// Centre at the local origin.
+template <class S = Literal> struct Sphere {
+  static constexpr ShapeType kType = ShapeType::sphere;
+  static constexpr bool kBounded = true;
+
+  S radius;  // [m]
+
+  static ISO_INLINE constexpr Sphere of(const Primitive<S>& p) { return {p.radius}; }
+  static ISO_INLINE constexpr Sphere of(const Sphere<Literal>& s) { return {from_literal<S>(s.radius)}; }
+  ISO_INLINE constexpr Primitive<S> primitive() const {
+    return {kType, 0, Vec3<S>::zero(), radius, Vec3<Unit<S>>::zero(), S(0)};
+  }
+
+  ISO_INLINE constexpr ShapeFault fault() const { return detail::fault_of_size(radius); }
+  ISO_INLINE constexpr Sphere normalised() const { return *this; }
+  ISO_INLINE constexpr Aabb<S> bounds(const Transform<S>& t) const {
+    return Aabb<S>::around(t.position, {radius, radius, radius});
+  }
+
+  ISO_INLINE S mass(S density) const {
+    return detail::saturating_product<S>({density, S(4.188790204786391), radius, radius, radius});
+  }
+  ISO_INLINE Vec3<S> kappa() const {
+    const S kappa = S(2.5) / radius / radius;
+    return {kappa, kappa, kappa};
+  }
+  ISO_INLINE Unit<S> relative_volume(S scale) const {
+    const Unit<S> r = divide_to<Unit<S>>(radius, scale);
+    return Unit<S>(detail::kPi / 6) * r * r * r;
+  }
+  ISO_INLINE Vec3<Unit<S>> relative_inertia(S scale) const {
+    const Unit<S> r = divide_to<Unit<S>>(radius, scale), inertia = Unit<S>(0.4) * (r * r);
+    return {inertia, inertia, inertia};
+  }
+
+  ISO_INLINE detail::LocalHit<S> cast(const Transform<S>& t, Vec3<S> origin, Vec3<S> translation) const {
+    return detail::cast_sphere(detail::LocalRay<S>::of(t, origin, translation), Vec3<S>::zero(), radius);
+  }
+  ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const {
+    return detail::closest_on_core(Vec3<S>::zero(), radius, t, query);
+  }
+};
+Sphere(Literal)->Sphere<Literal>;
+
+}  // namespace isostep

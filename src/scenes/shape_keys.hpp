@@ -1,0 +1,47 @@
+// The sizes of each shape in a scene: their keys in files, and the engine's shape of them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene.hpp"
+
+namespace isostep::scenes {
+
+/// What a scene file must say of a size.
+enum class SizeRule { positive, required, optional };
+
+// visit_sizes: visit(key, size, rule) for every size of a part of that type; `part` may be const.
+
+template <class Part, class Visit> void visit_sizes(ShapeClass<Sphere>, Part& part, const Visit& visit) {
+  visit("radius", part.radius, SizeRule::positive);
+}
+template <class Part, class Visit> void visit_sizes(ShapeClass<Box>, Part& part, const Visit& visit) {
+  visit("half_extents", part.half_extents, SizeRule::required);
+}
+template <class Part, class Visit> void visit_sizes(ShapeClass<Capsule>, Part& part, const Visit& visit) {
+  visit("radius", part.radius, SizeRule::positive);
+  visit("half_height", part.half_height, SizeRule::positive);
+}
+template <class Part, class Visit> void visit_sizes(ShapeClass<HalfSpace>, Part& part, const Visit& visit) {
+  visit("normal", part.normal, SizeRule::required);
+  visit("offset", part.offset, SizeRule::optional);
+}
+template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
+  visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
+}
+
+// shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>.
+
+template <class S, class Read> Sphere<S> shape_of(ShapeClass<Sphere>, const ScenePart& part, const Read& read) {
+  return {read.size("radius", part.radius)};
+}
+template <class S, class Read> Box<S> shape_of(ShapeClass<Box>, const ScenePart& part, const Read& read) {
+  return {read.sizes("half_extents", part.half_extents)};
+}
+template <class S, class Read> Capsule<S> shape_of(ShapeClass<Capsule>, const ScenePart& part, const Read& read) {
+  return {read.size("radius", part.radius), read.size("half_height", part.half_height)};
+}
+template <class S, class Read> HalfSpace<S> shape_of(ShapeClass<HalfSpace>, const ScenePart& part, const Read& read) {
+  return {read.direction("normal", part.normal), read.size("offset", part.offset)};
+}
+
+}  // namespace isostep::scenes
