@@ -1,4 +1,4 @@
-// All differences of two world states, by name.
+// All differences of two states of worlds, by name.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,18 +15,6 @@
 namespace isostep::tool {
 
 namespace detail {
-/// Vectors, or arrays in pages.
-template <class Array> void diff_array(const PathPart& path, const Array& a, const Array& b, DiffReport& report) {
-  if (a.size() != b.size()) report.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
-    diff_value(PathPart{&path, nullptr, i}, a[i], b[i], report);
-}
-inline void diff_slots(const char* name, const SlotMap& a, const SlotMap& b, DiffReport& report) {
-  const PathPart path{nullptr, name, 0};
-  diff_value(PathPart{&path, "first_free", 0}, a.first_free(), b.first_free(), report);
-  diff_array(path, a.entries(), b.entries(), report);
-}
-
 /// Whose a row is, alike in every state: two slots, and the parts of their bodies. Rows ascend by it.
 struct RowKey {
   std::uint32_t slots[2] = {kNoSlot, kNoSlot}, parts[2] = {};
@@ -78,19 +66,20 @@ template <class Array> class RowPairs {
   const std::vector<RowKey>* b_;
 };
 
-/// The keys of an object's sections by their names, rows of properties by their states'.
-template <class Object> class SectionKeys {
+/// The keys of an object's rows by the names of their arrays, rows of properties by their states'.
+class RowKeys {
  public:
-  explicit SectionKeys(const Object& object) {
-    Object::sections(
-        [&](const char* name, const auto& rows) {
-          if constexpr (requires { key_of(rows[0]); }) {
-            std::vector<RowKey>& keys = all_[name];
-            for (const auto& row : rows) keys.push_back(key_of(row));
-          }
-        },
-        object);
+  template <class Rows> void operator()(const char* name, const Rows& rows) {
+    if constexpr (requires { key_of(rows[0]); }) {
+      std::vector<RowKey>& keys = all_[name];
+      for (const auto& row : rows) keys.push_back(key_of(row));
+    }
   }
+  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
+    arrays(*this, *value);
+  }
+  template <class List> void islands(const char*, const List&) {}
+
   const std::vector<RowKey>* find(const std::string& name) const {
     constexpr std::pair<const char*, const char*> kProperties[] = {
         {"properties", "bodies"}, {"fixed_properties", "fixed"}, {"joint_properties", "joints"}};
@@ -107,58 +96,95 @@ template <class Object> class SectionKeys {
   std::map<std::string, std::vector<RowKey>> all_;
 };
 
-/// Walks two objects' sections side by side.
-template <class Object>
-void diff_sections(const PathPart* outer, const Object& a, const Object& b, DiffReport& report) {
-  const SectionKeys<Object> keys_a(a), keys_b(b);
-  std::size_t index = 0;
-  Object::sections(
-      [&](const char* name, const auto& of_a) {
-        std::size_t other = 0;
-        Object::sections(
-            [&](const char*, const auto& of_b) {
-              if constexpr (std::is_same_v<decltype(of_a), decltype(of_b)>) {
-                if (other == index) {
-                  RowPairs<std::remove_cvref_t<decltype(of_a)>>(keys_a.find(name), keys_b.find(name))
-                      .diff(PathPart{outer, name, 0}, of_a, of_b, keys_a.has(name), report);
-                }
-              }
-              ++other;
-            },
-            b);
-        ++index;
-      },
-      a);
-}
-
-/// Of the island that has the body, or null.
-template <class S> const FrozenIsland<S>* island_of(const WorldState<S>& state, std::uint32_t slot) {
-  for (std::size_t i = 0; i < state.frozen.size(); ++i) {
-    const auto& bodies = state.frozen[i]->bodies.states;
-    if (!bodies.empty() && bodies.front().slot == slot) return state.frozen[i].get();
+/// What an object's visit tells, in its order.
+struct MemberList {
+  std::vector<const void*> members;
+  template <class T> void operator()(const char*, const T& member) { members.push_back(&member); }
+  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
+    arrays(*this, *value);
   }
-  return nullptr;
-}
+  template <class List> void islands(const char*, const List& list) { members.push_back(&list); }
+};
+
+/// Visits one object beside another of its type, whose members come in the same order: walk(visitor, object).
+class StateDiffer {
+ public:
+  template <class Object, class Walk>
+  StateDiffer(const PathPart* outer, const Walk& walk, const Object& a, const Object& b, DiffReport& report)
+      : outer_(outer), report_(report) {
+    walk(keys_a_, a);
+    walk(keys_b_, b);
+    walk(others_, b);
+    walk(*this, a);
+  }
+
+  template <class T> void operator()(const char* name, const T& a) {
+    const T& b = other(a);
+    const PathPart path{outer_, name, 0};
+    if constexpr (std::is_same_v<T, SlotMap>) {
+      slots(path, a, b);
+    } else if constexpr (requires { a.all(); }) {  // Registry
+      slots(PathPart{outer_, (std::string(name) + "_slots").c_str(), 0}, a.slots(), b.slots());
+      rows(path, name, a.all(), b.all());
+    } else if constexpr (requires { a.size(); }) {
+      rows(path, name, a, b);
+    } else {
+      diff_value(path, a, b, report_);
+    }
+  }
+  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
+    arrays(*this, *value);
+  }
+  /// Islands are the same by their first body.
+  template <class List> void islands(const char* name, const List& a) {
+    const List& b = other(a);
+    const PathPart path{outer_, name, 0};
+    count(path, a, b);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const PathPart item{&path, nullptr, i};
+      using Island = std::remove_cvref_t<decltype(*a[i])>;
+      const auto& bodies = a[i]->bodies.states;
+      const Island* const same = bodies.empty() ? nullptr : island_of(b, bodies.front().slot);
+      if (same == nullptr || same == a[i].get()) continue;
+      const auto walk = [](auto& visit, const Island& island) { Island::sections(visit, island); };
+      StateDiffer(&item, walk, *a[i], *same, report_);
+    }
+  }
+
+ private:
+  template <class T> const T& other(const T&) { return *static_cast<const T*>(others_.members[next_++]); }
+  template <class List> void count(const PathPart& path, const List& a, const List& b) {
+    if (a.size() != b.size()) report_.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
+  }
+  template <class Rows> void rows(const PathPart& path, const char* name, const Rows& a, const Rows& b) {
+    RowPairs<Rows>(keys_a_.find(name), keys_b_.find(name)).diff(path, a, b, keys_a_.has(name), report_);
+  }
+  void slots(const PathPart& path, const SlotMap& a, const SlotMap& b) {
+    diff_value(PathPart{&path, "first_free", 0}, a.first_free(), b.first_free(), report_);
+    RowPairs<SlotMap::Entries>(nullptr, nullptr).diff(path, a.entries(), b.entries(), false, report_);
+  }
+  /// Of the island that has the body, or null.
+  template <class List> static auto island_of(const List& list, std::uint32_t slot) -> decltype(list[0].get()) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto& bodies = list[i]->bodies.states;
+      if (!bodies.empty() && bodies.front().slot == slot) return list[i].get();
+    }
+    return nullptr;
+  }
+
+  const PathPart* outer_;
+  DiffReport& report_;
+  RowKeys keys_a_, keys_b_;
+  MemberList others_;
+  std::size_t next_ = 0;
+};
 }  // namespace detail
 
-/// In the order in which the root hash takes them; rows by whose they are, for others may be awake in each.
-template <class S> void diff_states(const WorldState<S>& a, const WorldState<S>& b, DiffReport& report) {
-  diff_value("settings", a.settings, b.settings, report);
-  diff_value("tick", a.tick, b.tick, report);
-  detail::diff_slots("body_slots", a.body_slots, b.body_slots, report);
-  detail::diff_slots("shape_slots", a.shape_slots, b.shape_slots, report);
-  detail::diff_slots("joint_slots", a.joint_slots, b.joint_slots, report);
-  detail::diff_sections(nullptr, a, b, report);
-  const PathPart frozen{nullptr, "frozen", 0};
-  if (a.frozen.size() != b.frozen.size()) {
-    report.add(PathPart{&frozen, "count", 0}, kLeafFormat<std::uint64_t>, a.frozen.size(), b.frozen.size());
-  }
-  for (std::size_t i = 0; i < a.frozen.size(); ++i) {
-    const PathPart island{&frozen, nullptr, i};
-    const auto& bodies = a.frozen[i]->bodies.states;
-    const FrozenIsland<S>* const other = bodies.empty() ? nullptr : detail::island_of(b, bodies.front().slot);
-    if (other != nullptr && other != a.frozen[i].get()) detail::diff_sections(&island, *a.frozen[i], *other, report);
-  }
+/// All differences of two states of one kind of world, in the order in which the root hash takes them; rows by whose
+/// they are, for others may be awake in each.
+template <class State> void diff_states(const State& a, const State& b, DiffReport& report) {
+  const auto walk = [](auto& visit, const State& state) { State::members(visit, state); };
+  detail::StateDiffer(nullptr, walk, a, b, report);
 }
 
 /// Whom an index of an awake array belongs to: "body slot 17", "body slots 3 and 9"; empty for other paths.

@@ -4,8 +4,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
-#include <type_traits>
 #include <utility>
 
 #include "isostep/particles/particle_engine.hpp"
@@ -13,21 +11,6 @@
 
 namespace isostep {
 namespace {
-
-/// As hash() takes them.
-template <class State> void visit_particle_state(const LeafVisitor& visit, State& state) {
-  visit("settings", state.settings);
-  visit("tick", state.tick);
-  walk_slots(visit, "particles", state.particles);
-  std::remove_const_t<State>::registries(
-      [&](const char* name, auto& registry) {
-        walk_slots(visit, (std::string(name) + "_slots").c_str(), std::as_const(registry).slots());
-        if constexpr (std::is_const_v<State>) visit(name, registry.all());
-        else visit(name, registry.change_all());
-      },
-      state);
-  std::remove_const_t<State>::sections(visit, state);
-}
 
 template <class T> void visit_axes(const LeafVisitor& visit, Axes<T>& axes) {
   visit("x", axes.x);
@@ -91,10 +74,8 @@ void ParticleEngine<S>::walk_leaves(void* self, LeafPart part, std::uint32_t sta
   const LeafVisitor visit(nullptr, sink, editor);
   if (part == LeafPart::scratch) {
     if (stage < kParticleStages) engine.visit_scratch(visit, static_cast<ParticleStage>(stage));
-  } else if (visit.edits()) {
-    visit_particle_state(visit, engine.state_);
   } else {
-    visit_particle_state(visit, std::as_const(engine.state_));
+    ParticleState<S>::members(StateLeaves(visit), engine.state_);
   }
 }
 

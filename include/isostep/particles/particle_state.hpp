@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/registry.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/cohesion.hpp"
 #include "isostep/particles/collider.hpp"
 #include "isostep/particles/force.hpp"
 #include "isostep/particles/link.hpp"
-#include "isostep/particles/registry.hpp"
 #include "isostep/particles/settings.hpp"
 #include "isostep/particles/spring.hpp"
 #include "isostep/particles/touch.hpp"
@@ -89,7 +89,7 @@ template <class S> struct ParticleState {
   std::vector<ParticleLifetime> lifetimes;
 
   /// visit("name", registry) in a fixed order.
-  template <class Visitor, class Self> static void registries(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE void registries(Visitor&& visit, Self&& self) {
     visit("materials", self.materials);
     visit("springs", self.springs);
     visit("forces", self.forces);
@@ -97,8 +97,12 @@ template <class S> struct ParticleState {
     visit("links", self.links);
     visit("colliders", self.colliders);
   }
-  /// visit("name", array) in a fixed order: those that every copy has for itself.
-  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
+  /// All of it, in the order of the hash and of the portable form: see state/members.hpp.
+  template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
+    visit("settings", self.settings);
+    visit("tick", self.tick);
+    visit("particles", self.particles);
+    registries(visit, self);
     visit("position.x", self.position.x);
     visit("position.y", self.position.y);
     visit("position.z", self.position.z);

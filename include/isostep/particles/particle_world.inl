@@ -246,10 +246,9 @@ template <class S> ParticleWorld<S>::Snapshot::Snapshot(Snapshot&& other) noexce
 template <class S> auto ParticleWorld<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
 template <class S> std::size_t ParticleWorld<S>::Snapshot::bytes() const {
   if (state_ == nullptr) return 0;  // moved from
-  std::size_t total = sizeof(ParticleState<S>);
-  ParticleState<S>::sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); },
-                             *state_);
-  return total + state_->particles.entries().size() * sizeof(SlotEntry);
+  detail::StateSize arrays;
+  ParticleState<S>::members(arrays, std::as_const(*state_));
+  return sizeof(ParticleState<S>) + arrays.value();
 }
 template <class S> void ParticleWorld<S>::save(Snapshot& to) const {
   if (to.state_ == nullptr) to.state_ = std::make_unique<ParticleState<S>>();  // moved from: as good as new

@@ -67,7 +67,7 @@ class StageView {
 class FaultDrill {
  public:
   FaultDrill(std::string_view path, std::uint32_t bit);
-  /// False when no leaf has that path and bit, or none that may be written: what is shared with other worlds is not.
+  /// False when no leaf has that path and bit, or none that may be written: what lies in an island asleep is not.
   bool strike(const StageView& view) const;
 
  private:

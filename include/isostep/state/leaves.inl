@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 #include <utility>
 
+#include "isostep/core/slot_map.hpp"
 #include "isostep/state/leaves.hpp"
 
 namespace isostep {
@@ -129,13 +131,45 @@ template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& vis
   }
 }
 
-/// Slots as the root hash takes them.
-template <class Slots> void walk_slots(const LeafVisitor& visit, const char* name, const Slots& slots) {
-  const PathPart none{nullptr, name, 0};
-  const std::uint32_t first_free = slots.first_free();
-  walk_leaves(PathPart{&none, "first_free", 0}, visit, first_free);
-  visit(name, slots.entries());
-}
+/// A whole state leaf by leaf: see members.hpp. What copies of a state share is copied first where it is written;
+/// islands are never written.
+class StateLeaves {
+ public:
+  explicit StateLeaves(const LeafVisitor& visit) : visit_(visit) {}
+
+  template <class T> void operator()(const char* name, T& value) const {
+    if constexpr (std::is_same_v<std::remove_const_t<T>, SlotMap>) {
+      slots(name, value);
+    } else if constexpr (requires { value.all(); }) {  // Registry
+      slots((std::string(name) + "_slots").c_str(), std::as_const(value).slots());
+      if (visit_.edits()) visit_(name, value.change_all());
+      else visit_(name, value.all());
+    } else {
+      visit_(name, value);
+    }
+  }
+  template <class T, class Arrays> void shared(T& value, const Arrays& arrays) const {
+    if (visit_.edits()) arrays(visit_, value.change());
+    else arrays(visit_, *value);
+  }
+  template <class List> void islands(const char* name, const List& list) const {
+    visit_.each(name, list.size(), [&](const LeafVisitor& of_island, std::size_t i) {
+      const auto& island = *list[i];
+      std::remove_cvref_t<decltype(island)>::sections(of_island, island);
+    });
+  }
+
+ private:
+  void slots(const char* name, const SlotMap& slots) const {
+    visit_.within(name, [&](const LeafVisitor& of_slots) {
+      const std::uint32_t first_free = slots.first_free();
+      of_slots("first_free", first_free);
+    });
+    visit_(name, slots.entries());
+  }
+
+  const LeafVisitor& visit_;
+};
 
 }  // namespace
 }  // namespace isostep

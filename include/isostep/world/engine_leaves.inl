@@ -10,31 +10,6 @@
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
-namespace {
-
-/// As hash() takes them. Fixed bodies and islands asleep are never written: worlds share them, and what copies them is
-/// a symbol that another object has as well.
-template <class State> void visit_world_state(const LeafVisitor& visit, State& state) {
-  visit("settings", state.settings);
-  visit("tick", state.tick);
-  walk_slots(visit, "body_slots", state.body_slots);
-  walk_slots(visit, "shape_slots", state.shape_slots);
-  walk_slots(visit, "joint_slots", state.joint_slots);
-  if constexpr (std::is_const_v<State>) {
-    State::sections(visit, state);
-  } else {
-    visit("shapes", state.shapes.change());
-    visit("children", state.children.change());
-    State::own_sections(visit, state);
-  }
-  visit.each("frozen", state.frozen.size(), [&](const LeafVisitor& of_island, std::size_t i) {
-    const auto& island = *state.frozen[i];
-    std::remove_cvref_t<decltype(island)>::sections(of_island, island);
-  });
-}
-
-}  // namespace
-
 /// Joints as prepared; once solved, their impulses alone are asked for again.
 template <class S> template <class Visit> void WorldEngine<S>::visit_joints(const Visit& visit, bool solved) {
   visit.each("joint_constraints", joint_constraints_.size(), [&](const auto& of_joint, std::size_t i) {
@@ -135,10 +110,8 @@ void WorldEngine<S>::walk_leaves(void* self, LeafPart part, std::uint32_t stage,
   const LeafVisitor visit(nullptr, sink, editor);
   if (part == LeafPart::scratch) {
     if (stage < kStages) engine.visit_scratch(visit, static_cast<Stage>(stage));
-  } else if (visit.edits()) {
-    visit_world_state(visit, engine.state_);
   } else {
-    visit_world_state(visit, std::as_const(engine.state_));
+    WorldState<S>::members(StateLeaves(visit), engine.state_);
   }
 }
 

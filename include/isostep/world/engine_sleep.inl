@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/state/hash.hpp"
+#include "isostep/state/members.hpp"
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
@@ -11,13 +11,6 @@ namespace isostep {
 namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s], and [rad/s] times the body's size
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
-
-template <class S> std::uint64_t hash_island(const FrozenIsland<S>& island) {
-  HashCombiner root;
-  FrozenIsland<S>::sections([&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); },
-                            island);
-  return root.value();
-}
 
 /// Merges two ascending runs from the back, in place: put(to, from_old, index) moves one record of either.
 template <class OldIsLater, class Put>
@@ -176,7 +169,7 @@ template <class S> void WorldEngine<S>::freeze_marked() {
   relabel_joints(joints, Location::kAwake, 0);
   for (const std::shared_ptr<FrozenIsland<S>>& island : islands) {
     if (island == nullptr) continue;
-    island->hash = detail::hash_island(*island);
+    island->hash = detail::hash_sections(*island);
     const auto name = static_cast<std::uint32_t>(state_.frozen.size());
     relabel(island->bodies, name, 0);
     relabel_joints(island->joints, name, 0);

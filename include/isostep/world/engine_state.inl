@@ -2,43 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/state/slots.hpp"
+#include "isostep/state/members.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_sleep.inl"
 #include "isostep/world/state_validator.hpp"
 
 namespace isostep {
 
-/// Root: settings, tick, slot tables, arrays, then the frozen islands' own hashes, in this order; of the islands every
-/// 256 that are followed by another are one word, for they rarely change.
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
-  HashCombiner root;
-  root.add(hash_records_by_fields(&state_.settings, 1));
-  root.add(state_.tick);
-  root.add(detail::hash_slots(state_.body_slots));
-  root.add(detail::hash_slots(state_.shape_slots));
-  root.add(detail::hash_slots(state_.joint_slots));
-  const auto add = [&](const Remembered& known, const auto& array) {
-    root.add(known.get([&] { return hash_records(array.data(), array.size()); }));
-  };
-  add(state_.shapes.remembered(), *state_.shapes);
-  add(state_.children.remembered(), *state_.children);
-  add(state_.fixed.remembered(0), state_.fixed->states);
-  add(state_.fixed.remembered(1), state_.fixed->properties);
-  WorldState<S>::own_sections(
-      [&](const char*, const auto& array) { root.add(hash_records(array.data(), array.size())); }, state_);
-  const FrozenIslands<S>& frozen = state_.frozen;
-  for (std::size_t p = 0; p + 1 < frozen.pages(); ++p) {
-    root.add(frozen.remembered(p).get([&] {
-      HashCombiner page;
-      for (std::size_t i = 0; i < frozen.page_size(p); ++i) page.add(frozen.page(p)[i]->hash);
-      return page.value();
-    }));
-  }
-  if (!frozen.empty()) {
-    const std::size_t last = frozen.pages() - 1;
-    for (std::size_t i = 0; i < frozen.page_size(last); ++i) root.add(frozen.page(last)[i]->hash);
-  }
+  detail::StateHasher root;
+  WorldState<S>::members(root, state_);
   return root.value();
 }
 
@@ -114,16 +87,7 @@ template <class S> void WorldEngine<S>::renew_places(bool other_fixed) {
 
 template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
   writer.write(ScalarTraits<S>::kId);
-  writer.write(state_.settings);
-  writer.write(state_.tick);
-  detail::write_slots(writer, state_.body_slots);
-  detail::write_slots(writer, state_.shape_slots);
-  detail::write_slots(writer, state_.joint_slots);
-  WorldState<S>::sections([&](const char*, const auto& array) { writer.write_array(array); }, state_);
-  writer.write_count(state_.frozen.size());
-  for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) {
-    FrozenIsland<S>::sections([&](const char*, const auto& array) { writer.write_array(array); }, *island);
-  }
+  WorldState<S>::members(detail::StateWriter(writer), state_);
 }
 
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
@@ -131,20 +95,7 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   if (reader.read<std::uint32_t>() != ScalarTraits<S>::kId && reader.ok()) {
     reader.fail(ErrorCode::incompatible, "not written by a rigid world of this scalar");
   }
-  reader.read(next.settings);
-  reader.read(next.tick);
-  detail::read_slots(reader, next.body_slots);
-  detail::read_slots(reader, next.shape_slots);
-  detail::read_slots(reader, next.joint_slots);
-  const auto read_section = [&](const char*, auto& array) { reader.read_array(array, detail::kMaxRecords); };
-  WorldState<S>::sections(read_section, next);
-  const std::uint32_t islands = reader.read_count(detail::kMaxRecords, 20);
-  for (std::uint32_t i = 0; i < islands && reader.ok(); ++i) {
-    auto island = std::make_shared<FrozenIsland<S>>();
-    FrozenIsland<S>::sections(read_section, *island);
-    island->hash = detail::hash_island(*island);
-    next.frozen.push_back(std::move(island));
-  }
+  WorldState<S>::members(detail::StateReader(reader), next);
   if (reader.ok()) {
     if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
   }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
 #include "isostep/core/paged_array.hpp"
@@ -88,8 +88,10 @@ template <class S> struct FrozenIsland {
   JointSet<S> joints;
   std::uint64_t hash = 0;  // of all the above
 
+  static constexpr std::size_t kLeastWritten = 20;  // [bytes] five counts
+
   /// visit("name", array) in a fixed order.
-  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
+  template <class Visitor, class Self> static ISO_INLINE void sections(Visitor&& visit, Self&& self) {
     visit("bodies", self.bodies.states);
     visit("properties", self.bodies.properties);
     visit("contacts", self.contacts);
@@ -117,23 +119,19 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   FrozenIslands<S> frozen;
 
-  /// The arrays that are hashed and written whole: visit("name", array) in a fixed order, the shared ones first.
-  template <class Visitor, class Self> static void sections(Visitor&& visit, Self&& self) {
-    if constexpr (std::is_const_v<std::remove_reference_t<Self>>) {
-      visit("shapes", *self.shapes);
-      visit("children", *self.children);
-      visit("fixed", self.fixed->states);
-      visit("fixed_properties", self.fixed->properties);
-    } else {
-      visit("shapes", self.shapes.change());
-      visit("children", self.children.change());
-      visit("fixed", self.fixed.change().states);
-      visit("fixed_properties", self.fixed.change().properties);
-    }
-    own_sections(visit, self);
-  }
-  /// Those that every copy has for itself.
-  template <class Visitor, class Self> static void own_sections(Visitor&& visit, Self&& self) {
+  /// All of it, in the order of the hash and of the portable form: see state/members.hpp.
+  template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
+    visit("settings", self.settings);
+    visit("tick", self.tick);
+    visit("body_slots", self.body_slots);
+    visit("shape_slots", self.shape_slots);
+    visit("joint_slots", self.joint_slots);
+    visit.shared(self.shapes, [](auto&& of, auto& shapes) ISO_INLINE_LAMBDA { of("shapes", shapes); });
+    visit.shared(self.children, [](auto&& of, auto& children) ISO_INLINE_LAMBDA { of("children", children); });
+    visit.shared(self.fixed, [](auto&& of, auto& bodies) ISO_INLINE_LAMBDA {
+      of("fixed", bodies.states);
+      of("fixed_properties", bodies.properties);
+    });
     visit("bodies", self.awake.states);
     visit("properties", self.awake.properties);
     visit("contacts", self.contacts);
@@ -144,6 +142,7 @@ template <class S> struct WorldState {
     visit("untold_contact_end", self.untold.contact_end);
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
+    visit.islands("frozen", self.frozen);
   }
 };
 

@@ -344,12 +344,9 @@ template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = def
 template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
 template <class S> std::size_t World<S>::Snapshot::bytes() const {
   if (state_ == nullptr) return 0;  // never saved to, or moved from
-  std::size_t total = sizeof(WorldState<S>);
-  WorldState<S>::own_sections([&](const char*, const auto& array) { total += array.size() * sizeof(array[0]); },
-                              *state_);
-  for (const SlotMap* slots : {&state_->body_slots, &state_->shape_slots, &state_->joint_slots})
-    total += slots->entries().pages() * sizeof(void*);
-  return total + state_->frozen.pages() * sizeof(void*);
+  detail::StateSize arrays;
+  WorldState<S>::members(arrays, std::as_const(*state_));
+  return sizeof(WorldState<S>) + arrays.value();
 }
 template <class S> void World<S>::save(Snapshot& to) const {
   if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();

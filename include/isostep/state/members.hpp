@@ -1,0 +1,161 @@
+// The visitors of a whole state: its hash, its size, its writer and its reader.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "isostep/core/paged_array.hpp"
+#include "isostep/core/registry.hpp"
+#include "isostep/core/shared.hpp"
+#include "isostep/state/archive.hpp"
+#include "isostep/state/hash.hpp"
+#include "isostep/state/slots.hpp"
+
+// A state names what it consists of once, in `members(visit, self)`, and everything that reads a state whole visits it:
+// these here, the leaves (leaves.inl) and the differ of the tool. The order of the members is that of the hash and of
+// the portable form. A member is told as one of
+//   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
+//   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) tells its vectors, two at most
+//   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
+
+namespace isostep::detail {
+
+/// Of an immutable object with `sections`.
+template <class Island> ISO_INLINE std::uint64_t hash_sections(const Island& island) {
+  HashCombiner root;
+  Island::sections([&](const char*, const auto& array)
+                       ISO_INLINE_LAMBDA { root.add(hash_records(array.data(), array.size())); },
+                   island);
+  return root.value();
+}
+
+/// The root hash. Islands bring their own hashes; every full page of them that another follows is one word, for they
+/// rarely change.
+class StateHasher {
+ public:
+  ISO_INLINE std::uint64_t value() const { return root_.value(); }
+
+  ISO_INLINE void operator()(const char*, std::uint64_t number) { root_.add(number); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slots) { root_.add(hash_slots(slots)); }
+  template <HasFields Record> ISO_INLINE void operator()(const char*, const Record& record) {
+    root_.add(hash_records_by_fields(&record, 1));
+  }
+  template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
+    root_.add(hash_records(records.data(), records.size()));
+  }
+  template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
+    root_.add(hash_slots(registry.slots()));
+    root_.add(registry.remembered().get(
+        [&]() ISO_INLINE_LAMBDA { return hash_records_by_fields(registry.all().data(), registry.all().size()); }));
+  }
+  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>& value, const Arrays& arrays) {
+    int which = 0;
+    const auto add = [&](const char*, const auto& records) ISO_INLINE_LAMBDA {
+      root_.add(value.remembered(which++).get(
+          [&]() ISO_INLINE_LAMBDA { return hash_records(records.data(), records.size()); }));
+    };
+    arrays(add, *value);
+  }
+  template <class List> ISO_INLINE void islands(const char*, const List& list) {
+    const auto add_page = [&](HashCombiner& root, std::size_t p) ISO_INLINE_LAMBDA {
+      for (std::size_t i = 0; i < list.page_size(p); ++i) root.add(list.page(p)[i]->hash);
+    };
+    if (list.empty()) return;
+    for (std::size_t p = 0; p + 1 < list.pages(); ++p) {
+      root_.add(list.remembered(p).get([&]() ISO_INLINE_LAMBDA {
+        HashCombiner page;
+        add_page(page, p);
+        return page.value();
+      }));
+    }
+    add_page(root_, list.pages() - 1);
+  }
+
+ private:
+  HashCombiner root_;
+};
+
+/// [bytes] What a copy of a state has for itself: not what it shares until one of the copies changes it.
+class StateSize {
+ public:
+  ISO_INLINE std::size_t value() const { return bytes_; }
+
+  template <class T> ISO_INLINE void operator()(const char*, const T&) {}
+  ISO_INLINE void operator()(const char*, const SlotMap& slots) { bytes_ += slots.entries().pages() * sizeof(void*); }
+  template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
+    bytes_ += records.size() * sizeof(Record);
+  }
+  template <class Record, class Id> ISO_INLINE void operator()(const char* name, const Registry<Record, Id>& registry) {
+    (*this)(name, registry.slots());
+  }
+  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>&, const Arrays&) {}
+  template <class List> ISO_INLINE void islands(const char*, const List& list) {
+    bytes_ += list.pages() * sizeof(void*);
+  }
+
+ private:
+  std::size_t bytes_ = 0;
+};
+
+class StateWriter {
+ public:
+  ISO_INLINE explicit StateWriter(Writer& writer) : writer_(writer) {}
+
+  template <class T> ISO_INLINE void operator()(const char*, const T& value) { writer_.write(value); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slots) { write_slots(writer_, slots); }
+  template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
+    writer_.write_array(records);
+  }
+  template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
+    write_slots(writer_, registry.slots());
+    writer_.write_array(registry.all());
+  }
+  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>& value, const Arrays& arrays) {
+    arrays(*this, *value);
+  }
+  template <class List> ISO_INLINE void islands(const char*, const List& list) {
+    writer_.write_count(list.size());
+    for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
+  }
+
+ private:
+  Writer& writer_;
+};
+
+/// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
+class StateReader {
+ public:
+  ISO_INLINE explicit StateReader(Reader& reader) : reader_(reader) {}
+
+  template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
+  ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
+  template <class Record> ISO_INLINE void operator()(const char*, std::vector<Record>& records) {
+    reader_.read_array(records, kMaxRecords);
+  }
+  template <class Record, class Id> ISO_INLINE void operator()(const char*, Registry<Record, Id>& registry) {
+    read_slots(reader_, registry.slots());
+    reader_.read_array(registry.change_all(), kMaxRecords);
+  }
+  template <class T, class Arrays> ISO_INLINE void shared(Shared<T>& value, const Arrays& arrays) {
+    arrays(*this, value.change());
+  }
+  template <class Island, std::uint32_t kPageSize>
+  ISO_INLINE void islands(const char*, PagedArray<std::shared_ptr<const Island>, kPageSize>& list) {
+    const std::uint32_t count = reader_.read_count(kMaxRecords, Island::kLeastWritten);
+    for (std::uint32_t i = 0; i < count && reader_.ok(); ++i) {
+      auto island = std::make_shared<Island>();
+      Island::sections(*this, *island);
+      island->hash = hash_sections(*island);
+      list.push_back(std::move(island));
+    }
+  }
+
+ private:
+  Reader& reader_;
+};
+
+}  // namespace isostep::detail
