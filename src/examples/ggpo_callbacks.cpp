@@ -66,13 +66,10 @@ struct Own {
     visit("ball", self.ball);
   }
 };
-using Whole = iso::Composite<World, Own>;
-using Saved = iso::Snapshot<Whole>;
+using State = iso::Composite<World, Own>;
+using Saved = iso::Snapshot<State>;
 
-struct Game {
-  World world;
-  Own own = {};
-  Whole whole{world, own};
+struct Game : State {
   iso::ShapeId shape = world.add_shape(iso::Sphere{0.5});
   iso::BodyId pucks[2];
   Netcode* netcode = nullptr;
@@ -86,9 +83,9 @@ struct Game {
     for (int n : {0, 1}) {
       world.apply_impulse(pucks[n], {S(0.125) * S((inputs[n] >> 1 & 1) - (inputs[n] & 1)), 0, 0});
       if ((inputs[n] & kThrow) == 0) continue;
-      if (own.ball) world.destroy(own.ball);
+      if (user.ball) world.destroy(user.ball);
       const auto above = world.pose(pucks[n]).position + iso::Vec3<S>{0, 2, 0};
-      own.ball = world.create({.type = iso::dynamic, .shape = shape, .position = above});
+      user.ball = world.create({.type = iso::dynamic, .shape = shape, .position = above});
     }
     world.step();
     netcode->frame_advanced();
@@ -96,18 +93,17 @@ struct Game {
 };
 
 /// A buffer is a snapshot, opaque to the netcode; where bytes are wanted, write_portable gives them.
-const Callbacks kCallbacks = {[](void* game, unsigned char** buffer, int* checksum, int frame) {
-                                Game& g = *static_cast<Game*>(game);
-                                Saved& snapshot = g.snapshots[frame % g.snapshots.size()];
-                                g.whole.save(snapshot);
-                                *buffer = reinterpret_cast<unsigned char*>(&snapshot);
-                                *checksum = static_cast<int>(g.whole.hash());
-                              },
-                              [](void* game, unsigned char* buffer) {
-                                static_cast<Game*>(game)->whole.load(*reinterpret_cast<iso::Snapshot<Whole>*>(buffer));
-                              },
-                              [](void*, unsigned char*) {},  // the snapshots stay the game's
-                              [](void* game) { static_cast<Game*>(game)->advance(); }};
+const Callbacks kCallbacks = {
+    [](void* game, unsigned char** buffer, int* checksum, int frame) {
+      Game& g = *static_cast<Game*>(game);
+      Saved& snapshot = g.snapshots[frame % g.snapshots.size()];
+      g.save(snapshot);
+      *buffer = reinterpret_cast<unsigned char*>(&snapshot);
+      *checksum = static_cast<int>(g.hash());
+    },
+    [](void* game, unsigned char* buffer) { static_cast<Game*>(game)->load(*reinterpret_cast<Saved*>(buffer)); },
+    [](void*, unsigned char*) {},  // the snapshots stay the game's
+    [](void* game) { static_cast<Game*>(game)->advance(); }};
 
 std::uint8_t input_of(int player, int frame) {
   const std::uint8_t way = (frame / (11 + 6 * player) + player) % 2 == 0 ? kLeft : kRight;

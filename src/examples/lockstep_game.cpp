@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "isostep/session/session.hpp"
+#include "isostep/state/composite.hpp"
 #include "isostep/world/recorder.hpp"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"
@@ -19,20 +20,29 @@ struct Push {  // what a player does in a frame, and how it travels
   }
 };
 
-struct Game : iso::World<S> {  // all its state is the world's, so save, load, hash and the portable form are inherited
-  using Input = Push;
-  iso::BodyId pucks[2];
-
-  Game() {
-    create({.shape = add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
-    const auto ball = add_shape(iso::Sphere{0.5});
-    for (int n : {0, 1}) pucks[n] = create({.type = iso::dynamic, .shape = ball, .position = {4 * n - 2, 1, 0}});
-  }
-  void step(iso::InputView<Input> inputs) {
-    for (int n : {0, 1}) apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});
-    World::step();
+// README: begin
+struct Score {  // what the game remembers beside its world
+  std::uint32_t touches = 0;
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("touches", self.touches);
   }
 };
+struct Game : iso::Composite<iso::World<S>, Score> {  // world and user: saved, rolled back and hashed as one
+  using Input = Push;
+  iso::BodyId pucks[2];  // given once and for all: no state
+
+  Game() {
+    world.create({.shape = world.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
+    const auto ball = world.add_shape(iso::Sphere{0.5});
+    for (int n : {0, 1}) pucks[n] = world.create({.type = iso::dynamic, .shape = ball, .position = {4 * n - 2, 1, 0}});
+  }
+  void step(iso::InputView<Input> inputs) {
+    for (int n : {0, 1}) world.apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});
+    world.step();
+    user.touches += static_cast<std::uint32_t>(world.events().contact_begin.size());
+  }
+};
+// README: end
 
 struct Machine {
   Game game;
@@ -57,7 +67,7 @@ struct Machine {
 int main() {
   iso::SessionConfig config;
   config.mode = iso::SessionMode::rollback;  // lockstep: nothing else changes
-  config.identity = iso::make_replay_header(iso::identity_of_world(Game().settings(), "two pucks")).value();
+  config.identity = iso::make_replay_header(iso::identity_of_world(Game().world.settings(), "two pucks")).value();
   SimulatedNetwork network;
   const auto line = network.add_client(iso::transport::parse_profile("latency=80,jitter=20,loss=5").value());
   Machine client(config, network.port(line));

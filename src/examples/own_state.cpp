@@ -31,11 +31,8 @@ struct Rules {  // what the game remembers beside its world: a plain struct with
   }
 };
 
-struct Game {
+struct Game : iso::Composite<World, Rules> {  // world and user: saved, loaded, hashed and written as one
   using Input = Paddle;
-  using Snapshot = iso::CompositeSnapshot<World, Rules>;
-  World world;
-  Rules rules;
   iso::ShapeId ball;  // given once and for all: no state
   iso::BodyId paddle;
 
@@ -45,21 +42,16 @@ struct Game {
   }
   void step(iso::InputView<Input> inputs) {
     world.set_velocity(paddle, {S(4 * inputs[0].way), 0, 0}, {0, 0, 0});
-    if (--rules.frames_until_ball == 0) {
-      rules.frames_until_ball = 20 + iso::random_below(rules.dice, 20);
-      world.create({.type = iso::dynamic, .shape = ball, .position = {iso::uniform(rules.dice, S(-2), S(2)), 3, 0}});
+    if (--user.frames_until_ball == 0) {
+      user.frames_until_ball = 20 + iso::random_below(user.dice, 20);
+      world.create({.type = iso::dynamic, .shape = ball, .position = {iso::uniform(user.dice, S(-2), S(2)), 3, 0}});
     }
     world.step();
-    rules.score += static_cast<std::uint32_t>(world.events().contact_begin.size());
+    user.score += static_cast<std::uint32_t>(world.events().contact_begin.size());
     for (const iso::BodyId body : world.bodies()) {
       if (world.centre(body).y < S(-3)) world.destroy(body);
     }
   }
-  void save(Snapshot& to) const { iso::composite(world, rules).save(to); }
-  void load(const Snapshot& from) { iso::composite(world, rules).load(from); }
-  std::uint64_t hash() const { return iso::composite(world, rules).hash(); }
-  void write_portable(iso::Writer& writer) const { iso::composite(world, rules).write_portable(writer); }
-  iso::Result<void> read_portable(iso::Reader& reader) { return iso::composite(world, rules).read_portable(reader); }
 };
 
 int main() {
@@ -78,7 +70,7 @@ int main() {
       flaws += flaw ? 1 : 0;
     }
   }
-  std::printf("score %u after 600 frames, %llu of them stepped again; %d flaws\n", game.rules.score,
+  std::printf("score %u after 600 frames, %llu of them stepped again; %d flaws\n", game.user.score,
               static_cast<unsigned long long>(session.stats().steps - 600), flaws);
-  return flaws == 0 && game.rules.score > 0 ? 0 : 1;
+  return flaws == 0 && game.user.score > 0 ? 0 : 1;
 }

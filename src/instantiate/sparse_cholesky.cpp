@@ -167,7 +167,7 @@ bool solve_with(Parts& parts, const std::vector<Vec3<Exact<T>>>& b, int, int, st
     for (int c = 0; c < 3; ++c) {
       const Exact<T> component = parts.answer[3 * parts.place[i] + c];
       if (!is_finite(component)) return false;
-      x[i].set(c, component);
+      x[i][c] = component;
     }
   }
   return true;
@@ -260,7 +260,7 @@ bool solve_with(Parts& parts, const std::vector<Vec3<Entry>>& b, int b_exponent,
     }
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
-    for (int c = 0; c < 3; ++c) x[i].set(c, sum[3 * parts.place[i] + c]);
+    for (int c = 0; c < 3; ++c) x[i][c] = sum[3 * parts.place[i] + c];
   }
   return true;
 }

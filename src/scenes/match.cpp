@@ -14,8 +14,8 @@ Match<S>::Match(const MatchSettings& settings)
   MatchPlan plan = plan_match(settings_);
   plan.scene.hz = settings_.hz;
   plan.scene.substeps = settings_.substeps;
-  parts_ = std::make_unique<Parts>(settings_of<S>(plan.scene));
-  World<S>& world = parts_->world;
+  state_.world = World<S>(settings_of<S>(plan.scene));
+  World<S>& world = state_.world;
   const Built<S> built = build(plan.scene, world);
   for (std::size_t n = 0; n < built.bodies.size(); ++n) {
     const bool loose =
@@ -25,7 +25,7 @@ Match<S>::Match(const MatchSettings& settings)
   mill_ = built.joints[static_cast<std::size_t>(plan.mill_joint)];
   ring_ = built.bodies[static_cast<std::size_t>(plan.ring)];
   half_ = value_of<S>(plan.half, "half");
-  parts_->own.random = Pcg32::seeded(settings_.seed, 1);
+  state_.user.random = Pcg32::seeded(settings_.seed, 1);
   set_up_pucks(plan.first_puck, built.bodies);
 }
 
@@ -33,18 +33,18 @@ template <class S> void Match<S>::set_up_pucks(int first_puck, const std::vector
   for (int player = 0; player < settings_.players; ++player) {
     const auto n = static_cast<std::size_t>(player);
     pucks_[n] = bodies[static_cast<std::size_t>(first_puck) + n];
-    starts_[n] = parts_->world.pose(pucks_[n]).position;
-    parts_->world.set_filter(pucks_[n], {match_category::kPuck, 0xffffffffu, 0});
+    starts_[n] = state_.world.pose(pucks_[n]).position;
+    state_.world.set_filter(pucks_[n], {match_category::kPuck, 0xffffffffu, 0});
   }
 }
 
-template <class S> void Match<S>::save(Snapshot& to) const { parts_->whole.save(to); }
-template <class S> void Match<S>::load(const Snapshot& from) { parts_->whole.load(from); }
-template <class S> std::uint64_t Match<S>::hash() const { return parts_->whole.hash(); }
+template <class S> void Match<S>::save(Snapshot& to) const { state_.save(to); }
+template <class S> void Match<S>::load(const Snapshot& from) { state_.load(from); }
+template <class S> std::uint64_t Match<S>::hash() const { return state_.hash(); }
 
 template <class S> void Match<S>::write_portable(Writer& writer) const {
   writer.write(settings_);
-  parts_->whole.write_portable(writer);
+  state_.write_portable(writer);
 }
 /// What the bytes say about the game is only ever used as ids, which the world checks, and as counters.
 template <class S> Result<void> Match<S>::read_portable(Reader& reader) {
@@ -52,7 +52,7 @@ template <class S> Result<void> Match<S>::read_portable(Reader& reader) {
   if (reader.read(settings) && !(settings == settings_)) {
     reader.fail(ErrorCode::incompatible, "a match of other settings");
   }
-  return reader.ok() ? parts_->whole.read_portable(reader) : reader.result("match");
+  return reader.ok() ? state_.read_portable(reader) : reader.result("match");
 }
 
 template <class S> void Match<S>::write_inputs(InputView<MatchInput> inputs, Writer& writer) const {
@@ -79,9 +79,9 @@ template <class S> Result<void> Match<S>::step_recorded(Bytes input) {
 template <class S> std::span<const MatchEvent> Match<S>::events() const { return {events_.data(), event_count_}; }
 template <class S> const StepReport& Match<S>::report() const { return report_; }
 template <class S> const MatchSettings& Match<S>::settings() const { return settings_; }
-template <class S> const World<S>& Match<S>::world() const { return parts_->world; }
-template <class S> World<S>& Match<S>::world() { return parts_->world; }
-template <class S> const MatchState& Match<S>::state() const { return parts_->own; }
+template <class S> const World<S>& Match<S>::world() const { return state_.world; }
+template <class S> World<S>& Match<S>::world() { return state_.world; }
+template <class S> const MatchState& Match<S>::state() const { return state_.user; }
 template <class S> BodyId Match<S>::puck(int player) const { return pucks_[static_cast<std::size_t>(player)]; }
 
 MatchInput bot_input(std::uint64_t seed, int player, Frame frame) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -137,12 +136,12 @@ static_assert(kHasNoPadding<MatchState>);
 /// Floor, four walls with open corners, a ring (sensor) above the middle, a mill that stirs a pile of mixed shapes, two
 /// ropes with a ball, and the pucks. Models Simulation, PortableState and ReplayableSimulation.
 template <class S> class Match {
-  using Whole = Composite<World<S>, MatchState>;
+  using State = Composite<World<S>, MatchState>;
 
  public:
   using Scalar = S;
   using Input = MatchInput;
-  using Snapshot = typename Whole::Snapshot;
+  using Snapshot = typename State::Snapshot;
 
   explicit Match(const MatchSettings& settings = {});
 
@@ -172,14 +171,6 @@ template <class S> class Match {
   BodyId puck(int player) const;
 
  private:
-  /// Apart, so that a match can be moved and its composite stays right.
-  struct Parts {
-    explicit Parts(const Settings<S>& settings) : world(settings), own(), whole(world, own) {}
-    World<S> world;
-    MatchState own;
-    Whole whole;
-  };
-
   void set_up_pucks(int first_puck, const std::vector<BodyId>& bodies);
   MatchState::Player& player_state(int player);
 
@@ -212,7 +203,7 @@ template <class S> class Match {
   void emit(MatchEventKind kind, int player, BodyId body);
 
   MatchSettings settings_;
-  std::unique_ptr<Parts> parts_;
+  State state_;
 
   // The same from the start of every match of these settings.
   std::array<BodyId, kMaxPlayers> pucks_;

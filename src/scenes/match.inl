@@ -33,12 +33,12 @@ template <class S> struct MatchRules {
 };
 
 template <class S> MatchState::Player& Match<S>::player_state(int player) {
-  return parts_->own.players[static_cast<std::size_t>(player)];
+  return state_.user.players[static_cast<std::size_t>(player)];
 }
 
 template <class S> void Match<S>::step(InputView<MatchInput> inputs) {
   const FloatEnvironment environment;
-  MatchState& own = parts_->own;
+  MatchState& own = state_.user;
   event_count_ = 0;
   cool_down();
   for (int player = 0; player < settings_.players; ++player) {
@@ -47,8 +47,8 @@ template <class S> void Match<S>::step(InputView<MatchInput> inputs) {
     attend(player, away);
     if (!away && n < inputs.size() && inputs[n].valid()) act(player, inputs[n]);
   }
-  if (own.level_at == own.tick) parts_->world.set_gravity({S(0), MatchRules<S>::kFall, S(0)});
-  report_ = parts_->world.step();
+  if (own.level_at == own.tick) state_.world.set_gravity({S(0), MatchRules<S>::kFall, S(0)});
+  report_ = state_.world.step();
   count_touches();
   count_goals();
   put_back_fallen();
@@ -56,7 +56,7 @@ template <class S> void Match<S>::step(InputView<MatchInput> inputs) {
 }
 
 template <class S> void Match<S>::cool_down() {
-  for (MatchState::Player& player : parts_->own.players) {
+  for (MatchState::Player& player : state_.user.players) {
     for (std::uint16_t& wait : player.waits) {
       if (wait > 0) --wait;
     }
@@ -66,10 +66,10 @@ template <class S> void Match<S>::cool_down() {
 /// The puck of a player who is gone rolls out.
 template <class S> void Match<S>::attend(int player, bool away) {
   const std::uint32_t bit = 1u << player;
-  if (((parts_->own.away & bit) != 0) == away) return;
-  parts_->own.away ^= bit;
+  if (((state_.user.away & bit) != 0) == away) return;
+  state_.user.away ^= bit;
   const S linear = away ? MatchRules<S>::kAwayDamping : S(0);
-  parts_->world.set_motion(puck(player), S(1), linear, MatchRules<S>::kSpinDamping, 0);
+  state_.world.set_motion(puck(player), S(1), linear, MatchRules<S>::kSpinDamping, 0);
 }
 
 template <class S> bool Match<S>::ready(int player, const MatchInput& input, MatchAction action) {
@@ -96,19 +96,19 @@ template <class S> void Match<S>::act(int player, const MatchInput& input) {
 template <class S> void Match<S>::push(int player, const MatchInput& input) {
   if (input.push_x == 0 && input.push_z == 0) return;
   const BodyId body = puck(player);
-  const Vec3<S> velocity = parts_->world.velocity(body);
-  const S most = parts_->world.mass(body) * MatchRules<S>::kPush;
+  const Vec3<S> velocity = state_.world.velocity(body);
+  const S most = state_.world.mass(body) * MatchRules<S>::kPush;
   const auto along = [&](std::int8_t wish, S speed) {
     const S part = S(wish) * MatchRules<S>::kPart;
     const bool fast = MatchRules<S>::kTopSpeed < (wish < 0 ? -speed : speed);
     return fast ? S(0) : most * part;
   };
   const S x = along(input.push_x, velocity.x), z = along(input.push_z, velocity.z);
-  parts_->world.apply_force(body, {x, S(0), z});
+  state_.world.apply_force(body, {x, S(0), z});
 }
 
 template <class S> void Match<S>::jump(int player) {
-  World<S>& world = parts_->world;
+  World<S>& world = state_.world;
   const BodyId body = puck(player);
   const QueryFilter filter = {~match_category::kPuck, false};
   if (!world.cast_ray(world.centre(body), {S(0), -MatchRules<S>::kUnderfoot, S(0)}, filter)) return;
@@ -117,7 +117,7 @@ template <class S> void Match<S>::jump(int player) {
 }
 
 template <class S> void Match<S>::shove(int player) {
-  World<S>& world = parts_->world;
+  World<S>& world = state_.world;
   const Vec3<S> from = world.centre(puck(player));
   found_.clear();
   world.overlapping(primitive_of(Sphere<S>{MatchRules<S>::kShoveReach}), {from, Quat<Unit<S>>::identity()}, found_,
@@ -136,8 +136,8 @@ template <class S> void Match<S>::shove(int player) {
 
 /// One of five kinds, its sizes drawn.
 template <class S> ShapeId Match<S>::draw_shape() {
-  World<S>& world = parts_->world;
-  Pcg32& random = parts_->own.random;
+  World<S>& world = state_.world;
+  Pcg32& random = state_.user.random;
   const std::uint32_t kind = random_below(random, 5);
   const S a = uniform(random, S(0.25), S(0.4));
   const S b = uniform(random, S(0.22), S(0.4));
@@ -156,8 +156,8 @@ template <class S> ShapeId Match<S>::draw_shape() {
 }
 
 template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
-  World<S>& world = parts_->world;
-  MatchState& own = parts_->own;
+  World<S>& world = state_.world;
+  MatchState& own = state_.user;
   const Vec3<S> above = {S(0), MatchRules<S>::kThrowHeight, S(0)};
   const Vec3<S> from = world.centre(puck(player)) + above + aim * MatchRules<S>::kThrowAhead;
   found_.clear();
@@ -183,7 +183,7 @@ template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
 }
 
 template <class S> void Match<S>::strike(int player, Vec3<Unit<S>> aim) {
-  World<S>& world = parts_->world;
+  World<S>& world = state_.world;
   const Vec3<S> reach = aim * MatchRules<S>::kRay;
   const auto hit = world.cast_ray(world.centre(puck(player)), reach, {~match_category::kPuck, false});
   if (!hit) return;
@@ -197,7 +197,7 @@ template <class S> void Match<S>::strike(int player, Vec3<Unit<S>> aim) {
 }
 
 template <class S> void Match<S>::tether(int player) {
-  World<S>& world = parts_->world;
+  World<S>& world = state_.world;
   JointId& tether = player_state(player).tether;
   const JointId had = tether;
   tether = JointId{};
@@ -212,28 +212,28 @@ template <class S> void Match<S>::tether(int player) {
   joint.frame_a = joint.frame_b = Pose<S>::identity();
   joint.flags = joint_flag::kLimit | joint_flag::kCollideConnected;
   const Vec3<S> apart = world.centre(other->body) - here.position;
-  joint.upper = max(MatchRules<S>::kTetherLength, direction_of(apart.x, apart.y, apart.z).length);
+  joint.upper = max(MatchRules<S>::kTetherLength, length(apart));
   tether = world.create(joint);
 }
 
 template <class S> void Match<S>::reverse() {
-  const JointProperties<S>* now = parts_->world.joint(mill_);
+  const JointProperties<S>* now = state_.world.joint(mill_);
   if (now == nullptr) return;
   JointProperties<S> joint = *now;
   joint.motor_speed = -joint.motor_speed;
-  parts_->world.set_joint(mill_, joint);
+  state_.world.set_joint(mill_, joint);
 }
 
 template <class S> void Match<S>::tilt(Vec3<Unit<S>> aim) {
   const Vec3<S> down = {S(0), MatchRules<S>::kFall, S(0)};
-  parts_->world.set_gravity(down + aim * MatchRules<S>::kLean);
-  parts_->own.level_at = parts_->own.tick + MatchRules<S>::kTiltFrames;
+  state_.world.set_gravity(down + aim * MatchRules<S>::kLean);
+  state_.user.level_at = state_.user.tick + MatchRules<S>::kTiltFrames;
 }
 
 /// Pucks that clash score both; a spawned body that a puck hits hard breaks.
 template <class S> void Match<S>::count_touches() {
   std::uint32_t broken = 0;
-  for (const ContactBegin<S>& touch : parts_->world.events().contact_begin) {
+  for (const ContactBegin<S>& touch : state_.world.events().contact_begin) {
     if (touch.impulse < MatchRules<S>::kHardHit) continue;
     const int a = player_of(touch.a), b = player_of(touch.b);
     if (a >= 0 && b >= 0) {
@@ -255,7 +255,7 @@ template <class S> void Match<S>::count_touches() {
 }
 
 template <class S> void Match<S>::count_goals() {
-  for (const SensorEvent& entry : parts_->world.events().sensor_begin) {
+  for (const SensorEvent& entry : state_.world.events().sensor_begin) {
     const int player = player_of(entry.other);
     if (entry.sensor != ring_ || player < 0) continue;
     player_state(player).score += 3;
@@ -264,7 +264,7 @@ template <class S> void Match<S>::count_goals() {
 }
 
 template <class S> void Match<S>::put_back_fallen() {
-  const WorldState<S>& state = parts_->world.state();
+  const WorldState<S>& state = state_.world.state();
   found_.clear();
   for (const BodyState<S>& body : state.awake.states) {
     if (body.centre.y < MatchRules<S>::kDepth) found_.push_back(state.body_slots.template id_of<BodyId>(body.slot));
@@ -274,8 +274,8 @@ template <class S> void Match<S>::put_back_fallen() {
 
 /// A puck to its start, what was spawned to nowhere, the rest to the top of the pile. Ropes do not stretch that far.
 template <class S> void Match<S>::put_back(BodyId body) {
-  World<S>& world = parts_->world;
-  Pcg32& random = parts_->own.random;
+  World<S>& world = state_.world;
+  Pcg32& random = state_.user.random;
   const int place = spawned_place(body), player = player_of(body);
   if (place >= 0) {
     clear_spawned(place);
@@ -298,10 +298,10 @@ template <class S> void Match<S>::put_back(BodyId body) {
 }
 
 template <class S> void Match<S>::untie(BodyId body) {
-  for (MatchState::Player& player : parts_->own.players) {
-    const JointProperties<S>* joint = parts_->world.joint(player.tether);
+  for (MatchState::Player& player : state_.user.players) {
+    const JointProperties<S>* joint = state_.world.joint(player.tether);
     if (joint == nullptr || (joint->body_a != body.slot && joint->body_b != body.slot)) continue;
-    parts_->world.destroy(player.tether);
+    state_.world.destroy(player.tether);
     player.tether = JointId{};
   }
 }
@@ -315,17 +315,17 @@ template <class S> int Match<S>::player_of(BodyId body) const {
 
 template <class S> int Match<S>::spawned_place(BodyId body) const {
   for (std::size_t place = 0; place < kMaxSpawned; ++place) {
-    if (body && parts_->own.spawned[place] == body) return static_cast<int>(place);
+    if (body && state_.user.spawned[place] == body) return static_cast<int>(place);
   }
   return -1;
 }
 
 template <class S> void Match<S>::clear_spawned(int place) {
-  BodyId& body = parts_->own.spawned[place];
-  ShapeId& shape = parts_->own.shapes[place];
+  BodyId& body = state_.user.spawned[place];
+  ShapeId& shape = state_.user.shapes[place];
   if (!body) return;
-  parts_->world.destroy(body);
-  parts_->world.remove_shape(shape);
+  state_.world.destroy(body);
+  state_.world.remove_shape(shape);
   body = BodyId{};
   shape = ShapeId{};
 }

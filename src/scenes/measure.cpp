@@ -50,7 +50,7 @@ Part part_of(Solid solid) {
   for (int i = 0; i < 3; ++i) {
     const Vec3<double> unit = {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
     const Vec3<double> local = abs(transposed_times(m, unit));
-    reach.set(i, dot(local, solid.half) + solid.radius);
+    reach[i] = dot(local, solid.half) + solid.radius;
   }
   part.low = solid.centre - reach;
   part.high = solid.centre + reach;

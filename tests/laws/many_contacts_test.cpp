@@ -21,7 +21,7 @@ template <class S> class ManyContacts : public ::testing::Test {
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {
         Vec3<Unit<S>> normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};
-        normal.set(axis, Unit<S>(side));
+        normal[axis] = Unit<S>(side);
         BodyDefinition<S> wall = still<S>(w.add_shape(HalfSpace<S>{normal, S(-3)}));
         wall.material.friction = S(0);
         wall.material.restitution = S(1);
@@ -32,8 +32,8 @@ template <class S> class ManyContacts : public ::testing::Test {
     std::vector<BodyId> balls;
     Dice dice(1);
     for (int i = 0; i < 30; ++i) {
-      BodyDefinition<S> d = moving<S>(ball, {1.35 * (i % 4) - 2.1, 1.35 * (i / 4 % 4) - 2.1, 1.35 * (i / 16) - 2.1},
-                                      dice.point(speed));
+      BodyDefinition<S> d =
+          moving<S>(ball, {1.35 * (i % 4) - 2.1, 1.35 * (i / 4 % 4) - 2.1, 1.35 * (i / 16) - 2.1}, dice.point(speed));
       d.mass = S(1);
       d.material.friction = S(0);
       d.material.restitution = S(1);

@@ -38,10 +38,10 @@ for pid in $background; do
   wait "$pid" || complain "a command in the background exits $?"
 done
 
-# The C++ blocks are the parts of the examples between their marks, less the indentation.
+# The C++ blocks are the parts of the examples between their marks, each less its first line's indentation.
 quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
-shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; next} /README: end/ {inside = 0} inside' hello.cpp \
-  lockstep_game.cpp cloth.cpp selfcheck.cpp | sed 's/^  //')
+shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}
+  inside {if (indent < 0) indent = match($0, /[^ ]/); print substr($0, indent)}' hello.cpp lockstep_game.cpp cloth.cpp selfcheck.cpp)
 [ "$quoted" = "$shown" ] || complain "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
 
 for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do

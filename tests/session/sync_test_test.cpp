@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "isostep/state/composite.hpp"
 #include "isostep/world/state.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"
@@ -180,27 +181,28 @@ struct HidesFromItsHash : Toy {
     return reader.result("game");
   }
 };
-/// Saves its world and not what belongs to it.
-struct SavesItsWorldOnly {
+struct Pushes {
+  std::uint32_t count = 0;
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("count", self.count);
+  }
+};
+/// A game as README shows it, which counts in its state or, forgetfully, in a member beside it.
+template <bool kForgets> struct CountingGame : Composite<World<Q16_16>, Pushes> {
   using Input = ToyInput;
-  using Snapshot = World<Q16_16>::Snapshot;
-  World<Q16_16> world;
   BodyId ball;
-  int pushes = 0;
+  Pushes beside;
 
-  SavesItsWorldOnly() {
+  CountingGame() {
     const ShapeId shape = world.add_shape(Sphere<Q16_16>{Q16_16(0.5)});
     ball = world.create({.type = BodyType::dynamic, .shape = shape});
   }
   void step(InputView<ToyInput>) {
-    ++pushes;
+    const std::uint32_t pushes = ++(kForgets ? beside : user).count;
     const bool is_flaw = world.tick() == kFlaw;
     if (is_flaw && pushes % 2 == 1) world.apply_impulse(ball, {Q16_16(1), Q16_16(0), Q16_16(0)});
     world.step();
   }
-  void save(Snapshot& to) const { world.save(to); }
-  void load(const Snapshot& from) { world.load(from); }
-  std::uint64_t hash() const { return world.hash(); }
 };
 
 /// What the session says is wrong.
@@ -238,10 +240,11 @@ TYPED_TEST(SyncTestOfAFlaw, NamesTheFirstStateThatComesOutOtherwise) {
 TEST(SyncTestOfAWorld, FindsUserStateThatIsNotSavedWithIt) {
   for (const Frame depth : {1, 3}) {  // an odd number of steps more: the push comes the other time
     SCOPED_TRACE(depth);
-    const std::vector<SessionEvent> flaws = flaws_of<SavesItsWorldOnly>(depth, 140);
+    const std::vector<SessionEvent> flaws = flaws_of<CountingGame<true>>(depth, 140);
     ASSERT_FALSE(flaws.empty());
     EXPECT_EQ(flaws[0].frame, static_cast<Frame>(kFlaw) + 1);
     EXPECT_EQ(flaws[0].agreed, static_cast<Frame>(kFlaw));
+    EXPECT_TRUE(flaws_of<CountingGame<false>>(depth, 140).empty()) << "the same game, with its count in its state";
   }
 }
 

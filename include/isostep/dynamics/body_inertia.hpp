@@ -35,7 +35,7 @@ template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body,
       const S share = S(0) < held[axis] && i != axis ? divide_to<S>(held[i], held[axis]) : S(0);
       for (int k = 0; k < 3; ++k) {
         const bool gone = i == axis || k == axis;
-        kappa.rows[i].set(k, gone ? S(0) : kappa.rows[i][k] - saturate_to<S>(product(share, held[k])));
+        kappa.rows[i][k] = gone ? S(0) : kappa.rows[i][k] - saturate_to<S>(product(share, held[k]));
       }
     }
   }

@@ -239,7 +239,7 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
 template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) const {
   if (!(dot(met.impulse, met.gravity) < S(0))) return U(0);
   const S weight = saturate_to<S>(product(max_abs(met.gravity) * step_, met.mass));
-  const S got = direction_of(met.impulse.x, met.impulse.y, met.impulse.z).length;
+  const S got = length(met.impulse);
   return got <= weight ? U(1) : divide_to<U>(weight, got);
 }
 

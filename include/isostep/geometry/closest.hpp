@@ -29,9 +29,9 @@ template <class S> ISO_INLINE ClosestPoint<S> closest_on_core(Vec3<S> half, S ra
   if (depth.y < depth[axis]) axis = 1;
   if (depth.z < depth[axis]) axis = 2;
   const bool negative = q[axis] < S(0);
-  core.set(axis, negative ? -half[axis] - radius : half[axis] + radius);
+  core[axis] = negative ? -half[axis] - radius : half[axis] + radius;
   Vec3<U> n = Vec3<U>::zero();
-  n.set(axis, negative ? U(-1) : U(1));
+  n[axis] = negative ? U(-1) : U(1);
   return {core, -depth[axis] - radius, n};
 }
 template <class S>

@@ -114,7 +114,7 @@ template <class U> ISO_INLINE Quat<U> principal_axes(const Mat3<U>& tensor) {
     const U sine = divide_to<U>(half * doubled.y, cosine);
     const U half_cosine = sqrt(half + half * cosine);
     Vec3<U> axis = Vec3<U>::zero();
-    axis.set(k, -divide_to<U>(half * sine, half_cosine));
+    axis[k] = -divide_to<U>(half * sine, half_cosine);
     axes = normalise(axes * Quat<U>{axis.x, axis.y, axis.z, half_cosine});
   }
   if (axes.w < U(0)) axes = {-axes.x, -axes.y, -axes.z, -axes.w};

@@ -43,7 +43,7 @@ template <class S> ISO_INLINE bool enter_sphere(Vec3<S> m, Vec3<Unit<S>> u, S r,
   if (b < S(0)) return false;
   const Vec3<S> p = m + u * b;
   if (dot_sum(p, p) > product(r, r)) return false;
-  const S miss = min(direction_of(p.x, p.y, p.z).length, r);
+  const S miss = min(length(p), r);
   distance = max(b - sqrt(r - miss) * sqrt(r + miss), S(0));
   return true;
 }

@@ -62,6 +62,11 @@ template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q) {
            {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
 }
 
+/// v turned by q, each component rounded once. For many vectors the matrix is cheaper, and gives the same bits.
+template <class U, class A> ISO_INLINE constexpr auto rotate(Quat<U> q, Vec3<A> v) -> Vec3<decltype(U{} * A{})> {
+  return to_matrix(q) * v;
+}
+
 /// R diag(d) R^T: a tensor with principal values d, seen from the frame that R leads to. Symmetric bit for bit.
 template <class U, class S> ISO_INLINE constexpr Mat3<S> rotate_diagonal(const Mat3<U>& r, Vec3<S> d) {
   const Vec3<S> s0 = scale(d, r.rows[0]), s1 = scale(d, r.rows[1]), s2 = scale(d, r.rows[2]);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
+#include "isostep/scalar/math.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -22,7 +24,7 @@ template <class T> struct Vec3 {
 
   /// Component 0, 1 or 2.
   ISO_INLINE constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
-  ISO_INLINE constexpr void set(int i, T value) { (i == 0 ? x : i == 1 ? y : z) = value; }
+  ISO_INLINE constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("x", self.x);
@@ -31,9 +33,20 @@ template <class T> struct Vec3 {
   }
 };
 
-/// v s, in the coarser of the two formats: length * direction is length.
-template <class A, class B> ISO_INLINE constexpr auto operator*(Vec3<A> v, B s) -> Vec3<decltype(A{} * B{})> {
+/// A number of any format: what a vector is multiplied with.
+template <class T>
+concept Factor = !HasFields<T>;
+
+/// v s and s v, in the coarser of the two formats: length * direction is length.
+template <class A, Factor B> ISO_INLINE constexpr auto operator*(Vec3<A> v, B s) -> Vec3<decltype(A{} * B{})> {
   return {v.x * s, v.y * s, v.z * s};
+}
+template <class A, Factor B> ISO_INLINE constexpr auto operator*(B s, Vec3<A> v) -> Vec3<decltype(B{} * A{})> {
+  return {s * v.x, s * v.y, s * v.z};
+}
+/// Each component divided by s. Fixed point: a quotient that does not fit wraps, as that of numbers does.
+template <class A, Factor B> ISO_INLINE constexpr auto operator/(Vec3<A> v, B s) -> Vec3<decltype(A{} / B{})> {
+  return {v.x / s, v.y / s, v.z / s};
 }
 
 /// a . b as an exact sum, for signs and comparisons without rounding.
@@ -74,6 +87,23 @@ template <class T> ISO_INLINE constexpr Vec3<T> saturating_subtract(Vec3<T> a, V
 }
 /// The largest component's magnitude: a length that needs no square.
 template <class T> ISO_INLINE constexpr T max_abs(Vec3<T> a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+
+/// The direction [1] and the length of v, both zero for the zero vector. Errors and ends: direction_of() in
+/// scalar/math.hpp.
+template <class S> struct Heading {
+  Vec3<Unit<S>> direction;
+  S length;
+};
+template <class S> ISO_INLINE constexpr Heading<S> heading_of(Vec3<S> v) {
+  const auto d = direction_of(v.x, v.y, v.z);
+  return {{d.x, d.y, d.z}, d.length};
+}
+/// |v|, whatever its magnitude; fixed point: the highest number where it does not fit.
+template <class S> ISO_INLINE constexpr S length(Vec3<S> v) { return direction_of(v.x, v.y, v.z).length; }
+/// |b - a|, where the difference fits the format.
+template <class S> ISO_INLINE constexpr S distance(Vec3<S> a, Vec3<S> b) { return length(b - a); }
+/// v / |v|; zero for the zero vector.
+template <class S> ISO_INLINE constexpr Vec3<Unit<S>> normalise(Vec3<S> v) { return heading_of(v).direction; }
 
 template <class Out, class T> ISO_INLINE constexpr Vec3<Out> convert(Vec3<T> a) {
   return {convert<Out>(a.x), convert<Out>(a.y), convert<Out>(a.z)};

@@ -58,7 +58,7 @@ template <class S> void ParticleEngine<S>::find_pulls() {
   for (const Spring<S>& spring : state_.springs.all()) {
     if (!spring.a) continue;
     const Vec3<S> d = state_.position[spring.a.slot] - (spring.b ? state_.position[spring.b.slot] : spring.anchor);
-    const S extension = abs(direction_of(d.x, d.y, d.z).length - spring.rest_length);
+    const S extension = abs(length(d) - spring.rest_length);
     const auto pull = [&](std::uint32_t slot) {
       const S part = saturate_to<S>(product(spring.stiffness, state_.inverse_mass[slot])) / rate / rate;
       pulls_[slot] = saturating_add(pulls_[slot], saturate_to<S>(product(extension, min(part, S(2)))));

@@ -46,7 +46,7 @@ namespace detail {
 template <class S> ISO_INLINE bool is_cut(Vec3<S> a) {
   const S most = highest<S>();
   if (lies_within(a, most * S(0.5))) return false;  // the largest component of such a length is above 0.57 of it
-  return !(direction_of(a.x, a.y, a.z).length < most - most * S(1.0 / 1024));
+  return !(length(a) < most - most * S(1.0 / 1024));
 }
 }  // namespace detail
 
@@ -276,10 +276,10 @@ template <class S> void ParticleEngine<S>::swing_stiff_springs() {
       const S d = rest[axis] + convert<S>(before);
       const V far = saturate_to<V>(product(d, Unit<S>(1)));
       // (dd - 1) of a length in the coarse format and its fine rest, (dv - 1) of the way that v made.
-      way.set(axis, saturating_add(saturating_subtract(saturate_to<V>(product(d, step.dd)), far),
-                                   ahead[axis] * step.dv - ahead[axis]));
-      change.set(axis,
-                 saturating_add(saturate_to<V>(product(d, step.vd)), saturating_subtract(v[axis] * step.vv, v[axis])));
+      way[axis] = saturating_add(saturating_subtract(saturate_to<V>(product(d, step.dd)), far),
+                                 ahead[axis] * step.dv - ahead[axis]);
+      change[axis] =
+          saturating_add(saturate_to<V>(product(d, step.vd)), saturating_subtract(v[axis] * step.vv, v[axis]));
     }
     way = held_within(way, highest<V>());  // but for the lowest, which has no negative
     change = held_within(change, highest<V>());

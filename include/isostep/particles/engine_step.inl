@@ -168,8 +168,8 @@ template <class S> ISO_INLINE void ParticleEngine<S>::finish_particle(std::uint3
       if (detail::lies_within(p[axis], edge)) continue;
       Vec3<V> stopped = state_.velocity[slot];
       Vec3<S> held = state_.position[slot];
-      stopped.set(axis, V(0));
-      held.set(axis, clamp(p[axis], -edge, edge));
+      stopped[axis] = V(0);
+      held[axis] = clamp(p[axis], -edge, edge);
       state_.velocity.set(slot, stopped);
       state_.position.set(slot, held);
     }
@@ -185,11 +185,11 @@ template <class S> void ParticleEngine<S>::yield_springs() {
     if (!spring.a || !(S(0) < spring.elastic_limit)) continue;
     const Vec3<S> other = spring.b ? state_.position[spring.b.slot] : spring.anchor;
     const Vec3<S> d = state_.position[spring.a.slot] - other;
-    const S length = direction_of(d.x, d.y, d.z).length;
-    const S extension = length - spring.rest_length;
+    const S now = length(d);
+    const S extension = now - spring.rest_length;
     const bool slack = spring.type == SpringType::bungee && extension < S(0);
     if (slack || detail::lies_within(extension, spring.elastic_limit)) continue;
-    const S wanted = extension < S(0) ? length + spring.elastic_limit : length - spring.elastic_limit;
+    const S wanted = extension < S(0) ? now + spring.elastic_limit : now - spring.elastic_limit;
     const S rest = clamp(wanted, S(0), ParticleLimits<S>::position());
     if (rest == spring.rest_length) continue;  // it cannot give more
     const SpringId id = state_.springs.slots().template id_of<SpringId>(slot);

@@ -122,7 +122,7 @@ template <class S> ISO_INLINE Unit<S> time_to_sphere(Vec3<S> p, Vec3<S> way, S r
   const S ahead = -dot(p, u);  // to the nearest point
   if (along.length == S(0) || ahead <= S(0)) return U(1);
   const Vec3<S> off = p + u * ahead;
-  const S miss = direction_of(off.x, off.y, off.z).length;
+  const S miss = length(off);
   if (!(miss < radius)) return U(1);
   const S before = ahead - sqrt(radius - miss) * sqrt(radius + miss);
   if (before <= S(0)) return U(0);

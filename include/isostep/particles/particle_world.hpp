@@ -33,7 +33,7 @@ struct ParticleCounts {
 /// tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
-template <class S> class ParticleWorld {
+template <class S> class ParticleWorld final {
   ISO_REQUIRE_ENGINE(S);
 
  public:

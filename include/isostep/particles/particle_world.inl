@@ -27,7 +27,7 @@ ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& settings) : kernels
   const S limit = ParticleLimits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];
-    s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
+    s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
   }
   if (static_cast<std::uint32_t>(s.integrator) >= kIntegrators) s.integrator = Integrator::semi_implicit_euler;
   if (static_cast<std::uint32_t>(s.solver) >= kParticleSolvers) s.solver = ParticleSolver::soft_step;

@@ -65,56 +65,57 @@ template <class T> ISO_INLINE Result<void> read_part(T& part, Reader& reader) {
 }
 }  // namespace detail
 
-/// What a composite of these parts is saved into. The same for parts that are const.
+/// What a composite of these parts is saved into.
 template <class World, class User> struct CompositeSnapshot {
   typename detail::SnapshotOf<World>::Type world;
   typename detail::SnapshotOf<User>::Type user;
 };
 
-/// Holds references: lives no longer than its parts. Of const parts, as in a game's `save() const`, it is saved, hashed
-/// and written; a game's `load` makes another one of parts that may change.
-template <detail::CompositePart World, detail::CompositePart User> class Composite {
- public:
-  using Snapshot = CompositeSnapshot<std::remove_const_t<World>, std::remove_const_t<User>>;
+/// A world and the game's own state. A game derives from Composite<World, State>, which holds both by value, and adds
+/// `step`: whatever it remembers from frame to frame is a field of `user`, for what stands beside is neither saved nor
+/// hashed, and a sync test finds it. Composite<World&, State&> refers to parts that live elsewhere.
+template <class WorldPart, class UserPart>
+requires detail::CompositePart<std::remove_reference_t<WorldPart>> &&
+    detail::CompositePart<std::remove_reference_t<UserPart>>
+struct Composite {
+  WorldPart world{};
+  UserPart user{};
 
-  ISO_INLINE Composite(World& world, User& user) : world_(&world), user_(&user) {}
+  using Snapshot = CompositeSnapshot<std::remove_cvref_t<WorldPart>, std::remove_cvref_t<UserPart>>;
 
   ISO_INLINE void save(Snapshot& to) const {
-    detail::save_part(*world_, to.world);
-    detail::save_part(*user_, to.user);
+    detail::save_part(world, to.world);
+    detail::save_part(user, to.user);
   }
   /// False, and the user's part is as it was, where the world refuses.
   ISO_INLINE bool load(const Snapshot& from) {
-    return detail::load_part(*world_, from.world) && detail::load_part(*user_, from.user);
+    return detail::load_part(world, from.world) && detail::load_part(user, from.user);
   }
   ISO_INLINE std::uint64_t hash() const {
     HashCombiner root;
-    root.add(detail::hash_part(*world_));
-    root.add(detail::hash_part(*user_));
+    root.add(detail::hash_part(world));
+    root.add(detail::hash_part(user));
     return root.value();
   }
 
   ISO_INLINE void write_portable(Writer& writer) const {
-    detail::write_part(*world_, writer);
-    detail::write_part(*user_, writer);
+    detail::write_part(world, writer);
+    detail::write_part(user, writer);
   }
   /// Both parts or neither.
   ISO_INLINE Result<void> read_portable(Reader& reader) {
-    typename detail::SnapshotOf<World>::Type before;
-    detail::save_part(*world_, before);
-    if (Result<void> read = detail::read_part(*world_, reader); !read) return read;
-    Result<void> read = detail::read_part(*user_, reader);
-    if (!read) detail::load_part(*world_, before);
+    typename detail::SnapshotOf<std::remove_cvref_t<WorldPart>>::Type before;
+    detail::save_part(world, before);
+    if (Result<void> read = detail::read_part(world, reader); !read) return read;
+    Result<void> read = detail::read_part(user, reader);
+    if (!read) detail::load_part(world, before);
     return read;
   }
-
- private:
-  World* world_;
-  User* user_;
 };
 
-template <class World, class User> ISO_INLINE Composite<World, User> composite(World& world, User& user) {
-  return Composite<World, User>(world, user);
+/// Of parts that live elsewhere, and no shorter.
+template <class World, class User> ISO_INLINE Composite<World&, User&> composite(World& world, User& user) {
+  return {world, user};
 }
 
 }  // namespace isostep

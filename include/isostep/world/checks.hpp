@@ -28,7 +28,7 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
 }
 
 /// By its length, not by axis.
-template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < direction_of(v.x, v.y, v.z).length); }
+template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < length(v)); }
 
 /// What is asked of a command's fields, in order; the first that is not met is the fault.
 class Checklist {

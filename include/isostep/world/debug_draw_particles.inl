@@ -51,7 +51,7 @@ template <class S> class ParticleSketch {
       drawn.a = link.a;
       drawn.b = link.b;
       const Vec3<S> apart = draw_ends(link, drawn.from, drawn.to);
-      const S excess = direction_of(apart.x, apart.y, apart.z).length - link.length;
+      const S excess = length(apart) - link.length;
       drawn.error = sketch_.number(link.type == LinkType::cable ? max(excess, S(0)) : excess);
       to_.link(drawn);
     }

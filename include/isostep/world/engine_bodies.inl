@@ -199,12 +199,12 @@ template <class S> S WorldEngine<S>::joint_error(JointId joint) const {
   const Pose<S> a = compose(centre_pose_at(properties->body_a), properties->frame_a);
   const Pose<S> b = compose(centre_pose_at(properties->body_b), properties->frame_b);
   const Vec3<S> apart = b.position - a.position;
-  const S length = direction_of(apart.x, apart.y, apart.z).length;
-  if (properties->type != JointType::distance) return length;
+  const S far = length(apart);
+  if (properties->type != JointType::distance) return far;
   const bool springs_alone =
       (properties->flags & joint_flag::kSpring) != 0 && (properties->flags & joint_flag::kLimit) == 0;
   if (springs_alone) return S(0);
-  return max(S(0), max(length - properties->upper, properties->lower - length));
+  return max(S(0), max(far - properties->upper, properties->lower - far));
 }
 
 }  // namespace isostep

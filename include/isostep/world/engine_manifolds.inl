@@ -168,7 +168,7 @@ template <class S> void WorldEngine<S>::find_carried() {
     if (body.type != BodyType::kinematic) continue;
     Vec3<V> spin = state_.awake.states[i].spin;
     for (int axis = 0; axis < 3; ++axis) {
-      if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) spin.set(axis, V(0));
+      if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) spin[axis] = V(0);
     }
     if (spin == Vec3<V>::zero()) continue;
     const Vec3<Unit<S>> turned = {turn(spin.x), turn(spin.y), turn(spin.z)};

@@ -143,8 +143,8 @@ template <class S> void WorldEngine<S>::discard_bad_impulses() {
     contact.twist_impulse = V(0);
   }
   for (JointState<S>& joint : state_.joints.states) {
-    const bool finite = is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.drive) &&
-                        is_finite(joint.swing);
+    const bool finite =
+        is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.drive) && is_finite(joint.swing);
     if (finite) continue;
     JointState<S> fresh = {};
     fresh.slot = joint.slot;
@@ -154,9 +154,7 @@ template <class S> void WorldEngine<S>::discard_bad_impulses() {
 
 namespace detail {
 /// Most are not half as long along any axis, and need no square root.
-template <class V> bool is_longer(Vec3<V> v, V limit) {
-  return limit * V(0.5) < max_abs(v) && limit < direction_of(v.x, v.y, v.z).length;
-}
+template <class V> bool is_longer(Vec3<V> v, V limit) { return limit * V(0.5) < max_abs(v) && limit < length(v); }
 /// To `limit`, or to 2^-12 less where rounding leads beyond.
 template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
   if (!is_longer(v, limit)) return v;
@@ -198,7 +196,7 @@ template <class S> void WorldEngine<S>::finish_body(std::size_t index) {
     const Vec3<S> c = state.centre;
     state.centre = {clamp(c.x, -edge, edge), clamp(c.y, -edge, edge), clamp(c.z, -edge, edge)};
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(state.centre[axis] == c[axis])) state.velocity.set(axis, V(0));
+      if (!(state.centre[axis] == c[axis])) state.velocity[axis] = V(0);
     }
     ++report_.clamped_position;
   }

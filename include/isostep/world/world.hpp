@@ -73,8 +73,10 @@ struct WorldCounts {
 /// may ask. Two worlds of one type that were told the same things in the same order have equal hashes at every
 /// tick, on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
 ///
+/// A game is no World but has one, beside what it remembers itself: see Composite (state/composite.hpp).
+///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
-template <class S> class World {
+template <class S> class World final {
   ISO_REQUIRE_ENGINE(S);
 
  public:

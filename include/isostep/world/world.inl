@@ -36,7 +36,7 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
   const S limit = Limits<S>::speed();
   for (int axis = 0; axis < 3; ++axis) {
     const S g = s.gravity[axis];
-    s.gravity.set(axis, is_finite(g) ? clamp(g, -limit, limit) : S(0));
+    s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
   }
   accept(detail::Checklist()
              .in_range(s.hz == settings.hz, "hz", "10 to 1000")

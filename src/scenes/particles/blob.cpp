@@ -59,7 +59,7 @@ template <class S> void steer_blob(ParticleWorld<S>& world) {
   int near = 0;
   for (const ParticleId particle : world.particles()) {
     const Vec3<S> away = world.position(particle) - at;
-    if (particle != head && direction_of(away.x, away.y, away.z).length < S(1)) ++near;
+    if (particle != head && length(away) < S(1)) ++near;
   }
   const std::uint64_t second = world.tick() / static_cast<std::uint64_t>(world.settings().hz);
   const int push = downhill(world, at) * (second % 8 == 7 ? -10 : 10);  // [N]

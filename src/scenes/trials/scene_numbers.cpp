@@ -61,7 +61,7 @@ Mat3<double> inertia_of(const SceneBody& body) {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
         const double along = i == k ? own[i] + dot(arm, arm) : 0.0;
-        inertia.rows[i].set(k, inertia.rows[i][k] + mass * (along - arm[i] * arm[k]));
+        inertia.rows[i][k] = inertia.rows[i][k] + mass * (along - arm[i] * arm[k]);
       }
     }
   }

@@ -1,6 +1,7 @@
 // A session outside the tree: a game of orders is rolled back at every frame and gives the same states again.
 // SPDX-License-Identifier: MIT
 #include <isostep/session/session.hpp>
+#include <isostep/state/composite.hpp>
 #include <isostep/world/world.hpp>
 
 namespace iso = isostep;
@@ -14,20 +15,29 @@ struct Order {
   }
 };
 
-struct Game : iso::World<S> {
+struct Orders {  // how many were carried out
+  std::uint32_t count = 0;
+  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("count", self.count);
+  }
+};
+
+struct Game : iso::Composite<iso::World<S>, Orders> {
   using Input = iso::CommandList<Order, 4>;
   iso::ShapeId ball;
 
   Game() {
-    create({.shape = add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
-    ball = add_shape(iso::Sphere{0.5});
+    world.create({.shape = world.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
+    ball = world.add_shape(iso::Sphere{0.5});
   }
   void step(iso::InputView<Input> inputs) {
     for (const Input& orders : inputs.values) {
-      for (const Order& order : orders)
-        create({.type = iso::dynamic, .shape = ball, .position = {0, S(order.height), 0}});
+      for (const Order& order : orders) {
+        world.create({.type = iso::dynamic, .shape = ball, .position = {0, S(order.height), 0}});
+        ++user.count;
+      }
     }
-    World::step();
+    world.step();
   }
 };
 
@@ -44,5 +54,8 @@ int main() {
     iso::drive(session, game, now);
     if (session.poll_event()) return 1;
   }
-  return session.confirmed() >= 120 && game.counts().bodies > 5 && session.stats().rollbacks[8] > 3 ? 0 : 1;
+  return session.confirmed() >= 120 && game.world.counts().bodies == 1 + game.user.count && game.user.count > 5 &&
+                 session.stats().rollbacks[8] > 3
+             ? 0
+             : 1;
 }

@@ -307,7 +307,7 @@ TYPED_TEST(Broadphase, BoxesThatShrinkTowardsAPointInPowersOfTwoStayBelowTheGrea
   for (std::uint32_t i = 0; i < 120; ++i, at = at * S(0.5)) {
     for (std::uint32_t k = 0; k < 6; ++k) {
       Vec3<S> corner = Vec3<S>::zero();
-      corner.set(static_cast<int>(k % 3), k < 3 ? at : -at);
+      corner[static_cast<int>(k % 3)] = k < 3 ? at : -at;
       tree.insert(i * 6 + k, {corner, corner});
     }
   }

@@ -246,7 +246,7 @@ TYPED_TEST(QueryTest, NoSampledSurfacePointIsCloser) {
     for (int k = 0; k < 400; ++k) {
       D3 surface = {random.in(-0.5, 0.5), random.in(-1, 1), random.in(-1.5, 1.5)};
       const int face = k % 3;
-      surface.set(face, (k & 1 ? 1 : -1) * (0.5 + 0.5 * face));
+      surface[face] = (k & 1 ? 1 : -1) * (0.5 + 0.5 * face);
       EXPECT_GE(oracle::length(surface - local), distance - 1e-4);
     }
   }

@@ -189,7 +189,7 @@ TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
   this->build(1, 1, 0);
   for (std::uint32_t r = 0; r < 3; ++r) {
     this->system_.row(r).ends[1] = DirectMotion<N>::zero();
-    this->system_.row(r).ends[1].linear.set(r == 0 ? 0 : r == 1 ? 2 : 1, number<N>(0.5));
+    this->system_.row(r).ends[1].linear[r == 0 ? 0 : r == 1 ? 2 : 1] = number<N>(0.5);
   }
   for (const double push : {0.2, 0.9}) {
     this->right_ << push, 0, 1;

@@ -32,7 +32,7 @@ Change turn(Vec3<double> inertia, Vec3<double> start, std::int32_t rate, int ste
   Vec3<V> spin = {from_double<V>(start.x), from_double<V>(start.y), from_double<V>(start.z)};
   Change worst;
   Vec3<V> known = Vec3<V>::zero();
-  for (int k = 0; k < 3; ++k) known.set(k, round_to<V>(dot_sum(to_matrix(q).column(k), spin)));
+  for (int k = 0; k < 3; ++k) known[k] = round_to<V>(dot_sum(to_matrix(q).column(k), spin));
   Vec3<double> momentum0 = {0, 0, 0};
   double energy0 = 0;
   for (int i = 0; i <= steps; ++i) {

@@ -85,9 +85,9 @@ TYPED_TEST(AabbTest, TouchingCountsAsOverlapAndAsContained) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {1, -1}) {
       Vec3<S> centre = Vec3<S>::zero();
-      centre.set(axis, S(2 * sign));
+      centre[axis] = S(2 * sign);
       EXPECT_TRUE(overlap(unit, Aabb<S>::around(centre, {S(1), S(1), S(1)})));
-      centre.set(axis, S(2 * sign) + S(sign) * S(0.001));
+      centre[axis] = S(2 * sign) + S(sign) * S(0.001);
       EXPECT_FALSE(overlap(unit, Aabb<S>::around(centre, {S(1), S(1), S(1)})));
       EXPECT_FALSE(contains(unit, Aabb<S>::around(centre, {S(0), S(0), S(0)})));
     }

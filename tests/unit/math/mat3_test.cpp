@@ -96,6 +96,17 @@ TEST(Mat3OfUnits, HalfTurnsStayWithinTheFormat) {
   EXPECT_EQ(to_matrix(Quat<W>{W(0), W(0), W(1), W(0)}).rows[0].x.raw(), W(-1).raw());
 }
 
+TYPED_TEST(Mat3Test, AVectorTurnedByAQuaternionIsThatOfItsMatrix) {
+  using S = TypeParam;
+  Draw draw(26);
+  for (int i = 0; i < kDraws; ++i) {
+    const auto q = draw.rotation<S>();
+    const Vec3<S> v = draw.vector<S>(6);
+    EXPECT_EQ(rotate(q, v), to_matrix(q) * v);
+    EXPECT_NEAR(double((real(rotate(q, v)) - real(q) * real(v)).norm()), 0, double(bound<S>(8, 16, 128)));
+  }
+}
+
 TYPED_TEST(Mat3Test, RotatedTensorsAreSymmetricBitForBit) {
   using S = TypeParam;
   using U = Unit<S>;

@@ -126,7 +126,7 @@ TYPED_TEST(SparseCholeskyOf, GeneralBlocksAndHeldUnknownsAgreeWithEigen) {
         const int row = static_cast<int>(3 * i) + c;
         const bool out = (held[i] >> c & 1) != 0;
         right[row] = out ? 0 : draw();
-        b[i].set(c, this->number(right[row]));
+        b[i][c] = this->number(right[row]);
         if (!out) continue;
         a.row(row).setZero();
         a.col(row).setZero();

@@ -41,7 +41,52 @@ TYPED_TEST(Vec3Test, ProductsWithANumberRoundOnce) {
     expect_near(real(v * s), real(v) * real(s), bound<S>(1, 1, 4096));
     expect_near(real(d * s), real(d) * real(s), bound<S>(1, 1, 64));
     expect_near(real(v * d.x), real(v) * real(d.x), bound<S>(1, 1, 64));
+    EXPECT_EQ(s * v, v * s);
+    EXPECT_EQ(d.x * v, v * d.x);
+    const S divisor = s < S(0) ? s - S(1) : s + S(1);
+    EXPECT_EQ(v / divisor, (Vec3<S>{v.x / divisor, v.y / divisor, v.z / divisor}));
   }
+}
+
+template <class V>
+concept Multiplies = requires(V v) {
+  v* v;
+};
+template <class V>
+concept Divides = requires(V v) {
+  v / v;
+};
+
+TYPED_TEST(Vec3Test, VectorsHaveNoProductWithoutAName) {
+  EXPECT_FALSE(Multiplies<Vec3<TypeParam>>);
+  EXPECT_FALSE(Divides<Vec3<TypeParam>>);
+  EXPECT_TRUE(Multiplies<TypeParam>);
+}
+
+TYPED_TEST(Vec3Test, AComponentIsWrittenByItsIndex) {
+  using S = TypeParam;
+  Vec3<S> v = {S(1), S(2), S(3)};
+  v[0] = S(4);
+  v[1] += S(3);
+  v[2] = v[0];
+  EXPECT_EQ(v, (Vec3<S>{S(4), S(5), S(4)}));
+}
+
+TYPED_TEST(Vec3Test, LengthsAndDirections) {
+  using S = TypeParam;
+  using U = Unit<S>;
+  Draw draw(9);
+  for (int i = 0; i < kDraws; ++i) {
+    const Vec3<S> a = draw.vector<S>(6), b = draw.vector<S>(6);
+    EXPECT_NEAR(double(real(length(a))), double(real(a).norm()), double(bound<S>(2, 3, 128)));
+    EXPECT_EQ(distance(a, b), length(b - a));
+    if (length(a) < S(1)) continue;
+    expect_near(real(normalise(a)), real(a).normalized(), bound<U>(4, 5, 1));
+    EXPECT_EQ(heading_of(a).direction, normalise(a));
+    EXPECT_EQ(heading_of(a).length, length(a));
+  }
+  EXPECT_EQ(normalise(Vec3<S>::zero()), Vec3<U>::zero());
+  EXPECT_EQ(length(Vec3<S>{S(3), S(0), S(-4)}), S(5));
 }
 
 TYPED_TEST(Vec3Test, ScaleMultipliesComponents) {
@@ -99,7 +144,7 @@ TYPED_TEST(Vec3Test, ComponentsCompareOneByOne) {
     EXPECT_EQ(a[1], a.y);
     EXPECT_EQ(a[2], a.z);
     Vec3<S> c = Vec3<S>::zero();
-    for (int k = 0; k < 3; ++k) c.set(k, a[k]);
+    for (int k = 0; k < 3; ++k) c[k] = a[k];
     EXPECT_EQ(c, a);
     EXPECT_NE(c, (Vec3<S>{a.x, a.y, a.z + S(1)}));
   }
@@ -147,7 +192,7 @@ TYPED_TEST(Vec3Test, TangentsCompleteANormalToABasis) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {1, -1}) {
       Vec3<U> n = Vec3<U>::zero();
-      n.set(axis, U(sign));
+      n[axis] = U(sign);
       expect_basis(n);
     }
   }

@@ -111,7 +111,7 @@ TYPED_TEST(Grid, FindsTouchingParticlesAlongEachAxisAndExactlyAtReach) {
       Vec3<S> p = {S(-20), S(3), S(-7)};
       for (int i = 0; i < 100; ++i) {
         cloud.add(p, S(0.5));
-        p.set(axis, p[axis] + gap);
+        p[axis] = p[axis] + gap;
       }
       EXPECT_EQ(finder.of(cloud), cloud.brute_force());
       EXPECT_EQ(finder.pairs.size(), gap == S(0.5) ? 99u + 98u : gap == S(1) ? 99u : 0u);
@@ -154,7 +154,7 @@ TYPED_TEST(Grid, FindsPairsAmongParticlesScatteredOverTheWholeRange) {
     Vec3<S> p = {S(0), S(0), S(0)};
     for (int axis = 0; axis < 3; ++axis) {
       const S half = uniform(random, S(0), far);
-      p.set(axis, random_below(random, 2) == 0 ? half : -half);
+      p[axis] = random_below(random, 2) == 0 ? half : -half;
     }
     cloud.add(p, S(0.001));
     cloud.add(p, S(0.001));

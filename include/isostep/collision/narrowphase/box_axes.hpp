@@ -66,7 +66,7 @@ ISO_INLINE void examine_crosses(const BoxPair<S>& p, unsigned candidates, S reac
 template <int I, class S>
 ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const Mat3<Unit<S>>& turn_b, Vec3<S> gap) {
   const Vec3<Unit<S>> axis = turn_a.column(I);
-  p.offset.set(I, dot(axis, gap));
+  p.offset[I] = dot(axis, gap);
   p.turn.rows[I] = transposed_times(turn_b, axis);
   p.turn_size.rows[I] = abs(p.turn.rows[I]);
   return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
@@ -126,8 +126,8 @@ ISO_INLINE void touch_edges(const BoxPair<S>& p, const BestAxis<S>& best, S radi
   std::uint32_t feature = std::uint32_t(best.axis - 6);
   for (int k = 0; k < 3; ++k) {
     const bool a_low = n[k]<U(0), b_low = m[k]> U(0);
-    on_a.set(k, k == i ? S(0) : negate_if(a_low, p.half_a[k]));
-    on_b.set(k, k == j ? S(0) : negate_if(b_low, p.half_b[k]));
+    on_a[k] = k == i ? S(0) : negate_if(a_low, p.half_a[k]);
+    on_b[k] = k == j ? S(0) : negate_if(b_low, p.half_b[k]);
     if (k != i && a_low) feature |= 16u << k;
     if (k != j && b_low) feature |= 128u << k;
   }

@@ -138,8 +138,8 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     pair.half_a = batch.a[lane]->half;
     pair.half_b = batch.b[lane]->half;
     for (int i = 0; i < 3; ++i) {
-      pair.offset.set(i, rest.offset[i][lane]);
-      for (int j = 0; j < 3; ++j) pair.turn.rows[i].set(j, rest.turn[i][j][lane]);
+      pair.offset[i] = rest.offset[i][lane];
+      for (int j = 0; j < 3; ++j) pair.turn.rows[i][j] = rest.turn[i][j][lane];
     }
     return pair;
   }

@@ -121,7 +121,7 @@ ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame
     const Vec3<S> x = core.at(end == 0 ? stretch.low : stretch.high);
     Vec3<S> q = x;
     for (int k = 0; k < 3; ++k) {
-      if (region.side[k] != 0) q.set(k, region.side[k] < 0 ? -box.half[k] : box.half[k]);
+      if (region.side[k] != 0) q[k] = region.side[k] < 0 ? -box.half[k] : box.half[k];
     }
     const S length = dot(x - q, outward);
     if (edge && longer_than(x - q - outward * length, sixteenth)) {  // the edge and the capsule diverge sideways
@@ -171,7 +171,7 @@ template <class S> ISO_INLINE Pierced<S> pierced(const Segment<S>& core, Vec3<S>
 template <class S> ISO_INLINE Segment<S> edge_towards(Vec3<S> half, int axis, Vec3<Unit<S>> n) {
   Vec3<S> middle = {n.x < Unit<S>(0) ? -half.x : half.x, n.y < Unit<S>(0) ? -half.y : half.y,
                     n.z < Unit<S>(0) ? -half.z : half.z};
-  middle.set(axis, S(0));
+  middle[axis] = S(0);
   return {middle, unit_axis<Unit<S>>(axis, false), half[axis]};
 }
 

@@ -62,7 +62,7 @@ void collide_capsule_capsule(const Primitive<S>& a, const Transform<S>& ta, cons
   const Vec3<S> gap = core_b.at(closest.t) - p;
   const S radii = a.radius + b.radius;
   if (detail::longer_than(gap, radii + margin)) return;
-  const detail::Heading<S> heading = detail::heading_of(gap);
+  const Heading<S> heading = heading_of(gap);
   const bool apart = heading.length > detail::gap_noise(max_abs(core_b.centre - core_a.centre));
   out.normal = apart ? heading.direction : detail::crossing_normal(core_a, core_b, ta.rotation.column(0));
   // A sine below 1/16, 3.6 degrees, is nearly parallel.

@@ -34,20 +34,10 @@ template <class S> struct Manifold {
 
 namespace detail {
 
-/// A vector's direction [1] and length [m]; both zero for the zero vector.
-template <class S> struct Heading {
-  Vec3<Unit<S>> direction;
-  S length;
-};
-template <class S> ISO_INLINE Heading<S> heading_of(Vec3<S> v) {
-  const auto d = direction_of(v.x, v.y, v.z);
-  return {{d.x, d.y, d.z}, d.length};
-}
-
 /// Plus or minus the axis k of a local frame, as the frame itself sees it.
 template <class U> ISO_INLINE constexpr Vec3<U> unit_axis(int k, bool negative) {
   Vec3<U> axis = Vec3<U>::zero();
-  axis.set(k, negative ? U(-1) : U(1));
+  axis[k] = negative ? U(-1) : U(1);
   return axis;
 }
 template <class T> ISO_INLINE constexpr T negate_if(bool negative, T value) { return negative ? -value : value; }

@@ -59,7 +59,7 @@ void collide_sphere_box(const Primitive<S>& a, const Transform<S>& ta, const Pri
     outward = detail::unit_axis<U>(k, centre[k] < S(0));
     length = -depth[k];
   } else {
-    const detail::Heading<S> heading = detail::heading_of(gap);
+    const Heading<S> heading = heading_of(gap);
     outward = heading.direction;
     length = heading.length;
   }

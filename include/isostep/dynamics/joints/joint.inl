@@ -130,7 +130,7 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     const int at = static_cast<int>(drive.place);
-    right.set(at, detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax), most));
+    right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax), most);
   }
   return right;
 }
@@ -155,7 +155,7 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
       push.add(drive.row, impulse - drive.impulse);
       drive.impulse = impulse;
     }
-    of_drives.set(at, V(0));
+    of_drives[at] = V(0);
   }
   for (std::uint32_t i = 0; i < joint.block_count; ++i) {
     Vec3<V>& impulse = joint.blocks[i].impulse;

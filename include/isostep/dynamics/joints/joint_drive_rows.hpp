@@ -18,7 +18,7 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
     const bool fixed = fixes_speed(drive.piece), springs = !fixed && drive.spring > S(0);
     block.rows[at] = fixed ? drive.row : springs ? scaled_row(drive.row, drive.spring_row.y) : JointRow<S>::zero();
     const S share = convert<S>(drive.spring_row.x);
-    block.give.set(at, springs ? share * share : S(0));
+    block.give[at] = springs ? share * share : S(0);
   }
 }
 

@@ -33,9 +33,8 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   if (joint.drive_count == 0 || joint.properties.type == JointType::distance) return;
   const Mat3<Unit<S>> frame = to_matrix(end_a.pose.orientation * joint.properties.frame_a.orientation);
   const auto about = [&](int i) { return turning_about(convert<S>(frame.column(i)), a, b, joint.share); };
-  const auto length_of = [](Vec3<S> arm) { return direction_of(arm.x, arm.y, arm.z).length; };
-  const S arm = joint.share.a * length_of(joint.properties.frame_a.position) +
-                joint.share.b * length_of(joint.properties.frame_b.position);
+  const S arm = joint.share.a * length(joint.properties.frame_a.position) +
+                joint.share.b * length(joint.properties.frame_b.position);
   const auto mean = [&](S own) { return sqrt(own) * sqrt(direction_of(own, arm, S(0)).length); };
   joint.drives[0].radius = mean(radius_of(about(2)));
   joint.drives[1].radius = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
@@ -94,7 +93,7 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
   swing.impulse = state.swing;
   // What a drive's place held as an equality, before the joint's settings changed, is let go.
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    joint.blocks[joint.block_count - 1].impulse.set(static_cast<int>(joint.drives[i].place), Velocity<S>(0));
+    joint.blocks[joint.block_count - 1].impulse[static_cast<int>(joint.drives[i].place)] = Velocity<S>(0);
   }
   main.piece = valid_piece(main, state.drive_piece());
   swing.piece = valid_piece(swing, state.swing_piece());

@@ -181,9 +181,9 @@ template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3]
   Mat3<S> k;
   for (int j = 0; j < 3; ++j) {
     const Vec3<S> t = turn[j];
-    k.rows[0].set(j, round_to<S>(product(angular[0].y, t.y) + product(angular[0].z, t.z)));
-    k.rows[1].set(j, round_to<S>(product(angular[1].x, t.x) + product(angular[1].z, t.z)));
-    k.rows[2].set(j, round_to<S>(product(angular[2].x, t.x) + product(angular[2].y, t.y)));
+    k.rows[0][j] = round_to<S>(product(angular[0].y, t.y) + product(angular[0].z, t.z));
+    k.rows[1][j] = round_to<S>(product(angular[1].x, t.x) + product(angular[1].z, t.z));
+    k.rows[2][j] = round_to<S>(product(angular[2].x, t.x) + product(angular[2].y, t.y));
   }
   return k;
 }

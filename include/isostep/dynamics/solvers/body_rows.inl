@@ -14,8 +14,8 @@ namespace detail {
 template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
   if ((flags & body_flag::kAllLocks) == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
-    if ((flags & (body_flag::kLockX << axis)) != 0) row.linear.set(axis, V(0));
-    if ((flags & (body_flag::kLockAngularX << axis)) != 0) row.angular.set(axis, V(0));
+    if ((flags & (body_flag::kLockX << axis)) != 0) row.linear[axis] = V(0);
+    if ((flags & (body_flag::kLockAngularX << axis)) != 0) row.angular[axis] = V(0);
   }
 }
 

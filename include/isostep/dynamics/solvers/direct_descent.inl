@@ -58,7 +58,7 @@ template <class N> bool DirectSystem<N>::descend() {
   from_.resize(blocks_.size());
   while (pivots_ < most_pivots_) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      for (int r = 0; r < 3; ++r) from_[b].set(r, blocks_[b].rows[r].answer);
+      for (int r = 0; r < 3; ++r) from_[b][r] = blocks_[b].rows[r].answer;
     }
     if (!refactor() || !solve_free()) return false;
     if (find_wrong() == 0) return true;

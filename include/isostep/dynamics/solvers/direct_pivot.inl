@@ -94,7 +94,7 @@ template <class N> bool DirectSystem<N>::solve_free() {
       DirectRow<N>& row = blocks_[b].rows[r];
       const bool free = row.bound != DirectBound::absent && row.state == DirectState::free;
       if (free) row.answer = N(0);
-      right_[b].set(r, !free ? N(0) : pushes ? -residual(blocks_[b], r) : row.right + row.give * row.last);
+      right_[b][r] = !free ? N(0) : pushes ? -residual(blocks_[b], r) : row.right + row.give * row.last;
     }
   }
   int exponent = 0;
@@ -205,8 +205,9 @@ template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_wor
   work_ = static_cast<std::uint64_t>(pivots_) * elimination_work();
   if (too_large_) {
     const std::uint64_t one = kSweepWork * block_count(), most_sweeps = most_work / one;
-    const int sweeps =
-        most_sweeps < kLeastSweeps ? kLeastSweeps : most_sweeps < kSweeps ? static_cast<int>(most_sweeps) : kSweeps;
+    const int sweeps = most_sweeps < kLeastSweeps ? kLeastSweeps
+                       : most_sweeps < kSweeps    ? static_cast<int>(most_sweeps)
+                                                  : kSweeps;
     sweep(sweeps);
     work_ = static_cast<std::uint64_t>(sweeps) * one;
   }

@@ -43,7 +43,7 @@ template <class S> void DirectSolver<S>::find_root(std::uint32_t row, const Mat3
   Mat3<N> k;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      k.rows[i].set(j, System::number(System::value(kappa.rows[i][j]), 2 * root.turn_exponent));
+      k.rows[i][j] = System::number(System::value(kappa.rows[i][j]), 2 * root.turn_exponent);
     }
   }
   root.turn = lower_root(k);

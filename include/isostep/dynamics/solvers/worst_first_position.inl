@@ -101,7 +101,7 @@ void WorstFirstResolver<S>::project(const SolverInput<S>& input, const JointCons
     drive.sprung = false;
     drive.spring = S(0);
     drive.piece = lacks == V(0) ? DrivePiece::free : DrivePiece::lower;
-    (joint.block_count > 1 ? right.angular : right.point).set(static_cast<int>(drive.place), lacks);
+    (joint.block_count > 1 ? right.angular : right.point)[static_cast<int>(drive.place)] = lacks;
   }
   weigh_joint(held, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
   factor_joint(held);

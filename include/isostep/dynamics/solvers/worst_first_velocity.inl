@@ -124,7 +124,7 @@ Velocity<S> WorstFirstResolver<S>::motion_urgency(const JointConstraint<S>& join
   for (std::uint32_t i = 0; i < joint.block_count; ++i) {
     Vec3<V> speed = speed_along(joint.blocks[i], m);
     if (i + 1 == joint.block_count) {
-      for (std::uint32_t d = 0; d < joint.drive_count; ++d) speed.set(static_cast<int>(joint.drives[d].place), V(0));
+      for (std::uint32_t d = 0; d < joint.drive_count; ++d) speed[static_cast<int>(joint.drives[d].place)] = V(0);
     }
     most = max(most, max_abs(speed));
   }

@@ -39,7 +39,7 @@ template <class S> ISO_INLINE LocalHit<S> cast_box(const LocalRay<S>& ray, Vec3<
   }
   if (entry > exit) return no_hit<S>();
   Vec3<Unit<S>> normal = Vec3<Unit<S>>::zero();
-  normal.set(face, ray.direction[face] < Unit<S>(0) ? Unit<S>(1) : Unit<S>(-1));
+  normal[face] = ray.direction[face] < Unit<S>(0) ? Unit<S>(1) : Unit<S>(-1);
   return {LocalHit<S>::entered, entry / ray.length, normal};
 }
 }  // namespace detail

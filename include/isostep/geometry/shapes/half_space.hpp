@@ -40,8 +40,8 @@ template <class S = Literal> struct HalfSpace {
     const Vec3<Unit<S>> n = t.rotation * normal;
     const S surface = offset + dot(n, t.position);
     for (int axis = 0; axis < 3; ++axis) {
-      if (n[axis] == Unit<S>(1)) box.high.set(axis, surface);
-      if (n[axis] == Unit<S>(-1)) box.low.set(axis, -surface);
+      if (n[axis] == Unit<S>(1)) box.high[axis] = surface;
+      if (n[axis] == Unit<S>(-1)) box.low[axis] = -surface;
     }
     return box;
   }

@@ -28,7 +28,6 @@ template <class S> Vec3<S> on_the_way(Vec3<S> a, Vec3<S> b, std::uint32_t step, 
   if (step == 0) return a;
   return step == steps ? b : a + (b - a) * divide_to<Unit<S>>(S(step), S(steps));
 }
-template <class S> S distance(Vec3<S> a, Vec3<S> b) { return direction_of(b.x - a.x, b.y - a.y, b.z - a.z).length; }
 
 /// Each command does nothing once one was refused.
 template <class S> class BodyBuilder {

@@ -19,7 +19,7 @@ template <class S> ParticleBody build(ParticleWorld<S>& world, const RopeDefinit
     const Vec3<S> at = detail::on_the_way(definition.start, definition.end, i, last);
     builder.particle(at, mass, pinned, definition.material);
   }
-  const S whole = definition.length == S(0) ? detail::distance(definition.start, definition.end) : definition.length;
+  const S whole = definition.length == S(0) ? distance(definition.start, definition.end) : definition.length;
   const S length = whole / S(last);
   for (std::uint32_t i = 0; builder.good() && i < last; ++i) {
     builder.link(definition.type, i, i + 1, length, definition.restitution);

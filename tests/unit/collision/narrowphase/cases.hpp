@@ -57,7 +57,7 @@ template <class S> Transform<S> at(Point p, Point axis = {0, 1, 0}, double angle
   Transform<S> t;
   t.position = vec_of<S>(p);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) t.rotation.rows[i].set(j, from_bits<Unit<S>>(to_bits(turn.rows[i][j])));
+    for (int j = 0; j < 3; ++j) t.rotation.rows[i][j] = from_bits<Unit<S>>(to_bits(turn.rows[i][j]));
   }
   return t;
 }
