@@ -161,7 +161,7 @@ class BulletEngine : public Peer {
       }
       case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, on_a, on_b);
       case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");
-      default: break;
+      case JointType::ball: break;
     }
     if (joint.a < 0) return std::make_unique<btPoint2PointConstraint>(b, bt(joint.on_b.position));
     return std::make_unique<btPoint2PointConstraint>(a, b, bt(joint.on_a.position), bt(joint.on_b.position));

@@ -117,12 +117,14 @@ Json json_of(const PeerBody& body) {
 }
 
 Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"axes", json_of(end.orientation)}}; }
-/// A rod is no joint of Rapier's.
+/// The names that rapier.mjs knows. A rod is no joint of Rapier's.
+const char* name_of(const PeerJoint& joint) {
+  if (joint.type != JointType::distance) return kJointNames[static_cast<std::size_t>(joint.type)];
+  if (!joint.is_spring && joint.lower > 0) throw scenes::SceneError("", "Rapier has no rod");
+  return joint.is_spring ? "spring" : "rope";
+}
 Json json_of(const PeerJoint& joint) {
-  constexpr const char* kTypes[] = {"ball", "hinge", "fixed", "rope"};
-  if (joint.type == JointType::distance && !joint.is_spring && joint.lower > 0)
-    throw scenes::SceneError("", "Rapier has no rod");
-  return {{"type", joint.is_spring ? "spring" : kTypes[static_cast<int>(joint.type)]},
+  return {{"type", name_of(joint)},
           {"rest", joint.rest},
           {"stiffness", joint.stiffness},
           {"damping", joint.damping},

@@ -123,7 +123,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
   const Quat<Unit<S>> axes = read<Unit<S>>(joint.orientation, place + "/orientation");
   const Pose<S> frame = {read<S>(joint.anchor, place + "/anchor"), axes};
   JointProperties<S> properties = world.joint_at(joint.type, body(joint.a), body(joint.b), frame);
-  if (joint.type == JointType::distance) {
+  if (!holds_point(joint.type)) {
     const Pose<S> other = {read<S>(joint.anchor_b, place + "/anchor_b"), axes};
     properties.frame_b = world.joint_at(joint.type, body(joint.a), body(joint.b), other).frame_b;
   }

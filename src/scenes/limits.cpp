@@ -12,7 +12,7 @@ namespace isostep::scenes {
 JointLimits::JointLimits(const Scene& scene) {
   for (const SceneJoint& joint : scene.joints) {
     const bool twists = (joint.flags & joint_flag::kLimit) != 0, swings = (joint.flags & joint_flag::kCone) != 0;
-    if (joint.type == JointType::distance || (!twists && !swings)) continue;
+    if (measure_of(joint.type) != JointMeasure::angle || (!twists && !swings)) continue;
     const Rotation& q = joint.orientation;
     joints_.push_back({joint.a, joint.b, normalise(Quat<double>{value(q[0]), value(q[1]), value(q[2]), value(q[3])}),
                        twists, swings, value(joint.lower), value(joint.upper), value(joint.cone)});

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/solvers/solver_name.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/scalar/text.hpp"
@@ -78,14 +78,14 @@ struct SceneJoint {
   JointType type = JointType::ball;
   int a = -1, b = -1;                    // indices of bodies; -1: the world
   Vector anchor = zero_vector();         // [m]
-  Vector anchor_b = zero_vector();       // [m] distance joints: the end on b; others: as anchor
+  Vector anchor_b = zero_vector();       // [m] the end on b, of joints that do not hold a point; others: as anchor
   Rotation orientation = no_rotation();  // of the joint's frame, whose axis is z
   std::uint32_t flags = 0;               // joint_flag
-  Number lower = 0, upper = 0;           // [rad] or, distance, [m]
+  Number lower = 0, upper = 0;           // [rad] or [m]
   Number cone = 0;                       // [rad]
   Number motor_speed = 0;                // [rad/s]
   Number motor_torque = 0;               // [N m]
-  Number spring_target = 0;              // [rad] or, distance, [m]
+  Number spring_target = 0;              // [rad] or [m]
   Number spring_frequency = 0;           // [Hz]
   Number spring_damping = 0;             // [1]
 };

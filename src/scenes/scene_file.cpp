@@ -86,7 +86,7 @@ SceneJoint read_joint(const JsonNode& node, const std::string& place, std::size_
   if (joint.a == joint.b) throw SceneError(place, "a joint needs two different bodies");
   reader.require("anchor");
   reader.vector("anchor", joint.anchor);
-  if (joint.type == JointType::distance) {
+  if (!holds_point(joint.type)) {
     reader.require("anchor_b");
     reader.vector("anchor_b", joint.anchor_b);
   }

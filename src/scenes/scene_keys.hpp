@@ -7,7 +7,6 @@
 namespace isostep::scenes {
 
 inline constexpr const char* kBodyNames[] = {"static", "kinematic", "dynamic"};
-inline constexpr const char* kJointNames[] = {"ball", "hinge", "fixed", "distance"};
 
 struct FlagKey {
   const char* key;

@@ -83,7 +83,7 @@ std::string text_of(const SceneJoint& joint) {
   out.raw("a", std::to_string(joint.a));
   out.raw("b", std::to_string(joint.b));
   out.member("anchor", joint.anchor);
-  if (joint.type == JointType::distance) out.member("anchor_b", joint.anchor_b);
+  if (!holds_point(joint.type)) out.member("anchor_b", joint.anchor_b);
   out.member("orientation", joint.orientation, plain.orientation);
   for (const auto& [key, flag] : kJointFlags) out.member(key, (joint.flags & flag) != 0, false);
   for (const auto& [key, member] : kJointNumbers) out.member(key, joint.*member, plain.*member);

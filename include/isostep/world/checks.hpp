@@ -5,7 +5,7 @@
 #include "isostep/core/fault.hpp"
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/validate.hpp"
 #include "isostep/world/settings.hpp"
@@ -106,31 +106,27 @@ template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
       .report();
 }
 
-/// The flags that a kind of joint knows.
-struct JointFlags {
-  std::uint32_t known;
-  const char* names;
+/// What a kind of joint asks of its record; see JointOf.
+template <class S> struct JointRules {
+  JointMeasure measure;
+  std::uint32_t flags;
+  const char* flag_names;
+  FaultReport own;
 };
-ISO_INLINE constexpr JointFlags flags_of(JointType type) {
-  using namespace joint_flag;
-  switch (type) {
-    case JointType::ball:
-      return {kCollideConnected | kLimit | kCone, "of a ball joint kLimit, kCone, kCollideConnected"};
-    case JointType::hinge:
-      return {kCollideConnected | kLimit | kMotor | kSpring, "of a hinge kLimit, kMotor, kSpring, kCollideConnected"};
-    case JointType::fixed: return {kCollideConnected, "of a fixed joint kCollideConnected"};
-    case JointType::distance:
-      return {kCollideConnected | kLimit | kSpring, "of a distance joint kLimit, kSpring, kCollideConnected"};
-  }
-  return {0, "none"};
+template <class S> ISO_INLINE JointRules<S> rules_of(const JointProperties<S>& j) {
+  return visit_joint_type(j.type, [&](auto kind) ISO_INLINE_LAMBDA {
+    using Joint = typename decltype(kind)::template Of<S>;
+    return JointRules<S>{Joint::kMeasure, Joint::kFlags, Joint::kFlagNames, Joint::fault(j)};
+  });
 }
 
 /// `substep_rate` [1/s].
 template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
-  const bool distance = j.type == JointType::distance, sprung = (j.flags & joint_flag::kSpring) != 0;
-  const S reach = distance ? Limits<S>::position() : kMaxAngle<S>;
-  const char* expected = distance ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
-  const JointFlags flags = flags_of(j.type);
+  if (static_cast<std::uint32_t>(j.type) >= kJointTypes) return {Fault::bad_argument, "", "type", "one of JointType"};
+  const JointRules<S> rules = rules_of(j);
+  const bool length = rules.measure == JointMeasure::length, sprung = (j.flags & joint_flag::kSpring) != 0;
+  const S reach = length ? Limits<S>::position() : kMaxAngle<S>;
+  const char* expected = length ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
   return Checklist()
       .finite(j.lower, "lower")
       .finite(j.upper, "upper")
@@ -152,10 +148,9 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .in_range(within(j.spring_target, reach), "spring_target", expected)
       .in_range(within(j.motor_speed, Limits<S>::spin()), "motor_speed", "a size up to Limits::spin()")
       .in_range(j.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
-      .proper(j.type <= JointType::distance, "type", "one of JointType")
-      .proper((j.flags & ~flags.known) == 0, "flags", flags.names)
+      .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
-      .proper(!distance || S(0) <= j.lower, "lower", "a length of 0 or more")
+      .also(rules.own)
       .proper(S(0) <= j.motor_torque, "motor_torque", "0 or more")
       .proper(!sprung || (S(0) < j.spring_frequency && j.spring_frequency <= S(substep_rate) * S(0.5)),
               "spring_frequency", "above 0, up to half the sub-step rate")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/world/engine.hpp"
 
@@ -198,13 +199,9 @@ template <class S> S WorldEngine<S>::joint_error(JointId joint) const {
   if (properties == nullptr) return S(0);
   const Pose<S> a = compose(centre_pose_at(properties->body_a), properties->frame_a);
   const Pose<S> b = compose(centre_pose_at(properties->body_b), properties->frame_b);
-  const Vec3<S> apart = b.position - a.position;
-  const S far = length(apart);
-  if (properties->type != JointType::distance) return far;
-  const bool springs_alone =
-      (properties->flags & joint_flag::kSpring) != 0 && (properties->flags & joint_flag::kLimit) == 0;
-  if (springs_alone) return S(0);
-  return max(S(0), max(far - properties->upper, properties->lower - far));
+  return visit_joint_type(properties->type, [&](auto kind) ISO_INLINE_LAMBDA {
+    return decltype(kind)::template Of<S>::error(*properties, a, b);
+  });
 }
 
 }  // namespace isostep

@@ -75,17 +75,7 @@ template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
   if (!accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
   if (next.type != properties_of(command.joint)->type)
     return refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
-  JointProperties<S>& joint = state_.joints.properties[wake_joint(command.joint)];
-  joint.flags = next.flags;
-  joint.lower = next.lower;
-  joint.upper = next.upper;
-  joint.cone = next.cone;
-  joint.motor_speed = next.motor_speed;
-  joint.motor_torque = next.motor_torque;
-  joint.spring_target = next.spring_target;
-  joint.spring_frequency = next.spring_frequency;
-  joint.spring_damping = next.spring_damping;
-  joint.user_data = next.user_data;
+  state_.joints.properties[wake_joint(command.joint)].take_settings(next);
   return true;
 }
 

@@ -10,7 +10,6 @@
 namespace isostep::tool::page {
 namespace {
 
-constexpr const char* kJointKinds[] = {"ball", "hinge", "fixed", "distance"};
 constexpr const char* kSpringKinds[] = {"spring", "bungee", "stiff"};
 constexpr const char* kLinkKinds[] = {"cable", "rod"};
 
@@ -150,7 +149,7 @@ template <class IdType> Bond* Recorder::bond(std::vector<Known>& all, IdType id)
 void Recorder::joint(const DrawnJoint& joint) {
   Bond* const fresh = bond(joints_, joint.joint);
   if (fresh == nullptr) return;
-  fresh->kind = kJointKinds[static_cast<std::size_t>(joint.type)];
+  fresh->kind = kJointNames[static_cast<std::size_t>(joint.type)];
   if (joint.a) fresh->a = actor_of(joint.a.slot);
   if (joint.b) fresh->b = actor_of(joint.b.slot);
   fresh->at_a = local(fresh->a, joint.frame_a.position);

@@ -36,7 +36,7 @@ struct Actor {
 /// A joint, spring or link: a line between two points.
 struct Bond {
   static constexpr std::int32_t kNobody = -1;
-  const char* kind;                 // "ball", "hinge", "fixed", "distance", "spring", "bungee", "stiff", "cable", "rod"
+  const char* kind;                 // one of kJointNames, "spring", "bungee", "stiff", "cable", "rod"
   std::int32_t a, b;                // actors; kNobody: the world
   std::array<float, 3> at_a, at_b;  // [m] in the actor's frame, or the world's
   std::uint32_t first, last;        // frames of the recording in which it is there

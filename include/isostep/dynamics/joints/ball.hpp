@@ -4,8 +4,9 @@
 
 #include "isostep/dynamics/joints/joint_frames.hpp"
 
-namespace isostep::detail {
+namespace isostep {
 
+namespace detail {
 /// [1] least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
 /// sub-step follows, and at half a turn it means nothing.
 template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
@@ -37,13 +38,40 @@ template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S
   drive.upper = joint.properties.cone * drive.radius;
 }
 
-template <class S> ISO_INLINE void linearise_ball(const JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
-  point_block(f, h, joint.blocks[0]);
-  if (joint.drive_count == 0) return;
-  empty_block(joint.blocks[1]);
-  const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
-  linearise_twist(f, za, zb, joint);
-  linearise_swing(za, zb, joint);
-}
+}  // namespace detail
 
-}  // namespace isostep::detail
+/// Origins coincide. kLimit: lower..upper of the twist about z; kCone: of the angle between the z axes.
+template <class S> struct BallJoint {
+  static constexpr JointType kType = JointType::ball;
+  static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kCone;
+  static constexpr const char* kFlagNames = "of a ball joint kLimit, kCone, kCollideConnected";
+  static constexpr JointMeasure kMeasure = JointMeasure::angle;
+  static constexpr bool kPoint = true;
+  static constexpr bool kDrivesAlone = true;
+
+  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+
+  static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
+    const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
+    const bool cone = (joint.properties.flags & joint_flag::kCone) != 0;
+    joint.block_count = cone || limit ? 2 : 1;
+    joint.drive_count = cone || limit ? 2 : 0;
+    joint.drives[0].bounded_below = joint.drives[0].bounded_above = limit;
+    joint.drives[1].bounded_above = cone;
+  }
+  static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
+    detail::point_block(f, h, joint.blocks[0]);
+    if (joint.drive_count == 0) return;
+    detail::empty_block(joint.blocks[1]);
+    const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
+    detail::linearise_twist(f, za, zb, joint);
+    detail::linearise_swing(za, zb, joint);
+  }
+
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
+  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
+    return distance(a.position, b.position);
+  }
+};
+
+}  // namespace isostep

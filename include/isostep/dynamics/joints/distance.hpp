@@ -4,29 +4,72 @@
 
 #include "isostep/dynamics/joints/joint_frames.hpp"
 
-namespace isostep::detail {
+namespace isostep {
 
-/// Coinciding points have no direction: y is taken, and a rod grows along it.
-template <class S> ISO_INLINE void linearise_distance(const JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
-  const Direction<S> d = direction_of(f.between.x, f.between.y, f.between.z);
-  const Vec3<Unit<S>> unit =
-      d.length > S(0) ? Vec3<Unit<S>>{d.x, d.y, d.z} : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
-  const JointProperties<S>& p = joint.properties;
-  const Vec3<S> zero = Vec3<S>::zero();
-  const JointRow<S> row = {convert<S>(unit), cross(f.arm_a, unit), cross(f.arm_b, unit), zero, zero};
-  JointBlock<S>& block = joint.blocks[0];
-  empty_block(block);
-  if (joint.drive_count == 0) {
-    block.rows[0] = row;
-    block.error.x = bounded_error(d.length - p.upper, h);
-    return;
+/// Origins lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring: a spring instead; with kLimit both.
+template <class S> struct DistanceJoint {
+  static constexpr JointType kType = JointType::distance;
+  static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kSpring;
+  static constexpr const char* kFlagNames = "of a distance joint kLimit, kSpring, kCollideConnected";
+  static constexpr JointMeasure kMeasure = JointMeasure::length;
+  static constexpr bool kPoint = false;
+  static constexpr bool kDrivesAlone = true;
+
+  static ISO_INLINE FaultReport fault(const JointProperties<S>& p) {
+    if (p.lower < S(0)) return {Fault::bad_argument, "", "lower", "a length of 0 or more"};
+    return {};
   }
-  JointDrive<S>& drive = joint.drives[0];
-  drive.row = row;
-  drive.position = d.length;
-  drive.lower = p.lower;
-  drive.upper = p.upper;
-  drive.target = p.spring_target;
-}
 
-}  // namespace isostep::detail
+  static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
+    const JointProperties<S>& p = joint.properties;
+    const bool spring = (p.flags & joint_flag::kSpring) != 0;
+    const bool rod = is_bounded(p) && !(p.lower < p.upper);
+    JointDrive<S>& drive = joint.drives[0];
+    joint.block_count = 1;
+    joint.drive_count = rod ? 0 : 1;
+    drive.place = 0;
+    drive.push_speed = detail::kJointPushSpeed<S>;
+    drive.bounded_below = is_bounded(p) && p.lower > S(0);
+    drive.bounded_above = is_bounded(p);
+    drive.sprung = spring && !rod;
+  }
+  /// Coinciding points have no direction: y is taken, and a rod grows along it.
+  static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
+    const Direction<S> d = direction_of(f.between.x, f.between.y, f.between.z);
+    const Vec3<Unit<S>> unit =
+        d.length > S(0) ? Vec3<Unit<S>>{d.x, d.y, d.z} : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
+    const JointProperties<S>& p = joint.properties;
+    const Vec3<S> zero = Vec3<S>::zero();
+    const JointRow<S> row = {convert<S>(unit), cross(f.arm_a, unit), cross(f.arm_b, unit), zero, zero};
+    JointBlock<S>& block = joint.blocks[0];
+    detail::empty_block(block);
+    if (joint.drive_count == 0) {
+      block.rows[0] = row;
+      block.error.x = detail::bounded_error(d.length - p.upper, h);
+      return;
+    }
+    JointDrive<S>& drive = joint.drives[0];
+    drive.row = row;
+    drive.position = d.length;
+    drive.lower = p.lower;
+    drive.upper = p.upper;
+    drive.target = p.spring_target;
+  }
+
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) {
+    const JointBlock<S>& block = joint.blocks[0];
+    const Velocity<S> of_drive = joint.drive_count > 0 ? joint.drives[0].impulse : Velocity<S>(0);
+    return scaled(block.rows[0].linear, block.impulse.x + of_drive);
+  }
+  static ISO_INLINE S error(const JointProperties<S>& p, const Pose<S>& a, const Pose<S>& b) {
+    const S apart = distance(a.position, b.position);
+    return is_bounded(p) ? max(S(0), max(apart - p.upper, p.lower - apart)) : S(0);
+  }
+
+ private:
+  static ISO_INLINE constexpr bool is_bounded(const JointProperties<S>& p) {
+    return (p.flags & joint_flag::kLimit) != 0 || (p.flags & joint_flag::kSpring) == 0;
+  }
+};
+
+}  // namespace isostep

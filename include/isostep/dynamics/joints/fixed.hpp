@@ -4,18 +4,40 @@
 
 #include "isostep/dynamics/joints/joint_frames.hpp"
 
-namespace isostep::detail {
+namespace isostep {
 
-/// Symbols: 2 (x, y, z) of the relative rotation is the error angle to first order, in a's axes.
-template <class S> ISO_INLINE void linearise_fixed(const JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
-  point_block(f, h, joint.blocks[0]);
-  const Mat3<Unit<S>> a = to_matrix(f.a);
-  const Quat<Unit<S>> q = relative_rotation(f);
-  const S twice = S(2) * joint.radius;
-  JointBlock<S>& block = joint.blocks[1];
-  block.point = false;
-  for (int i = 0; i < 3; ++i) block.rows[i] = angular_row<S>(a.column(i), joint.radius);
-  block.error = {bounded_error(twice * q.x, h), bounded_error(twice * q.y, h), bounded_error(twice * q.z, h)};
-}
+/// Frames coincide.
+template <class S> struct FixedJoint {
+  static constexpr JointType kType = JointType::fixed;
+  static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;
+  static constexpr const char* kFlagNames = "of a fixed joint kCollideConnected";
+  static constexpr JointMeasure kMeasure = JointMeasure::angle;
+  static constexpr bool kPoint = true;
+  static constexpr bool kDrivesAlone = false;
 
-}  // namespace isostep::detail
+  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+
+  static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
+    joint.block_count = 2;
+    joint.drive_count = 0;
+  }
+  /// Symbols: 2 (x, y, z) of the relative rotation is the error angle to first order, in a's axes.
+  static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
+    detail::point_block(f, h, joint.blocks[0]);
+    const Mat3<Unit<S>> a = to_matrix(f.a);
+    const Quat<Unit<S>> q = detail::relative_rotation(f);
+    const S twice = S(2) * joint.radius;
+    JointBlock<S>& block = joint.blocks[1];
+    block.point = false;
+    for (int i = 0; i < 3; ++i) block.rows[i] = detail::angular_row<S>(a.column(i), joint.radius);
+    block.error = {detail::bounded_error(twice * q.x, h), detail::bounded_error(twice * q.y, h),
+                   detail::bounded_error(twice * q.z, h)};
+  }
+
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
+  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
+    return distance(a.position, b.position);
+  }
+};
+
+}  // namespace isostep

@@ -1,4 +1,4 @@
-// Joints: the closed list of kinds, what is stored of one, and the calls by which a step solves them.
+// Joints: what is stored of one, and the calls by which a step solves them. The kinds: joint_type.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,25 +8,18 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/joints/joint_drive.hpp"
+#include "isostep/dynamics/joints/joint_type.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 
 namespace isostep {
 
-/// Every kind holds two frames together; z is the frame's axis.
-enum class JointType : std::uint32_t {
-  ball,     // origins coincide; optional cone (angle between the z axes) and twist limit (about them)
-  hinge,    // origins and z axes coincide; optional limit, motor and spring of the angle about z
-  fixed,    // frames coincide
-  distance  // origins lower..upper apart (lower = upper: rod, lower = 0: rope), or a spring, or both with kLimit
-};
-
 /// Bits of JointProperties::flags.
 namespace joint_flag {
 inline constexpr std::uint32_t kCollideConnected = 1u << 0;  // the two bodies have contacts with each other
-inline constexpr std::uint32_t kLimit = 1u << 1;             // lower..upper holds (ball: of the twist)
-inline constexpr std::uint32_t kMotor = 1u << 2;             // hinge
-inline constexpr std::uint32_t kSpring = 1u << 3;            // hinge, distance
-inline constexpr std::uint32_t kCone = 1u << 4;              // ball
+inline constexpr std::uint32_t kLimit = 1u << 1;             // lower..upper holds
+inline constexpr std::uint32_t kMotor = 1u << 2;
+inline constexpr std::uint32_t kSpring = 1u << 3;
+inline constexpr std::uint32_t kCone = 1u << 4;  // cone holds
 }  // namespace joint_flag
 
 inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
@@ -63,15 +56,29 @@ template <class S> struct JointProperties {
   std::uint64_t user_data = 0;
   Pose<S> frame_a = Pose<S>::identity();  // from the centre of mass, body axes; for the world its own frame
   Pose<S> frame_b = Pose<S>::identity();
-  S lower = S(0);  // [rad] or, distance, [m]
+  S lower = S(0);  // [rad] or [m]: the kind's JointMeasure
   S upper = S(0);
   S cone = S(0);              // [rad] largest angle between the z axes
   S motor_speed = S(0);       // [rad/s] of b against a
   S motor_torque = S(0);      // [N m] most that the motor gives; less where in one sub-step it would turn the bodies,
                               // were they free, beyond Limits<S>::surface_speed()
-  S spring_target = S(0);     // [rad] or, distance, [m] rest length
+  S spring_target = S(0);     // [rad] or [m], as lower
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step
   S spring_damping = S(0);    // [1] ratio, 1 = critical
+
+  /// All that a joint may be set to once it is made: neither its kind, nor its bodies, nor its frames.
+  ISO_INLINE constexpr void take_settings(const JointProperties& from) {
+    flags = from.flags;
+    user_data = from.user_data;
+    lower = from.lower;
+    upper = from.upper;
+    cone = from.cone;
+    motor_speed = from.motor_speed;
+    motor_torque = from.motor_torque;
+    spring_target = from.spring_target;
+    spring_frequency = from.spring_frequency;
+    spring_damping = from.spring_damping;
+  }
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);

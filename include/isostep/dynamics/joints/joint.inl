@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/ball.hpp"
-#include "isostep/dynamics/joints/distance.hpp"
-#include "isostep/dynamics/joints/fixed.hpp"
-#include "isostep/dynamics/joints/hinge.hpp"
 #include "isostep/dynamics/joints/joint_drive_rows.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/joints/joint_prepare.inl"
 #include "isostep/dynamics/joints/joint_push.hpp"
 
@@ -71,12 +68,9 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
   const detail::JointFrames<S> frames = detail::joint_frames(joint, step.states);
   joint.arm_a = frames.arm_a;
   joint.arm_b = frames.arm_b;
-  switch (joint.properties.type) {
-    case JointType::ball: detail::linearise_ball(frames, step.h, joint); break;
-    case JointType::hinge: detail::linearise_hinge(frames, step.h, joint); break;
-    case JointType::fixed: detail::linearise_fixed(frames, step.h, joint); break;
-    case JointType::distance: detail::linearise_distance(frames, step.h, joint); break;
-  }
+  visit_joint_type(joint.properties.type, [&](auto kind) ISO_INLINE_LAMBDA {
+    decltype(kind)::template Of<S>::linearise(frames, step.h, joint);
+  });
   JointDrive<S>& main = joint.drives[0];
   main.piece = detail::valid_piece(main, main.piece);
   if (!main.sprung) return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fault.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 
 namespace isostep::detail {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 
 namespace isostep {
 
@@ -30,7 +30,7 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   if (joint.block_count + joint.drive_count < 2) return;  // no row turns alone
   joint.radius = radius_of(trace_bound(a, b, joint.share));
   joint.drives[0].radius = joint.drives[1].radius = joint.radius;
-  if (joint.drive_count == 0 || joint.properties.type == JointType::distance) return;
+  if (joint.drive_count == 0 || measure_of(joint.properties.type) == JointMeasure::length) return;
   const Mat3<Unit<S>> frame = to_matrix(end_a.pose.orientation * joint.properties.frame_a.orientation);
   const auto about = [&](int i) { return turning_about(convert<S>(frame.column(i)), a, b, joint.share); };
   const S arm = joint.share.a * length(joint.properties.frame_a.position) +
@@ -40,48 +40,17 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   joint.drives[1].radius = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
 }
 
-/// How many blocks and drives a joint has, and where its drives stand.
+/// How many blocks and drives a joint has, and where its drives stand: an angle in the last row, unless its kind says
+/// otherwise.
 template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
-  const JointProperties<S>& p = joint.properties;
-  const bool limit = (p.flags & joint_flag::kLimit) != 0, motor = (p.flags & joint_flag::kMotor) != 0;
-  const bool spring = (p.flags & joint_flag::kSpring) != 0, cone = (p.flags & joint_flag::kCone) != 0;
   JointDrive<S>& main = joint.drives[0];
   JointDrive<S>& swing = joint.drives[1];
   main = {};
   swing = {};
   main.place = 2;
   main.push_speed = swing.push_speed = kAnglePushSpeed<S>;
-  switch (p.type) {
-    case JointType::ball:
-      joint.block_count = cone || limit ? 2 : 1;
-      joint.drive_count = cone || limit ? 2 : 0;
-      main.bounded_below = main.bounded_above = limit;
-      swing.bounded_above = cone;
-      return;
-    case JointType::hinge:
-      joint.block_count = 2;
-      joint.drive_count = limit || motor || spring ? 1 : 0;
-      main.bounded_below = main.bounded_above = limit;
-      main.driven = motor;
-      main.sprung = spring;
-      return;
-    case JointType::fixed:
-      joint.block_count = 2;
-      joint.drive_count = 0;
-      return;
-    case JointType::distance: {
-      const bool bounded = limit || !spring;
-      const bool rod = bounded && !(p.lower < p.upper);
-      joint.block_count = 1;
-      joint.drive_count = rod ? 0 : 1;
-      main.place = 0;
-      main.push_speed = kJointPushSpeed<S>;
-      main.bounded_below = bounded && p.lower > S(0);
-      main.bounded_above = bounded;
-      main.sprung = spring && !rod;
-      return;
-    }
-  }
+  visit_joint_type(joint.properties.type,
+                   [&](auto kind) ISO_INLINE_LAMBDA { decltype(kind)::template Of<S>::count_rows(joint); });
 }
 
 template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, JointConstraint<S>& joint) {

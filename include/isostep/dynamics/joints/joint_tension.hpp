@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 
 namespace isostep::detail {
 
@@ -15,12 +15,9 @@ template <class S> struct Pull {
 };
 /// Impulse share_b lambda = f h / mass pulls b's arm outwards.
 template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, bool on_a, Step<S> h) {
-  const JointBlock<S>& block = joint.blocks[0];
   const Vec3<S> arm = on_a ? joint.arm_a : joint.arm_b;
-  const Velocity<S> of_drive = joint.drive_count > 0 ? joint.drives[0].impulse : Velocity<S>(0);
-  const Vec3<Velocity<S>> f = joint.properties.type == JointType::distance
-                                  ? scaled(block.rows[0].linear, block.impulse.x + of_drive)
-                                  : block.impulse;
+  const Vec3<Velocity<S>> f = visit_joint_type(
+      joint.properties.type, [&](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::pull(joint); });
   const S share = on_a ? -joint.share.a : joint.share.b;
   const S along = share * saturate_to<S>(dot_sum(arm, f));  // [m^2/s]
   if (!(along > S(0))) return {Vec3<Unit<S>>::zero(), S(0)};

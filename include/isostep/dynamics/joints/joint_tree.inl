@@ -38,7 +38,9 @@ template <class S> typename JointTrees<S>::Link& JointTrees<S>::link_between(std
 /// Whether a block asks for nothing in this pass: all its rows are drives that push with a constant impulse or none.
 template <class S> bool JointTrees<S>::is_idle(const JointConstraint<S>& joint, std::uint32_t block) const {
   if (joint.drive_count == 0 || block + 1 < joint.block_count) return false;
-  if (joint.properties.type == JointType::hinge) return false;
+  const bool alone = visit_joint_type(
+      joint.properties.type, [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::kDrivesAlone; });
+  if (!alone) return false;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     if (!detail::is_constant(joint.drives[i], joint.drives[i].piece)) return false;
   }

@@ -16,13 +16,13 @@ ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t wo
 }
 }  // namespace detail
 
-/// What a kernel cannot do: other kinds of joint, limits, and joints that are solved by themselves.
+/// What a kernel cannot do: joints that hold more or less than a point, and joints that are solved by themselves.
 template <class S>
 void JointTrees<S>::mark_odd_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
   odd_.assign(degree_.size(), 0);
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     const JointConstraint<S>& joint = joints[j];
-    const bool plain = joint.properties.type == JointType::ball && joint.drive_count == 0;
+    const bool plain = holds_point(joint.properties.type) && joint.block_count == 1 && joint.drive_count == 0;
     if (role_[j] == detail::kIdle || (role_[j] != detail::kLoose && plain)) continue;
     for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
       if (bodies.moves(row)) odd_[sets_.find(row)] = 1;

@@ -108,7 +108,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     return {part(bent.x), part(bent.y), part(bent.z)};
   }
 
-  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_ball(), pull_on().
+  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_joint(), pull_on().
   static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, const JointStep<S>& step, bool rapid) {
     const Step<S> h = step.h;
     Body& a = m.bodies[of.body_a];

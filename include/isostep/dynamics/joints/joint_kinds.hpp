@@ -1,0 +1,58 @@
+// The closed set of joints: all that their files say, asked by the type that is stored.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+
+#include "isostep/dynamics/joints/ball.hpp"
+#include "isostep/dynamics/joints/distance.hpp"
+#include "isostep/dynamics/joints/fixed.hpp"
+#include "isostep/dynamics/joints/hinge.hpp"
+
+namespace isostep {
+
+/// What a joint's file says of it. The rows stand in up to two blocks of three equalities and two drives.
+template <template <class> class Joint, class S>
+concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> solved, const JointProperties<S> p,
+                           const detail::JointFrames<S> frames, Step<S> h, const Pose<S> world) {
+  { Joint<S>::kType } -> std::convertible_to<JointType>;
+  { Joint<S>::kFlags } -> std::convertible_to<std::uint32_t>;       // those it knows
+  { Joint<S>::kFlagNames } -> std::convertible_to<const char*>;     // to whom sets another: "of a hinge kLimit, ..."
+  { Joint<S>::kMeasure } -> std::convertible_to<JointMeasure>;      // of its position
+  { Joint<S>::kPoint } -> std::convertible_to<bool>;                // origins coincide, and the first block is they
+  { Joint<S>::kDrivesAlone } -> std::convertible_to<bool>;          // no equality is in the block that drives are in
+  { Joint<S>::fault(p) } -> std::same_as<FaultReport>;              // of finite numbers that every kind would take
+  { Joint<S>::count_rows(joint) } -> std::same_as<void>;            // once a step: blocks, drives and what acts on them
+  { Joint<S>::linearise(frames, h, joint) } -> std::same_as<void>;  // each sub-step: rows and errors
+  { Joint<S>::pull(solved) } -> std::same_as<Vec3<Velocity<S>>>;    // [m/s] world, on b: impulse that stretches arms
+  { Joint<S>::error(p, world, world) } -> std::same_as<S>;          // [m] as World::joint_error, of its two frames
+};
+#define ISO_COMPLETE(name, Joint)                                        \
+  static_assert(JointOf<Joint, float>, "a joint's file lacks a member"); \
+  static_assert(Joint<float>::kType == JointType::name);
+ISO_FOR_EACH_JOINT(ISO_COMPLETE)
+#undef ISO_COMPLETE
+
+/// A class of joints, before a scalar is chosen.
+template <template <class> class Joint> struct JointClass { template <class S> using Of = Joint<S>; };
+
+/// visit(JointClass<BallJoint>{}) for balls, and so on. No world takes a record of a type that is not in the list.
+template <class Visit> ISO_INLINE constexpr decltype(auto) visit_joint_type(JointType type, Visit&& visit) {
+  switch (type) {
+#define ISO_CASE(name, Joint) \
+  case JointType::name: return visit(JointClass<Joint>{});
+    ISO_FOR_EACH_JOINT(ISO_CASE)
+#undef ISO_CASE
+  }
+  ISO_TRAP();
+}
+
+ISO_INLINE constexpr JointMeasure measure_of(JointType type) {
+  return visit_joint_type(type,
+                          [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kMeasure; });
+}
+ISO_INLINE constexpr bool holds_point(JointType type) {
+  return visit_joint_type(type, [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kPoint; });
+}
+
+}  // namespace isostep

@@ -1,0 +1,31 @@
+// The closed list of joints. To add one: its line here, its file beside this one, that file's name in joint_kinds.hpp
+// (see README.md). What its file does not say does not compile.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/scalar/platform.hpp"
+
+/// ISO_FOR_EACH_JOINT(X) expands X(name, Joint): the name in JointType, in scene files and on pages, and the class.
+#define ISO_FOR_EACH_JOINT(X) X(ball, BallJoint) X(hinge, HingeJoint) X(fixed, FixedJoint) X(distance, DistanceJoint)
+
+namespace isostep {
+
+/// Every kind holds two frames together; z is the frame's axis.
+#define ISO_ENUMERATOR(name, Joint) name,
+enum class JointType : std::uint32_t { ISO_FOR_EACH_JOINT(ISO_ENUMERATOR) };
+#undef ISO_ENUMERATOR
+
+#define ISO_NAME(name, Joint) #name,
+inline constexpr const char* kJointNames[] = {ISO_FOR_EACH_JOINT(ISO_NAME)};
+#undef ISO_NAME
+inline constexpr std::uint32_t kJointTypes = sizeof kJointNames / sizeof kJointNames[0];
+
+/// What a joint's position is, and with it lower, upper and spring_target.
+enum class JointMeasure : std::uint32_t {
+  angle,  // [rad]
+  length  // [m]
+};
+
+}  // namespace isostep
