@@ -45,7 +45,7 @@ std::string default_text(const LabResult& own, const Tolerance& tolerance) {
 }  // namespace
 
 std::string setting_text(const LabPoint& point) {
-  const bool passes = point.solver == "pgs";
+  const bool passes = counts_passes(point);
   std::string text = point.scalar + ", " + point.solver + ", " + std::to_string(point.substeps) +
                      (passes ? " pass" : " sub-step") +
                      (point.substeps == 1 ? ""

@@ -11,6 +11,7 @@
 
 #include "../files.hpp"
 #include "../tool.hpp"
+#include "isostep/dynamics/solvers/solver_name.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -81,6 +82,11 @@ std::string cell(const std::string& text) {
 template <class T> std::string cell(const T& value) { return Json(value).dump(); }
 
 }  // namespace
+
+bool counts_passes(const LabPoint& point) {
+  const std::optional<SolverName> solver = solver_named(point.solver);
+  return solver && isostep::counts_passes(*solver);
+}
 
 std::string name_of(const LabPoint& point) {
   const std::string method = point.engine == kOwnEngine ? point.scalar + " " + point.solver : point.engine;

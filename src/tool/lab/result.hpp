@@ -21,6 +21,8 @@ struct LabPoint {
   friend bool operator==(const LabPoint&, const LabPoint&) = default;
 };
 
+/// Whether `substeps` are passes over one step of integration.
+bool counts_passes(const LabPoint& point);
 /// "S1 q32.32 direct 2x60 rigid": unique, for keys and progress.
 std::string name_of(const LabPoint& point);
 

@@ -13,9 +13,7 @@ namespace isostep::tool::lab {
 
 /// The solver of that name. Throws scenes::SceneError.
 inline SolverName rigid_solver(const std::string& name) {
-  for (std::uint32_t i = 0; i < kSolvers; ++i) {
-    if (name == kSolverNames[i]) return static_cast<SolverName>(i);
-  }
+  if (const std::optional<SolverName> solver = solver_named(name)) return *solver;
   throw scenes::SceneError("", "rigid bodies have no solver " + name);
 }
 

@@ -3,24 +3,42 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "isostep/scalar/platform.hpp"
 
+/// ISO_FOR_EACH_SOLVER(X) expands X(name): in SolverName, in scene files and on the command line, and of the member of
+/// Solvers. What `substeps` means to each; h is the length of what it integrates at once:
+///   soft_step    so many sub-steps, in each one pass over contacts as springs; joints in trees, solved at once
+///   pgs          one step of h = 1 / hz, and so many passes: projected Gauss-Seidel, errors closed by Baumgarte's term
+///   worst_first  so many sub-steps, each resolved the worst contact first: velocities, then positions (Millington)
+///   direct       so many sub-steps, each island solved simultaneously by pivoting
+#define ISO_FOR_EACH_SOLVER(X) X(soft_step) X(pgs) X(worst_first) X(direct)
+
 namespace isostep {
 
-/// What `substeps` means to each is said beside it; h is the length of what it integrates at once.
-enum class SolverName : std::uint32_t {
-  soft_step,    // so many sub-steps, in each one pass over contacts as springs; joints in trees, solved at once
-  pgs,          // one step of h = 1 / hz, and so many passes: projected Gauss-Seidel, errors closed by Baumgarte's term
-  worst_first,  // so many sub-steps, each resolved the worst contact first: velocities, then positions (Millington)
-  direct        // so many sub-steps, each island solved simultaneously by pivoting
-};
-inline constexpr std::uint32_t kSolvers = 4;
-inline constexpr const char* kSolverNames[kSolvers] = {"soft_step", "pgs", "worst_first", "direct"};
+#define ISO_ENUMERATOR(name) name,
+enum class SolverName : std::uint32_t { ISO_FOR_EACH_SOLVER(ISO_ENUMERATOR) };
+#undef ISO_ENUMERATOR
 
+#define ISO_NAME(name) #name,
+inline constexpr const char* kSolverNames[] = {ISO_FOR_EACH_SOLVER(ISO_NAME)};
+#undef ISO_NAME
+inline constexpr std::uint32_t kSolvers = sizeof kSolverNames / sizeof kSolverNames[0];
+
+ISO_INLINE std::optional<SolverName> solver_named(std::string_view name) {
+  for (std::uint32_t i = 0; i < kSolvers; ++i) {
+    if (name == kSolverNames[i]) return static_cast<SolverName>(i);
+  }
+  return std::nullopt;
+}
+
+/// Whether `substeps` are passes over one step of integration.
+ISO_INLINE constexpr bool counts_passes(SolverName solver) { return solver == SolverName::pgs; }
 /// Steps of integration a second, for `substeps` of a world's `hz`.
 ISO_INLINE constexpr std::int32_t integration_rate(SolverName solver, std::int32_t hz, std::int32_t substeps) {
-  return solver == SolverName::pgs ? hz : hz * substeps;
+  return counts_passes(solver) ? hz : hz * substeps;
 }
 
 }  // namespace isostep

@@ -9,21 +9,28 @@
 
 namespace isostep {
 
-/// Those that are never used hold no memory.
+/// One member for each name in the list. Those that are never used hold no memory.
 template <class S> struct Solvers {
   Sequential<S> soft_step = Sequential<S>(soft_step_schedule<S>);
   Sequential<S> pgs = Sequential<S>(pgs_schedule<S>);
   WorstFirstResolver<S> worst_first;
   DirectSolver<S> direct;
 };
+#define ISO_HAS(name) all.name;
+template <class All>
+concept HasEachSolver = requires(All all) {
+  ISO_FOR_EACH_SOLVER(ISO_HAS)
+};
+#undef ISO_HAS
+static_assert(HasEachSolver<Solvers<float>>, "a solver has no member in Solvers");
 
 /// visit(the solver of that name)
 template <class S, class Visit> void with_solver(Solvers<S>& solvers, SolverName name, Visit&& visit) {
   switch (name) {
-    case SolverName::soft_step: return visit(solvers.soft_step);
-    case SolverName::pgs: return visit(solvers.pgs);
-    case SolverName::worst_first: return visit(solvers.worst_first);
-    case SolverName::direct: return visit(solvers.direct);
+#define ISO_CASE(name) \
+  case SolverName::name: return visit(solvers.name);
+    ISO_FOR_EACH_SOLVER(ISO_CASE)
+#undef ISO_CASE
   }
 }
 

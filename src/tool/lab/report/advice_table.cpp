@@ -77,7 +77,7 @@ const LabResult* cheapest_that(const std::vector<LabResult>& results, const std:
 std::string setting_of(const LabPoint& point) {
   const std::string count = std::to_string(point.substeps);
   const std::string rate = point.hz == 60 ? "" : " at " + std::to_string(point.hz) + " Hz";
-  return point.solver + ", " + count + (point.solver == "pgs" ? " passes" : " sub-steps") + rate;
+  return point.solver + ", " + count + (counts_passes(point) ? " passes" : " sub-steps") + rate;
 }
 
 std::vector<std::vector<std::string>> advice_cells(const ReportData& data) {

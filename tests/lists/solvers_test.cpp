@@ -1,0 +1,32 @@
+// A solver that is added to the list alone does not compile; with its member in Solvers it does. Tried on copies of the
+// headers, with the compiler of this build.
+// SPDX-License-Identifier: MIT
+#include "lists/probe.hpp"
+
+namespace isostep {
+namespace {
+
+class SolverList : public ListProbe {
+ protected:
+  void add_to_list() { edit("include/isostep/dynamics/solvers/solver_name.hpp", "X(direct)", "X(direct) X(probe)"); }
+  void add_member() {
+    edit("include/isostep/dynamics/solvers/solvers.hpp", "  DirectSolver<S> direct;\n",
+         "  DirectSolver<S> direct;\n  DirectSolver<S> probe;\n");
+  }
+};
+
+TEST_F(SolverList, without_its_member_it_does_not_compile) {
+  add_to_list();
+  EXPECT_THAT(errors_of("isostep/dynamics/solvers/solvers.hpp"),
+              AllOf(HasSubstr("a solver has no member in Solvers"), HasSubstr("probe")));
+}
+
+TEST_F(SolverList, with_its_member_the_world_and_scene_files_take_it) {
+  add_to_list();
+  add_member();
+  EXPECT_EQ(errors_of("isostep/world/engine.hpp"), "");
+  EXPECT_EQ(errors_of("scenes/scene_file.cpp"), "");
+}
+
+}  // namespace
+}  // namespace isostep
