@@ -7,12 +7,23 @@
 
 #include "isostep/scalar/platform.hpp"
 
+/// ISO_FOR_EACH_SIMD(X, with) expands X(name, with) for every instruction set: in Simd and on the command line.
+#define ISO_FOR_EACH_SIMD(X, with) \
+  X(scalar, with) X(sse2, with) X(avx2, with) X(avx512, with) X(neon, with) X(wasm, with)
+
 namespace isostep {
 
 /// Which lanes step the constraints. Never changes a bit. `scalar` is one lane, the reference, on any machine; sse2 has
 /// four lanes of float or two of double, avx2 eight of 32 bits or four of 64, avx512 twice as many; neon (64-bit Arm)
 /// and wasm (WebAssembly's SIMD128) have four of 32 bits or two of double. `best` is the widest there is.
-enum class Simd : std::uint32_t { best, scalar, sse2, avx2, avx512, neon, wasm };
+#define ISO_ENUMERATOR(name, unused) name,
+enum class Simd : std::uint32_t { best, ISO_FOR_EACH_SIMD(ISO_ENUMERATOR, ) };
+#undef ISO_ENUMERATOR
+
+#define ISO_NAME(name, unused) #name,
+inline constexpr const char* kSimdNames[] = {"best", ISO_FOR_EACH_SIMD(ISO_NAME, )};
+#undef ISO_NAME
+inline constexpr std::uint32_t kSimds = sizeof kSimdNames / sizeof kSimdNames[0];
 
 /// Whether the processor, as its operating system runs it, has what kernels for `simd` use.
 bool processor_has(Simd simd);
@@ -23,18 +34,16 @@ namespace detail {
 template <class Kernels, Simd simd> const Kernels* kernel_table();
 
 template <class Kernels> ISO_INLINE const Kernels* kernel_table_of(Simd simd) {
-  switch (simd) {
-#if !defined(ISOSTEP_NO_SIMD)
-    case Simd::sse2: return kernel_table<Kernels, Simd::sse2>();
-    case Simd::avx2: return kernel_table<Kernels, Simd::avx2>();
-    case Simd::avx512: return kernel_table<Kernels, Simd::avx512>();
-    case Simd::neon: return kernel_table<Kernels, Simd::neon>();
-    case Simd::wasm: return kernel_table<Kernels, Simd::wasm>();
+  if (simd == Simd::best) return kernel_table<Kernels, Simd::scalar>();
+#if defined(ISOSTEP_NO_SIMD)
+  return simd == Simd::scalar ? kernel_table<Kernels, Simd::scalar>() : nullptr;
+#else
+#define ISO_RETURN_TABLE(name, unused) \
+  if (simd == Simd::name) return kernel_table<Kernels, Simd::name>();
+  ISO_FOR_EACH_SIMD(ISO_RETURN_TABLE, )
+#undef ISO_RETURN_TABLE
+  return nullptr;
 #endif
-    case Simd::best:
-    case Simd::scalar: return kernel_table<Kernels, Simd::scalar>();
-    default: return nullptr;
-  }
 }
 }  // namespace detail
 
@@ -49,14 +58,8 @@ template <class Kernels> ISO_INLINE const Kernels* choose_kernels(Simd simd) {
   return detail::kernel_table<Kernels, Simd::scalar>();
 }
 
-#define ISO_DECLARE_KERNEL_TABLE(KERNELS, SIMD) template <> const KERNELS* detail::kernel_table<KERNELS, SIMD>();
-#define ISO_DECLARE_KERNEL_TABLES(KERNELS)        \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::scalar) \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::sse2)   \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::avx2)   \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::avx512) \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::neon)   \
-  ISO_DECLARE_KERNEL_TABLE(KERNELS, Simd::wasm)
+#define ISO_DECLARE_KERNEL_TABLE(name, KERNELS) template <> const KERNELS* detail::kernel_table<KERNELS, Simd::name>();
+#define ISO_DECLARE_KERNEL_TABLES(KERNELS) ISO_FOR_EACH_SIMD(ISO_DECLARE_KERNEL_TABLE, KERNELS)
 /// For the files of one instruction set: the table, or that there is none.
 #define ISO_DEFINE_KERNEL_TABLE(KERNELS, SIMD, ...)                  \
   template <> const KERNELS* detail::kernel_table<KERNELS, SIMD>() { \

@@ -10,9 +10,6 @@
 
 namespace isostep {
 
-inline constexpr std::uint32_t kSimds = 7;
-inline constexpr const char* kSimdNames[kSimds] = {"best", "scalar", "sse2", "avx2", "avx512", "neon", "wasm"};
-
 ISO_INLINE std::optional<Simd> simd_named(std::string_view name) {
   for (std::uint32_t i = 0; i < kSimds; ++i) {
     if (name == kSimdNames[i]) return static_cast<Simd>(i);
