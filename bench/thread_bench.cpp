@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "isostep/core/scalar_names.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "threads/tbb_runner.hpp"
@@ -16,7 +17,7 @@ namespace isostep::bench {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> scenes = {"S3", "S4", "S5", "S7"}, scalars = {"float", "double", "q16.16", "q32.32"};
+  std::vector<std::string> scenes = {"S3", "S4", "S5", "S7"}, scalars = scalar_names();
   std::vector<int> threads;
   int frames = 400, block = 20;
   std::string results;
@@ -99,9 +100,9 @@ int main(int count, char** words) {
   arguments.threads.push_back(cores);
   CLI::App app("The real time of a step on one thread and on several");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas")->delimiter(',');
-  app.add_option("--scalars", arguments.scalars, "float, double, q16.16, q32.32, separated by commas")
+  app.add_option("--scalars", arguments.scalars, "Separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"float", "double", "q16.16", "q32.32"}));
+      ->check(CLI::IsMember(isostep::scalar_names()));
   app.add_option("--threads", arguments.threads, "Numbers of threads, separated by commas; the first is the measure")
       ->delimiter(',')
       ->check(CLI::Range(1, 64));

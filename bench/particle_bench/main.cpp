@@ -6,7 +6,7 @@
 #include <string>
 
 #include "crowds.hpp"
-#include "isostep/core/instantiate.hpp"
+#include "isostep/core/scalar_names.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "plain_flight.hpp"
 #include "scene_bench/clock.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> parts = {"flight", "cloth", "small", "pile", "state"};
-  std::vector<std::string> scalars = {"float", "double", "q16.16", "q32.32"};
+  std::vector<std::string> scalars = scalar_names();
   int repeats = 41;
 };
 
@@ -212,9 +212,9 @@ int main(int count, char** words) {
   app.add_option("--parts", arguments.parts, "flight, cloth, small, pile, state, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"flight", "cloth", "small", "pile", "state"}));
-  app.add_option("--scalars", arguments.scalars, "float, double, q16.16, q32.32, separated by commas")
+  app.add_option("--scalars", arguments.scalars, "Separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"float", "double", "q16.16", "q32.32"}));
+      ->check(CLI::IsMember(isostep::scalar_names()));
   app.add_option("--repeats", arguments.repeats, "Times are medians of so many")->check(CLI::Range(1, 100000));
   std::string results;
   app.add_option("--results", results, "Ignored: this benchmark leaves no file");

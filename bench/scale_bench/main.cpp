@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "isostep/core/scalar_names.hpp"
 #include "scale.hpp"
 
 namespace isostep::bench {
@@ -49,8 +50,7 @@ int main(int count, char** words) {
   app.add_option("--parts", arguments.parts, "scale, sleepers, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"scale", "sleepers"}));
-  app.add_option("--scalar", options.scalar, "float, double, q16.16 or q32.32")
-      ->check(CLI::IsMember({"float", "double", "q16.16", "q32.32"}));
+  app.add_option("--scalar", options.scalar, "The number type")->check(CLI::IsMember(isostep::scalar_names()));
   app.add_option("--scenes", options.scenes, "pyramid, pile, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"pyramid", "pile"}));

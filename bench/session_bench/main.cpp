@@ -4,21 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "isostep/core/instantiate.hpp"
-#include "isostep/scalar/scalar.hpp"
+#include "isostep/core/scalar_names.hpp"
 #include "parts.hpp"
 #include "scene_bench/rollback.hpp"
 
 namespace isostep::bench {
 namespace {
-
-std::vector<std::string> scalar_names() {
-  std::vector<std::string> names;
-#define ISO_NAME(S) names.push_back(ScalarTraits<S>::kName);
-  ISO_FOR_EACH_SCALAR(ISO_NAME)
-#undef ISO_NAME
-  return names;
-}
 
 void report_rollbacks(const SessionBenchOptions& options) {
   std::vector<RollbackRow> rows;

@@ -18,7 +18,6 @@ namespace {
 
 namespace tool = isostep::tool;
 
-const std::vector<std::string> kScalars = {"float", "double", "q16.16", "q32.32"};
 constexpr int kMostFrames = 1'000'000'000;
 
 template <std::size_t N> std::vector<std::string> names_in(const char* const (&names)[N]) {
@@ -60,7 +59,9 @@ class CommandLine {
     return command;
   }
   static void add_scalar(CLI::App* command, std::string& scalar) {
-    command->add_option("--scalar", scalar, "the number type")->check(CLI::IsMember(kScalars))->capture_default_str();
+    command->add_option("--scalar", scalar, "the number type")
+        ->check(CLI::IsMember(isostep::scalar_names()))
+        ->capture_default_str();
   }
   /// Of a file or a directory: a name.
   static CLI::Option* add_path(CLI::App* command, const char* name, std::string& path, const char* what) {
@@ -106,7 +107,7 @@ class CommandLine {
         ->needs(html)
         ->capture_default_str();
     CLI::Option* beside = command->add_option("--beside", run_.beside, "play the run in this number type beside it")
-                              ->check(CLI::IsMember(kScalars))
+                              ->check(CLI::IsMember(isostep::scalar_names()))
                               ->needs(html);
     command->add_option("--beside-tolerance", run_.beside_tolerance, "metres beyond which a body has parted")
         ->check(CLI::Range(0.001, 1000.0))

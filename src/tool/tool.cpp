@@ -22,15 +22,6 @@ void stop_if_interrupted() {
   if (interrupted()) throw ToolError(exit_status::kInterrupted, "interrupted");
 }
 
-std::vector<std::string> scalar_names() {
-  std::vector<std::string> names;
-  any_scalar([&](auto tag) {
-    names.emplace_back(ScalarTraits<typename decltype(tag)::Type>::kName);
-    return false;
-  });
-  return names;
-}
-
 double thread_milliseconds() {
 #if defined(CLOCK_THREAD_CPUTIME_ID)
   timespec now = {};

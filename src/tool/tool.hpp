@@ -1,4 +1,4 @@
-// What every command of the tool shares: errors, the names of scalars, and Ctrl-C.
+// What every command of the tool shares: errors, and Ctrl-C.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "isostep/core/scalars.hpp"
+#include "isostep/core/scalar_names.hpp"
 #include "programs/exit_status.hpp"
 
 namespace isostep::tool {
@@ -23,9 +23,6 @@ class ToolError : public std::runtime_error {
  private:
   int status_;
 };
-
-/// The names of this build's scalars, in their order.
-std::vector<std::string> scalar_names();
 
 /// From now on Ctrl-C only sets the flag; loops look at it between frames, so that files end well.
 void catch_interrupt();

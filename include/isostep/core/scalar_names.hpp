@@ -4,12 +4,23 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "isostep/core/scalars.hpp"
 
 namespace isostep {
 
-/// In their order; "float, double" where ", " is between them.
+/// In their order.
+ISO_INLINE std::vector<std::string> scalar_names() {
+  std::vector<std::string> names;
+  any_scalar([&](auto tag) ISO_INLINE_LAMBDA {
+    names.emplace_back(ScalarTraits<typename decltype(tag)::Type>::kName);
+    return false;
+  });
+  return names;
+}
+
+/// "float, double" where ", " is between them.
 ISO_INLINE std::string joined_scalar_names(std::string_view between) {
   std::string names;
   any_scalar([&](auto tag) ISO_INLINE_LAMBDA {
