@@ -179,6 +179,7 @@ template <class S> class WorldEngine {
   std::uint32_t row_of(std::uint32_t slot) const;
   void update_sensors();
   void emit_contact_events();
+  S mass_of_row(std::uint32_t row) const;
   S pressing(std::size_t first, std::size_t end) const;
 
   // engine_parts.inl
@@ -239,8 +240,7 @@ template <class S> class WorldEngine {
   void tell_untold();
   void apply_forces();
   template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
-  void prepare_joints(const SolverBodies<S>& bodies);
-  SolverInput<S> solver_input();
+  StepContext<S> solver_context(bool watched);
   void finalise_bodies();
   void finish_body(std::size_t index);
   void discard_bad_impulses();
@@ -250,7 +250,6 @@ template <class S> class WorldEngine {
   template <class Visit> void visit_manifolds(const Visit& visit);
   template <class Visit> void visit_solver(const Visit& visit, SolverStage stage);
   template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
-  template <class Visit> void visit_joints(const Visit& visit, bool solved);
 
   // engine_sleep.inl
   void update_sleep();
@@ -275,7 +274,6 @@ template <class S> class WorldEngine {
 
   // One step's scratch; drawing and the next step's events read some of it.
   Solvers<S> solvers_;
-  const SolverBodies<S>* solved_ = nullptr;  // of this step's solver
   std::vector<Acceleration<S>> accelerations_;
   std::vector<Pose<S>> start_poses_;         // of the centres of bodies awake when the step began
   std::vector<std::uint32_t> start_slots_;   // of those bodies, ascending; drawing asks for them after the step
@@ -296,7 +294,7 @@ template <class S> class WorldEngine {
   std::size_t awake_frames_ = 0;
   std::vector<Contact<S>> old_contacts_;
   std::vector<ContactGeometry<S>> geometry_;
-  std::vector<JointConstraint<S>> joint_constraints_;
+  std::vector<JointEnds<S>> joint_ends_;
   std::vector<std::uint64_t> joined_pairs_;  // ascending pair keys that joints keep from colliding
   std::vector<SensorOverlap> new_overlaps_;
   std::vector<SensorOverlap> overlap_scratch_;

@@ -134,12 +134,18 @@ template <class S> void WorldEngine<S>::emit_contact_events() {
   if (told) detail::sort_ends(events_.contact_end, contact_end_scratch_);
 }
 
+/// [kg] As solvers have it: 0 for what no impulse moves.
+template <class S> S WorldEngine<S>::mass_of_row(std::uint32_t row) const {
+  if (row == 0) return S(0);
+  const BodyProperties<S>& body = state_.awake.properties[row - 1];
+  return body.type == BodyType::dynamic ? body.mass : S(0);
+}
+
 /// What contacts first..end-1 gave over the step along their normals [kg m/s].
 template <class S> S WorldEngine<S>::pressing(std::size_t first, std::size_t end) const {
-  const SolverBodies<S>& bodies = *solved_;
   auto total = SumOf<S, Velocity<S>>{};
   for (std::size_t i = first; i < end; ++i) {
-    const S mass_a = bodies.mass[geometry_[i].row_a].mass, mass_b = bodies.mass[geometry_[i].row_b].mass;
+    const S mass_a = mass_of_row(geometry_[i].row_a), mass_b = mass_of_row(geometry_[i].row_b);
     const MassShare<S> share = mass_share(mass_a, mass_b);
     total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, step_impulses_[i]);
   }

@@ -10,39 +10,6 @@
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
-/// Joints as prepared; once solved, their impulses alone are asked for again.
-template <class S> template <class Visit> void WorldEngine<S>::visit_joints(const Visit& visit, bool solved) {
-  visit.each("joint_constraints", joint_constraints_.size(), [&](const auto& of_joint, std::size_t i) {
-    JointConstraint<S>& joint = joint_constraints_[i];
-    if (!solved) {
-      of_joint("row_a", joint.row_a);
-      of_joint("row_b", joint.row_b);
-      of_joint("share", joint.share);
-      of_joint("pose_a", joint.pose_a);
-      of_joint("pose_b", joint.pose_b);
-      of_joint("radius", joint.radius);
-      of_joint("motor_force", joint.motor_force);
-      of_joint("block_count", joint.block_count);
-      of_joint("drive_count", joint.drive_count);
-      of_joint("holds", joint.holds);
-    }
-    of_joint("point_impulse", joint.blocks[0].impulse);
-    of_joint("angular_impulse", joint.blocks[1].impulse);
-    of_joint.each("drives", joint.drive_count, [&](const auto& of_drive, std::size_t k) {
-      JointDrive<S>& drive = joint.drives[k];
-      if (!solved) {
-        of_drive("radius", drive.radius);
-        of_drive("bounded_below", drive.bounded_below);
-        of_drive("bounded_above", drive.bounded_above);
-        of_drive("sprung", drive.sprung);
-        of_drive("driven", drive.driven);
-      }
-      of_drive("impulse", drive.impulse);
-      of_drive("piece", drive.piece);
-    });
-  });
-}
-
 template <class S> template <class Visit> void WorldEngine<S>::visit_places(const Visit& visit) {
   visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
   visit("joint_locations", std::span(joint_locations_.data(), state_.joint_slots.entries().size()));
@@ -65,11 +32,11 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_manifolds(c
 }
 
 template <class S> template <class Visit> void WorldEngine<S>::visit_solver(const Visit& visit, SolverStage stage) {
-  SolverInput<S> input = {};
-  input.properties = state_.awake.properties;
-  input.contacts = state_.contacts;
-  input.geometry = geometry_;
-  with_solver(solvers_, state_.settings.solver, [&](auto& solver) { solver.visit_scratch(visit, stage, input); });
+  StepContext<S> context = {};
+  context.properties = state_.awake.properties;
+  context.contacts = state_.contacts;
+  context.geometry = geometry_;
+  with_solver(solvers_, state_.settings.solver, [&](auto& solver) { solver.visit_scratch(visit, stage, context); });
 }
 
 /// Of the broad phase the pairs: its trees are functions of the state and of what came before, and differ between
@@ -84,9 +51,9 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
       visit("start_poses", start_poses_);
       return visit("start_slots", start_slots_);
     case Stage::update_manifolds: return visit_manifolds(visit);
-    case Stage::colour_constraints: visit_joints(visit, false); return visit_solver(visit, SolverStage::colour);
+    case Stage::colour_constraints: return visit_solver(visit, SolverStage::colour);
     case Stage::prepare: return visit_solver(visit, SolverStage::prepare);
-    case Stage::solve_substeps: visit_joints(visit, true); return visit_solver(visit, SolverStage::solve);
+    case Stage::solve_substeps: return visit_solver(visit, SolverStage::solve);
     case Stage::restitution: return visit_solver(visit, SolverStage::restitute);
     case Stage::store_impulses: visit("step_impulses", step_impulses_); return visit_solver(visit, SolverStage::store);
     case Stage::finalise_bodies: return visit("report", report_);

@@ -43,33 +43,21 @@ template <class S> StageView WorldEngine<S>::view(std::uint32_t stage) {
   return {{this, hash, &WorldEngine::walk_leaves}, stage};
 }
 
-/// From colour_constraints to store_impulses. Where nobody looks in between, stages are given to the threads as one: to
-/// wake them costs time.
+/// From colour_constraints to store_impulses.
 template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
-  const SolverInput<S> input = solver_input();
-  solver.gather_bodies(input);
-  solved_ = &solver.bodies();
-  prepare_joints(*solved_);
-  solver.colour_constraints(input);
+  const StepContext<S> context = solver_context(watched);
+  solver.colour_constraints(context);
   after(Stage::colour_constraints);
-  const auto after_solving = [&](Stage stage) {
-    if (!watched) return;
-    solver.run(input);
-    after(stage);
-  };
-  solver.prepare(input);
-  after_solving(Stage::prepare);
-  solver.solve_substeps(input);
-  after_solving(Stage::solve_substeps);
-  solver.restitute(input);
-  after_solving(Stage::restitution);
-  solver.store_impulses(input);
-  solver.run(input);
+  solver.prepare(context);
+  if (watched) after(Stage::prepare);
+  solver.solve_substeps(context);
+  if (watched) after(Stage::solve_substeps);
+  solver.restitute(context);
+  if (watched) after(Stage::restitution);
+  solver.store_impulses(context);
   report_.unsolved = solver.unsolved();
-  for (std::size_t i = 0; i < joint_constraints_.size(); ++i)
-    store_joint(joint_constraints_[i], state_.joints.states[i]);
   after(Stage::store_impulses);
 }
 
@@ -98,17 +86,13 @@ template <class S> void WorldEngine<S>::apply_forces() {
   state_.forces.clear();
 }
 
-template <class S> void WorldEngine<S>::prepare_joints(const SolverBodies<S>& bodies) {
-  for (std::size_t i = 0; i < joint_constraints_.size(); ++i) {
+template <class S> StepContext<S> WorldEngine<S>::solver_context(bool watched) {
+  const auto end_at = [&](std::uint32_t slot) { return JointEnd<S>{row_of(slot), centre_pose_at(slot)}; };
+  joint_ends_.resize(state_.joints.properties.size());
+  for (std::size_t i = 0; i < joint_ends_.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
-    const JointEnd<S> a = {row_of(joint.body_a), centre_pose_at(joint.body_a)};
-    const JointEnd<S> b = {row_of(joint.body_b), centre_pose_at(joint.body_b)};
-    prepare_joint(joint, state_.joints.states[i], a, b, bodies, joint_constraints_[i]);
+    joint_ends_[i] = {end_at(joint.body_a), end_at(joint.body_b)};
   }
-}
-
-template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
-  joint_constraints_.resize(state_.joints.states.size());
   step_impulses_.resize(state_.contacts.size());
   return {state_.awake.states,
           state_.awake.properties,
@@ -116,10 +100,13 @@ template <class S> SolverInput<S> WorldEngine<S>::solver_input() {
           state_.contacts,
           geometry_,
           step_impulses_,
-          joint_constraints_,
+          state_.joints.properties,
+          state_.joints.states,
+          joint_ends_,
           state_.settings.gravity,
           state_.settings.hz,
           state_.settings.substeps,
+          watched,
           runner_,
           kernels_,
           tree_kernels_,

@@ -65,36 +65,33 @@ template <class S> class DirectWorld {
 
   void step() {
     for (ContactGeometry<S>& g : geometry) place(g);
-    constraints.resize(joints.size());
-    const SolverInput<S> input = {states,
-                                  properties,
-                                  {},
-                                  contacts,
-                                  geometry,
-                                  step_impulses,
-                                  constraints,
-                                  vector(gravity),
-                                  hz,
-                                  substeps,
-                                  {},
-                                  contact_kernels<S>(Simd::scalar),
-                                  tree_kernels<S>(Simd::scalar)};
-    solver.gather_bodies(input);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const auto end = [&](std::uint32_t body) {
-        if (body == kNoBody) return JointEnd<S>{0, Pose<S>::identity()};
-        return JointEnd<S>{body + 1, {states[body].centre, states[body].orientation}};
-      };
-      prepare_joint(joints[j], impulses[j], end(joints[j].body_a), end(joints[j].body_b), solver.bodies(),
-                    constraints[j]);
-    }
-    solver.colour_constraints(input);
-    solver.prepare(input);
-    solver.solve_substeps(input);
-    solver.restitute(input);
-    solver.store_impulses(input);
-    solver.run(input);
-    for (std::size_t j = 0; j < joints.size(); ++j) store_joint(constraints[j], impulses[j]);
+    const auto end_at = [&](std::uint32_t body) {
+      if (body == kNoBody) return JointEnd<S>{0, Pose<S>::identity()};
+      return JointEnd<S>{body + 1, {states[body].centre, states[body].orientation}};
+    };
+    std::vector<JointEnds<S>> ends;
+    for (const JointProperties<S>& joint : joints) ends.push_back({end_at(joint.body_a), end_at(joint.body_b)});
+    const StepContext<S> context = {states,
+                                    properties,
+                                    {},
+                                    contacts,
+                                    geometry,
+                                    step_impulses,
+                                    joints,
+                                    impulses,
+                                    ends,
+                                    vector(gravity),
+                                    hz,
+                                    substeps,
+                                    false,
+                                    {},
+                                    contact_kernels<S>(Simd::scalar),
+                                    tree_kernels<S>(Simd::scalar)};
+    solver.colour_constraints(context);
+    solver.prepare(context);
+    solver.solve_substeps(context);
+    solver.restitute(context);
+    solver.store_impulses(context);
   }
 
   D3 centre(std::uint32_t b) const {
@@ -119,7 +116,6 @@ template <class S> class DirectWorld {
   std::vector<D3> halves;
   std::vector<JointProperties<S>> joints;
   std::vector<JointState<S>> impulses;
-  std::vector<JointConstraint<S>> constraints;
   std::vector<Contact<S>> contacts;
   std::vector<ContactGeometry<S>> geometry;
   std::vector<V> step_impulses;

@@ -111,6 +111,7 @@ template <class S> struct JointEnd {
   std::uint32_t row;  // of SolverBodies
   Pose<S> pose;       // centre and orientation when the step begins; the world's is the identity
 };
+template <class S> struct JointEnds { JointEnd<S> a, b; };
 
 /// A joint for the length of one step.
 template <class S> struct JointConstraint {

@@ -8,7 +8,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solver_body.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
 
@@ -16,18 +16,18 @@ namespace isostep {
 /// Threads: ranges of bodies that do not meet may be integrated side by side.
 template <class S> class BodyRows {
  public:
-  /// Once a step: velocities and masses of input.states, no displacement.
-  void gather(const SolverInput<S>& input);
+  /// Once a step: velocities and masses of context.states, no displacement.
+  void gather(const StepContext<S>& context);
 
   // Bodies first..end-1, by 1 / rate seconds.
-  void integrate_velocities(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
-  void integrate_positions(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end);
+  void integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+  void integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
 
-  /// Velocities back into input.states, after integration at that rate.
-  void store(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end) const;
+  /// Velocities back into context.states, after integration at that rate.
+  void store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const;
 
   /// See solver_input.hpp.
-  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
   ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }
   ISO_INLINE SolverBodies<S>& rows() { return rows_; }

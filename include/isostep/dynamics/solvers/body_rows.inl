@@ -21,8 +21,8 @@ template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>&
 
 }  // namespace detail
 
-template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
-  const std::size_t count = input.states.size();
+template <class S> void BodyRows<S>::gather(const StepContext<S>& context) {
+  const std::size_t count = context.states.size();
   rows_.velocity.resize(count + 1);
   rows_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
   rows_.mass.resize(count + 1);
@@ -31,8 +31,8 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
   rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
   rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
   for (std::size_t i = 0; i < count; ++i) {
-    const BodyState<S>& state = input.states[i];
-    const BodyProperties<S>& body = input.properties[i];
+    const BodyState<S>& state = context.states[i];
+    const BodyProperties<S>& body = context.properties[i];
     start_[i] = state.centre;
     rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.spin, Velocity<S>(0)};
     SolverMass<S>& mass = rows_.mass[i + 1];
@@ -54,20 +54,20 @@ template <class S> void BodyRows<S>::gather(const SolverInput<S>& input) {
 }
 
 template <class S>
-void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t rate, std::size_t first,
+void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first,
                                        std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V rapid = rapid_spin<S>(input.hz), most = spin_to_follow<S>(rate);
+  const V rapid = rapid_spin<S>(context.hz), most = spin_to_follow<S>(rate);
   const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
-    const BodyProperties<S>& body = input.properties[i];
+    const BodyProperties<S>& body = context.properties[i];
     if (body.type != BodyType::dynamic) continue;
     MotionRow<V>& row = rows_.velocity[i + 1];
-    Vec3<S> acceleration = body.gravity_scale == S(1) ? input.gravity : input.gravity * body.gravity_scale;
-    if (!input.accelerations.empty()) {
-      acceleration += input.accelerations[i].linear;
-      const Vec3<S> turning = input.accelerations[i].angular;
+    Vec3<S> acceleration = body.gravity_scale == S(1) ? context.gravity : context.gravity * body.gravity_scale;
+    if (!context.accelerations.empty()) {
+      acceleration += context.accelerations[i].linear;
+      const Vec3<S> turning = context.accelerations[i].angular;
       row.angular += {times(turning.x, h), times(turning.y, h), times(turning.z, h)};
     }
     row.linear += {times(acceleration.x, h), times(acceleration.y, h), times(acceleration.z, h)};
@@ -84,7 +84,7 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
       detail::hold_locks(body.flags, row);
       continue;
     }
-    const Mat3<Unit<S>> axes = detail::world_axes(input.states[i].orientation, body);
+    const Mat3<Unit<S>> axes = detail::world_axes(context.states[i].orientation, body);
     if (detail::turns_freely(body)) {
       Gyro& gyro = gyro_[i];
       const bool slow = gyro.solid && !(rapid < max_abs(row.angular));
@@ -97,7 +97,7 @@ void BodyRows<S>::integrate_velocities(const SolverInput<S>& input, std::int32_t
 }
 
 template <class S>
-void BodyRows<S>::integrate_positions(const SolverInput<S>& input, std::int32_t rate, std::size_t first,
+void BodyRows<S>::integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first,
                                       std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
@@ -105,9 +105,9 @@ void BodyRows<S>::integrate_positions(const SolverInput<S>& input, std::int32_t 
   const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
     MotionRow<V>& v = rows_.velocity[i + 1];
-    detail::hold_locks(input.properties[i].flags, v);
+    detail::hold_locks(context.properties[i].flags, v);
     MotionRow<V>& d = rows_.displacement[i + 1];
-    BodyState<S>& state = input.states[i];
+    BodyState<S>& state = context.states[i];
     const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
     const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
     // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
@@ -120,14 +120,14 @@ void BodyRows<S>::integrate_positions(const SolverInput<S>& input, std::int32_t 
 }
 
 template <class S>
-void BodyRows<S>::store(const SolverInput<S>& input, std::int32_t rate, std::size_t first, std::size_t end) const {
+void BodyRows<S>::store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const {
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   for (std::size_t i = first; i < end; ++i) {
-    BodyState<S>& state = input.states[i];
-    const BodyProperties<S>& body = input.properties[i];
+    BodyState<S>& state = context.states[i];
+    const BodyProperties<S>& body = context.properties[i];
     MotionRow<Velocity<S>> row = rows_.velocity[i + 1];
     const bool turns = body.type == BodyType::dynamic && detail::turns_freely(body);
-    if (turns && rapid_spin<S>(input.hz) < max_abs(row.angular)) {
+    if (turns && rapid_spin<S>(context.hz) < max_abs(row.angular)) {
       const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       row.angular = FreeTurn<S>{axes, gyro_[i].inertia, gyro_[i].euler, h}.settle(row.angular, gyro_[i].known);
       detail::hold_locks(body.flags, row);

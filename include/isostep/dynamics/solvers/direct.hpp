@@ -10,7 +10,8 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/direct_system.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/prepared_joints.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
 
@@ -33,17 +34,14 @@ namespace isostep {
 /// Memory:  warm, what SparseCholesky allocates; islands whose contacts or joints are others are analysed anew.
 template <class S> class DirectSolver {
  public:
-  void gather_bodies(const SolverInput<S>& input);
-  ISO_INLINE SolverBodies<S>& bodies() { return bodies_.rows(); }
-  void colour_constraints(const SolverInput<S>& input);
-  void prepare(const SolverInput<S>& input);
-  void solve_substeps(const SolverInput<S>& input);
-  void restitute(const SolverInput<S>& input);
-  void store_impulses(const SolverInput<S>& input);
-  ISO_INLINE void run(const SolverInput<S>&) {}
+  void colour_constraints(const StepContext<S>& context);
+  void prepare(const StepContext<S>& context);
+  void solve_substeps(const StepContext<S>& context);
+  void restitute(const StepContext<S>& context);
+  void store_impulses(const StepContext<S>& context);
   /// Some solve was swept, or its pivots came to no end.
   std::uint32_t unsolved() const;
-  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
  private:
   using System = LinearSystem<S>;
@@ -102,12 +100,12 @@ template <class S> class DirectSolver {
   };
 
   // direct_islands.inl
-  void find_islands(const SolverInput<S>& input);
+  void find_islands(const StepContext<S>& context);
   Island& island_of(std::uint32_t row_a, std::uint32_t row_b);
   std::uint32_t add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b, std::uint32_t count);
   void add_joint(const JointConstraint<S>& joint, std::uint32_t j);
-  void add_contact(const SolverInput<S>& input, std::uint32_t c);
-  static bool rolls(const SolverInput<S>& input, std::uint32_t c);
+  void add_contact(const StepContext<S>& context, std::uint32_t c);
+  static bool rolls(const StepContext<S>& context, std::uint32_t c);
 
   // direct_rows.inl
   void find_root(std::uint32_t row, const Mat3<S>& kappa);
@@ -121,8 +119,8 @@ template <class S> class DirectSolver {
   V impulse_of(const Island& island, std::uint32_t r) const;
 
   // direct_joints.inl
-  JointStep<S> joint_step(const SolverInput<S>& input);
-  void linearise_joints(const SolverInput<S>& input, Island& island);
+  JointStep<S> joint_step(const StepContext<S>& context);
+  void linearise_joints(const StepContext<S>& context, Island& island);
   void stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h);
   void place_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first);
   void ask_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first, Pass pass);
@@ -131,22 +129,23 @@ template <class S> class DirectSolver {
   void keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const;
 
   // direct_contacts.inl
-  ISO_INLINE Block& block_of(const SolverInput<S>& input, std::uint32_t c) {
-    return *reinterpret_cast<Block*>(memory_[c].bytes + (rolls(input, c) ? sizeof(RollingRows<S, 1>) : 0));
+  ISO_INLINE Block& block_of(const StepContext<S>& context, std::uint32_t c) {
+    return *reinterpret_cast<Block*>(memory_[c].bytes + (rolls(context, c) ? sizeof(RollingRows<S, 1>) : 0));
   }
-  void place_contact(const SolverInput<S>& input, Island& island, std::uint32_t k);
-  void ask_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass);
-  void guess_contact(const SolverInput<S>& input, Island& island, std::uint32_t k);
-  void keep_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass);
-  bool bounces(const SolverInput<S>& input, const Island& island);
+  void place_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
+  void ask_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass);
+  void guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
+  void keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass);
+  bool bounces(const StepContext<S>& context, const Island& island);
 
   // direct.inl
-  void place_rows(const SolverInput<S>& input, Island& island);
-  void solve(const SolverInput<S>& input, Island& island, Pass pass);
-  void scale_right_sides(const SolverInput<S>& input, Island& island);
+  void place_rows(const StepContext<S>& context, Island& island);
+  void solve(const StepContext<S>& context, Island& island, Pass pass);
+  void scale_right_sides(Island& island);
   void apply(const Island& island);
 
   BodyRows<S> bodies_;
+  PreparedJoints<S> joints_;
   std::int32_t rate_ = 1;  // [1/s] sub-steps
   DisjointSets sets_;
   std::vector<std::uint32_t> island_of_;  // of each set, by its name

@@ -10,25 +10,25 @@
 
 namespace isostep {
 
-template <class S> void DirectSolver<S>::gather_bodies(const SolverInput<S>& input) {
-  rate_ = integration_rate(SolverName::direct, input.hz, input.substeps);
-  bodies_.gather(input);
+template <class S> void DirectSolver<S>::colour_constraints(const StepContext<S>& context) {
+  rate_ = integration_rate(SolverName::direct, context.hz, context.substeps);
+  bodies_.gather(context);
+  joints_.prepare(context, bodies_.rows());
+  find_islands(context);
 }
 
-template <class S> void DirectSolver<S>::colour_constraints(const SolverInput<S>& input) { find_islands(input); }
-
-template <class S> void DirectSolver<S>::prepare(const SolverInput<S>& input) {
+template <class S> void DirectSolver<S>::prepare(const StepContext<S>& context) {
   const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
   const SolverBodies<S>& bodies = bodies_.rows();
-  const auto count = static_cast<std::uint32_t>(input.contacts.size());
+  const auto count = static_cast<std::uint32_t>(context.contacts.size());
   memory_.resize(count);
   block_bodies_.resize(count);
   order_.resize(count);
   for (std::uint32_t c = 0; c < count; ++c) {
     order_[c] = c;
-    kernels.prepare({memory_[c].bytes, &block_bodies_[c], 1, static_cast<std::int32_t>(input.contacts[c].count),
-                     rolls(input, c), &order_[c], input.contacts.data(), input.geometry.data(), bodies.velocity.data(),
-                     bodies.mass.data(), S(0), S(0)});
+    kernels.prepare({memory_[c].bytes, &block_bodies_[c], 1, static_cast<std::int32_t>(context.contacts[c].count),
+                     rolls(context, c), &order_[c], context.contacts.data(), context.geometry.data(),
+                     bodies.velocity.data(), bodies.mass.data(), S(0), S(0)});
   }
   roots_.resize(bodies.mass.size());
   kappa_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));  // of what does not move none is ever set
@@ -36,18 +36,18 @@ template <class S> void DirectSolver<S>::prepare(const SolverInput<S>& input) {
 }
 
 /// Arms of contacts are those of the step's begin, joints' of now.
-template <class S> void DirectSolver<S>::place_rows(const SolverInput<S>& input, Island& island) {
+template <class S> void DirectSolver<S>::place_rows(const StepContext<S>& context, Island& island) {
   if (island.begun && island.joints.empty()) return;
-  linearise_joints(input, island);
+  linearise_joints(context, island);
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
-    place_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+    place_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
   }
-  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(input, island, k);
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(context, island, k);
   island.system.assemble();
 }
 
 /// A common exponent, and room for answers that are larger.
-template <class S> void DirectSolver<S>::scale_right_sides(const SolverInput<S>& input, Island& island) {
+template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
   DirectSystem<N>& system = island.system;
   const std::uint32_t rows = 3 * system.block_count();
   int exponent = -128;
@@ -60,7 +60,7 @@ template <class S> void DirectSolver<S>::scale_right_sides(const SolverInput<S>&
     if (row.bound != DirectBound::absent) see(System::value(island.asked[r]), D::kGain - row.exponent);
   }
   const auto motor = [&](std::size_t k, const auto& act) {
-    const JointConstraint<S>& joint = input.joints[island.joints[k]];
+    const JointConstraint<S>& joint = joints_[island.joints[k]];
     if (joint.drive_count == 0 || !joint.drives[0].driven) return;
     const std::uint32_t r = 3 * (island.joint_blocks[k] + joint.block_count) + detail::kMotorRow;
     act(r, answer_of(island, r, motor_limit(joint)));
@@ -84,18 +84,18 @@ template <class S> void DirectSolver<S>::scale_right_sides(const SolverInput<S>&
   }
 }
 
-template <class S> void DirectSolver<S>::solve(const SolverInput<S>& input, Island& island, Pass pass) {
+template <class S> void DirectSolver<S>::solve(const StepContext<S>& context, Island& island, Pass pass) {
   DirectSystem<N>& system = island.system;
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
-    ask_joint(input.joints[island.joints[k]], island, island.joint_blocks[k], pass);
+    ask_joint(joints_[island.joints[k]], island, island.joint_blocks[k], pass);
   }
-  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) ask_contact(input, island, k, pass);
-  scale_right_sides(input, island);
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) ask_contact(context, island, k, pass);
+  scale_right_sides(island);
   if (!island.begun) {
     for (std::size_t k = 0; k < island.joints.size(); ++k) {
-      guess_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+      guess_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
     }
-    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) guess_contact(input, island, k);
+    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) guess_contact(context, island, k);
     island.begun = true;
   }
   system.settle();
@@ -136,54 +136,55 @@ template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
   return count;
 }
 
-template <class S> void DirectSolver<S>::solve_substeps(const SolverInput<S>& input) {
+template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& context) {
   const std::size_t count = bodies_.count();
-  for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
-    bodies_.integrate_velocities(input, rate_, 0, count);
-    for (const Carried<S>& carried : input.carried) {
-      Block& block = block_of(input, carried.contact);
+  for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
+    bodies_.integrate_velocities(context, rate_, 0, count);
+    for (const Carried<S>& carried : context.carried) {
+      Block& block = block_of(context, carried.contact);
       set_surface<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.surface(bodies_.rows()));
     }
     free_velocity_ = bodies_.rows().velocity;
     for (std::uint32_t i = 0; i < island_count_; ++i) {
-      place_rows(input, islands_[i]);
-      solve(input, islands_[i], Pass::biased);
+      place_rows(context, islands_[i]);
+      solve(context, islands_[i], Pass::biased);
     }
-    bodies_.integrate_positions(input, rate_, 0, count);
+    bodies_.integrate_positions(context, rate_, 0, count);
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       Island& island = islands_[i];
-      solve(input, island, Pass::relaxed);
+      solve(context, island, Pass::relaxed);
       for (std::size_t k = 0; k < island.joints.size(); ++k) {
-        keep_joint(input.joints[island.joints[k]], island, island.joint_blocks[k]);
+        keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
       }
-      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(input, island, k, Pass::relaxed);
+      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k, Pass::relaxed);
     }
   }
 }
 
-template <class S> void DirectSolver<S>::restitute(const SolverInput<S>& input) {
+template <class S> void DirectSolver<S>::restitute(const StepContext<S>& context) {
   for (std::uint32_t i = 0; i < island_count_; ++i) {
     Island& island = islands_[i];
-    if (!bounces(input, island)) continue;
+    if (!bounces(context, island)) continue;
     for (const std::uint32_t row : island.bodies) free_velocity_[row] = bodies_.rows().velocity[row];
     island.system.release();
-    solve(input, island, Pass::bounced);
-    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(input, island, k, Pass::bounced);
+    solve(context, island, Pass::bounced);
+    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k, Pass::bounced);
   }
 }
 
-template <class S> void DirectSolver<S>::store_impulses(const SolverInput<S>& input) {
+template <class S> void DirectSolver<S>::store_impulses(const StepContext<S>& context) {
   const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
-  for (std::uint32_t c = 0; c < input.contacts.size(); ++c) {
-    Block& block = block_of(input, c);
-    const std::uint32_t points = input.contacts[c].count;
+  for (std::uint32_t c = 0; c < context.contacts.size(); ++c) {
+    Block& block = block_of(context, c);
+    const std::uint32_t points = context.contacts[c].count;
     for (std::uint32_t p = 0; p < points; ++p) {
       block.normals[p].total_impulse[0] -= block.normals[p].row.impulse[0];  // the kernel adds the last
     }
-    kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(input, c), &order_[c],
-                   input.contacts.data(), input.step_impulses.data()});
+    kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(context, c), &order_[c],
+                   context.contacts.data(), context.step_impulses.data()});
   }
-  bodies_.store(input, rate_, 0, bodies_.count());
+  bodies_.store(context, rate_, 0, bodies_.count());
+  joints_.store(context);
 }
 
 }  // namespace isostep

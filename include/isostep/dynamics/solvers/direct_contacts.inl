@@ -11,9 +11,9 @@ namespace detail {
 template <class S> inline constexpr S kDirectContactShare = S(0.25);
 }  // namespace detail
 
-template <class S> void DirectSolver<S>::place_contact(const SolverInput<S>& input, Island& island, std::uint32_t k) {
+template <class S> void DirectSolver<S>::place_contact(const StepContext<S>& context, Island& island, std::uint32_t k) {
   const std::uint32_t c = island.contacts[k];
-  const Block& block = block_of(input, c);
+  const Block& block = block_of(context, c);
   DirectPatch<N>& patch = island.system.patches()[k];
   const auto vector = [](const S(&v)[3][1]) ISO_INLINE_LAMBDA -> Vec3<S> { return {v[0][0], v[1][0], v[2][0]}; };
   const auto put = [&](std::uint32_t r, const S(*direction)[3][1], const AngularRow<S, 1>& row, DirectBound bound) {
@@ -47,8 +47,8 @@ template <class S> void DirectSolver<S>::place_contact(const SolverInput<S>& inp
 }
 
 template <class S>
-void DirectSolver<S>::ask_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass) {
-  const Block& block = block_of(input, island.contacts[k]);
+void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass) {
+  const Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];
   const S rate = S(rate_);
   const V farthest = divide_to<V>(S(64), rate);  // what lies farther away is not met within the sub-step
@@ -75,8 +75,8 @@ void DirectSolver<S>::ask_contact(const SolverInput<S>& input, Island& island, s
 }
 
 /// Points that pushed push again and friction at its limit stays there. Of a contact that is new everything holds.
-template <class S> void DirectSolver<S>::guess_contact(const SolverInput<S>& input, Island& island, std::uint32_t k) {
-  Block& block = block_of(input, island.contacts[k]);
+template <class S> void DirectSolver<S>::guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k) {
+  Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];
   DirectSystem<N>& system = island.system;
   const auto load = [&](std::uint32_t r, V impulse) {
@@ -101,8 +101,8 @@ template <class S> void DirectSolver<S>::guess_contact(const SolverInput<S>& inp
 }
 
 template <class S>
-void DirectSolver<S>::keep_contact(const SolverInput<S>& input, Island& island, std::uint32_t k, Pass pass) {
-  Block& block = block_of(input, island.contacts[k]);
+void DirectSolver<S>::keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass) {
+  Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];
   for (std::uint32_t p = 0; p < patch.points; ++p) {
     const V impulse = impulse_of(island, patch.normal + p);
@@ -115,11 +115,11 @@ void DirectSolver<S>::keep_contact(const SolverInput<S>& input, Island& island, 
   block.twist.impulse[0] = patch.points > 1 ? impulse_of(island, patch.first + 2) : V(0);
 }
 
-template <class S> bool DirectSolver<S>::bounces(const SolverInput<S>& input, const Island& island) {
+template <class S> bool DirectSolver<S>::bounces(const StepContext<S>& context, const Island& island) {
   for (const std::uint32_t c : island.contacts) {
-    const Block& block = block_of(input, c);
+    const Block& block = block_of(context, c);
     if (!(block.restitution[0] > S(0))) continue;
-    for (std::uint32_t p = 0; p < input.contacts[c].count; ++p) {
+    for (std::uint32_t p = 0; p < context.contacts[c].count; ++p) {
       const NormalRow<S, 1>& row = block.normals[p];
       if (row.approach[0] < -detail::kRestitutionSpeed<S> && row.total_impulse[0] > V(0)) return true;
     }

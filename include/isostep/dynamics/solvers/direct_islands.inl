@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-template <class S> bool DirectSolver<S>::rolls(const SolverInput<S>& input, std::uint32_t c) {
-  return input.geometry[c].material.rolling_resistance > S(0);
+template <class S> bool DirectSolver<S>::rolls(const StepContext<S>& context, std::uint32_t c) {
+  return context.geometry[c].material.rolling_resistance > S(0);
 }
 
 template <class S>
@@ -59,43 +59,43 @@ template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joi
 }
 
 /// Tangents and twist, or tangents and the only point; points by threes; two rows of rolling resistance.
-template <class S> void DirectSolver<S>::add_contact(const SolverInput<S>& input, std::uint32_t c) {
-  const ContactGeometry<S>& g = input.geometry[c];
+template <class S> void DirectSolver<S>::add_contact(const StepContext<S>& context, std::uint32_t c) {
+  const ContactGeometry<S>& g = context.geometry[c];
   if (!bodies_.rows().moves(g.row_a) && !bodies_.rows().moves(g.row_b)) return;
-  const std::uint32_t points = input.contacts[c].count, own = points == 1 ? 1 : 1 + (points + 2) / 3;
+  const std::uint32_t points = context.contacts[c].count, own = points == 1 ? 1 : 1 + (points + 2) / 3;
   Island& island = island_of(g.row_a, g.row_b);
-  const std::uint32_t first = add_blocks(island, g.row_a, g.row_b, own + (rolls(input, c) ? 1 : 0));
+  const std::uint32_t first = add_blocks(island, g.row_a, g.row_b, own + (rolls(context, c) ? 1 : 0));
   island.contacts.push_back(c);
   island.contact_blocks.push_back(first);
   DirectPatch<N> patch = {};
   patch.first = 3 * first;
   patch.normal = 3 * first + (points == 1 ? 2 : 3);
   patch.points = points;
-  patch.rolling = rolls(input, c) ? 3 * (first + own) : DirectPatch<N>::kNoRolling;
+  patch.rolling = rolls(context, c) ? 3 * (first + own) : DirectPatch<N>::kNoRolling;
   island.system.patches().push_back(patch);
 }
 
-template <class S> void DirectSolver<S>::find_islands(const SolverInput<S>& input) {
+template <class S> void DirectSolver<S>::find_islands(const StepContext<S>& context) {
   const SolverBodies<S>& bodies = bodies_.rows();
   sets_.begin(bodies.mass.size());
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     if (bodies.moves(a) && bodies.moves(b)) sets_.join(a, b);
   };
-  for (const JointConstraint<S>& joint : input.joints) {
+  for (const JointConstraint<S>& joint : joints_.all()) {
     if (joint.holds) join(joint.row_a, joint.row_b);
   }
-  for (const ContactGeometry<S>& g : input.geometry) join(g.row_a, g.row_b);
+  for (const ContactGeometry<S>& g : context.geometry) join(g.row_a, g.row_b);
   island_of_.assign(bodies.mass.size(), 0);
   local_.assign(bodies.mass.size(), 0);
   island_count_ = 0;
-  for (std::uint32_t j = 0; j < input.joints.size(); ++j) add_joint(input.joints[j], j);
-  for (std::uint32_t c = 0; c < input.contacts.size(); ++c) add_contact(input, c);
+  for (std::uint32_t j = 0; j < joints_.size(); ++j) add_joint(joints_[j], j);
+  for (std::uint32_t c = 0; c < context.contacts.size(); ++c) add_contact(context, c);
   for (std::uint32_t i = 0; i < island_count_; ++i) {
     Island& island = islands_[i];
     island.shapes.resize(3 * island.system.block_count());
     island.asked.resize(3 * island.system.block_count());
-    island.work_left = kMostWork * static_cast<std::uint64_t>(input.substeps);
-    island.solves_left = 2 * static_cast<std::uint32_t>(input.substeps) + 1;  // the last for restitution
+    island.work_left = kMostWork * static_cast<std::uint64_t>(context.substeps);
+    island.solves_left = 2 * static_cast<std::uint32_t>(context.substeps) + 1;  // the last for restitution
     island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks,
                       island.work_left / island.solves_left);
   }

@@ -28,28 +28,28 @@ template <class S> ISO_INLINE bool is_lower(const JointDrive<S>& drive) {
 }
 }  // namespace detail
 
-template <class S> JointStep<S> DirectSolver<S>::joint_step(const SolverInput<S>& input) {
+template <class S> JointStep<S> DirectSolver<S>::joint_step(const StepContext<S>& context) {
   const S rate = S(rate_);
-  return {input.states.data(),
+  return {context.states.data(),
           &bodies_.rows(),
           rate,
           divide_to<Step<S>>(S(1), rate),
           {detail::kDirectJointShare<S> * rate, S(1), S(0)},
-          rapid_spin<S>(input.hz),
+          rapid_spin<S>(context.hz),
           spin_to_follow<S>(rate_)};
 }
 
-template <class S> void DirectSolver<S>::linearise_joints(const SolverInput<S>& input, Island& island) {
-  const JointStep<S> step = joint_step(input);
+template <class S> void DirectSolver<S>::linearise_joints(const StepContext<S>& context, Island& island) {
+  const JointStep<S> step = joint_step(context);
   for (const std::uint32_t j : island.joints) {
-    linearise_joint(input.joints[j], step);
-    curve_joint(input.joints[j], step);
+    linearise_joint(joints_[j], step);
+    curve_joint(joints_[j], step);
   }
   for (const std::uint32_t row : island.bodies) kappa_[row] = bodies_.rows().mass[row].kappa;
-  stiffen(island, input.joints, step.h);
+  stiffen(island, joints_.all(), step.h);
   for (const std::uint32_t row : island.bodies) find_root(row, kappa_[row]);
   for (const std::uint32_t j : island.joints) {
-    JointConstraint<S>& joint = input.joints[j];
+    JointConstraint<S>& joint = joints_[j];
     if (joint.drive_count == 0) continue;
     weigh_joint(joint, kappa_[joint.row_a], kappa_[joint.row_b]);
   }
@@ -94,8 +94,8 @@ void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& islan
     }
     // An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
     const Value spring = System::value(drive.spring);
-    const Value give = System::quotient(System::value(S(1)), System::product(System::product(spring, spring),
-                                                                             island.ends[r / 3].reduced));
+    const Value give = System::quotient(System::value(S(1)),
+                                        System::product(System::product(spring, spring), island.ends[r / 3].reduced));
     place(island, r, 1, ((System::exponent(give) + 1) >> 1) + D::kRoom);
     DirectRow<N>& row = island.system.row(r);
     row.soft = System::number(give, 2 * row.exponent);
@@ -169,9 +169,9 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
     const V limit = impulse_of(island, r + detail::kLimitRow), most = motor_limit(joint) - resolution<V>();
     const V bound = convert<V>(Limits<S>::speed());
     drive.impulse = clamp(spring + motor + limit, -bound, bound);
-    drive.piece = V(0) < limit   ? DrivePiece::lower
-                  : limit < V(0) ? DrivePiece::upper
-                  : !drive.driven ? DrivePiece::free
+    drive.piece = V(0) < limit       ? DrivePiece::lower
+                  : limit < V(0)     ? DrivePiece::upper
+                  : !drive.driven    ? DrivePiece::free
                   : !(motor < most)  ? DrivePiece::forwards
                   : !(-most < motor) ? DrivePiece::backwards
                                      : DrivePiece::driven;

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "isostep/dynamics/joints/joint_tree.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/math/softness.hpp"
 
 namespace isostep {
@@ -50,10 +50,10 @@ template <class S> inline constexpr S kBaumgarte = S(0.2);
 }  // namespace detail
 
 /// Source:  Catto 2024, Solver2D ("Soft Step"); Macklin et al. 2019, Small Steps in Physics Simulation.
-template <class S> Schedule<S> soft_step_schedule(const SolverInput<S>& input) {
-  const std::int32_t rate = integration_rate(SolverName::soft_step, input.hz, input.substeps);
+template <class S> Schedule<S> soft_step_schedule(const StepContext<S>& context) {
+  const std::int32_t rate = integration_rate(SolverName::soft_step, context.hz, context.substeps);
   return {rate,
-          input.substeps,
+          context.substeps,
           1,
           true,
           JointOrder::trees,
@@ -65,10 +65,10 @@ template <class S> Schedule<S> soft_step_schedule(const SolverInput<S>& input) {
 /// Source:  Catto 2005, Iterative Dynamics with Temporal Coherence (GDC); Baumgarte 1972, Stabilization of constraints.
 ///          The solver of most engines before 2023, for comparison: what closes a contact's error stays as speed.
 ///          Joints lose theirs: it turned a body round its hinge faster with every step.
-template <class S> Schedule<S> pgs_schedule(const SolverInput<S>& input) {
-  const std::int32_t rate = integration_rate(SolverName::pgs, input.hz, input.substeps);
+template <class S> Schedule<S> pgs_schedule(const StepContext<S>& context) {
+  const std::int32_t rate = integration_rate(SolverName::pgs, context.hz, context.substeps);
   const Softness<S> baumgarte = {detail::kBaumgarte<S> * S(rate), S(1), S(0)};
-  return {rate, 1, input.substeps, false, JointOrder::one_by_one, baumgarte, baumgarte, S(0)};
+  return {rate, 1, context.substeps, false, JointOrder::one_by_one, baumgarte, baumgarte, S(0)};
 }
 
 }  // namespace isostep

@@ -11,8 +11,9 @@
 #include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/pass_plan.hpp"
+#include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/schedule.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
 
@@ -24,22 +25,20 @@ inline constexpr std::uint32_t kShallow = 0, kDeep = 1, kPressed = 2, kDepths = 
 
 /// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
 /// are solved before them, in trees or one by one. Schedule says the rest.
-/// Order:   that of solver_input.hpp. The calls from `prepare` on say what is to be done; `run` does it.
+/// Order:   that of rigid_solver.hpp. The calls from `prepare` on note what is to be done; the last one does all of it,
+///          unless the context is watched.
 template <class S> class Sequential {
  public:
-  using ScheduleOf = Schedule<S> (*)(const SolverInput<S>&);
+  using ScheduleOf = Schedule<S> (*)(const StepContext<S>&);
   explicit Sequential(ScheduleOf schedule_of) : schedule_of_(schedule_of) {}
 
-  void gather_bodies(const SolverInput<S>& input);
-  SolverBodies<S>& bodies() { return bodies_.rows(); }
-  void colour_constraints(const SolverInput<S>& input);
-  void prepare(const SolverInput<S>& input);
-  void solve_substeps(const SolverInput<S>& input);
-  void restitute(const SolverInput<S>& input);
-  void store_impulses(const SolverInput<S>& input);
-  void run(const SolverInput<S>& input);
+  void colour_constraints(const StepContext<S>& context);
+  void prepare(const StepContext<S>& context);
+  void solve_substeps(const StepContext<S>& context);
+  void restitute(const StepContext<S>& context);
+  void store_impulses(const StepContext<S>& context);
   ISO_INLINE std::uint32_t unsolved() const { return 0; }  // it does what it does to all alike
-  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
  private:
   /// Consecutive entries of order_ that one kernel solves.
@@ -86,7 +85,7 @@ template <class S> class Sequential {
   /// What every piece reads.
   struct Job {
     Sequential* solver;
-    const SolverInput<S>& input;
+    const StepContext<S>& context;
     ContactPass<S> pass;
     JointStep<S> joints;
   };
@@ -97,12 +96,13 @@ template <class S> class Sequential {
   std::size_t place_of(const Run& run, std::uint32_t block) const;
   static Contacts contacts_of(const Run& run, const PassPlan::Slice& slice);
   BlockRun<S> blocks_of(const PassPlan::Slice& slice);
-  void prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
-  void store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice);
-  void find_carried(const SolverInput<S>& input);
-  void carry(const SolverInput<S>& input);
+  void prepare_slice(const StepContext<S>& context, const PassPlan::Slice& slice);
+  void store_slice(const StepContext<S>& context, const PassPlan::Slice& slice);
+  void find_carried(const StepContext<S>& context);
+  void carry(const StepContext<S>& context);
 
   // sequential_stages.inl
+  void run(const StepContext<S>& context);
   void add_stage(Work work, std::uint32_t pieces, const PassPlan* plan = nullptr, std::uint32_t of_plan = 0);
   void add_stages(Work work, const PassPlan& plan);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
@@ -113,6 +113,7 @@ template <class S> class Sequential {
   ScheduleOf schedule_of_;
   Schedule<S> schedule_ = {};
   BodyRows<S> bodies_;
+  PreparedJoints<S> joints_;
   JointTrees<S> joint_trees_;
   Colouring colouring_;
   std::vector<std::uint32_t> bucket_;  // of each contact: (colour * depths + depth) * variants + variant
@@ -121,11 +122,11 @@ template <class S> class Sequential {
   std::vector<Run> runs_;
   AlignedBytes memory_;
   std::vector<BlockBodies> block_bodies_;
-  std::vector<CarriedLane> carried_;   // as the input's
+  std::vector<CarriedLane> carried_;   // as the context's
   std::vector<std::uint32_t> places_;  // of contacts in order_, where any is carried
   std::uint32_t block_count_ = 0;
   std::size_t memory_bytes_ = 0;
-  TaskRunner runner_;                  // the input's, or none where the work is too little to share
+  TaskRunner runner_;                  // the context's, or none where the work is too little to share
   PassPlan colours_[detail::kDepths];  // colour after colour, of contacts of this depth and beyond
   PassPlan all_;                       // every block at once, for what touches no body
   std::uint32_t body_pieces_ = 1;

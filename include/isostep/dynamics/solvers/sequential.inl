@@ -32,11 +32,6 @@ inline constexpr std::uint32_t kLeastShared = 512;
 
 }  // namespace detail
 
-template <class S> void Sequential<S>::gather_bodies(const SolverInput<S>& input) {
-  schedule_ = schedule_of_(input);
-  bodies_.gather(input);
-}
-
 template <class S>
 void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t bucket, std::uint32_t first,
                             std::uint32_t count) {
@@ -51,9 +46,12 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t buck
   memory_bytes_ = (memory_bytes_ + 63) / 64 * 64;
 }
 
-template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& input) {
+template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& context) {
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
-  const std::size_t count = input.contacts.size();
+  schedule_ = schedule_of_(context);
+  bodies_.gather(context);
+  joints_.prepare(context, bodies_.rows());
+  const std::size_t count = context.contacts.size();
   const SolverBodies<S>& bodies = bodies_.rows();
   colouring_.begin(bodies.mass.size());
   bucket_.resize(count);
@@ -65,14 +63,14 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
   block_count_ = 0;
   memory_bytes_ = 0;
   const auto kind_of = [&](std::size_t i) {
-    const std::uint32_t points = input.contacts[i].count;
-    const bool rolling = input.geometry[i].material.rolling_resistance > S(0);
+    const std::uint32_t points = context.contacts[i].count;
+    const bool rolling = context.geometry[i].material.rolling_resistance > S(0);
     const std::uint32_t variant = points - 1 + (rolling ? std::uint32_t{kMaxContactPoints} : 0u);
-    return variant + detail::depth_of(input.geometry[i], points, bodies) * kContactVariants;
+    return variant + detail::depth_of(context.geometry[i], points, bodies) * kContactVariants;
   };
   std::uint32_t buckets = 0;  // up to the last that is used
   for (std::size_t i = 0; i < count; ++i) {
-    const ContactGeometry<S>& g = input.geometry[i];
+    const ContactGeometry<S>& g = context.geometry[i];
     const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
     bucket_[i] = kUncolouredBucket;
     if (colour != Colouring::kUncoloured) {
@@ -83,7 +81,7 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
   }
   std::uint32_t total = 0;
   for (std::uint32_t b = 0; b < buckets; ++b) {
-    if (bucket_ends_[b] != 0) add_run(*input.contact_kernels, b, total, bucket_ends_[b]);
+    if (bucket_ends_[b] != 0) add_run(*context.contact_kernels, b, total, bucket_ends_[b]);
     total += bucket_ends_[b];
     bucket_ends_[b] = total - bucket_ends_[b];
   }
@@ -98,7 +96,7 @@ template <class S> void Sequential<S>::colour_constraints(const SolverInput<S>& 
     add_run(narrow, kUncolouredBucket + kind, first, end - first);
     first = end;
   }
-  plan_passes(input.runner);
+  plan_passes(context.runner);
 }
 
 /// What found no colour is one piece by itself, however much it is: its order counts. A body counts as a row: to
@@ -149,33 +147,33 @@ template <class S> BlockRun<S> Sequential<S>::blocks_of(const PassPlan::Slice& s
           static_cast<std::int32_t>(slice.count), bodies_.rows().velocity.data(), bodies_.rows().displacement.data()};
 }
 
-template <class S> void Sequential<S>::prepare_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
+template <class S> void Sequential<S>::prepare_slice(const StepContext<S>& context, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);
   const SolverBodies<S>& bodies = bodies_.rows();
   run.kernels->prepare({memory_.data() + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
-                        part.count, shape.points, shape.rolling, &order_[part.first], input.contacts.data(),
-                        input.geometry.data(), bodies.velocity.data(), bodies.mass.data(), schedule_.lift,
+                        part.count, shape.points, shape.rolling, &order_[part.first], context.contacts.data(),
+                        context.geometry.data(), bodies.velocity.data(), bodies.mass.data(), schedule_.lift,
                         detail::kMostLift<S>});
 }
 
-template <class S> void Sequential<S>::store_slice(const SolverInput<S>& input, const PassPlan::Slice& slice) {
+template <class S> void Sequential<S>::store_slice(const StepContext<S>& context, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   const detail::Variant shape = detail::Variant::of(run.variant);
   const Contacts part = contacts_of(run, slice);
   run.kernels->store({memory_.data() + place_of(run, slice.first), part.count, shape.points, shape.rolling,
-                      &order_[part.first], input.contacts.data(), input.step_impulses.data()});
+                      &order_[part.first], context.contacts.data(), context.step_impulses.data()});
 }
 
 /// Contacts as they lie in their blocks.
-template <class S> void Sequential<S>::find_carried(const SolverInput<S>& input) {
-  carried_.resize(input.carried.size());
+template <class S> void Sequential<S>::find_carried(const StepContext<S>& context) {
+  carried_.resize(context.carried.size());
   if (carried_.empty()) return;
   places_.resize(order_.size());
   for (std::uint32_t i = 0; i < order_.size(); ++i) places_[order_[i]] = i;
   for (std::size_t i = 0; i < carried_.size(); ++i) {
-    const std::uint32_t place = places_[input.carried[i].contact];
+    const std::uint32_t place = places_[context.carried[i].contact];
     std::size_t r = 0;
     while (place >= runs_[r].first + runs_[r].count) ++r;
     const Run& run = runs_[r];
@@ -185,9 +183,9 @@ template <class S> void Sequential<S>::find_carried(const SolverInput<S>& input)
     carried_[i] = {memory_.data() + place_of(run, at / width) + rolling + (at % width) * sizeof(S), width};
   }
 }
-template <class S> void Sequential<S>::carry(const SolverInput<S>& input) {
+template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
   for (std::size_t i = 0; i < carried_.size(); ++i)
-    set_surface<S>(carried_[i].words, carried_[i].width, input.carried[i].surface(bodies_.rows()));
+    set_surface<S>(carried_[i].words, carried_[i].width, context.carried[i].surface(bodies_.rows()));
 }
 
 }  // namespace isostep

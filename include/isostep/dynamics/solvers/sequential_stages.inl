@@ -31,13 +31,13 @@ template <class S> void Sequential<S>::add_stages(Work work, const PassPlan& pla
   for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, plan.stages()[i], &plan, i);
 }
 
-template <class S> void Sequential<S>::run(const SolverInput<S>& input) {
+template <class S> void Sequential<S>::run(const StepContext<S>& context) {
   const S rate = S(schedule_.rate);
   Job job = {this,
-             input,
+             context,
              detail::contact_pass(schedule_),
-             {input.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
-              rapid_spin<S>(input.hz), spin_to_follow<S>(schedule_.rate)}};
+             {context.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
+              rapid_spin<S>(context.hz), spin_to_follow<S>(schedule_.rate)}};
   run_stages(runner_, pieces_, &Sequential::do_piece, &job);
   stages_.clear();
   pieces_.clear();
@@ -51,7 +51,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::integrate_velocities:
     case Work::integrate_positions:
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
-    case Work::carry: return solver.carry(job.input);
+    case Work::carry: return solver.carry(job.context);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -64,44 +64,45 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
 template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const PassPlan::Slice& slice) {
   const Run& run = runs_[slice.run];
   switch (work) {
-    case Work::prepare: return prepare_slice(job.input, slice);
+    case Work::prepare: return prepare_slice(job.context, slice);
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
     case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
     case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
     case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
-    case Work::store: return store_slice(job.input, slice);
+    case Work::store: return store_slice(job.context, slice);
     default: return;
   }
 }
 
 template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std::uint32_t piece) {
-  const std::size_t count = job.input.states.size();
+  const std::size_t count = job.context.states.size();
   const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
   switch (work) {
-    case Work::integrate_velocities: return bodies_.integrate_velocities(job.input, schedule_.rate, first, end);
-    case Work::integrate_positions: return bodies_.integrate_positions(job.input, schedule_.rate, first, end);
-    default: return bodies_.store(job.input, schedule_.rate, first, end);
+    case Work::integrate_velocities: return bodies_.integrate_velocities(job.context, schedule_.rate, first, end);
+    case Work::integrate_positions: return bodies_.integrate_positions(job.context, schedule_.rate, first, end);
+    default: return bodies_.store(job.context, schedule_.rate, first, end);
   }
 }
 
 template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std::uint32_t piece) {
   const std::uint32_t count = joint_trees_.batch_count(), pieces = min(count, kMaxPieces);
   for (std::uint32_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) {
-    if (work == Work::warm_start_joints) joint_trees_.warm_start(i, job.input.joints, job.joints);
-    else if (work == Work::store_joints) joint_trees_.store(i, job.input.joints);
-    else joint_trees_.solve(i, job.input.joints, job.joints, work == Work::relax_joints);
+    if (work == Work::warm_start_joints) joint_trees_.warm_start(i, joints_.all(), job.joints);
+    else if (work == Work::store_joints) joint_trees_.store(i, joints_.all());
+    else joint_trees_.solve(i, joints_.all(), job.joints, work == Work::relax_joints);
   }
 }
 
-template <class S> void Sequential<S>::prepare(const SolverInput<S>& input) {
+template <class S> void Sequential<S>::prepare(const StepContext<S>& context) {
   memory_.resize(memory_bytes_);
   block_bodies_.resize(block_count_ + 1);
-  find_carried(input);
+  find_carried(context);
   add_stages(Work::prepare, all_);
+  if (context.watched) run(context);
 }
 
-template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& input) {
-  joint_trees_.plan(input.joints, bodies_.rows(), input.tree_kernels, schedule_.joint_order);
+template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& context) {
+  joint_trees_.plan(joints_.all(), bodies_.rows(), context.tree_kernels, schedule_.joint_order);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
     add_stage(Work::integrate_velocities, body_pieces_);
@@ -120,17 +121,21 @@ template <class S> void Sequential<S>::solve_substeps(const SolverInput<S>& inpu
     for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax, colours_[detail::kDeep]);
   }
   add_stage(Work::store_joints, joints);
+  if (context.watched) run(context);
 }
 
-template <class S> void Sequential<S>::restitute(const SolverInput<S>& input) {
+template <class S> void Sequential<S>::restitute(const StepContext<S>& context) {
   bool bounces = false;
-  for (const ContactGeometry<S>& g : input.geometry) bounces = bounces || g.material.restitution > S(0);
+  for (const ContactGeometry<S>& g : context.geometry) bounces = bounces || g.material.restitution > S(0);
   if (bounces) add_stages(Work::restitute, colours_[detail::kShallow]);
+  if (context.watched) run(context);
 }
 
-template <class S> void Sequential<S>::store_impulses(const SolverInput<S>&) {
+template <class S> void Sequential<S>::store_impulses(const StepContext<S>& context) {
   add_stages(Work::store, all_);
   add_stage(Work::store_bodies, body_pieces_);
+  run(context);
+  joints_.store(context);
 }
 
 }  // namespace isostep

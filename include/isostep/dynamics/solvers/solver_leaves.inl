@@ -1,4 +1,4 @@
-// What each rigid solver leaves behind from stage to stage, by name: visit_scratch of solver_input.hpp.
+// What each rigid solver leaves behind from stage to stage, by name: visit_scratch of rigid_solver.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,7 +16,7 @@ namespace isostep {
 
 template <class S>
 template <class Visit>
-void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
+void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
   if (stage == SolverStage::prepare || stage == SolverStage::store) return;
   visit("solver_velocity", rows_.velocity);
   visit("solver_displacement", rows_.displacement);
@@ -26,7 +26,7 @@ void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const Sol
     visit("solver_start", start_);
   }
   for (std::size_t i = 0; i < gyro_.size(); ++i) {  // the rest are those of other steps
-    const BodyProperties<S>& body = input.properties[i];
+    const BodyProperties<S>& body = context.properties[i];
     if (body.type != BodyType::dynamic || !detail::turns_freely(body)) continue;
     visit.one("solver_inertia", i, [&](const auto& of_body) {
       if (begun) of_body("moments", gyro_[i].inertia);
@@ -35,14 +35,55 @@ void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const Sol
   }
 }
 
+template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(const Visit& visit, bool solved) {
+  visit.each("joint_constraints", joints_.size(), [&](const auto& of_joint, std::size_t i) {
+    JointConstraint<S>& joint = joints_[i];
+    if (!solved) {
+      of_joint("row_a", joint.row_a);
+      of_joint("row_b", joint.row_b);
+      of_joint("share", joint.share);
+      of_joint("pose_a", joint.pose_a);
+      of_joint("pose_b", joint.pose_b);
+      of_joint("radius", joint.radius);
+      of_joint("motor_force", joint.motor_force);
+      of_joint("block_count", joint.block_count);
+      of_joint("drive_count", joint.drive_count);
+      of_joint("holds", joint.holds);
+    }
+    of_joint("point_impulse", joint.blocks[0].impulse);
+    of_joint("angular_impulse", joint.blocks[1].impulse);
+    of_joint.each("drives", joint.drive_count, [&](const auto& of_drive, std::size_t k) {
+      JointDrive<S>& drive = joint.drives[k];
+      if (!solved) {
+        of_drive("radius", drive.radius);
+        of_drive("bounded_below", drive.bounded_below);
+        of_drive("bounded_above", drive.bounded_above);
+        of_drive("sprung", drive.sprung);
+        of_drive("driven", drive.driven);
+      }
+      of_drive("impulse", drive.impulse);
+      of_drive("piece", drive.piece);
+    });
+  });
+}
+
+/// What every solver has: its joints and its bodies.
+template <class S, class Visit>
+void visit_rows(const Visit& visit, SolverStage stage, const StepContext<S>& context, PreparedJoints<S>& joints,
+                BodyRows<S>& bodies) {
+  if (stage == SolverStage::colour || stage == SolverStage::solve)
+    joints.visit_scratch(visit, stage == SolverStage::solve);
+  bodies.visit_scratch(visit, stage, context);
+}
+
 // ---- soft step and projected Gauss-Seidel
 
 /// Colours are seen in the order of the contacts; how many lanes a run is cut into and how many threads share it are
 /// this machine's own.
 template <class S>
 template <class Visit>
-void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
-  bodies_.visit_scratch(visit, stage, input);
+void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+  visit_rows(visit, stage, context, joints_, bodies_);
   if (stage == SolverStage::store) return;
   if (stage == SolverStage::colour) {
     visit("colours", bucket_);
@@ -68,12 +109,12 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
 
 template <class S>
 template <class Visit>
-void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
-  bodies_.visit_scratch(visit, stage, input);
+void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+  visit_rows(visit, stage, context, joints_, bodies_);
   if (stage == SolverStage::colour) {
     visit("points", points_);
     visit("rolling", rolling_);
-    visit("held_joints", joints_);
+    visit("held_joints", held_);
     visit("ends", ends_);
     visit("neighbours", std::span(neighbours_.data(), first_[bodies_.rows().mass.size()]));
   }
@@ -94,13 +135,13 @@ void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage,
 
 template <class S>
 template <class Visit>
-void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input) {
-  bodies_.visit_scratch(visit, stage, input);
+void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+  visit_rows(visit, stage, context, joints_, bodies_);
   if (stage == SolverStage::store) return;
   if (stage != SolverStage::colour) {
-    for (std::uint32_t c = 0; c < input.contacts.size(); ++c) {
-      const auto points = static_cast<std::int32_t>(input.contacts[c].count);
-      const bool rolling = input.geometry[c].material.rolling_resistance > S(0);
+    for (std::uint32_t c = 0; c < context.contacts.size(); ++c) {
+      const auto points = static_cast<std::int32_t>(context.contacts[c].count);
+      const bool rolling = context.geometry[c].material.rolling_resistance > S(0);
       LaneOfBlock<S> lane(memory_[c].bytes, 1, 0, points, rolling);
       visit.one("prepared", c, [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
       if (visit.edits()) lane.write_back();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/rigid_solver.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 #include "isostep/dynamics/solvers/solver_name.hpp"
 #include "isostep/dynamics/solvers/worst_first.hpp"
@@ -23,6 +24,10 @@ concept HasEachSolver = requires(All all) {
 };
 #undef ISO_HAS
 static_assert(HasEachSolver<Solvers<float>>, "a solver has no member in Solvers");
+#define ISO_IS_SOLVER(name) \
+  static_assert(RigidSolver<decltype(Solvers<float>::name), float>, "a solver lacks a call of rigid_solver.hpp");
+ISO_FOR_EACH_SOLVER(ISO_IS_SOLVER)
+#undef ISO_IS_SOLVER
 
 /// visit(the solver of that name)
 template <class S, class Visit> void with_solver(Solvers<S>& solvers, SolverName name, Visit&& visit) {

@@ -1,4 +1,4 @@
-// What every rigid solver is given, and the order in which a step calls it.
+// StepContext<S>: what one step gives its solver to work on, and where the results go.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -35,39 +35,27 @@ template <class S> ISO_INLINE constexpr Velocity<S> spin_limit(std::int32_t rate
 }
 
 /// Awake bodies in order, the contacts between them and their joints in canonical order.
-template <class S> struct SolverInput {
+template <class S> struct StepContext {
   std::span<BodyState<S>> states;
   std::span<const BodyProperties<S>> properties;
   std::span<const Acceleration<S>> accelerations;  // per body, or empty
   std::span<Contact<S>> contacts;
   std::span<const ContactGeometry<S>> geometry;
   std::span<Velocity<S>> step_impulses;  // [m/s] per contact, of the whole step: filled by store_impulses
-  std::span<JointConstraint<S>> joints;  // prepared
-  Vec3<S> gravity;                       // [m/s^2]
-  std::int32_t hz;                       // [1/s] steps
-  std::int32_t substeps;                 // as the solver counts them: solver_name.hpp
-  TaskRunner runner;                     // changes no bit
+  std::span<const JointProperties<S>> joint_properties;
+  std::span<JointState<S>> joint_states;
+  std::span<const JointEnds<S>> joint_ends;
+  Vec3<S> gravity;        // [m/s^2]
+  std::int32_t hz;        // [1/s] steps
+  std::int32_t substeps;  // as the solver counts them: solver_name.hpp
+  bool watched;           // somebody looks between the stages: none may be put off
+  TaskRunner runner;      // changes no bit
   const ContactKernels<S>* contact_kernels;
   const TreeKernels<S>* tree_kernels;
   std::span<const Carried<S>> carried = {};  // ascending by contact
 };
 
-// A solver is a class template with these members, called once each a step in this order. Those from `prepare` on may
-// put off what they do until `run`, which may be called after each of them or once in the end. A solver keeps nothing
-// from step to step but memory: what it has to remember are the impulses of contacts and joints.
-//
-//   void gather_bodies(const SolverInput<S>&);       masses are needed to prepare joints, which the caller does next
-//   SolverBodies<S>& bodies();
-//   void colour_constraints(const SolverInput<S>&);  decides in which order everything is solved
-//   void prepare(const SolverInput<S>&);
-//   void solve_substeps(const SolverInput<S>&);      moves input.states
-//   void restitute(const SolverInput<S>&);
-//   void store_impulses(const SolverInput<S>&);      into input.contacts, step_impulses, joints, states' velocities
-//   void run(const SolverInput<S>&);
-//   std::uint32_t unsolved() const;                  islands of this step that it left before they were solved
-//   void visit_scratch(const Visit&, SolverStage, const SolverInput<S>&);   what this stage left for the next ones, by
-//                                                                           name: state/leaves.hpp
-
+/// The calls of rigid_solver.hpp, for those who look at what each leaves.
 enum class SolverStage : std::uint32_t { colour, prepare, solve, restitute, store };
 
 namespace detail {

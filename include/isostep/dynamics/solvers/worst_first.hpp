@@ -9,7 +9,8 @@
 #include "isostep/core/island_budgets.hpp"
 #include "isostep/core/knockout_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/prepared_joints.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/dynamics/solvers/worst_first_rows.hpp"
 
 namespace isostep {
@@ -42,17 +43,14 @@ template <class S> class WorstFirstResolver {
   /// takes 60 a row; a crowd in one place would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t rows) { return (1u << 17) + std::uint64_t{64} * rows; }
 
-  void gather_bodies(const SolverInput<S>& input);
-  SolverBodies<S>& bodies() { return bodies_.rows(); }
-  void colour_constraints(const SolverInput<S>& input);
-  void prepare(const SolverInput<S>& input);
-  void solve_substeps(const SolverInput<S>& input);
-  void restitute(const SolverInput<S>&) {}  // done with the impacts
-  void store_impulses(const SolverInput<S>& input);
-  void run(const SolverInput<S>&) {}
+  void colour_constraints(const StepContext<S>& context);
+  void prepare(const StepContext<S>& context);
+  void solve_substeps(const StepContext<S>& context);
+  void restitute(const StepContext<S>&) {}  // done with the impacts
+  void store_impulses(const StepContext<S>& context);
   /// As often as a pass left them.
   ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
-  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const SolverInput<S>& input);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
  private:
   using Motion = MotionRow<V>;
@@ -67,7 +65,7 @@ template <class S> class WorstFirstResolver {
   };
 
   // worst_first.inl
-  void add_point(const SolverInput<S>& input, std::uint32_t contact, std::uint32_t point);
+  void add_point(const StepContext<S>& context, std::uint32_t contact, std::uint32_t point);
   void load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row);
   void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, Point& row);
   void list_neighbours();
@@ -83,7 +81,7 @@ template <class S> class WorstFirstResolver {
   }
 
   // worst_first_velocity.inl
-  void begin_velocities(const SolverInput<S>& input, const JointStep<S>& step);
+  void begin_velocities(const StepContext<S>& context, const JointStep<S>& step);
   void warm_start(const Point& row);
   void hold(JointConstraint<S>& joint);
   void forget_impact(Point& row);
@@ -98,15 +96,16 @@ template <class S> class WorstFirstResolver {
   V gap(const Point& row) const;
   V overlap_urgency(const Point& row) const;
   V error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const;
-  void project(const SolverInput<S>& input, const Point& row);
-  void project(const SolverInput<S>& input, const JointConstraint<S>& joint, const JointStep<S>& step);
-  void move(const SolverInput<S>& input, std::uint32_t body, const Motion& asked);
+  void project(const StepContext<S>& context, const Point& row);
+  void project(const StepContext<S>& context, const JointConstraint<S>& joint, const JointStep<S>& step);
+  void move(const StepContext<S>& context, std::uint32_t body, const Motion& asked);
 
   BodyRows<S> bodies_;
+  PreparedJoints<S> joints_;
   std::vector<Motion> gained_;  // by row of the bodies: of velocity, what this sub-step's forces made
   std::vector<Point> points_;
   std::vector<TangentPair<S>> rolling_;
-  std::vector<std::uint32_t> joints_;      // of the input's: those that hold something
+  std::vector<std::uint32_t> held_;        // of joints_: those that hold something
   std::vector<Ends> ends_;                 // of points, then of joints
   std::vector<std::uint32_t> first_;       // by row of the bodies, and more: its rows in neighbours_
   std::vector<std::uint32_t> neighbours_;  // rows that can move a body, ascending

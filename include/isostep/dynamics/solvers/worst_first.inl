@@ -9,31 +9,29 @@
 
 namespace isostep {
 
-template <class S> void WorstFirstResolver<S>::gather_bodies(const SolverInput<S>& input) {
-  bodies_.gather(input);
+template <class S> void WorstFirstResolver<S>::colour_constraints(const StepContext<S>& context) {
+  bodies_.gather(context);
+  joints_.prepare(context, bodies_.rows());
   gained_.resize(bodies_.rows().velocity.size());
-}
-
-template <class S> void WorstFirstResolver<S>::colour_constraints(const SolverInput<S>& input) {
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto mover = [&](std::uint32_t row) { return bodies.moves(row) ? row : 0u; };
   points_.clear();
   rolling_.clear();
-  joints_.clear();
+  held_.clear();
   ends_.clear();
-  for (std::uint32_t i = 0; i < input.contacts.size(); ++i) {
-    const ContactGeometry<S>& g = input.geometry[i];
+  for (std::uint32_t i = 0; i < context.contacts.size(); ++i) {
+    const ContactGeometry<S>& g = context.geometry[i];
     const Ends ends = {mover(g.row_a), mover(g.row_b)};
     if (ends.a == 0 && ends.b == 0) continue;
-    for (std::uint32_t p = 0; p < input.contacts[i].count; ++p) {
-      add_point(input, i, p);
+    for (std::uint32_t p = 0; p < context.contacts[i].count; ++p) {
+      add_point(context, i, p);
       ends_.push_back(ends);
     }
   }
-  for (std::uint32_t j = 0; j < input.joints.size(); ++j) {
-    if (!input.joints[j].holds) continue;
-    joints_.push_back(j);
-    ends_.push_back({mover(input.joints[j].row_a), mover(input.joints[j].row_b)});
+  for (std::uint32_t j = 0; j < joints_.size(); ++j) {
+    if (!joints_[j].holds) continue;
+    held_.push_back(j);
+    ends_.push_back({mover(joints_[j].row_a), mover(joints_[j].row_b)});
   }
   urgency_.resize(ends_.size());
   list_neighbours();
@@ -45,9 +43,9 @@ template <class S> void WorstFirstResolver<S>::colour_constraints(const SolverIn
 }
 
 template <class S>
-void WorstFirstResolver<S>::add_point(const SolverInput<S>& input, std::uint32_t contact, std::uint32_t point) {
+void WorstFirstResolver<S>::add_point(const StepContext<S>& context, std::uint32_t contact, std::uint32_t point) {
   const SolverBodies<S>& bodies = bodies_.rows();
-  const ContactGeometry<S>& g = input.geometry[contact];
+  const ContactGeometry<S>& g = context.geometry[contact];
   const SolverMass<S>& a = bodies.mass[g.row_a];
   const SolverMass<S>& b = bodies.mass[g.row_b];
   Point row = {};
@@ -73,7 +71,7 @@ void WorstFirstResolver<S>::add_point(const SolverInput<S>& input, std::uint32_t
   row.mu = g.material.friction;
   row.restitution = g.material.restitution;
   row.separation = convert<V>(at.separation);
-  load_impulses(input.contacts[contact], point, row);
+  load_impulses(context.contacts[contact], point, row);
   if (g.material.rolling_resistance > S(0)) add_rolling(g, point, row);
   points_.push_back(row);
 }
@@ -190,49 +188,53 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
   }
 }
 
-template <class S> void WorstFirstResolver<S>::prepare(const SolverInput<S>&) {}
+template <class S> void WorstFirstResolver<S>::prepare(const StepContext<S>&) {}
 
-template <class S> void WorstFirstResolver<S>::solve_substeps(const SolverInput<S>& input) {
-  const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
-  const JointStep<S> step = {
-      input.states.data(),     &bodies_.rows(),        S(rate), divide_to<Step<S>>(S(1), S(rate)), Softness<S>::rigid(),
-      rapid_spin<S>(input.hz), spin_to_follow<S>(rate)};
+template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<S>& context) {
+  const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
+  const JointStep<S> step = {context.states.data(),
+                             &bodies_.rows(),
+                             S(rate),
+                             divide_to<Step<S>>(S(1), S(rate)),
+                             Softness<S>::rigid(),
+                             rapid_spin<S>(context.hz),
+                             spin_to_follow<S>(rate)};
   const auto points = static_cast<std::uint32_t>(points_.size());
-  const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return input.joints[joints_[i - points]]; };
+  const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return joints_[held_[i - points]]; };
   islands_left_ = 0;
-  for (std::int32_t substep = 0; substep < input.substeps; ++substep) {
-    begin_velocities(input, step);
+  for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
+    begin_velocities(context, step);
     resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },
             [&](std::uint32_t i) {
               if (i < points) resolve_motion(points_[i]);
               else resolve_motion(joint(i), step);
             });
-    bodies_.integrate_positions(input, rate, 0, bodies_.count());
+    bodies_.integrate_positions(context, rate, 0, bodies_.count());
     begin_positions(step);
     resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
             [&](std::uint32_t i) {
-              if (i < points) project(input, points_[i]);
-              else project(input, joint(i), step);
+              if (i < points) project(context, points_[i]);
+              else project(context, joint(i), step);
             });
   }
 }
 
-template <class S> void WorstFirstResolver<S>::store_impulses(const SolverInput<S>& input) {
-  for (std::size_t i = 0; i < input.contacts.size(); ++i) {
-    Contact<S>& contact = input.contacts[i];
+template <class S> void WorstFirstResolver<S>::store_impulses(const StepContext<S>& context) {
+  for (std::size_t i = 0; i < context.contacts.size(); ++i) {
+    Contact<S>& contact = context.contacts[i];
     for (V& impulse : contact.normal_impulse) impulse = V(0);
     contact.friction_impulse = Vec3<V>::zero();
     contact.twist_impulse = V(0);
     contact.flags &= ~contact_flag::kTouching;
-    input.step_impulses[i] = V(0);
+    context.step_impulses[i] = V(0);
   }
   std::uint32_t last = kNoPair, place = 0;
   for (Point& row : points_) {
     place = row.contact == last ? place + 1 : 0;
     last = row.contact;
-    Contact<S>& contact = input.contacts[row.contact];
+    Contact<S>& contact = context.contacts[row.contact];
     const V total = saturating_add(row.total_impulse, row.impulse);
-    input.step_impulses[row.contact] = saturating_add(input.step_impulses[row.contact], total);
+    context.step_impulses[row.contact] = saturating_add(context.step_impulses[row.contact], total);
     if (total > V(0)) contact.flags |= contact_flag::kTouching;
     if (row.least_speed < row.target) forget_impact(row);
     contact.normal_impulse[place] = row.impulse;
@@ -241,7 +243,8 @@ template <class S> void WorstFirstResolver<S>::store_impulses(const SolverInput<
       contact.friction_impulse = saturated_sum<S>(contact.friction_impulse, part);
     }
   }
-  bodies_.store(input, integration_rate(SolverName::worst_first, input.hz, input.substeps), 0, bodies_.count());
+  bodies_.store(context, integration_rate(SolverName::worst_first, context.hz, context.substeps), 0, bodies_.count());
+  joints_.store(context);
 }
 
 }  // namespace isostep

@@ -61,7 +61,7 @@ Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, cons
 }
 
 /// Linear and angular parts by inverse inertia (pp. 323-328).
-template <class S> void WorstFirstResolver<S>::project(const SolverInput<S>& input, const Point& row) {
+template <class S> void WorstFirstResolver<S>::project(const StepContext<S>& context, const Point& row) {
   const V missing = saturating_subtract(row.least_gap, gap(row));
   const V amount = saturate_to<V>(product(row.mass, missing));
   const auto part = [&](S share, Vec3<S> angular, Vec3<S> turn, V way) {
@@ -78,13 +78,13 @@ template <class S> void WorstFirstResolver<S>::project(const SolverInput<S>& inp
     m.linear = detail::pushed(Vec3<V>::zero(), row.normal.linear, linear, highest<V>());
     return m;
   };
-  move(input, row.a, part(row.share.a, row.normal.angular_a, row.normal.turn_a, -amount));
-  move(input, row.b, part(row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
+  move(context, row.a, part(row.share.a, row.normal.angular_a, row.normal.turn_a, -amount));
+  move(context, row.b, part(row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
 }
 
 /// As solve_joint() has it, of positions: a limit that is passed is a row, a drive within its limits none.
 template <class S>
-void WorstFirstResolver<S>::project(const SolverInput<S>& input, const JointConstraint<S>& joint,
+void WorstFirstResolver<S>::project(const StepContext<S>& context, const JointConstraint<S>& joint,
                                     const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
   const V fastest = detail::kJointPushSpeed<S> * step.h;
@@ -109,18 +109,18 @@ void WorstFirstResolver<S>::project(const SolverInput<S>& input, const JointCons
   JointMotion<S> m = {Motion::zero(), Motion::zero()};
   if (held.block_count > 1) isostep::push(held.blocks[1], joint.share, change.angular, m);
   isostep::push(held.blocks[0], joint.share, change.point, m);
-  move(input, joint.row_a, m.a);
-  move(input, joint.row_b, m.b);
+  move(context, joint.row_a, m.a);
+  move(context, joint.row_b, m.b);
 }
 
 /// The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
 template <class S>
-void WorstFirstResolver<S>::move(const SolverInput<S>& input, std::uint32_t body, const Motion& asked) {
+void WorstFirstResolver<S>::move(const StepContext<S>& context, std::uint32_t body, const Motion& asked) {
   SolverBodies<S>& bodies = bodies_.rows();
   if (!bodies.moves(body)) return;
   Motion way = asked;
-  detail::hold_locks(input.properties[body - 1].flags, way);
-  BodyState<S>& state = input.states[body - 1];
+  detail::hold_locks(context.properties[body - 1].flags, way);
+  BodyState<S>& state = context.states[body - 1];
   Motion& displacement = bodies.displacement[body];
   const Vec3<S> before = convert<S>(displacement.linear);
   displacement.linear += way.linear;

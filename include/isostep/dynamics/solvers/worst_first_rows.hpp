@@ -7,7 +7,7 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 #include "isostep/dynamics/solver_body.hpp"
-#include "isostep/dynamics/solvers/solver_input.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
 
@@ -33,7 +33,7 @@ template <class S> struct TangentPair {
 /// A point of a contact. Impulses are velocity changes of the pair's reduced mass, as in Contact.
 template <class S> struct PointRow {
   using V = Velocity<S>;
-  std::uint32_t contact;  // of the input's
+  std::uint32_t contact;  // of the context's
   std::uint32_t a, b;     // of SolverBodies
   std::uint32_t rolling;  // of the resolver's pairs; kNoPair for none
   MassShare<S> share;

@@ -23,17 +23,18 @@ template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, c
 }  // namespace detail
 
 /// Forces, then everything that holds while velocities are resolved, then the impulses of the sub-step before.
-template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInput<S>& input, const JointStep<S>& step) {
+template <class S>
+void WorstFirstResolver<S>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
   SolverBodies<S>& bodies = bodies_.rows();
-  const std::int32_t rate = integration_rate(SolverName::worst_first, input.hz, input.substeps);
+  const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
-  bodies_.integrate_velocities(input, rate, 0, bodies_.count());
+  bodies_.integrate_velocities(context, rate, 0, bodies_.count());
   std::size_t next = 0;
   for (Point& row : points_) {
-    while (next < input.carried.size() && input.carried[next].contact < row.contact) ++next;
-    if (next == input.carried.size()) break;
-    if (input.carried[next].contact != row.contact) continue;
-    const Vec3<V> surface = input.carried[next].surface(bodies);
+    while (next < context.carried.size() && context.carried[next].contact < row.contact) ++next;
+    if (next == context.carried.size()) break;
+    if (context.carried[next].contact != row.contact) continue;
+    const Vec3<V> surface = context.carried[next].surface(bodies);
     for (int k = 0; k < 2; ++k) row.friction.surface[k] = round_to<V>(dot_sum(row.friction.rows[k].linear, surface));
   }
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
@@ -45,8 +46,8 @@ template <class S> void WorstFirstResolver<S>::begin_velocities(const SolverInpu
     row.target = row.least_speed;
     warm_start(row);
   }
-  for (const std::uint32_t j : joints_) {
-    JointConstraint<S>& joint = input.joints[j];
+  for (const std::uint32_t j : held_) {
+    JointConstraint<S>& joint = joints_[j];
     linearise_joint(joint, step);
     weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
     factor_joint(joint);

@@ -1,0 +1,38 @@
+// PreparedJoints<S>: the joints of one step as a solver works on them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "isostep/dynamics/solvers/step_context.hpp"
+
+namespace isostep {
+
+/// In the order of the context's.
+template <class S> class PreparedJoints {
+ public:
+  ISO_INLINE void prepare(const StepContext<S>& context, const SolverBodies<S>& bodies) {
+    joints_.resize(context.joint_properties.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const JointEnds<S>& ends = context.joint_ends[i];
+      prepare_joint(context.joint_properties[i], context.joint_states[i], ends.a, ends.b, bodies, joints_[i]);
+    }
+  }
+  ISO_INLINE void store(const StepContext<S>& context) const {
+    for (std::size_t i = 0; i < joints_.size(); ++i) store_joint(joints_[i], context.joint_states[i]);
+  }
+
+  ISO_INLINE std::size_t size() const { return joints_.size(); }
+  ISO_INLINE JointConstraint<S>& operator[](std::size_t i) { return joints_[i]; }
+  ISO_INLINE std::span<JointConstraint<S>> all() { return joints_; }
+
+  /// Once solved, the impulses alone: solver_leaves.inl.
+  template <class Visit> void visit_scratch(const Visit& visit, bool solved);
+
+ private:
+  std::vector<JointConstraint<S>> joints_;
+};
+
+}  // namespace isostep

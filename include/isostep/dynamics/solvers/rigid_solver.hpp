@@ -1,0 +1,26 @@
+// What a rigid solver is: the calls of one step, in their order.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "isostep/dynamics/solvers/step_context.hpp"
+
+namespace isostep {
+
+/// A solver keeps nothing from step to step but memory: what it has to remember are the impulses of contacts and
+/// joints, which are in the state. A step makes each call once, in this order, with one context. A solver may put off
+/// what a call does to a later one, so that threads are woken once, unless the context is watched.
+/// `visit_scratch(visit, stage, context)`, for tools alone, tells what a stage left for the next ones: leaves.hpp.
+template <class Solver, class S>
+concept RigidSolver = requires(Solver solver, const Solver& solved, const StepContext<S>& context) {
+  solver.colour_constraints(context);  // takes bodies and joints over; decides in which order everything is solved
+  solver.prepare(context);
+  solver.solve_substeps(context);  // moves context.states
+  solver.restitute(context);
+  solver.store_impulses(context);  // into contacts, step_impulses, joint_states and the velocities of states
+  { solved.unsolved() } -> std::same_as<std::uint32_t>;  // islands of this step that it left before they were solved
+};
+
+}  // namespace isostep
