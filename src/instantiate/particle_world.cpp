@@ -9,7 +9,7 @@ namespace isostep {
 #define ISO_INSTANTIATE(S)                                                         \
   template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);          \
   template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S); \
-  template class ParticleWorld<S>;
+  ISO_INSTANTIATE_PARTICLE_WORLD(S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

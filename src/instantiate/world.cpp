@@ -4,8 +4,6 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) template class World<S>;
-ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
-#undef ISO_INSTANTIATE
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_WORLD)
 
 }  // namespace isostep

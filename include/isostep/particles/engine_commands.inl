@@ -7,14 +7,6 @@
 namespace isostep {
 
 namespace detail {
-template <class Record> struct RecordId;
-template <class S> struct RecordId<ParticleMaterial<S>> { using Type = ParticleMaterialId; };
-template <class S> struct RecordId<Spring<S>> { using Type = SpringId; };
-template <class S> struct RecordId<ParticleForce<S>> { using Type = ForceId; };
-template <class S> struct RecordId<Cohesion<S>> { using Type = CohesionId; };
-template <class S> struct RecordId<Link<S>> { using Type = LinkId; };
-template <class S> struct RecordId<Collider<S>> { using Type = ColliderId; };
-
 /// Where a slot's record belongs in an array that ascends by slot.
 template <class Record> std::size_t place_of(const std::vector<Record>& records, std::uint32_t slot) {
   std::size_t low = 0, high = records.size();
@@ -32,9 +24,10 @@ template <class Record> std::size_t place_of(const std::vector<Record>& records,
 template <class S> ParticleId ParticleEngine<S>::execute(const CreateParticle<S>& command) {
   const ParticleDefinition<S>& d = command.definition;
   const ParticleMaterialId material = d.material ? d.material : first_material();
-  const bool good = accept(detail::fault_of_position(d.position)) && accept(detail::fault_of_velocity(d.velocity)) &&
-                    accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
-                    accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
+  const bool good = journal_.accept(detail::fault_of_position(d.position)) &&
+                    journal_.accept(detail::fault_of_velocity(d.velocity)) &&
+                    journal_.accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
+                    journal_.accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
   if (!good) return {};
   const auto id = state_.particles.template take<ParticleId>();
   if (id.slot == state_.material.size()) {
@@ -56,7 +49,7 @@ template <class S> ParticleId ParticleEngine<S>::execute(const CreateParticle<S>
 }
 
 template <class S> bool ParticleEngine<S>::execute(const DestroyParticle& command) {
-  if (!holds(command.particle)) return refuse(Fault::stale_id);
+  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
   doomed_.assign(1, command.particle.slot);
   bury_doomed();
   return true;
@@ -98,16 +91,17 @@ void ParticleEngine<S>::remove_naming(Records& records, const Names& names) {
 }
 
 template <class S> bool ParticleEngine<S>::execute(const SetParticleMotion<S>& command) {
-  if (!holds(command.particle)) return refuse(Fault::stale_id);
-  if (!accept(detail::fault_of_position(command.position)) || !accept(detail::fault_of_velocity(command.velocity)))
+  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
+  if (!journal_.accept(detail::fault_of_position(command.position)) ||
+      !journal_.accept(detail::fault_of_velocity(command.velocity)))
     return false;
   state_.position.set(command.particle.slot, command.position);
   state_.velocity.set(command.particle.slot, convert<V>(command.velocity));
   return true;
 }
 template <class S> bool ParticleEngine<S>::execute(const SetParticleMass<S>& command) {
-  if (!holds(command.particle)) return refuse(Fault::stale_id);
-  if (!command.pinned && !accept(detail::fault_of_particle_mass(command.mass))) return false;
+  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
+  if (!command.pinned && !journal_.accept(detail::fault_of_particle_mass(command.mass))) return false;
   state_.inverse_mass[command.particle.slot] =
       command.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), command.mass);
   if (command.pinned) {
@@ -117,17 +111,17 @@ template <class S> bool ParticleEngine<S>::execute(const SetParticleMass<S>& com
   return true;
 }
 template <class S> bool ParticleEngine<S>::execute(const SetParticleMaterial& command) {
-  if (!holds(command.particle) || !state_.materials.holds(command.material)) return refuse(Fault::stale_id);
+  if (!holds(command.particle) || !state_.materials.holds(command.material)) return journal_.refuse(Fault::stale_id);
   state_.material[command.particle.slot] = command.material.slot;
   return true;
 }
 
 template <class S> bool ParticleEngine<S>::execute(const PushParticle<S>& command) {
-  if (!holds(command.particle)) return refuse(Fault::stale_id);
-  if (!is_finite(command.force)) return refuse(Fault::not_finite);
+  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
+  if (!is_finite(command.force)) return journal_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
   const InverseMass<S> w = state_.inverse_mass[slot];
-  if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
+  if (w == InverseMass<S>(0)) return journal_.refuse(Fault::not_dynamic);
   const S most = ParticleLimits<S>::acceleration();
   const auto part = [w](S force) { return saturate_to<S>(product(force, w)); };
   ParticlePush<S>& push = pending_push(slot);
@@ -147,11 +141,11 @@ template <class S> ParticlePush<S>& ParticleEngine<S>::pending_push(std::uint32_
   return pushes[at];
 }
 template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& command) {
-  if (!holds(command.particle)) return refuse(Fault::stale_id);
-  if (!is_finite(command.impulse)) return refuse(Fault::not_finite);
+  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
+  if (!is_finite(command.impulse)) return journal_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
   const InverseMass<S> w = state_.inverse_mass[slot];
-  if (w == InverseMass<S>(0)) return refuse(Fault::not_dynamic);
+  if (w == InverseMass<S>(0)) return journal_.refuse(Fault::not_dynamic);
   const V speed = convert<V>(ParticleLimits<S>::speed());
   const auto part = [w](S impulse) { return saturate_to<V>(product(impulse, w)); };
   const Vec3<V> more = {part(command.impulse.x), part(command.impulse.y), part(command.impulse.z)};
@@ -161,13 +155,13 @@ template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& comman
   return true;
 }
 template <class S> bool ParticleEngine<S>::execute(const TouchParticle<S>& command) {
-  if (!accept(detail::fault_of(command.touch))) return false;
-  if (!holds(command.touch.particle)) return refuse(Fault::stale_id);
+  if (!journal_.accept(detail::fault_of(command.touch))) return false;
+  if (!holds(command.touch.particle)) return journal_.refuse(Fault::stale_id);
   state_.touches.push_back(command.touch);
   return true;
 }
 template <class S> bool ParticleEngine<S>::execute(const SetParticleGravity<S>& command) {
-  if (!accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
+  if (!journal_.accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
   state_.settings.gravity = command.gravity;
   return true;
 }
@@ -194,9 +188,11 @@ template <class S> Fault ParticleEngine<S>::fault_of_record(const Link<S>& link)
   return fault == Fault::none ? fault_of_ends(link.a, link.b) : fault;
 }
 
-template <class S> template <class Record> auto ParticleEngine<S>::execute(const AddRecord<Record>& command) {
+template <class S>
+template <class Record>
+typename detail::RecordId<Record>::Type ParticleEngine<S>::execute(const AddRecord<Record>& command) {
   using IdType = typename detail::RecordId<Record>::Type;
-  if (!accept(fault_of_record(command.record))) return IdType{};
+  if (!journal_.accept(fault_of_record(command.record))) return IdType{};
   const IdType id = registry_of(IdType{}).add(command.record);
   if constexpr (std::is_same_v<IdType, LinkId>) {
     if (state_.link_impulses.size() <= id.slot) state_.link_impulses.push_back(V(0));
@@ -208,8 +204,8 @@ template <class S>
 template <class Record, class IdType>
 bool ParticleEngine<S>::execute(const SetRecord<Record, IdType>& command) {
   auto& registry = registry_of(command.id);
-  if (!registry.holds(command.id)) return refuse(Fault::stale_id);
-  if (!accept(fault_of_record(command.record))) return false;
+  if (!registry.holds(command.id)) return journal_.refuse(Fault::stale_id);
+  if (!journal_.accept(fault_of_record(command.record))) return false;
   if constexpr (std::is_same_v<IdType, LinkId>) {
     const Link<S>& old = *registry.find(command.id);
     const bool same = old.type == command.record.type && old.a == command.record.a && old.b == command.record.b;
@@ -220,9 +216,9 @@ bool ParticleEngine<S>::execute(const SetRecord<Record, IdType>& command) {
 }
 template <class S> template <class IdType> bool ParticleEngine<S>::execute(const RemoveRecord<IdType>& command) {
   auto& registry = registry_of(command.id);
-  if (!registry.holds(command.id)) return refuse(Fault::stale_id);
+  if (!registry.holds(command.id)) return journal_.refuse(Fault::stale_id);
   if constexpr (std::is_same_v<IdType, ParticleMaterialId>) {
-    if (is_in_use(command.id)) return refuse(Fault::shape_in_use);
+    if (is_in_use(command.id)) return journal_.refuse(Fault::shape_in_use);
   }
   if constexpr (std::is_same_v<IdType, LinkId>) state_.link_impulses[command.id.slot] = V(0);
   if constexpr (std::is_same_v<IdType, ColliderId>) {

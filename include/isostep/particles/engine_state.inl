@@ -16,10 +16,9 @@ template <class S> std::uint64_t ParticleEngine<S>::hash() const {
 
 template <class S> void ParticleEngine<S>::load(const ParticleState<S>& from) {
   state_ = from;
-  ++loads_;
+  journal_.note_load();
   events_.clear();
   report_ = {};
-  fault_ = Fault::none;
 }
 
 template <class S> void ParticleEngine<S>::write_portable(Writer& writer) const {

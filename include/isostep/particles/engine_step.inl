@@ -3,17 +3,15 @@
 #pragma once
 
 #include "isostep/particles/particle_engine.hpp"
-#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 
 template <class S> ParticleReport ParticleEngine<S>::step(const ParticleStageObserver& observer) {
-  const FloatEnvironment environment;
   const auto after = [&](ParticleStage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
-    if (trace_ != nullptr) trace_->push_back(hash());
+    journal_.trace(*this);
   };
-  if (trace_ != nullptr) trace_->push_back(hash());
+  journal_.trace(*this);
   begin_step();
   find_contacts();
   after(ParticleStage::find_contacts);

@@ -12,16 +12,16 @@
 #include "isostep/particles/stiff_spring.inl"
 
 /// ParticleWorld<S> and what it draws on, with the flight kernels of one lane.
-#define ISO_INSTANTIATE_PARTICLES(S)                                                                                   \
-  ISO_DECLARE_FLIGHT_KERNELS(S)                                                                                        \
-  ISO_DEFINE_SCALAR_FLIGHT_KERNELS(S)                                                                                  \
-  template <> const FlightKernels<S>* flight_kernels<S>(Simd simd) {                                                   \
-    const bool here = simd == Simd::best || simd == Simd::scalar;                                                      \
-    return here ? detail::kernel_table<FlightKernels<S>, Simd::scalar>() : nullptr;                                    \
-  }                                                                                                                    \
-  template class ParticleGrid<S>;                                                                                      \
-  template class WorstFirst<S>;                                                                                        \
-  template class ImplicitSprings<S>;                                                                                   \
-  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);                                              \
-  template class ParticleWorld<S>;                                                                                     \
+#define ISO_INSTANTIATE_PARTICLES(S)                                                \
+  ISO_DECLARE_FLIGHT_KERNELS(S)                                                     \
+  ISO_DEFINE_SCALAR_FLIGHT_KERNELS(S)                                               \
+  template <> const FlightKernels<S>* flight_kernels<S>(Simd simd) {                \
+    const bool here = simd == Simd::best || simd == Simd::scalar;                   \
+    return here ? detail::kernel_table<FlightKernels<S>, Simd::scalar>() : nullptr; \
+  }                                                                                 \
+  template class ParticleGrid<S>;                                                   \
+  template class WorstFirst<S>;                                                     \
+  template class ImplicitSprings<S>;                                                \
+  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);           \
+  ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                 \
   ISO_INSTANTIATE_PARTICLE_BODIES(S)

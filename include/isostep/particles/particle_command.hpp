@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <variant>
-
 #include "isostep/particles/cohesion.hpp"
 #include "isostep/particles/collider.hpp"
 #include "isostep/particles/force.hpp"
 #include "isostep/particles/link.hpp"
 #include "isostep/particles/spring.hpp"
 #include "isostep/particles/touch.hpp"
+#include "isostep/state/tape.hpp"
 
 namespace isostep {
 
@@ -109,17 +107,43 @@ template <class S> struct SetParticleGravity {
   }
 };
 
-/// The position in this list is the command's number in replays: append, never reorder.
-template <class S>
-using ParticleCommand =
-    std::variant<CreateParticle<S>, DestroyParticle, SetParticleMotion<S>, SetParticleMass<S>, SetParticleMaterial,
-                 PushParticle<S>, KickParticle<S>, TouchParticle<S>, SetParticleGravity<S>,
-                 AddRecord<ParticleMaterial<S>>, SetRecord<ParticleMaterial<S>, ParticleMaterialId>,
-                 RemoveRecord<ParticleMaterialId>,                                                          //
-                 AddRecord<Spring<S>>, SetRecord<Spring<S>, SpringId>, RemoveRecord<SpringId>,              //
-                 AddRecord<ParticleForce<S>>, SetRecord<ParticleForce<S>, ForceId>, RemoveRecord<ForceId>,  //
-                 AddRecord<Cohesion<S>>, SetRecord<Cohesion<S>, CohesionId>, RemoveRecord<CohesionId>,      //
-                 AddRecord<Link<S>>, SetRecord<Link<S>, LinkId>, RemoveRecord<LinkId>,                      //
-                 AddRecord<Collider<S>>, SetRecord<Collider<S>, ColliderId>, RemoveRecord<ColliderId>>;
+/// ISO_FOR_EACH_PARTICLE_COMMAND(X, R, S) expands X(name, Type, Result, S) for a command: the name in faults, the record,
+/// and what ParticleWorld<S>::apply and ParticleEngine<S>::execute return, an id of what was made or whether it was
+/// accepted. It expands R(name, Record, Id, S) for a kind of record, which has three commands, add_name, set_name and
+/// remove_name, and a registry in ParticleState that is called `name` and an s. To add one, see README.md. The position
+/// is the number in replays: append, never reorder.
+#define ISO_FOR_EACH_PARTICLE_COMMAND(X, R, S)            \
+  X(create_particle, CreateParticle<S>, ParticleId, S)    \
+  X(destroy_particle, DestroyParticle, bool, S)           \
+  X(set_particle_motion, SetParticleMotion<S>, bool, S)   \
+  X(set_particle_mass, SetParticleMass<S>, bool, S)       \
+  X(set_particle_material, SetParticleMaterial, bool, S)  \
+  X(push_particle, PushParticle<S>, bool, S)              \
+  X(kick_particle, KickParticle<S>, bool, S)              \
+  X(touch_particle, TouchParticle<S>, bool, S)            \
+  X(set_particle_gravity, SetParticleGravity<S>, bool, S) \
+  R(material, ParticleMaterial<S>, ParticleMaterialId, S) \
+  R(spring, Spring<S>, SpringId, S)                       \
+  R(force, ParticleForce<S>, ForceId, S)                  \
+  R(cohesion, Cohesion<S>, CohesionId, S)                 \
+  R(link, Link<S>, LinkId, S)                             \
+  R(collider, Collider<S>, ColliderId, S)
+/// Where one of the two is not wanted.
+#define ISO_SKIP(name, Type, Result, S)
+
+#define ISO_TYPE(name, Type, Result, S) , Type
+#define ISO_TYPES(name, Record, Id, S) , AddRecord<Record>, SetRecord<Record, Id>, RemoveRecord<Id>
+template <class S> using ParticleCommand = CommandVariant<void ISO_FOR_EACH_PARTICLE_COMMAND(ISO_TYPE, ISO_TYPES, S)>;
+#undef ISO_TYPE
+#undef ISO_TYPES
+
+namespace detail {
+/// The id of a kind of record.
+template <class Record> struct RecordId;
+#define ISO_RECORD_ID(name, Record, Id, S) \
+  template <class S> struct RecordId<Record> { using Type = Id; };
+ISO_FOR_EACH_PARTICLE_COMMAND(ISO_SKIP, ISO_RECORD_ID, S)
+#undef ISO_RECORD_ID
+}  // namespace detail
 
 }  // namespace isostep

@@ -17,6 +17,7 @@
 #include "isostep/particles/scenery.hpp"
 #include "isostep/particles/solvers/worst_first.hpp"
 #include "isostep/particles/stiff_spring.hpp"
+#include "isostep/state/command_journal.hpp"
 #include "isostep/state/leaves.hpp"
 
 namespace isostep {
@@ -39,19 +40,15 @@ template <class S> class ParticleEngine {
   using V = Velocity<S>;
   using U = Unit<S>;
 
+  using Command = ParticleCommand<S>;
+
   explicit ParticleEngine(const ParticleSettings<S>& settings);
 
-  // engine_commands.inl: one function a command; each answers what it made or whether it was accepted.
-  ParticleId execute(const CreateParticle<S>& command);
-  bool execute(const DestroyParticle& command);
-  bool execute(const SetParticleMotion<S>& command);
-  bool execute(const SetParticleMass<S>& command);
-  bool execute(const SetParticleMaterial& command);
-  bool execute(const PushParticle<S>& command);
-  bool execute(const KickParticle<S>& command);
-  bool execute(const TouchParticle<S>& command);
-  bool execute(const SetParticleGravity<S>& command);
-  template <class Record> auto execute(const AddRecord<Record>& command);
+  // engine_commands.inl: what a command does. Returns what it made or whether it was accepted. `journal_` runs it.
+#define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_EXECUTE, ISO_SKIP, S)
+#undef ISO_EXECUTE
+  template <class Record> typename detail::RecordId<Record>::Type execute(const AddRecord<Record>& command);
   template <class Record, class IdType> bool execute(const SetRecord<Record, IdType>& command);
   template <class IdType> bool execute(const RemoveRecord<IdType>& command);
 
@@ -69,22 +66,19 @@ template <class S> class ParticleEngine {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
 
-  bool refuse(Fault fault) {
-    fault_ = fault;
-    return false;
-  }
-  bool accept(Fault fault) { return fault == Fault::none || refuse(fault); }
+#define ISO_REGISTRY(name, Record, Id, S)          \
+  auto& registry_of(Id) { return state_.name##s; } \
+  const auto& registry_of(Id) const { return state_.name##s; }
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_SKIP, ISO_REGISTRY, S)
+#undef ISO_REGISTRY
   ParticleMaterialId first_material() const { return state_.materials.slots().template id_of<ParticleMaterialId>(0); }
   bool holds(ParticleId particle) const { return state_.particles.holds(particle); }
 
   ParticleState<S> state_;
   ParticleEvents<S> events_;
   ParticleReport report_;
-  Fault fault_ = Fault::none;
+  CommandJournal journal_;
   const FlightKernels<S>* kernels_;
-  std::vector<std::uint8_t>* tape_ = nullptr;
-  std::vector<std::uint64_t>* trace_ = nullptr;
-  std::uint64_t loads_ = 0;
 
  private:
   /// What a step draws on, by slot.
@@ -104,12 +98,6 @@ template <class S> class ParticleEngine {
   };
 
   // engine_commands.inl
-  auto& registry_of(ParticleMaterialId) { return state_.materials; }
-  auto& registry_of(SpringId) { return state_.springs; }
-  auto& registry_of(ForceId) { return state_.forces; }
-  auto& registry_of(CohesionId) { return state_.cohesions; }
-  auto& registry_of(LinkId) { return state_.links; }
-  auto& registry_of(ColliderId) { return state_.colliders; }
   Fault fault_of_record(const ParticleMaterial<S>& material) const { return detail::fault_of(material); }
   Fault fault_of_record(const Spring<S>& spring) const;
   Fault fault_of_record(const ParticleForce<S>& force) const;

@@ -29,8 +29,8 @@ struct ParticleCounts {
 /// A world of particles over any scalar, beside World<S>.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
-/// in `fault()`. Two worlds of one type that were told the same things in the same order have equal hashes at every
-/// tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
+/// in `fault()`. Observers of stages call none. Two worlds of one type that were told the same things in the same order
+/// have equal hashes at every tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
 template <class S> class ParticleWorld final {
@@ -53,11 +53,16 @@ template <class S> class ParticleWorld final {
   bool use_simd(Simd simd);
   const char* simd_name() const;
 
-  // Materials: shared by the particles that name them. Every world has one from birth, which a null id names.
+  // What is registered: materials, springs, forces, cohesions, links, colliders, each by an id of its type.
+#define ISO_RECORD(name, Record, Id, S)  \
+  Id add(const Record& record);          \
+  bool set(Id id, const Record& record); \
+  bool remove(Id id);                    \
+  const Record* find(Id id) const;
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_SKIP, ISO_RECORD, S)
+#undef ISO_RECORD
+  /// Materials are shared by the particles that name them. Every world has one from birth, which a null id names.
   ParticleMaterialId default_material() const;
-  ParticleMaterialId add(const ParticleMaterial<S>& material);
-  bool set(ParticleMaterialId id, const ParticleMaterial<S>& material);
-  bool remove(ParticleMaterialId id);
 
   // Particles.
   ParticleId create(const ParticleDefinition<S>& definition);
@@ -72,24 +77,16 @@ template <class S> class ParticleWorld final {
   bool apply_impulse(ParticleId particle, Vec3<S> impulse);
   bool touch(const ParticleTouch<S>& touch);
 
-  // What acts on them, each by its id.
-  SpringId add(const Spring<S>& spring);
-  bool set(SpringId id, const Spring<S>& spring);
-  bool remove(SpringId id);
-  ForceId add(const ParticleForce<S>& force);
-  bool set(ForceId id, const ParticleForce<S>& force);
-  bool remove(ForceId id);
-  CohesionId add(const Cohesion<S>& cohesion);
-  bool set(CohesionId id, const Cohesion<S>& cohesion);
-  bool remove(CohesionId id);
-  LinkId add(const Link<S>& link);
-  bool set(LinkId id, const Link<S>& link);
-  bool remove(LinkId id);
-  ColliderId add(const Collider<S>& collider);
-  bool set(ColliderId id, const Collider<S>& collider);
-  bool remove(ColliderId id);
-
-  /// Any command, as recorded ones are.
+  /// Every mutator above is one of these with its fields as arguments: particle_command.hpp.
+#define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
+#define ISO_APPLY_RECORD(name, Record, Id, S)       \
+  Id apply(const AddRecord<Record>& command);       \
+  bool apply(const SetRecord<Record, Id>& command); \
+  bool apply(const RemoveRecord<Id>& command);
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_APPLY, ISO_APPLY_RECORD, S)
+#undef ISO_APPLY
+#undef ISO_APPLY_RECORD
+  /// Any of them, as recorded ones are.
   bool apply(const ParticleCommand<S>& command);
   Fault fault() const;
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
@@ -109,12 +106,6 @@ template <class S> class ParticleWorld final {
   S mass(ParticleId particle) const;
   ParticleMaterialId material(ParticleId particle) const;
   std::vector<ParticleId> particles() const;
-  const ParticleMaterial<S>* find(ParticleMaterialId id) const;
-  const Spring<S>* find(SpringId id) const;
-  const ParticleForce<S>* find(ForceId id) const;
-  const Cohesion<S>* find(CohesionId id) const;
-  const Link<S>* find(LinkId id) const;
-  const Collider<S>* find(ColliderId id) const;
   ParticleCounts counts() const;
 
   // Time.

@@ -36,7 +36,7 @@ ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& settings) : kernels
   if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity) ||
       s.integrator != settings.integrator || s.solver != settings.solver || s.stepping != settings.stepping ||
       s.pairs != settings.pairs) {
-    fault_ = Fault::out_of_range;
+    journal_.refuse_call("ParticleWorld", {Fault::out_of_range});
   }
   state_.materials.add(ParticleMaterial<S>{});
 }
@@ -58,6 +58,8 @@ template <class S> auto ParticleWorld<S>::operator=(ParticleWorld&& other) noexc
 template <class S> const ParticleSettings<S>& ParticleWorld<S>::settings() const { return engine_->state_.settings; }
 template <class S> std::uint64_t ParticleWorld<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool ParticleWorld<S>::use_simd(Simd simd) {
+  const CommandJournal::Call call(engine_->journal_, "use_simd");
+  if (!call.allowed()) return false;
   const FlightKernels<S>* kernels = flight_kernels<S>(simd);
   if (kernels == nullptr) return false;
   engine_->kernels_ = kernels;
@@ -65,128 +67,69 @@ template <class S> bool ParticleWorld<S>::use_simd(Simd simd) {
 }
 template <class S> const char* ParticleWorld<S>::simd_name() const { return engine_->kernels_->name; }
 
-namespace detail {
-/// Executes under a pinned float environment and, when accepted, records.
-template <class S, class C> auto run(ParticleEngine<S>& engine, const C& command) {
-  const FloatEnvironment environment;
-  engine.fault_ = Fault::none;
-  const auto result = engine.execute(command);
-  if (static_cast<bool>(result) && engine.tape_ != nullptr) {
-    Writer writer(*engine.tape_);
-    write_command<ParticleCommand<S>>(writer, command);
+#define ISO_APPLY(name, Type, Result, S)                                   \
+  template <class S> Result ParticleWorld<S>::apply(const Type& command) { \
+    return engine_->journal_.run(#name, *engine_, command);                \
   }
-  return result;
+#define ISO_RECORD(name, Record, Id, S)                                                                          \
+  template <class S> Id ParticleWorld<S>::apply(const AddRecord<Record>& command) {                              \
+    return engine_->journal_.run("add_" #name, *engine_, command);                                               \
+  }                                                                                                              \
+  template <class S> bool ParticleWorld<S>::apply(const SetRecord<Record, Id>& command) {                        \
+    return engine_->journal_.run("set_" #name, *engine_, command);                                               \
+  }                                                                                                              \
+  template <class S> bool ParticleWorld<S>::apply(const RemoveRecord<Id>& command) {                             \
+    return engine_->journal_.run("remove_" #name, *engine_, command);                                            \
+  }                                                                                                              \
+  template <class S> Id ParticleWorld<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); } \
+  template <class S> bool ParticleWorld<S>::set(Id id, const Record& record) {                                   \
+    return apply(SetRecord<Record, Id>{id, record});                                                             \
+  }                                                                                                              \
+  template <class S> bool ParticleWorld<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                \
+  template <class S> const Record* ParticleWorld<S>::find(Id id) const { return engine_->registry_of(id).find(id); }
+ISO_FOR_EACH_PARTICLE_COMMAND(ISO_APPLY, ISO_RECORD, S)
+#undef ISO_APPLY
+#undef ISO_RECORD
+template <class S> bool ParticleWorld<S>::apply(const ParticleCommand<S>& command) {
+  return std::visit([&](const auto& c) { return static_cast<bool>(apply(c)); }, command);
 }
-}  // namespace detail
 
 template <class S> ParticleMaterialId ParticleWorld<S>::default_material() const { return engine_->first_material(); }
 template <class S> ParticleId ParticleWorld<S>::create(const ParticleDefinition<S>& definition) {
-  return detail::run(*engine_, CreateParticle<S>{definition});
+  return apply(CreateParticle<S>{definition});
 }
-template <class S> bool ParticleWorld<S>::destroy(ParticleId particle) {
-  return detail::run(*engine_, DestroyParticle{particle});
-}
+template <class S> bool ParticleWorld<S>::destroy(ParticleId particle) { return apply(DestroyParticle{particle}); }
 template <class S> bool ParticleWorld<S>::set_motion(ParticleId particle, Vec3<S> position, Vec3<S> velocity) {
-  return detail::run(*engine_, SetParticleMotion<S>{particle, position, velocity});
+  return apply(SetParticleMotion<S>{particle, position, velocity});
 }
 template <class S> bool ParticleWorld<S>::set_mass(ParticleId particle, S mass, bool pinned) {
-  return detail::run(*engine_, SetParticleMass<S>{particle, mass, pinned});
+  return apply(SetParticleMass<S>{particle, mass, pinned});
 }
 template <class S> bool ParticleWorld<S>::set_material(ParticleId particle, ParticleMaterialId material) {
-  return detail::run(*engine_, SetParticleMaterial{particle, material});
+  return apply(SetParticleMaterial{particle, material});
 }
-template <class S> bool ParticleWorld<S>::set_gravity(Vec3<S> gravity) {
-  return detail::run(*engine_, SetParticleGravity<S>{gravity});
-}
+template <class S> bool ParticleWorld<S>::set_gravity(Vec3<S> gravity) { return apply(SetParticleGravity<S>{gravity}); }
 template <class S> bool ParticleWorld<S>::apply_force(ParticleId particle, Vec3<S> force) {
-  return detail::run(*engine_, PushParticle<S>{particle, force});
+  return apply(PushParticle<S>{particle, force});
 }
 template <class S> bool ParticleWorld<S>::apply_impulse(ParticleId particle, Vec3<S> impulse) {
-  return detail::run(*engine_, KickParticle<S>{particle, impulse});
+  return apply(KickParticle<S>{particle, impulse});
 }
 template <class S> bool ParticleWorld<S>::touch(const ParticleTouch<S>& touch) {
-  return detail::run(*engine_, TouchParticle<S>{touch});
+  return apply(TouchParticle<S>{touch});
 }
 
-template <class S> ParticleMaterialId ParticleWorld<S>::add(const ParticleMaterial<S>& material) {
-  return detail::run(*engine_, AddRecord<ParticleMaterial<S>>{material});
+template <class S> Fault ParticleWorld<S>::fault() const { return engine_->journal_.fault().fault; }
+template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* tape) {
+  engine_->journal_.record_to(tape);
 }
-template <class S> bool ParticleWorld<S>::set(ParticleMaterialId id, const ParticleMaterial<S>& material) {
-  return detail::run(*engine_, SetRecord<ParticleMaterial<S>, ParticleMaterialId>{id, material});
-}
-template <class S> bool ParticleWorld<S>::remove(ParticleMaterialId id) {
-  return detail::run(*engine_, RemoveRecord<ParticleMaterialId>{id});
-}
-template <class S> const ParticleMaterial<S>* ParticleWorld<S>::find(ParticleMaterialId id) const {
-  return engine_->state_.materials.find(id);
-}
-template <class S> SpringId ParticleWorld<S>::add(const Spring<S>& spring) {
-  return detail::run(*engine_, AddRecord<Spring<S>>{spring});
-}
-template <class S> bool ParticleWorld<S>::set(SpringId id, const Spring<S>& spring) {
-  return detail::run(*engine_, SetRecord<Spring<S>, SpringId>{id, spring});
-}
-template <class S> bool ParticleWorld<S>::remove(SpringId id) {
-  return detail::run(*engine_, RemoveRecord<SpringId>{id});
-}
-template <class S> const Spring<S>* ParticleWorld<S>::find(SpringId id) const {
-  return engine_->state_.springs.find(id);
-}
-template <class S> ForceId ParticleWorld<S>::add(const ParticleForce<S>& force) {
-  return detail::run(*engine_, AddRecord<ParticleForce<S>>{force});
-}
-template <class S> bool ParticleWorld<S>::set(ForceId id, const ParticleForce<S>& force) {
-  return detail::run(*engine_, SetRecord<ParticleForce<S>, ForceId>{id, force});
-}
-template <class S> bool ParticleWorld<S>::remove(ForceId id) {
-  return detail::run(*engine_, RemoveRecord<ForceId>{id});
-}
-template <class S> const ParticleForce<S>* ParticleWorld<S>::find(ForceId id) const {
-  return engine_->state_.forces.find(id);
-}
-template <class S> CohesionId ParticleWorld<S>::add(const Cohesion<S>& cohesion) {
-  return detail::run(*engine_, AddRecord<Cohesion<S>>{cohesion});
-}
-template <class S> bool ParticleWorld<S>::set(CohesionId id, const Cohesion<S>& cohesion) {
-  return detail::run(*engine_, SetRecord<Cohesion<S>, CohesionId>{id, cohesion});
-}
-template <class S> bool ParticleWorld<S>::remove(CohesionId id) {
-  return detail::run(*engine_, RemoveRecord<CohesionId>{id});
-}
-template <class S> const Cohesion<S>* ParticleWorld<S>::find(CohesionId id) const {
-  return engine_->state_.cohesions.find(id);
-}
-template <class S> LinkId ParticleWorld<S>::add(const Link<S>& link) {
-  return detail::run(*engine_, AddRecord<Link<S>>{link});
-}
-template <class S> bool ParticleWorld<S>::set(LinkId id, const Link<S>& link) {
-  return detail::run(*engine_, SetRecord<Link<S>, LinkId>{id, link});
-}
-template <class S> bool ParticleWorld<S>::remove(LinkId id) { return detail::run(*engine_, RemoveRecord<LinkId>{id}); }
-template <class S> const Link<S>* ParticleWorld<S>::find(LinkId id) const { return engine_->state_.links.find(id); }
-template <class S> ColliderId ParticleWorld<S>::add(const Collider<S>& collider) {
-  return detail::run(*engine_, AddRecord<Collider<S>>{collider});
-}
-template <class S> bool ParticleWorld<S>::set(ColliderId id, const Collider<S>& collider) {
-  return detail::run(*engine_, SetRecord<Collider<S>, ColliderId>{id, collider});
-}
-template <class S> bool ParticleWorld<S>::remove(ColliderId id) {
-  return detail::run(*engine_, RemoveRecord<ColliderId>{id});
-}
-template <class S> const Collider<S>* ParticleWorld<S>::find(ColliderId id) const {
-  return engine_->state_.colliders.find(id);
-}
-
-template <class S> bool ParticleWorld<S>::apply(const ParticleCommand<S>& command) {
-  return std::visit([&](const auto& c) { return static_cast<bool>(detail::run(*engine_, c)); }, command);
-}
-template <class S> Fault ParticleWorld<S>::fault() const { return engine_->fault_; }
-template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
 template <class S> bool ParticleWorld<S>::records_to(const std::vector<std::uint8_t>* tape) const {
-  return engine_->tape_ == tape;
+  return engine_->journal_.records_to(tape);
 }
-template <class S> void ParticleWorld<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->trace_ = hashes; }
-template <class S> std::uint64_t ParticleWorld<S>::loads() const { return engine_->loads_; }
+template <class S> void ParticleWorld<S>::trace_to(std::vector<std::uint64_t>* hashes) {
+  engine_->journal_.trace_to(hashes);
+}
+template <class S> std::uint64_t ParticleWorld<S>::loads() const { return engine_->journal_.loads(); }
 
 template <class S> bool ParticleWorld<S>::contains(ParticleId particle) const { return engine_->holds(particle); }
 template <class S> Vec3<S> ParticleWorld<S>::position(ParticleId particle) const {
@@ -233,7 +176,9 @@ template <class S> ParticleCounts ParticleWorld<S>::counts() const {
 }
 
 template <class S> ParticleReport ParticleWorld<S>::step(const ParticleStageObserver& observer) {
-  if (engine_->tape_ != nullptr) engine_->tape_->push_back(kStepMarker);
+  const CommandJournal::Call call(engine_->journal_, "step");
+  if (!call.allowed()) return {};
+  engine_->journal_.record_step();
   return engine_->step(observer);
 }
 template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { return engine_->events_; }
@@ -255,12 +200,17 @@ template <class S> void ParticleWorld<S>::save(Snapshot& to) const {
   *to.state_ = engine_->state_;
 }
 template <class S> void ParticleWorld<S>::load(const Snapshot& from) {
-  if (from.state_ != nullptr) engine_->load(*from.state_);
+  const CommandJournal::Call call(engine_->journal_, "load");
+  if (call.allowed() && from.state_ != nullptr) engine_->load(*from.state_);
 }
 template <class S> std::uint64_t ParticleWorld<S>::hash() const { return engine_->hash(); }
 template <class S> void ParticleWorld<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
 template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) {
-  const FloatEnvironment environment;
+  const CommandJournal::Call call(engine_->journal_, "read_portable");
+  if (!call.allowed()) {
+    reader.fail(ErrorCode::invalid, "read while the world steps");
+    return reader.result("particle world");
+  }
   return engine_->read_portable(reader);
 }
 template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
@@ -271,3 +221,9 @@ template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { ret
 template <class S> StageView ParticleWorld<S>::leaves() const { return engine_->view(kParticleStages); }
 
 }  // namespace isostep
+
+/// ParticleWorld<S> and what each command does: a command of the list without `execute` does not compile.
+#define ISO_INSTANTIATE_PARTICLE_EXECUTE(name, Type, Result, S) template Result ParticleEngine<S>::execute(const Type&);
+#define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                      \
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_SKIP, S) \
+  template class ParticleWorld<S>;

@@ -29,6 +29,14 @@ concept WritesItself = requires(C& command, const C& same, Writer& writer, Reade
   command.read(reader);
 };
 
+template <class C>
+concept Recordable = HasFields<C> || WritesItself<C>;
+
+template <class Unused, class... Commands> struct CommandVariantOf {
+  static_assert((Recordable<Commands> && ...), "a command lacks `fields`, or `write` and `read`");
+  using Type = std::variant<Commands...>;
+};
+
 template <class C, class Variant> struct IndexOf;
 template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> {
   static constexpr std::uint8_t kValue = 0;
@@ -55,7 +63,12 @@ ISO_INLINE void read_any(std::size_t number, Reader& reader, std::optional<Varia
 }
 }  // namespace detail
 
-/// `Variant` is the closed list of a world's commands, a std::variant: a command's place in it is its number.
+/// The closed list of a world's commands: a command's place in it is its number. A macro that writes the list puts a
+/// comma before each, so what stands before the first comma is not used.
+template <class Unused, class... Commands>
+using CommandVariant = typename detail::CommandVariantOf<Unused, Commands...>::Type;
+
+/// `Variant` is such a list.
 template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, const C& command) {
   static_assert(std::variant_size_v<Variant> < kStepMarker);
   writer.write(detail::IndexOf<C, Variant>::kValue);

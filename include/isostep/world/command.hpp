@@ -3,14 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <iterator>
-#include <variant>
 #include <vector>
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
+#include "isostep/state/tape.hpp"
 #include "isostep/world/definitions.hpp"
 
 namespace isostep {
@@ -155,17 +154,35 @@ template <class S> struct SetJoint {
   }
 };
 
-/// The position in this list is the command's number in replays: append, never reorder.
-template <class S>
-using Command = std::variant<AddShape<S>, RemoveShape, CreateBody<S>, DestroyBody, WakeBody, SetPose<S>, SetVelocity<S>,
-                             ApplyForce<S>, ApplyImpulse<S>, SetMaterial<S>, SetFilter, SetMotion<S>, SetUserData,
-                             SetGravity<S>, CreateJoint<S>, DestroyJoint, SetJoint<S>>;
+/// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: the name in faults, the record, and what
+/// World<S>::apply and WorldEngine<S>::execute return, an id of what was made or whether it was accepted. To add one:
+/// its record above, its line here, its `execute`; see README.md. The position is the number in replays: append, never
+/// reorder.
+#define ISO_FOR_EACH_COMMAND(X, S)            \
+  X(add_shape, AddShape<S>, ShapeId, S)       \
+  X(remove_shape, RemoveShape, bool, S)       \
+  X(create_body, CreateBody<S>, BodyId, S)    \
+  X(destroy_body, DestroyBody, bool, S)       \
+  X(wake_body, WakeBody, bool, S)             \
+  X(set_pose, SetPose<S>, bool, S)            \
+  X(set_velocity, SetVelocity<S>, bool, S)    \
+  X(apply_force, ApplyForce<S>, bool, S)      \
+  X(apply_impulse, ApplyImpulse<S>, bool, S)  \
+  X(set_material, SetMaterial<S>, bool, S)    \
+  X(set_filter, SetFilter, bool, S)           \
+  X(set_motion, SetMotion<S>, bool, S)        \
+  X(set_user_data, SetUserData, bool, S)      \
+  X(set_gravity, SetGravity<S>, bool, S)      \
+  X(create_joint, CreateJoint<S>, JointId, S) \
+  X(destroy_joint, DestroyJoint, bool, S)     \
+  X(set_joint, SetJoint<S>, bool, S)
 
-/// By that number.
-inline constexpr const char* kCommandNames[] = {
-    "add_shape",     "remove_shape", "create_body",   "destroy_body",  "wake_body",  "set_pose",
-    "set_velocity",  "apply_force",  "apply_impulse", "set_material",  "set_filter", "set_motion",
-    "set_user_data", "set_gravity",  "create_joint",  "destroy_joint", "set_joint"};
-static_assert(std::size(kCommandNames) == std::variant_size_v<Command<float>>);
+#define ISO_TYPE(name, Type, Result, S) , Type
+template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;
+#undef ISO_TYPE
+
+#define ISO_NAME(name, Type, Result, S) #name,
+inline constexpr const char* kCommandNames[] = {ISO_FOR_EACH_COMMAND(ISO_NAME, float)};  // by number
+#undef ISO_NAME
 
 }  // namespace isostep

@@ -11,9 +11,9 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/bitset.hpp"
 #include "isostep/core/disjoint_sets.hpp"
-#include "isostep/core/one_at_a_time.hpp"
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
+#include "isostep/state/command_journal.hpp"
 #include "isostep/state/leaves.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/proxies.hpp"
@@ -48,27 +48,14 @@ template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);
 
-  // engine_commands.inl, engine_destroy.inl, engine_joint_commands.inl: one function a command; each answers what it
-  // made or whether it was accepted.
-  ShapeId execute(const AddShape<S>& command);
-  bool execute(const RemoveShape& command);
-  BodyId execute(const CreateBody<S>& command);
-  bool execute(const DestroyBody& command);
-  template <class Accepted> std::size_t destroy_all(std::span<const BodyId> bodies, const Accepted& accepted);
-  bool execute(const WakeBody& command);
-  bool execute(const SetPose<S>& command);
-  bool execute(const SetVelocity<S>& command);
-  bool execute(const ApplyForce<S>& command);
-  bool execute(const ApplyImpulse<S>& command);
-  PendingForce<S>& pending_force(std::uint32_t slot);
-  bool execute(const SetMaterial<S>& command);
-  bool execute(const SetFilter& command);
-  bool execute(const SetMotion<S>& command);
-  bool execute(const SetUserData& command);
-  bool execute(const SetGravity<S>& command);
-  JointId execute(const CreateJoint<S>& command);
-  bool execute(const DestroyJoint& command);
-  bool execute(const SetJoint<S>& command);
+  using Command = isostep::Command<S>;
+
+  // engine_commands.inl, engine_destroy.inl, engine_joint_commands.inl: what a command does. Returns what it made or
+  // whether it was accepted. `journal_` runs it.
+#define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
+  ISO_FOR_EACH_COMMAND(ISO_EXECUTE, S)
+#undef ISO_EXECUTE
+  std::size_t destroy_all(std::span<const BodyId> bodies);
 
   // engine_step.inl
   StepReport step(const StageObserver& observer);
@@ -91,7 +78,6 @@ template <class S> class WorldEngine {
                           const LeafEditor* editor);
 
   // engine_queries.inl
-  bool accept_query(const char* query, const detail::Checklist& list) const;
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
@@ -104,39 +90,19 @@ template <class S> class WorldEngine {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
 
-  bool refuse(const FaultReport& report) {
-    fault_ = report;
-    return false;
-  }
-  bool accept(const FaultReport& report) { return report == Fault::none || refuse(report); }
   template <class AnyId> bool known(const SlotMap& slots, AnyId id, const char* field) {
-    return accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
+    return journal_.accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
   }
   bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
-  /// Names the call that was refused, and keeps the first of them.
-  void sign(const char* command) const {
-    if (fault_ == Fault::none) return;
-    fault_.command = command;
-    if (first_fault_ == Fault::none) first_fault_ = fault_;
-  }
-  bool refuse_in_step(const char* command) {
-    refuse({Fault::called_in_step, "", "", "observers to change nothing"});
-    sign(command);
-    return false;
-  }
 
   WorldState<S> state_;
   Events<S> events_;
   StepReport report_;
-  mutable FaultReport fault_, first_fault_;  // queries are refused, too
-  OneAtATime one_at_a_time_;
+  mutable CommandJournal journal_;  // queries are refused, too
   const ContactKernels<S>* kernels_;
   const PairKernels<S>* pair_kernels_;
   const TreeKernels<S>* tree_kernels_;
   TaskRunner runner_;
-  std::vector<std::uint8_t>* tape_ = nullptr;
-  std::vector<std::uint64_t>* trace_ = nullptr;
-  std::uint64_t loads_ = 0;
   std::vector<RenderPose> render_poses_;
 
  private:
@@ -161,6 +127,7 @@ template <class S> class WorldEngine {
   // engine_commands.inl
   bool check(const BodyDefinition<S>& definition);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+  PendingForce<S>& pending_force(std::uint32_t slot);
 
   // engine_destroy.inl
   bool doom(BodyId body);

@@ -170,12 +170,12 @@ template <class S> void WorldEngine<S>::wake_held_by(std::uint32_t slot) {
 template <class S> bool WorldEngine<S>::may_change(BodyId body) {
   if (!known(body)) return false;
   const bool moves = locations_[body.slot].set != Location::kFixed;
-  return moves || refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
+  return moves || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
 }
 template <class S> bool WorldEngine<S>::may_push(BodyId body) {
   if (!known(body)) return false;
   const bool pushable = properties_at(locations_[body.slot]).type == BodyType::dynamic;
-  return pushable || refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
+  return pushable || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
 }
 
 /// The awake state of a body about to be changed.

@@ -67,13 +67,13 @@ template <class S> S most_spin(const Aabb<S>& box) {
 
 template <class S> ShapeId WorldEngine<S>::execute(const AddShape<S>& command) {
   if (command.children.size() > kMaxChildren) {
-    refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
+    journal_.refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
     return {};
   }
   const ShapeFault fault = validate(std::span<const Child<S>>(command.children));
   if (fault != ShapeFault::none) {
     const bool finite = fault != ShapeFault::not_finite;
-    refuse({finite ? Fault::bad_shape : Fault::not_finite, "", describe(fault), ""});
+    journal_.refuse({finite ? Fault::bad_shape : Fault::not_finite, "", describe(fault), ""});
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
@@ -90,7 +90,7 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
   const std::uint32_t slot = command.shape.slot;
   for (std::uint32_t body = 0; body < locations_.size(); ++body) {
     if (locations_[body].set != Location::kNone && properties_at(locations_[body]).shape == slot) {
-      return refuse({Fault::shape_in_use, "", "shape", "no body with it"});
+      return journal_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
     }
   }
   std::vector<ShapeRecord>& shapes = state_.shapes.change();
@@ -109,22 +109,23 @@ template <class S> bool WorldEngine<S>::execute(const RemoveShape& command) {
 /// Everything about a definition that needs no mass.
 template <class S> bool WorldEngine<S>::check(const BodyDefinition<S>& d) {
   return known(state_.shape_slots, d.shape, "shape") &&
-         accept(detail::Checklist()
-                    .finite(d.density, "density")
-                    .finite(d.mass, "mass")
-                    .finite(d.position, "position")
-                    .finite(d.velocity, "velocity")
-                    .finite(d.angular_velocity, "angular_velocity")
-                    .finite(d.inertia, "inertia")
-                    .in_range(detail::within(d.position, Limits<S>::position()), "position", detail::kWithinPosition)
-                    .in_range(detail::no_longer(d.velocity, Limits<S>::speed()), "velocity", detail::kWithinSpeed)
-                    .in_range(detail::no_longer(d.angular_velocity, Limits<S>::spin()), "angular_velocity",
-                              detail::kWithinSpin)
-                    .proper(detail::is_unit<S>(d.orientation), "orientation", detail::kUnitLength)
-                    .proper(d.type <= BodyType::dynamic, "type", "one of BodyType")
-                    .also(detail::fault_of(d.material))
-                    .also(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks))
-                    .report());
+         journal_.accept(
+             detail::Checklist()
+                 .finite(d.density, "density")
+                 .finite(d.mass, "mass")
+                 .finite(d.position, "position")
+                 .finite(d.velocity, "velocity")
+                 .finite(d.angular_velocity, "angular_velocity")
+                 .finite(d.inertia, "inertia")
+                 .in_range(detail::within(d.position, Limits<S>::position()), "position", detail::kWithinPosition)
+                 .in_range(detail::no_longer(d.velocity, Limits<S>::speed()), "velocity", detail::kWithinSpeed)
+                 .in_range(detail::no_longer(d.angular_velocity, Limits<S>::spin()), "angular_velocity",
+                           detail::kWithinSpin)
+                 .proper(detail::is_unit<S>(d.orientation), "orientation", detail::kUnitLength)
+                 .proper(d.type <= BodyType::dynamic, "type", "one of BodyType")
+                 .also(detail::fault_of(d.material))
+                 .also(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks))
+                 .report());
 }
 
 template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
@@ -137,18 +138,19 @@ template <class S> bool WorldEngine<S>::set_mass(const BodyDefinition<S>& d, Bod
   body.kappa = Vec3<S>::zero();
   if (d.type != BodyType::dynamic) return true;
   const bool positive = zero <= d.inertia.x && zero <= d.inertia.y && zero <= d.inertia.z;
-  if (!accept(detail::Checklist()
-                  .ask(zero <= d.mass, Fault::bad_mass, "mass", "above 0, or 0 for that of density")
-                  .ask(zero <= d.density, Fault::bad_mass, "density", "above 0")
-                  .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
-                  .ask(positive, Fault::bad_mass, "inertia", "above 0, or 0 for that of the shape")
-                  .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
-                  .report())) {
+  if (!journal_.accept(
+          detail::Checklist()
+              .ask(zero <= d.mass, Fault::bad_mass, "mass", "above 0, or 0 for that of density")
+              .ask(zero <= d.density, Fault::bad_mass, "density", "above 0")
+              .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
+              .ask(positive, Fault::bad_mass, "inertia", "above 0, or 0 for that of the shape")
+              .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
+              .report())) {
     return false;
   }
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
-  if (!accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
+  if (!journal_.accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
   body.mass = chosen.mass;
   body.kappa = chosen.kappa;
   body.principal = chosen.principal;
@@ -180,10 +182,11 @@ template <class S> BodyId WorldEngine<S>::execute(const CreateBody<S>& command) 
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.spin = convert<Velocity<S>>(d.angular_velocity);
   }
-  if (!accept(detail::fault_of_place(state.centre, "position"))) return {};
+  if (!journal_.accept(detail::fault_of_place(state.centre, "position"))) return {};
   renew_fat_box(state, body, true);
   if (detail::overspins(state.spin, state.fat)) {
-    refuse({Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
+    journal_.refuse(
+        {Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
     return {};
   }
   const BodyId id = state_.body_slots.template take<BodyId>(state_.settings.id_space);
@@ -203,14 +206,14 @@ template <class S> bool WorldEngine<S>::execute(const WakeBody& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
-  if (!known(command.body) || !accept(detail::fault_of_place(command.pose.position, "position"))) return false;
+  if (!known(command.body) || !journal_.accept(detail::fault_of_place(command.pose.position, "position"))) return false;
   if (!detail::is_unit<S>(command.pose.orientation))
-    return refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
+    return journal_.refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
   const std::uint32_t slot = command.body.slot;
   const Location at = locations_[slot];
   const Quat<Unit<S>> orientation = normalise(command.pose.orientation);
   const Vec3<S> centre = command.pose.position + to_matrix(orientation) * properties_at(at).local_centre;
-  if (!accept(detail::fault_of_place(centre, "position"))) return false;
+  if (!journal_.accept(detail::fault_of_place(centre, "position"))) return false;
   wake_touching(slot);
   if (properties_at(locations_[slot]).type != BodyType::dynamic) wake_held_by(slot);
   if (at.set != Location::kFixed) wake_for_change(slot);
@@ -228,12 +231,13 @@ template <class S> bool WorldEngine<S>::execute(const SetPose<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
-  if (!accept(detail::Checklist()
-                  .finite(command.linear, "linear")
-                  .finite(command.angular, "angular")
-                  .in_range(detail::no_longer(command.linear, Limits<S>::speed()), "linear", detail::kWithinSpeed)
-                  .in_range(detail::no_longer(command.angular, Limits<S>::spin()), "angular", detail::kWithinSpin)
-                  .report()) ||
+  if (!journal_.accept(
+          detail::Checklist()
+              .finite(command.linear, "linear")
+              .finite(command.angular, "angular")
+              .in_range(detail::no_longer(command.linear, Limits<S>::speed()), "linear", detail::kWithinSpeed)
+              .in_range(detail::no_longer(command.angular, Limits<S>::spin()), "angular", detail::kWithinSpin)
+              .report()) ||
       !may_change(command.body)) {
     return false;
   }
@@ -250,7 +254,7 @@ template <class S> bool WorldEngine<S>::execute(const SetVelocity<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
-  if (!accept(detail::Checklist().finite(command.force, "force").finite(command.torque, "torque").report()) ||
+  if (!journal_.accept(detail::Checklist().finite(command.force, "force").finite(command.torque, "torque").report()) ||
       !may_push(command.body)) {
     return false;
   }
@@ -273,7 +277,8 @@ template <class S> bool WorldEngine<S>::execute(const ApplyForce<S>& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const ApplyImpulse<S>& command) {
-  if (!accept(detail::Checklist().finite(command.linear, "linear").finite(command.angular, "angular").report()) ||
+  if (!journal_.accept(
+          detail::Checklist().finite(command.linear, "linear").finite(command.angular, "angular").report()) ||
       !may_push(command.body)) {
     return false;
   }
@@ -303,7 +308,7 @@ template <class S> PendingForce<S>& WorldEngine<S>::pending_force(std::uint32_t 
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetMaterial<S>& command) {
-  if (!known(command.body) || !accept(detail::fault_of(command.material))) return false;
+  if (!known(command.body) || !journal_.accept(detail::fault_of(command.material))) return false;
   wake_touching(command.body.slot);
   thaw_body(command.body.slot);
   mutable_properties(command.body.slot).material = command.material;
@@ -322,8 +327,8 @@ template <class S> bool WorldEngine<S>::execute(const SetFilter& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetMotion<S>& command) {
-  if (!accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping,
-                                      command.locks))) {
+  if (!journal_.accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping,
+                                               command.locks))) {
     return false;
   }
   if (!may_change(command.body)) return false;
@@ -344,11 +349,11 @@ template <class S> bool WorldEngine<S>::execute(const SetUserData& command) {
 }
 
 template <class S> bool WorldEngine<S>::execute(const SetGravity<S>& command) {
-  if (!accept(detail::Checklist()
-                  .finite(command.gravity, "gravity")
-                  .in_range(detail::within(command.gravity, Limits<S>::speed()), "gravity",
-                            "components up to Limits::speed()")
-                  .report())) {
+  if (!journal_.accept(detail::Checklist()
+                           .finite(command.gravity, "gravity")
+                           .in_range(detail::within(command.gravity, Limits<S>::speed()), "gravity",
+                                     "components up to Limits::speed()")
+                           .report())) {
     return false;
   }
   state_.settings.gravity = command.gravity;

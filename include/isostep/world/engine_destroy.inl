@@ -14,17 +14,15 @@ template <class S> bool WorldEngine<S>::execute(const DestroyBody& command) {
   return known;
 }
 
-/// As many commands; a stale id is a fault, and the others go on.
-template <class S>
-template <class Accepted>
-std::size_t WorldEngine<S>::destroy_all(std::span<const BodyId> bodies, const Accepted& accepted) {
+/// As many commands; a stale id is a fault, and the others go on. Returns how many were destroyed.
+template <class S> std::size_t WorldEngine<S>::destroy_all(std::span<const BodyId> bodies) {
   std::size_t count = 0;
   for (const BodyId body : bodies) {
     if (!doom(body)) {
-      sign("destroy_body");
+      journal_.sign(kCommandNames[detail::IndexOf<DestroyBody, Command>::kValue]);
       continue;
     }
-    accepted(DestroyBody{body});
+    journal_.record<Command>(DestroyBody{body});
     ++count;
     // Sleepers are woken to be destroyed: so that the awake stay few, those that are gone leave now and then.
     if (doomed_.size() > 64 && doomed_.size() > state_.awake.states.size() / 4) bury_doomed();
@@ -36,7 +34,7 @@ std::size_t WorldEngine<S>::destroy_all(std::span<const BodyId> bodies, const Ac
 /// All of destroying a body but what takes a pass over the world: its id and its records stay until `bury_doomed`.
 template <class S> bool WorldEngine<S>::doom(BodyId body) {
   if (!known(body)) return false;
-  if (is_doomed_.test(body.slot)) return refuse({Fault::stale_id, "", "body", ""});
+  if (is_doomed_.test(body.slot)) return journal_.refuse({Fault::stale_id, "", "body", ""});
   const std::uint32_t slot = body.slot;
   const Location at = locations_[slot];
   if (at.is_frozen()) thaw_body(slot);

@@ -9,7 +9,7 @@ namespace isostep {
 
 template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command) {
   JointProperties<S> joint = command.joint;
-  if (!accept(detail::fault_of(joint, state_.settings.hz * state_.settings.substeps))) return {};
+  if (!journal_.accept(detail::fault_of(joint, state_.settings.hz * state_.settings.substeps))) return {};
   const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
   const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
   constexpr const char *kBodies[2] = {"body_a", "body_b"}, *kFrames[2] = {"frame_a.position", "frame_b.position"};
@@ -19,14 +19,14 @@ template <class S> JointId WorldEngine<S>::execute(const CreateJoint<S>& command
     if (!known(state_.body_slots, ends[end], kBodies[end])) return {};
     const BodyProperties<S>& body = properties_at(locations_[ends[end].slot]);
     if (detail::overreaches(body.kappa, body.principal, arms[end])) {
-      refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
+      journal_.refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
       return {};
     }
     moves = moves || body.type == BodyType::dynamic;
   }
   if (!moves || joint.body_a == joint.body_b) {
-    if (moves) refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
-    else refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
+    if (moves) journal_.refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
+    else journal_.refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
     return {};
   }
   for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
@@ -72,9 +72,9 @@ template <class S> bool WorldEngine<S>::execute(const DestroyJoint& command) {
 template <class S> bool WorldEngine<S>::execute(const SetJoint<S>& command) {
   if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
-  if (!accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
+  if (!journal_.accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
   if (next.type != properties_of(command.joint)->type)
-    return refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
+    return journal_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
   state_.joints.properties[wake_joint(command.joint)].take_settings(next);
   return true;
 }

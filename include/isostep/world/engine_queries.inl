@@ -17,19 +17,12 @@ template <class S> bool sees(const QueryFilter& filter, const BodyProperties<S>&
 }
 }  // namespace detail
 
-/// A query that is answered leaves the fault as it is, so that threads may ask side by side.
-template <class S> bool WorldEngine<S>::accept_query(const char* query, const detail::Checklist& list) const {
-  if (list.report() == Fault::none) return true;
-  fault_ = list.report();
-  sign(query);
-  return false;
-}
-
 template <class S>
 std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
-  if (!accept_query("cast_ray", detail::Checklist()
-                                    .also(detail::fault_of_place(origin, "origin"))
-                                    .also(detail::fault_of_place(translation, "translation"))))
+  if (!journal_.accept_call("cast_ray", detail::Checklist()
+                                            .also(detail::fault_of_place(origin, "origin"))
+                                            .also(detail::fault_of_place(translation, "translation"))
+                                            .report()))
     return {};
   std::optional<RayCastHit<S>> best;
   const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
@@ -55,10 +48,11 @@ std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> tr
 template <class S>
 std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const S edge = Limits<S>::position();
-  if (!accept_query("closest", detail::Checklist()
-                                   .also(detail::fault_of_place(point, "point"))
-                                   .finite(max_distance, "max_distance")
-                                   .proper(S(0) <= max_distance, "max_distance", "0 or more")))
+  if (!journal_.accept_call("closest", detail::Checklist()
+                                           .also(detail::fault_of_place(point, "point"))
+                                           .finite(max_distance, "max_distance")
+                                           .proper(S(0) <= max_distance, "max_distance", "0 or more")
+                                           .report()))
     return {};
   std::optional<ClosestBody<S>> best;
   const S reach = min(max_distance, edge);
@@ -86,9 +80,11 @@ void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose,
                                  QueryFilter filter) const {
   const ShapeFault of_shape = validate(shape), of_pose = validate(pose);
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
-  if (!accept_query("overlapping", detail::Checklist()
-                                       .ask(of_shape == ShapeFault::none, kind(of_shape), describe(of_shape), "")
-                                       .ask(of_pose == ShapeFault::none, kind(of_pose), describe(of_pose), "")))
+  if (!journal_.accept_call("overlapping",
+                            detail::Checklist()
+                                .ask(of_shape == ShapeFault::none, kind(of_shape), describe(of_shape), "")
+                                .ask(of_pose == ShapeFault::none, kind(of_pose), describe(of_pose), "")
+                                .report()))
     return;
   std::vector<std::uint64_t> found;
   proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
@@ -121,13 +117,14 @@ struct BySlot {
 template <class S>
 void WorldEngine<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
   const S edge = Limits<S>::position() + Limits<S>::position();
-  if (!accept_query(
+  if (!journal_.accept_call(
           "bodies_near",
           detail::Checklist()
               .finite(box.low, "box.low")
               .finite(box.high, "box.high")
               .in_range(detail::within(box.low, edge), "box.low", "coordinates up to 2 Limits::position()")
-              .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")))
+              .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")
+              .report()))
     return;
   const std::size_t first = out.size();
   proxies_.tree().query(box, [&](std::uint32_t slot) {

@@ -32,10 +32,9 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   const bool other_fixed = !state_.fixed.is_same(from.fixed);
   forget_places(other_fixed);
   state_ = from;
-  ++loads_;
+  journal_.note_load();
   events_.clear();
   report_ = {};
-  fault_ = {};
   start_slots_.clear();
   renew_places(other_fixed);
 }

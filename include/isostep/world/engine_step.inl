@@ -3,19 +3,17 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/solvers.inl"
-#include "isostep/scalar/environment.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
 
 template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
-  const FloatEnvironment environment;
   const auto after = [&](Stage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
-    if (trace_ != nullptr) trace_->push_back(hash());
+    journal_.trace(*this);
   };
-  if (trace_ != nullptr) trace_->push_back(hash());
+  journal_.trace(*this);
   report_ = {};
   find_pairs();
   tell_untold();
@@ -24,7 +22,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::apply_forces);
   update_manifolds();
   after(Stage::update_manifolds);
-  const bool watched = observer.after != nullptr || trace_ != nullptr;
+  const bool watched = observer.after != nullptr || journal_.is_tracing();
   with_solver(solvers_, state_.settings.solver, [&](auto& solver) { solve(solver, after, watched); });
   finalise_bodies();
   after(Stage::finalise_bodies);

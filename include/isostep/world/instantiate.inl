@@ -67,7 +67,7 @@
   template class WorstFirstResolver<OwnScalar>;                                                                       \
   template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
-  template class World<OwnScalar>;                                                                                    \
+  ISO_INSTANTIATE_WORLD(OwnScalar)                                                                                    \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \
   template void draw<OwnScalar>(const ParticleWorld<OwnScalar>&, DebugDraw&, const DrawOptions&);                     \
   }

@@ -138,7 +138,11 @@ template <class S> class World final {
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
 
-  /// Any command, as recorded ones are.
+  /// Every mutator above is one of these with its fields as arguments: command.hpp.
+#define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
+  ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
+#undef ISO_APPLY
+  /// Any of them, as recorded ones are.
   bool apply(const Command& command);
   /// Why the last call was refused. Commands clear it; queries that are answered and steps leave it.
   Fault fault() const;

@@ -38,15 +38,16 @@ WorldEngine<S>::WorldEngine(const Settings<S>& settings)
     const S g = s.gravity[axis];
     s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
   }
-  accept(detail::Checklist()
-             .in_range(s.hz == settings.hz, "hz", "10 to 1000")
-             .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
-             .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
-             .in_range(s.solver == settings.solver, "solver", "one of SolverName")
-             .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
-             .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
-             .report());
-  sign("World");
+  const FaultReport report =
+      detail::Checklist()
+          .in_range(s.hz == settings.hz, "hz", "10 to 1000")
+          .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
+          .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
+          .in_range(s.solver == settings.solver, "solver", "one of SolverName")
+          .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
+          .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
+          .report();
+  journal_.accept_call("World", report);
 }
 
 template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
@@ -64,8 +65,8 @@ template <class S> World<S>& World<S>::operator=(World&& other) noexcept {
 template <class S> const Settings<S>& World<S>::settings() const { return engine_->state_.settings; }
 template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool World<S>::use_simd(Simd simd) {
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) return engine_->refuse_in_step("use_simd");
+  const CommandJournal::Call call(engine_->journal_, "use_simd");
+  if (!call.allowed()) return false;
   const ContactKernels<S>* kernels = contact_kernels<S>(simd);
   if (kernels == nullptr) return false;
   engine_->kernels_ = kernels;
@@ -75,34 +76,23 @@ template <class S> bool World<S>::use_simd(Simd simd) {
 }
 template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) {
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) return static_cast<void>(engine_->refuse_in_step("use_threads"));
+  const CommandJournal::Call call(engine_->journal_, "use_threads");
+  if (!call.allowed()) return;
   engine_->runner_ = runner;
   engine_->runner_.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
 }
 
+#define ISO_APPLY(name, Type, Result, S)                           \
+  template <class S> Result World<S>::apply(const Type& command) { \
+    return engine_->journal_.run(#name, *engine_, command);        \
+  }
+ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
+#undef ISO_APPLY
+template <class S> bool World<S>::apply(const Command& command) {
+  return std::visit([&](const auto& c) { return static_cast<bool>(apply(c)); }, command);
+}
+
 namespace detail {
-/// Executes under a pinned float environment and, when accepted, records.
-template <class S, class C> auto run(WorldEngine<S>& engine, const C& command) {
-  constexpr const char* kName = kCommandNames[IndexOf<C, Command<S>>::kValue];
-  const FloatEnvironment environment;
-  const OneAtATime::Entry entry(engine.one_at_a_time_);
-  if (!entry.alone()) {
-    engine.refuse_in_step(kName);
-    return decltype(engine.execute(command)){};
-  }
-  engine.fault_ = {};
-  const auto result = engine.execute(command);
-  engine.sign(kName);
-  if (static_cast<bool>(result) && engine.tape_ != nullptr) {
-    Writer writer(*engine.tape_);
-    write_command<Command<S>>(writer, command);
-  }
-  return result;
-}
-template <class S> bool accept_point(const WorldEngine<S>& engine, Vec3<S> point, const char* call) {
-  return engine.accept_query(call, Checklist().also(fault_of_place(point, "point")));
-}
 template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& shape) {
   const Child<S> child = {primitive_of(shape), Pose<S>::identity()};
   return world.add_shape(std::span<const Child<S>>(&child, 1));
@@ -119,67 +109,58 @@ template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& sh
 ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children) {
-  return detail::run(*engine_, AddShape<S>{{children.begin(), children.end()}});
+  return apply(AddShape<S>{{children.begin(), children.end()}});
 }
-template <class S> bool World<S>::remove_shape(ShapeId shape) { return detail::run(*engine_, RemoveShape{shape}); }
+template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
 template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {
-  return detail::run(*engine_, CreateBody<S>{definition});
+  return apply(CreateBody<S>{definition});
 }
-template <class S> bool World<S>::destroy(BodyId body) { return detail::run(*engine_, DestroyBody{body}); }
+template <class S> bool World<S>::destroy(BodyId body) { return apply(DestroyBody{body}); }
 template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies) {
-  const FloatEnvironment environment;
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) return engine_->refuse_in_step("destroy");
-  engine_->fault_ = {};
-  return engine_->destroy_all(bodies, [&](const DestroyBody& command) {
-    if (engine_->tape_ == nullptr) return;
-    Writer writer(*engine_->tape_);
-    write_command<Command>(writer, command);
-  });
+  const CommandJournal::Call call(engine_->journal_, "destroy");
+  if (!call.allowed()) return 0;
+  engine_->journal_.clear_fault();
+  return engine_->destroy_all(bodies);
 }
-template <class S> bool World<S>::wake(BodyId body) { return detail::run(*engine_, WakeBody{body}); }
-template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) {
-  return detail::run(*engine_, SetPose<S>{body, pose});
-}
+template <class S> bool World<S>::wake(BodyId body) { return apply(WakeBody{body}); }
+template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) { return apply(SetPose<S>{body, pose}); }
 template <class S> bool World<S>::set_velocity(BodyId body, Vec3<S> linear, Vec3<S> angular) {
-  return detail::run(*engine_, SetVelocity<S>{body, linear, angular});
+  return apply(SetVelocity<S>{body, linear, angular});
 }
 template <class S> bool World<S>::set_material(BodyId body, const Material<S>& material) {
-  return detail::run(*engine_, SetMaterial<S>{body, material});
+  return apply(SetMaterial<S>{body, material});
 }
 template <class S> bool World<S>::set_filter(BodyId body, const Filter& filter) {
-  return detail::run(*engine_, SetFilter{body, filter});
+  return apply(SetFilter{body, filter});
 }
 template <class S>
 bool World<S>::set_motion(BodyId body, S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
-  return detail::run(*engine_, SetMotion<S>{body, gravity_scale, linear_damping, angular_damping, locks});
+  return apply(SetMotion<S>{body, gravity_scale, linear_damping, angular_damping, locks});
 }
 template <class S> bool World<S>::set_user_data(BodyId body, std::uint64_t user_data) {
-  return detail::run(*engine_, SetUserData{body, user_data});
+  return apply(SetUserData{body, user_data});
 }
-template <class S> bool World<S>::set_gravity(Vec3<S> gravity) { return detail::run(*engine_, SetGravity<S>{gravity}); }
+template <class S> bool World<S>::set_gravity(Vec3<S> gravity) { return apply(SetGravity<S>{gravity}); }
 template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S> torque) {
-  return detail::run(*engine_, ApplyForce<S>{body, force, torque});
+  return apply(ApplyForce<S>{body, force, torque});
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!detail::accept_point(*engine_, point, "apply_force_at")) return false;
+  if (!engine_->journal_.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
   return apply_force(body, force, detail::saturated_cross(point - centre(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
-  return detail::run(*engine_, ApplyImpulse<S>{body, impulse, angular_impulse});
+  return apply(ApplyImpulse<S>{body, impulse, angular_impulse});
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!detail::accept_point(*engine_, point, "apply_impulse_at")) return false;
+  if (!engine_->journal_.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
   return apply_impulse(body, impulse, detail::saturated_cross(point - centre(body), impulse));
 }
-template <class S> JointId World<S>::create(const JointProperties<S>& joint) {
-  return detail::run(*engine_, CreateJoint<S>{joint});
-}
-template <class S> bool World<S>::destroy(JointId joint) { return detail::run(*engine_, DestroyJoint{joint}); }
+template <class S> JointId World<S>::create(const JointProperties<S>& joint) { return apply(CreateJoint<S>{joint}); }
+template <class S> bool World<S>::destroy(JointId joint) { return apply(DestroyJoint{joint}); }
 template <class S> bool World<S>::set_joint(JointId joint, const JointProperties<S>& properties) {
-  return detail::run(*engine_, SetJoint<S>{joint, properties});
+  return apply(SetJoint<S>{joint, properties});
 }
 template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const {
   return engine_->properties_of(joint);
@@ -209,18 +190,15 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
   return joint;
 }
 
-template <class S> bool World<S>::apply(const Command& command) {
-  return std::visit([&](const auto& c) { return static_cast<bool>(detail::run(*engine_, c)); }, command);
-}
-template <class S> Fault World<S>::fault() const { return engine_->fault_.fault; }
-template <class S> const FaultReport& World<S>::fault_report() const { return engine_->fault_; }
-template <class S> const FaultReport& World<S>::first_fault() const { return engine_->first_fault_; }
-template <class S> void World<S>::forget_faults() { engine_->fault_ = engine_->first_fault_ = {}; }
-template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->tape_ = tape; }
-template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->trace_ = hashes; }
-template <class S> std::uint64_t World<S>::loads() const { return engine_->loads_; }
+template <class S> Fault World<S>::fault() const { return engine_->journal_.fault().fault; }
+template <class S> const FaultReport& World<S>::fault_report() const { return engine_->journal_.fault(); }
+template <class S> const FaultReport& World<S>::first_fault() const { return engine_->journal_.first_fault(); }
+template <class S> void World<S>::forget_faults() { engine_->journal_.forget_faults(); }
+template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->journal_.record_to(tape); }
+template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->journal_.trace_to(hashes); }
+template <class S> std::uint64_t World<S>::loads() const { return engine_->journal_.loads(); }
 template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* tape) const {
-  return engine_->tape_ == tape;
+  return engine_->journal_.records_to(tape);
 }
 
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
@@ -324,12 +302,9 @@ template <class S> BodyView<S> World<S>::view(BodyId body) const {
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) {
-    engine_->refuse_in_step("step");
-    return {};
-  }
-  if (engine_->tape_ != nullptr) engine_->tape_->push_back(kStepMarker);
+  const CommandJournal::Call call(engine_->journal_, "step");
+  if (!call.allowed()) return {};
+  engine_->journal_.record_step();
   return engine_->step(observer);
 }
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
@@ -353,25 +328,19 @@ template <class S> void World<S>::save(Snapshot& to) const {
   *to.state_ = engine_->state_;
 }
 template <class S> bool World<S>::load(const Snapshot& from) {
-  const FloatEnvironment environment;
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) return engine_->refuse_in_step("load");
+  const CommandJournal::Call call(engine_->journal_, "load");
+  if (!call.allowed()) return false;
   const char* expected = from.state_ == nullptr ? "one that was saved to" : "one of a world with the same settings";
-  if (from.state_ == nullptr || !detail::same_making(from.state_->settings, engine_->state_.settings)) {
-    engine_->refuse({Fault::bad_snapshot, "", "from", expected});
-    engine_->sign("load");
-    return false;
-  }
+  const bool fits = from.state_ != nullptr && detail::same_making(from.state_->settings, engine_->state_.settings);
+  if (!fits) return engine_->journal_.refuse_call("load", {Fault::bad_snapshot, "", "from", expected});
   engine_->load(*from.state_);
   return true;
 }
 template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
 template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
 template <class S> Result<void> World<S>::read_portable(Reader& reader) {
-  const FloatEnvironment environment;
-  const OneAtATime::Entry entry(engine_->one_at_a_time_);
-  if (!entry.alone()) {
-    engine_->refuse_in_step("read_portable");
+  const CommandJournal::Call call(engine_->journal_, "read_portable");
+  if (!call.allowed()) {
     reader.fail(ErrorCode::invalid, "read while the world steps");
     return reader.result("world");
   }
@@ -387,3 +356,9 @@ template <class S> const WorldState<S>& World<S>::state() const { return engine_
 template <class S> StageView World<S>::leaves() const { return engine_->view(kStages); }
 
 }  // namespace isostep
+
+/// World<S> and what each command does: a command of the list without `execute` does not compile.
+#define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result WorldEngine<S>::execute(const Type&);
+#define ISO_INSTANTIATE_WORLD(S)                   \
+  ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S) \
+  template class World<S>;

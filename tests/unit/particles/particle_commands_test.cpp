@@ -294,7 +294,7 @@ TYPED_TEST(ParticleCommands, commands_applied_as_records_do_the_same) {
   using S = TypeParam;
   ParticleWorld<S> one, other;
   const ParticleId id = one.create(particle_at<S>({0, 1, 0}));
-  EXPECT_TRUE(other.apply(CreateParticle<S>{particle_at<S>({0, 1, 0})}));
+  EXPECT_EQ(other.apply(CreateParticle<S>{particle_at<S>({0, 1, 0})}), id);
   one.apply_force(id, vec<S>(1, 2, 3));
   EXPECT_TRUE(other.apply(PushParticle<S>{id, vec<S>(1, 2, 3)}));
   one.add(spring_of<S>(id, {}, 3));
@@ -302,6 +302,40 @@ TYPED_TEST(ParticleCommands, commands_applied_as_records_do_the_same) {
   EXPECT_EQ(one.hash(), other.hash());
   EXPECT_FALSE(other.apply(DestroyParticle{{5, 5}}));
   EXPECT_EQ(other.fault(), Fault::stale_id);
+}
+
+/// By position in the list: files name them by these.
+TYPED_TEST(ParticleCommands, have_the_numbers_that_replays_know) {
+  using S = TypeParam;
+  using Command = ParticleCommand<S>;
+  static_assert(std::variant_size_v<Command> == 27);
+  static_assert(detail::IndexOf<SetParticleGravity<S>, Command>::kValue == 8);
+  static_assert(detail::IndexOf<AddRecord<ParticleMaterial<S>>, Command>::kValue == 9);
+  static_assert(detail::IndexOf<SetRecord<Spring<S>, SpringId>, Command>::kValue == 13);
+  static_assert(detail::IndexOf<RemoveRecord<ForceId>, Command>::kValue == 17);
+  static_assert(detail::IndexOf<AddRecord<Cohesion<S>>, Command>::kValue == 18);
+  static_assert(detail::IndexOf<SetRecord<Link<S>, LinkId>, Command>::kValue == 22);
+  static_assert(detail::IndexOf<RemoveRecord<ColliderId>, Command>::kValue == 26);
+}
+
+TYPED_TEST(ParticleCommands, observers_of_stages_give_none) {
+  using S = TypeParam;
+  ParticleWorld<S>& w = this->world;
+  struct Meddler {
+    ParticleWorld<S>* world;
+    ParticleId particle;
+    std::uint32_t calls, refused;
+  } meddler = {&w, this->a, 0, 0};
+  w.step({[](void* user, ParticleStage, const StageView&) {
+            Meddler& m = *static_cast<Meddler*>(user);
+            ++m.calls;
+            const bool done = m.world->apply_impulse(m.particle, vec<S>(1, 0, 0));
+            m.refused += !done && m.world->fault() == Fault::called_in_step ? 1 : 0;
+          },
+          &meddler});
+  EXPECT_EQ(meddler.calls, kParticleStages);
+  EXPECT_EQ(meddler.refused, meddler.calls);
+  EXPECT_EQ(w.tick(), 1u);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "isostep/state/command_journal.hpp"
 #include "isostep/state/tape_recorder.hpp"
 #include "recording.hpp"
 
@@ -67,25 +68,23 @@ class ToyWorld {
   const ToySettings& settings() const { return settings_; }
   const State& state() const { return state_; }
   std::uint64_t tick() const { return state_.tick; }
-  std::uint64_t loads() const { return loads_; }
-  void record_to(Buffer* tape) { tape_ = tape; }
-  bool records_to(const Buffer* tape) const { return tape_ == tape; }
-  void trace_to(std::vector<std::uint64_t>* hashes) { trace_ = hashes; }
+  std::uint64_t loads() const { return journal_.loads(); }
+  void record_to(Buffer* tape) { journal_.record_to(tape); }
+  bool records_to(const Buffer* tape) const { return journal_.records_to(tape); }
+  void trace_to(std::vector<std::uint64_t>* hashes) { journal_.trace_to(hashes); }
 
   bool apply(const Command& command) {
-    return std::visit(
-        [&](const auto& one) {
-          run(one);
-          if (tape_ == nullptr) return true;
-          Writer writer(*tape_);
-          write_command<Command>(writer, one);
-          return true;
-        },
-        command);
+    return std::visit([&](const auto& one) { return journal_.run("apply", *this, one); }, command);
+  }
+  bool execute(const Push& push) { return set_sum(state_.sum + (push.to ^ to_bits(push.by))); }
+  bool execute(const Clear&) { return set_sum(0); }
+  bool execute(const Fill& fill) {
+    for (const std::uint16_t number : fill.numbers) set_sum(3 * state_.sum + number);
+    return true;
   }
   void step(const ToyObserver& observer = {}) {
-    if (tape_ != nullptr) tape_->push_back(kStepMarker);
-    trace();
+    journal_.record_step();
+    journal_.trace(*this);
     ++state_.tick;
     after(observer, ToyStage::count);
     state_.sum = state_.sum * 31 + state_.tick;
@@ -95,7 +94,7 @@ class ToyWorld {
   void save(Snapshot& to) const { to = state_; }
   void load(const Snapshot& from) {
     state_ = from;
-    ++loads_;
+    journal_.note_load();
   }
   void write_portable(Writer& writer) const { writer.write(state_); }
   Result<void> read_portable(Reader& reader) {
@@ -109,24 +108,18 @@ class ToyWorld {
   }
 
  private:
-  void run(const Push& push) { state_.sum += push.to ^ to_bits(push.by); }
-  void run(const Clear&) { state_.sum = 0; }
-  void run(const Fill& fill) {
-    for (const std::uint16_t number : fill.numbers) state_.sum = 3 * state_.sum + number;
-  }
-  void trace() {
-    if (trace_ != nullptr) trace_->push_back(hash());
+  bool set_sum(std::uint64_t sum) {
+    state_.sum = sum;
+    return true;
   }
   void after(const ToyObserver& observer, ToyStage stage) {
-    trace();
+    journal_.trace(*this);
     if (observer.after != nullptr) observer.after(observer.user, stage);
   }
 
   ToySettings settings_;
   State state_;
-  std::uint64_t loads_ = 0;
-  Buffer* tape_ = nullptr;
-  std::vector<std::uint64_t>* trace_ = nullptr;
+  CommandJournal journal_;
 };
 static_assert(TapedWorld<ToyWorld> && !TapedWorld<Game>);
 

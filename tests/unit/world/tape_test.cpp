@@ -61,6 +61,21 @@ TYPED_TEST(WorldTapes, commands_given_as_data_do_what_the_calls_do) {
   static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
 }
 
+TYPED_TEST(WorldTapes, a_command_returns_what_it_made) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
+  const ShapeId shape = w.apply(AddShape<S>{{ball}});
+  EXPECT_TRUE(w.contains(shape));
+  const BodyId body = w.apply(CreateBody<S>{moving<S>(shape, {0, 2, 0})});
+  EXPECT_TRUE(w.contains(body));
+  const JointId joint = w.apply(CreateJoint<S>{w.joint_at(JointType::ball, {}, body, Pose<S>::identity())});
+  EXPECT_TRUE(w.contains(joint));
+  EXPECT_TRUE(w.apply(DestroyBody{body}));
+  EXPECT_FALSE(w.apply(CreateBody<S>{moving<S>({7, 1}, {0, 2, 0})}));
+  EXPECT_STREQ(w.fault_report().command, "create_body");
+}
+
 TYPED_TEST(WorldTapes, a_recording_ends_where_the_world_is_loaded) {
   using S = TypeParam;
   World<S> w;

@@ -1,0 +1,113 @@
+// CommandJournal: how calls enter a world, and what is kept of them: a tape of what was accepted, a trace of the state's
+// hashes, and the faults of what was refused.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/fault.hpp"
+#include "isostep/core/one_at_a_time.hpp"
+#include "isostep/scalar/environment.hpp"
+#include "isostep/state/tape.hpp"
+
+namespace isostep {
+
+/// Each engine of a world has one. It is no part of the state: it is not saved, loaded or hashed.
+class CommandJournal {
+ public:
+  /// A call that changes the world, from its entry to its return: in the pinned float environment, and alone. A call
+  /// from inside another one, as an observer of stages could make it, is refused.
+  class Call {
+   public:
+    ISO_INLINE Call(CommandJournal& journal, const char* name) : entry_(journal.one_at_a_time_) {
+      if (!allowed()) journal.refuse_call(name, {Fault::called_in_step, "", "", "observers to change nothing"});
+    }
+    ISO_INLINE bool allowed() const { return entry_.alone(); }
+
+   private:
+    FloatEnvironment environment_;
+    OneAtATime::Entry entry_;
+  };
+
+  /// Executes a command of the closed list Engine::Command. Returns what `execute` returns: an id of what was made, or
+  /// whether it was accepted. What is refused changes nothing and is not recorded.
+  template <class Engine, class C> ISO_INLINE auto run(const char* name, Engine& engine, const C& command) {
+    using Result = decltype(engine.execute(command));
+    const Call call(*this, name);
+    if (!call.allowed()) return Result{};
+    fault_ = {};
+    const Result result = engine.execute(command);
+    sign(name);
+    if (static_cast<bool>(result)) record<typename Engine::Command>(command);
+    return result;
+  }
+
+  // Faults.
+  /// While a command executes. Returns false, for the command to return it.
+  ISO_INLINE bool refuse(const FaultReport& report) {
+    fault_ = report;
+    return false;
+  }
+  ISO_INLINE bool refuse(Fault fault) { return refuse(FaultReport{fault}); }
+  ISO_INLINE bool accept(const FaultReport& report) { return report == Fault::none || refuse(report); }
+  ISO_INLINE bool accept(Fault fault) { return accept(FaultReport{fault}); }
+  /// Writes the command's name into the fault that it left, if it left one, and keeps the first of all faults.
+  ISO_INLINE void sign(const char* command) {
+    if (fault_ == Fault::none) return;
+    fault_.command = command;
+    if (first_fault_ == Fault::none) first_fault_ = fault_;
+  }
+  /// For calls that are no commands. A query that is accepted leaves the fault as it is, so that any number of threads
+  /// may ask at once.
+  ISO_INLINE bool refuse_call(const char* name, const FaultReport& report) {
+    refuse(report);
+    sign(name);
+    return false;
+  }
+  ISO_INLINE bool accept_call(const char* name, const FaultReport& report) {
+    return report == Fault::none || refuse_call(name, report);
+  }
+  /// Of the last call that was refused. Commands clear it.
+  ISO_INLINE const FaultReport& fault() const { return fault_; }
+  /// Of the first one since `forget_faults`.
+  ISO_INLINE const FaultReport& first_fault() const { return first_fault_; }
+  ISO_INLINE void clear_fault() { fault_ = {}; }
+  ISO_INLINE void forget_faults() { fault_ = first_fault_ = {}; }
+
+  // The tape: see play_tape.
+  /// Null: to nothing.
+  ISO_INLINE void record_to(std::vector<std::uint8_t>* tape) { tape_ = tape; }
+  ISO_INLINE bool records_to(const std::vector<std::uint8_t>* tape) const { return tape_ == tape; }
+  template <class Command, class C> ISO_INLINE void record(const C& command) {
+    if (tape_ == nullptr) return;
+    Writer writer(*tape_);
+    write_command<Command>(writer, command);
+  }
+  ISO_INLINE void record_step() {
+    if (tape_ != nullptr) tape_->push_back(kStepMarker);
+  }
+  /// The state was replaced by one to which the tape does not lead.
+  ISO_INLINE void note_load() {
+    ++loads_;
+    clear_fault();
+  }
+  ISO_INLINE std::uint64_t loads() const { return loads_; }
+
+  // The trace: the state's hash as a step begins and after each of its stages.
+  /// Null: to nothing.
+  ISO_INLINE void trace_to(std::vector<std::uint64_t>* hashes) { trace_ = hashes; }
+  ISO_INLINE bool is_tracing() const { return trace_ != nullptr; }
+  template <class Engine> ISO_INLINE void trace(const Engine& engine) {
+    if (trace_ != nullptr) trace_->push_back(engine.hash());
+  }
+
+ private:
+  FaultReport fault_, first_fault_;
+  OneAtATime one_at_a_time_;
+  std::vector<std::uint8_t>* tape_ = nullptr;
+  std::vector<std::uint64_t>* trace_ = nullptr;
+  std::uint64_t loads_ = 0;
+};
+
+}  // namespace isostep
