@@ -41,9 +41,11 @@ class ListProbe : public OwnFolder {
     std::ofstream(folder_ / "probe.cpp") << "#include \"" << header << "\"\n";
     return failure("-fsyntax-only " + quoted(folder_ / "probe.cpp"));
   }
-  /// Of a program of the tests that needs no more than headers.
+  /// Of a program of the tests, which takes from the library what no list has a part in.
   std::string output_of(const std::string& program) {
-    const std::string failed = failure("-O1 -o " + quoted(folder_ / "probe") + " " + quoted(source(program)));
+    const std::string failed = failure("-O1 -o " + quoted(folder_ / "probe") + " " + quoted(source(program)) + " " +
+                                       isostep_lint::quoted(ISOSTEP_LIBRARY) + " " +
+                                       isostep_lint::quoted(ISOSTEP_SCALAR_LIBRARY) + " " + ISOSTEP_CXX_FLAGS);
     if (!failed.empty()) return failed;
     std::string output;
     const bool ended =

@@ -1,5 +1,5 @@
-// CommandJournal: how calls enter a world, and what is kept of them: a tape of what was accepted, a trace of the state's
-// hashes, and the faults of what was refused.
+// CommandJournal: how calls enter a world, and what is kept of them: a tape of what was accepted, a trace of hashes of
+// the state, and the faults of what was refused.
 // SPDX-License-Identifier: MIT
 #pragma once
 

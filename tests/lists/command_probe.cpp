@@ -1,0 +1,32 @@
+// A program of the tests: the probe command, called and played from a tape, in a copy of the headers that has it in its
+// list. Its world is compiled here and takes no step.
+// SPDX-License-Identifier: MIT
+#define ISOSTEP_OWN_SCALARS
+#include <cstdio>
+
+#include "isostep/collision/broadphase/pairs.inl"
+#include "isostep/collision/broadphase/tree.inl"
+#include "isostep/geometry/mass_properties.inl"
+#include "isostep/geometry/validate.inl"
+#include "isostep/world/world.inl"
+
+namespace isostep {
+ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
+template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
+template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
+template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }
+}  // namespace isostep
+
+using namespace isostep;
+
+int main() {
+  World<float> world, other;
+  std::vector<std::uint8_t> tape;
+  world.record_to(&tape);
+  const bool taken = world.apply(Probe{3}), again = world.apply(Probe{2});
+  const FaultReport& fault = world.fault_report();
+  const Result<void> played = play_tape<Command<float>>(
+      tape, [&](const Command<float>& command) { return other.apply(command); }, [] {});
+  std::printf("taken %d again %d %s.%s bytes %d number %d played %d tick %d\n", taken, again, fault.command,
+              fault.field, static_cast<int>(tape.size()), tape[0], played.ok(), static_cast<int>(other.tick()));
+}
