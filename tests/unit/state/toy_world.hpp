@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -68,13 +69,13 @@ class ToyWorld {
   const ToySettings& settings() const { return settings_; }
   const State& state() const { return state_; }
   std::uint64_t tick() const { return state_.tick; }
-  std::uint64_t loads() const { return journal_.loads(); }
-  void record_to(Buffer* tape) { journal_.record_to(tape); }
-  bool records_to(const Buffer* tape) const { return journal_.records_to(tape); }
-  void trace_to(std::vector<std::uint64_t>* hashes) { journal_.trace_to(hashes); }
+  std::uint64_t loads() const { return journal_->loads(); }
+  void record_to(Buffer* tape) { journal_->record_to(tape); }
+  bool records_to(const Buffer* tape) const { return journal_->records_to(tape); }
+  void trace_to(std::vector<std::uint64_t>* hashes) { journal_->trace_to(hashes); }
 
   bool apply(const Command& command) {
-    return std::visit([&](const auto& one) { return journal_.run("apply", *this, one); }, command);
+    return std::visit([&](const auto& one) { return journal_->run("apply", *this, one); }, command);
   }
   bool execute(const Push& push) { return set_sum(state_.sum + (push.to ^ to_bits(push.by))); }
   bool execute(const Clear&) { return set_sum(0); }
@@ -83,8 +84,8 @@ class ToyWorld {
     return true;
   }
   void step(const ToyObserver& observer = {}) {
-    journal_.record_step();
-    journal_.trace(*this);
+    journal_->record_step();
+    journal_->trace(*this);
     ++state_.tick;
     after(observer, ToyStage::count);
     state_.sum = state_.sum * 31 + state_.tick;
@@ -94,7 +95,7 @@ class ToyWorld {
   void save(Snapshot& to) const { to = state_; }
   void load(const Snapshot& from) {
     state_ = from;
-    journal_.note_load();
+    journal_->note_load();
   }
   void write_portable(Writer& writer) const { writer.write(state_); }
   Result<void> read_portable(Reader& reader) {
@@ -113,13 +114,13 @@ class ToyWorld {
     return true;
   }
   void after(const ToyObserver& observer, ToyStage stage) {
-    journal_.trace(*this);
+    journal_->trace(*this);
     if (observer.after != nullptr) observer.after(observer.user, stage);
   }
 
   ToySettings settings_;
   State state_;
-  CommandJournal journal_;
+  std::unique_ptr<CommandJournal> journal_ = std::make_unique<CommandJournal>();  // so that the world can be moved
 };
 static_assert(TapedWorld<ToyWorld> && !TapedWorld<Game>);
 
