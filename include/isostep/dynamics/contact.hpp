@@ -4,14 +4,13 @@
 
 #include <cstdint>
 
+#include "isostep/collision/narrowphase/manifold.hpp"
 #include "isostep/core/fields.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/math/vec3.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
-
-inline constexpr int kMaxContactPoints = 4;
 
 /// Orders contacts: body slots first (a < b), then the parts of each.
 struct ContactKey {

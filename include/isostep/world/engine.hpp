@@ -79,6 +79,9 @@ template <class S> class WorldEngine {
 
   // engine_queries.inl
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
+  void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out, QueryFilter filter) const;
+  bool sees(const QueryFilter& filter, std::uint32_t slot) const;
+  std::optional<RayCastHit<S>> hit_of(std::uint32_t slot, Vec3<S> origin, Vec3<S> translation, S most) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
   void bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const;

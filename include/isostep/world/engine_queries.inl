@@ -11,11 +11,30 @@
 
 namespace isostep {
 
-namespace detail {
-template <class S> bool sees(const QueryFilter& filter, const BodyProperties<S>& body) {
-  return (body.filter.category & filter.mask) != 0 && (filter.sensors || (body.flags & body_flag::kSensor) == 0);
+template <class S> bool WorldEngine<S>::sees(const QueryFilter& filter, std::uint32_t slot) const {
+  const BodyProperties<S>& body = properties_at(locations_[slot]);
+  const bool ignored = filter.ignore && state_.body_slots.template id_of<BodyId>(slot) == filter.ignore;
+  return (body.filter.category & filter.mask) != 0 && !ignored &&
+         (filter.sensors || (body.flags & body_flag::kSensor) == 0);
 }
-}  // namespace detail
+
+/// The first hit of a body's parts, no further than `most` of the translation.
+template <class S>
+std::optional<RayCastHit<S>> WorldEngine<S>::hit_of(std::uint32_t slot, Vec3<S> origin, Vec3<S> translation,
+                                                    S most) const {
+  const BodyProperties<S>& body = properties_at(locations_[slot]);
+  const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
+  std::optional<RayCastHit<S>> first;
+  for (const Child<S>& child : children_of(body.shape)) {
+    RayHit<S> hit;
+    const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
+    if (!ray_cast(child.primitive, at, origin, translation, first ? first->fraction : most, hit)) continue;
+    if (first && !(hit.fraction < first->fraction)) continue;
+    first = RayCastHit<S>{state_.body_slots.template id_of<BodyId>(slot), origin + translation * hit.fraction,
+                          hit.normal, hit.fraction};
+  }
+  return first;
+}
 
 template <class S>
 std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
@@ -27,22 +46,48 @@ std::optional<RayCastHit<S>> WorldEngine<S>::cast_ray(Vec3<S> origin, Vec3<S> tr
   std::optional<RayCastHit<S>> best;
   const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
   proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
-    const BodyProperties<S>& body = properties_at(locations_[slot]);
-    if (!detail::sees(filter, body)) return max_fraction;
-    const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
-    for (const Child<S>& child : children_of(body.shape)) {
-      RayHit<S> hit;
-      const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
-      if (!ray_cast(child.primitive, at, origin, translation, best ? best->fraction : S(1), hit)) continue;
-      const bool nearer =
-          !best || hit.fraction < best->fraction || (hit.fraction == best->fraction && slot < best->body.slot);
-      if (!nearer) continue;
-      best = RayCastHit<S>{state_.body_slots.template id_of<BodyId>(slot), origin + translation * hit.fraction,
-                           hit.normal, hit.fraction};
+    if (!sees(filter, slot)) return max_fraction;
+    const std::optional<RayCastHit<S>> hit = hit_of(slot, origin, translation, best ? best->fraction : S(1));
+    if (hit &&
+        (!best || hit->fraction < best->fraction || (hit->fraction == best->fraction && slot < best->body.slot))) {
+      best = hit;
     }
     return best ? min(max_fraction, convert<Unit<S>>(best->fraction)) : max_fraction;
   });
   return best;
+}
+
+namespace detail {
+struct BySlotOfHit {
+  template <class S> ISO_INLINE std::uint64_t operator()(const RayCastHit<S>& hit) const { return hit.body.slot; }
+};
+/// Fractions are not negative, so their bits ascend as they do; but for a zero that has a sign.
+struct ByFraction {
+  template <class S> ISO_INLINE std::uint64_t operator()(const RayCastHit<S>& hit) const {
+    return hit.fraction == S(0) ? 0 : static_cast<std::uint64_t>(leaf_bits(hit.fraction));
+  }
+};
+}  // namespace detail
+
+template <class S>
+void WorldEngine<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
+                                  QueryFilter filter) const {
+  if (!journal_.accept_call("cast_ray_all", detail::Checklist()
+                                                .also(detail::fault_of_place(origin, "origin"))
+                                                .also(detail::fault_of_place(translation, "translation"))
+                                                .report()))
+    return;
+  const std::size_t first = out.size();
+  const Sweep<S> sweep = {origin, translation, Vec3<S>::zero(), Unit<S>(1)};
+  proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
+    if (!sees(filter, slot)) return max_fraction;
+    if (const std::optional<RayCastHit<S>> hit = hit_of(slot, origin, translation, S(1))) out.push_back(*hit);
+    return max_fraction;
+  });
+  const auto count = static_cast<std::uint32_t>(out.size() - first);
+  std::vector<RayCastHit<S>> scratch(count);
+  stable_sort(out.data() + first, scratch.data(), count, detail::BySlotOfHit{});
+  stable_sort(out.data() + first, scratch.data(), count, detail::ByFraction{});
 }
 
 template <class S>
@@ -58,7 +103,7 @@ std::optional<ClosestBody<S>> WorldEngine<S>::closest(Vec3<S> point, S max_dista
   const S reach = min(max_distance, edge);
   proxies_.tree().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
     const BodyProperties<S>& body = properties_at(locations_[slot]);
-    if (!detail::sees(filter, body)) return true;
+    if (!sees(filter, slot)) return true;
     const Transform<S> placed = Transform<S>::of(origin_pose(state_at(locations_[slot]), body));
     for (const Child<S>& child : children_of(body.shape)) {
       const ClosestPoint<S> found =
@@ -89,7 +134,7 @@ void WorldEngine<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose,
   std::vector<std::uint64_t> found;
   proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
     const BodyProperties<S>& body = properties_at(locations_[slot]);
-    if (!detail::sees(filter, body)) return true;
+    if (!sees(filter, slot)) return true;
     Pose<S> placed = origin_pose(state_at(locations_[slot]), body);
     placed.position -= pose.position;  // relative, as the narrow phase wants it
     const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation}), there = Transform<S>::of(placed);
@@ -128,8 +173,7 @@ void WorldEngine<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, Q
     return;
   const std::size_t first = out.size();
   proxies_.tree().query(box, [&](std::uint32_t slot) {
-    if (detail::sees(filter, properties_at(locations_[slot])))
-      out.push_back(state_.body_slots.template id_of<BodyId>(slot));
+    if (sees(filter, slot)) out.push_back(state_.body_slots.template id_of<BodyId>(slot));
     return true;
   });
   const auto count = static_cast<std::uint32_t>(out.size() - first);

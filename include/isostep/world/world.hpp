@@ -48,10 +48,12 @@ template <class S> struct BodyView {
   std::span<const Child<S>> children;  // in the body's frame
   Pose<S> pose = Pose<S>::identity();  // of the body's origin
 };
-/// A query sees bodies whose category meets the mask, sensors only when asked.
+/// A query sees bodies whose category meets the mask, sensors only when asked, and not the one to be ignored: who looks
+/// is in the way of its own ray. A stale id ignores nobody.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffffu;
   bool sensors = false;
+  BodyId ignore = {};
 };
 
 /// A pose for drawing, in float whatever the scalar: interpolated, never state.
@@ -180,7 +182,11 @@ template <class S> class World final {
   WorldCounts counts() const;
 
   // Queries, as of the last step or command.
+  /// The nearest hit; of equally near ones that of the lowest slot.
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter = {}) const;
+  /// The first hit of every body on the way, the nearest first and equally near ones by slot, appended to `out`.
+  void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
+                    QueryFilter filter = {}) const;
   std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
   void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,

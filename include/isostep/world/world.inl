@@ -278,6 +278,12 @@ std::optional<RayCastHit<S>> World<S>::cast_ray(Vec3<S> origin, Vec3<S> translat
   return engine_->cast_ray(origin, translation, filter);
 }
 template <class S>
+void World<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
+                            QueryFilter filter) const {
+  const FloatEnvironment environment;
+  engine_->cast_ray_all(origin, translation, out, filter);
+}
+template <class S>
 std::optional<ClosestBody<S>> World<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const FloatEnvironment environment;
   return engine_->closest(point, max_distance, filter);

@@ -98,7 +98,7 @@ TYPED_TEST(NarrowPhaseFuzz, AnyPairWithinTheDocumentedRangeGivesAFiniteManifoldW
     const Pair<S> p = any_pair<S>(random, documented_extent<S>());
     const auto m = touch(p.a, p.ta, p.b, p.tb, random.below(4) == 0 ? 0 : 0.02);
     ASSERT_GE(m.count, 0);
-    ASSERT_LE(m.count, kManifoldPoints);
+    ASSERT_LE(m.count, kMaxContactPoints);
     touching += m.count > 0 ? 1 : 0;
     if (m.count == 0) continue;
     ASSERT_NEAR(length3(point_of(m.normal)), 1, 1e-6) << "pair " << n;

@@ -111,7 +111,7 @@ TYPED_TEST(NarrowPhaseLaws, NormalsAreUnitAndPointsWithinTheMarginWithUniqueFeat
     const Pair<S> p = random_pair<S>(random);
     const auto m = touch(p.a, p.ta, p.b, p.tb, kMargin);
     ASSERT_GE(m.count, 0);
-    ASSERT_LE(m.count, kManifoldPoints);
+    ASSERT_LE(m.count, kMaxContactPoints);
     EXPECT_NEAR(length3(point_of(m.normal)), m.count > 0 ? 1 : 0, 64 * to_double(resolution<Unit<S>>()) + 1e-15);
     for (int i = 0; i < m.count; ++i) {
       EXPECT_LE(to_double(m.points[i].separation), to_double(from_double<S>(kMargin)));

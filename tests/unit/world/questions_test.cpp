@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "determinism/mess.hpp"
@@ -86,6 +87,80 @@ TYPED_TEST(WorldQuestions, a_ray_meets_what_a_search_of_every_body_says_it_meets
   }
   EXPECT_GT(hits, 50);
   EXPECT_GT(misses, 20);
+}
+
+TYPED_TEST(WorldQuestions, all_hits_of_a_ray_are_those_of_a_search_of_every_body_nearest_first) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  Dice dice(7);
+  std::size_t most = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3<S> origin = vec<S>(dice.point(6) + D3{0, 7, 0}), along = vec<S>(dice.point(12));
+    QueryFilter filter;
+    filter.sensors = i % 3 == 0;
+    std::map<std::uint32_t, S> first;  // of each body, by slot
+    this->visit_parts(filter, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
+      RayHit<S> hit;
+      if (!ray_cast(primitive, at, origin, along, S(1), hit)) return;
+      const auto [known, fresh] = first.try_emplace(id.slot, hit.fraction);
+      if (!fresh) known->second = min(known->second, hit.fraction);
+    });
+    std::vector<RayCastHit<S>> hits(1);  // what is there stays
+    w.cast_ray_all(origin, along, hits, filter);
+    ASSERT_EQ(hits.size(), first.size() + 1) << "ray " << i;
+    for (std::size_t k = 1; k < hits.size(); ++k) {
+      ASSERT_EQ(first.count(hits[k].body.slot), 1u);
+      EXPECT_EQ(hits[k].fraction, first[hits[k].body.slot]);
+      if (k == 1) continue;
+      const bool later = hits[k - 1].fraction < hits[k].fraction;
+      const bool tie = hits[k - 1].fraction == hits[k].fraction && hits[k - 1].body.slot < hits[k].body.slot;
+      EXPECT_TRUE(later || tie) << "ray " << i;
+    }
+    const auto nearest = w.cast_ray(origin, along, filter);
+    ASSERT_EQ(nearest.has_value(), hits.size() > 1);
+    if (nearest) {
+      EXPECT_EQ(nearest->body, hits[1].body);
+    }
+    most = std::max(most, hits.size() - 1);
+  }
+  EXPECT_GT(most, 3u);
+}
+
+TYPED_TEST(WorldQuestions, a_query_does_not_see_who_is_to_be_ignored) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
+  const BodyId eye = w.create(still<S>(box, {0, 1, 0})), other = w.create(still<S>(box, {3, 1, 0}));
+  const BodyId gone = w.create(still<S>(box, {6, 1, 0}));
+  w.destroy(gone);
+  const Vec3<S> here = vec<S>(0, 1, 0), along = vec<S>(8, 0, 0);
+  QueryFilter filter;
+  EXPECT_EQ(w.cast_ray(here, along, filter)->body, eye);
+  filter.ignore = eye;
+  EXPECT_EQ(w.cast_ray(here, along, filter)->body, other);
+  EXPECT_EQ(w.closest(here, S(4), filter)->body, other);
+  std::vector<RayCastHit<S>> hits;
+  w.cast_ray_all(here, along, hits, filter);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].body, other);
+  std::vector<BodyId> near, over;
+  w.bodies_near(Aabb<S>::around(here, vec<S>(4, 1, 1)), near, filter);
+  EXPECT_EQ(near, std::vector<BodyId>{other});
+  w.overlapping(primitive_of(Sphere<S>{S(4)}), Pose<S>{here, Quat<Unit<S>>::identity()}, over, filter);
+  EXPECT_EQ(over, std::vector<BodyId>{other});
+  filter.ignore = gone;
+  EXPECT_EQ(w.cast_ray(here, along, filter)->body, eye) << "a stale id ignores nobody";
+}
+
+TYPED_TEST(WorldQuestions, hits_of_bodies_in_one_place_come_by_slot) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
+  for (int i = 0; i < 70; ++i) w.create(still<S>(box, {i % 7 * 2.0, 1, 0}));  // more than are sorted by insertion
+  std::vector<RayCastHit<S>> hits;
+  w.cast_ray_all(vec<S>(-4, 1, 0), vec<S>(32, 0, 0), hits);
+  ASSERT_EQ(hits.size(), 70u);
+  for (std::uint32_t k = 0; k < 70; ++k) EXPECT_EQ(hits[k].body.slot, k / 10 + 7 * (k % 10));
 }
 
 TYPED_TEST(WorldQuestions, of_two_bodies_in_one_place_a_ray_and_a_point_find_the_lower_slot) {

@@ -194,7 +194,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       }
       Manifold<S>& out = run.manifolds[batch.pair[lane]];
       Outline outline = outline_of(faces, points, lane);
-      if (outline.count > kManifoldPoints) reduce(faces, boxes.tolerance, lane, outline);
+      if (outline.count > kMaxContactPoints) reduce(faces, boxes.tolerance, lane, outline);
       const std::uint32_t axis = 2 - 2 * bit(axis0) - bit(axis1), incident = 2 - 2 * bit(incident0) - bit(incident1);
       const std::uint32_t face = incident * 2 + bit(negative);
       const std::uint32_t name = 1u << 31 | bit(of_b) << 12 | axis << 10 | bit(below) << 9 | face << 6;

@@ -182,7 +182,7 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius
   }
   polygon.count = kept;
   if (kept == 0) return;
-  if (kept > kManifoldPoints) {
+  if (kept > kMaxContactPoints) {
     const Vec3<S> half = {pair.half[0], pair.half[1], pair.half[2]};
     const Vec3<S> incident = {pair.incident_half[0], pair.incident_half[1], pair.incident_half[2]};
     reduce_to_four(polygon, axis_tolerance(half, incident) * S(0.125));

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-inline constexpr int kManifoldPoints = 4;
+inline constexpr int kMaxContactPoints = 4;  // of two parts: a face on a face needs no more to rest
 
 template <class S> struct ManifoldPoint {
   Vec3<S> position;       // [m] midway between the two surfaces, in the frame that both transforms lead to
@@ -19,13 +19,13 @@ template <class S> struct ManifoldPoint {
 template <class S> struct Manifold {
   Vec3<Unit<S>> normal;  // [1] from a to b, in the transforms' outer frame; zero when count is 0
   std::int32_t count;    // 0..4; points past it hold nothing
-  ManifoldPoint<S> points[kManifoldPoints];
+  ManifoldPoint<S> points[kMaxContactPoints];
 
   ISO_INLINE constexpr void clear() {
     normal = Vec3<Unit<S>>::zero();
     count = 0;
   }
-  /// Caller keeps count below kManifoldPoints.
+  /// Caller keeps count below kMaxContactPoints.
   ISO_INLINE constexpr void add(Vec3<S> position, S separation, std::uint32_t feature) {
     points[count] = {position, separation, feature};
     ++count;
