@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude -Isrc -Itests
-//         tests/fuzz/session_fuzz.cpp src/session/*.cpp src/state/*.cpp src/scalar/*.cpp behaviour_version.cpp
+//         tests/fuzz/session_fuzz.cpp src/isostep/{session,state}/*.cpp scalar/src/*.cpp behaviour_version.cpp
 //         src/transport/{simulated_network,impaired_direction,network_profile}.cpp -o session_fuzz
 
 #include <deque>

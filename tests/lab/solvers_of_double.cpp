@@ -1,4 +1,4 @@
-// The rigid world of one scalar, compiled once more: src/instantiate/world.cpp for double alone.
+// The rigid world of one scalar, compiled once more: src/isostep/instantiate/world.cpp for double alone.
 // SPDX-License-Identifier: MIT
 #include "isostep/world/world.inl"
 

@@ -6,156 +6,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "floors.hpp"
+#include "source_tree.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-struct File {
-  std::string path;                // from the root, with slashes
-  std::vector<std::string> lines;  // as they are
-  std::vector<std::string> code;   // without comments and texts
-};
-
-int findings = 0;
-void report(const File& file, std::size_t line, const std::string& what) {
-  std::printf("%s:%zu: %s\n", file.path.c_str(), line + 1, what.c_str());
-  ++findings;
-}
-
-bool starts_with(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/// Comments become nothing, texts and characters become empty ones. Raw strings end at the first )".
-std::vector<std::string> code_of(const std::vector<std::string>& lines) {
-  std::vector<std::string> code;
-  bool in_comment = false, in_raw = false;
-  for (const std::string& line : lines) {
-    std::string out;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (in_comment || in_raw) {
-        const char* end = in_comment ? "*/" : ")\"";
-        if (line.compare(i, 2, end) == 0) {
-          in_comment = in_raw = false;
-          ++i;
-        }
-      } else if (line.compare(i, 2, "//") == 0) {
-        break;
-      } else if (line.compare(i, 2, "/*") == 0) {
-        in_comment = true;
-        ++i;
-      } else if (line.compare(i, 3, "R\"(") == 0) {
-        in_raw = true;
-        i += 2;
-      } else if (line[i] == '"' ||
-                 (line[i] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(line[i - 1])) == 0))) {
-        const char quote = line[i];
-        for (++i; i < line.size() && line[i] != quote; ++i) i += line[i] == '\\';
-        out += quote;
-        out += quote;
-      } else {
-        out += line[i];
-      }
-    }
-    code.push_back(out);
-  }
-  return code;
-}
-
-std::vector<File> read_tree(const fs::path& root, const std::vector<std::string>& folders) {
-  const std::set<std::string> kinds = {".hpp", ".inl", ".cpp"};
-  std::vector<File> files;
-  for (const std::string& folder : folders) {
-    if (!fs::exists(root / folder)) continue;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file() || kinds.count(entry.path().extension().string()) == 0) continue;
-      File file{fs::relative(entry.path(), root).generic_string(), {}, {}};
-      std::ifstream in(entry.path());
-      for (std::string line; std::getline(in, line);) file.lines.push_back(line);
-      file.code = code_of(file.lines);
-      files.push_back(file);
-    }
-  }
-  std::sort(files.begin(), files.end(), [](const File& a, const File& b) { return a.path < b.path; });
-  return files;
-}
-
-// ---- floors
-
-/// "isostep/<folder>/..." or the path of a file -> its folder, "src" for everything there.
-std::string folder_of(const std::string& path) {
-  static const std::regex pattern("^(?:include/|scalar/include/)?isostep/([a-z]+)/.*");
-  std::smatch match;
-  if (std::regex_match(path, match, pattern)) return match[1];
-  return starts_with(path, "src/") ? "src" : "";
-}
-
-void check_floors(const fs::path& root) {
-  // From DESIGN: scalar is below core, for it is a target of its own.
-  const std::map<std::string, int> floors = {{"scalar", 0},   {"core", 1},      {"math", 2},    {"state", 2},
-                                             {"geometry", 3}, {"particles", 3}, {"session", 3}, {"collision", 4},
-                                             {"dynamics", 5}, {"world", 6},     {"effects", 6}, {"src", 7}};
-  static const std::regex include("^\\s*#include \"((?:isostep/)[^\"]+)\".*");
-  std::map<std::string, std::vector<std::string>> graph;
-  for (const File& file : read_tree(root, {"scalar/include", "include", "src"})) {
-    if (file.path == "include/isostep/isostep.hpp") continue;  // all of it, for users alone: it has no floor
-    const std::string from = folder_of(file.path);
-    if (floors.count(from) == 0) {
-      report(file, 0, "the folder \"" + from + "\" has no floor");
-      continue;
-    }
-    for (std::size_t i = 0; i < file.lines.size(); ++i) {
-      std::smatch match;
-      if (!std::regex_match(file.lines[i], match, include)) continue;
-      const std::string target = match[1];
-      const std::string to = folder_of(target);
-      graph[file.path.substr(file.path.find("isostep/") == std::string::npos ? 0 : file.path.find("isostep/"))]
-          .push_back(target);
-      if (floors.count(to) == 0) {
-        report(file, i, target + " has no floor");
-        continue;
-      }
-      const bool neighbours = (from == "effects" && to == "world") || (from == "world" && to == "effects");
-      if (from != to && !neighbours && floors.at(to) >= floors.at(from)) {
-        report(file, i, from + " may not include " + to + ": that floor is not below");
-      }
-      if (ends_with(file.path, ".hpp") && ends_with(target, ".inl")) {
-        report(file, i, "a header includes bodies: users would compile them with their own flags");
-      }
-    }
-  }
-  // No cycles: what may include what is an order also inside a folder.
-  std::map<std::string, int> state;  // 1 open, 2 done
-  std::vector<std::pair<std::string, std::size_t>> stack;
-  for (const auto& [start, unused] : graph) {
-    if (state[start] != 0) continue;
-    state[start] = 1;
-    stack.push_back({start, 0});
-    while (!stack.empty()) {
-      const std::string node = stack.back().first;
-      if (stack.back().second == graph[node].size()) {
-        state[node] = 2;
-        stack.pop_back();
-        continue;
-      }
-      const std::string next = graph[node][stack.back().second++];
-      if (state[next] == 1) report({node, {}, {}}, 0, "includes " + next + ", which leads back here");
-      if (state[next] == 0) {
-        state[next] = 1;
-        stack.push_back({next, 0});
-      }
-    }
-  }
-}
+using namespace isostep_lint;
 
 // ---- words
 
@@ -316,5 +178,5 @@ int main(int count, char** arguments) {
   else if (rule == "aggregates") check_aggregates(arguments[2]);
   else if (rule == "form") check_form(arguments[2]);
   else return std::fprintf(stderr, "lint floors|words|aggregates|form ROOT\n"), 64;
-  return findings == 0 ? 0 : 1;
+  return findings() == 0 ? 0 : 1;
 }

@@ -215,7 +215,7 @@ template <std::floating_point U> ISO_INLINE void normalise4(U& x, U& y, U& z, U&
   w = w * inverse;
 }
 
-// ---- circular functions, exponential and logarithm, compiled once in src/instantiate/scalar_math.cpp
+// ---- circular functions, exponential and logarithm, compiled once in scalar/src/math.cpp
 //
 // Integer arithmetic for every scalar, float and double included: no contraction, rounding mode or compiler option can
 // reach a result. Angles in radians. Errors per scalar: scalar/README.md.

@@ -1,0 +1,127 @@
+// Folders and their floors, read from the #include lines.
+// SPDX-License-Identifier: MIT
+#include "floors.hpp"
+
+#include <map>
+#include <optional>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "source_tree.hpp"
+
+namespace isostep_lint {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders of the library by their names in include/isostep, whose sources in src/isostep are on the same floor; the
+/// others by their names in src/.
+const std::map<std::string, int> kFloors = {
+    {"scalar", 0},  // below core, for it is a target of its own
+    {"core", 1},
+    {"math", 2},
+    {"state", 2},
+    {"geometry", 3},
+    {"particles", 3},
+    {"session", 3},
+    {"collision", 4},
+    {"dynamics", 5},
+    {"world", 6},
+    {"effects", 6},
+    {"instantiate", 7},
+    // Programs, and what they share.
+    {"programs", 7},
+    {"scenes", 8},
+    {"transport", 8},
+    {"threads", 8},
+    {"prover", 9},
+    {"examples", 9},
+    {"tool", 9},
+};
+
+/// "" for what has no folder; such files have no floor.
+std::string folder_of(const std::string& path) {
+  static const std::regex library("(?:include|scalar/include|src)/isostep/([a-z]+)/.*");
+  static const std::regex other("src/([a-z]+)/.*");
+  std::smatch match;
+  if (starts_with(path, "scalar/src/")) return "scalar";
+  if (std::regex_match(path, match, library) || std::regex_match(path, match, other)) return match[1];
+  return "";
+}
+
+/// The file that an #include names, from the root: beside the file, or in a folder that the compiler searches. Nothing
+/// for one that is not ours or that the build writes.
+std::optional<std::string> target_of(const fs::path& root, const std::string& from, const std::string& name) {
+  const fs::path beside = (fs::path(from).parent_path() / name).lexically_normal();
+  if (fs::exists(root / beside)) return beside.generic_string();
+  for (const char* folder : {"include", "scalar/include", "src"}) {
+    const fs::path path = (fs::path(folder) / name).lexically_normal();
+    if (fs::exists(root / path)) return path.generic_string();
+  }
+  return std::nullopt;
+}
+
+using Graph = std::map<std::string, std::vector<std::string>>;
+
+void check_arrow(const File& file, std::size_t line, const std::string& target) {
+  const std::string from = folder_of(file.path), to = folder_of(target);
+  if (kFloors.count(to) == 0) return report(file, line, target + " has no floor");
+  const bool neighbours = (from == "effects" && to == "world") || (from == "world" && to == "effects");
+  if (from != to && !neighbours && kFloors.at(to) >= kFloors.at(from))
+    report(file, line, from + " may not include " + to + ": that floor is not below");
+  if (starts_with(target, "include/") && ends_with(file.path, ".hpp") && ends_with(target, ".inl"))
+    report(file, line, "a header includes bodies: users would compile them with their own flags");
+}
+
+/// What may include what is an order also inside a folder.
+void check_cycles(const Graph& includes) {
+  std::map<std::string, int> state;  // 1 open, 2 done
+  std::vector<std::pair<std::string, std::size_t>> stack;
+  Graph graph = includes;  // a file that includes nothing has no row yet
+  for (const auto& [start, unused] : includes) {
+    if (state[start] != 0) continue;
+    state[start] = 1;
+    stack.push_back({start, 0});
+    while (!stack.empty()) {
+      const std::string node = stack.back().first;
+      if (stack.back().second == graph[node].size()) {
+        state[node] = 2;
+        stack.pop_back();
+        continue;
+      }
+      const std::string next = graph[node][stack.back().second++];
+      if (state[next] == 1) report({node, {}, {}}, 0, "includes " + next + ", which leads back here");
+      if (state[next] == 0) {
+        state[next] = 1;
+        stack.push_back({next, 0});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void check_floors(const fs::path& root) {
+  static const std::regex include("^\\s*#include \"([^\"]+)\".*");
+  Graph graph;
+  for (const File& file : read_tree(root, {"scalar/include", "scalar/src", "include", "src"})) {
+    if (file.path == "include/isostep/isostep.hpp") continue;  // all of it, for users alone: it has no floor
+    if (kFloors.count(folder_of(file.path)) == 0) {
+      report(file, 0, "the folder \"" + folder_of(file.path) + "\" has no floor");
+      continue;
+    }
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      std::smatch match;
+      if (!std::regex_match(file.lines[i], match, include)) continue;
+      const std::optional<std::string> target = target_of(root, file.path, match[1]);
+      if (!target) continue;
+      graph[file.path].push_back(*target);
+      check_arrow(file, i, *target);
+    }
+  }
+  check_cycles(graph);
+}
+
+}  // namespace isostep_lint

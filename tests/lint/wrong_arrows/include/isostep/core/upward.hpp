@@ -1,0 +1,5 @@
+// A header that includes what is above it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/world/high.hpp"

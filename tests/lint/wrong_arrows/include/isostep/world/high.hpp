@@ -1,0 +1,3 @@
+// A header on a high floor.
+// SPDX-License-Identifier: MIT
+#pragma once

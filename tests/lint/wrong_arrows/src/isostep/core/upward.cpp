@@ -1,0 +1,3 @@
+// A source of the library that does.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/high.hpp"

@@ -1,0 +1,3 @@
+// A header of the tool.
+// SPDX-License-Identifier: MIT
+#pragma once
