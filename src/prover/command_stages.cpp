@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "isostep/core/short_text.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/staged_replay.hpp"
+#include "diagnostics/staged_replay.hpp"
 #include "streams.hpp"
 
 namespace isostep::prover {

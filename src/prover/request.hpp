@@ -9,7 +9,7 @@
 
 #include "isostep/core/simd.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/staged_replay.hpp"
+#include "diagnostics/staged_replay.hpp"
 #include "programs/exit_status.hpp"
 
 namespace isostep::prover {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diff_input.hpp"
-#include "isostep/world/staged_replay.hpp"
+#include "diagnostics/staged_replay.hpp"
 #include "leaf_list.hpp"
 
 namespace isostep::tool {

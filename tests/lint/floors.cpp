@@ -36,6 +36,7 @@ const std::map<std::string, int> kFloors = {
     {"scenes", 8},
     {"transport", 8},
     {"threads", 8},
+    {"diagnostics", 8},
     {"prover", 9},
     {"examples", 9},
     {"tool", 9},

@@ -12,14 +12,14 @@
 namespace isostep {
 namespace {
 
-template <class T> void visit_axes(const LeafVisitor& visit, Axes<T>& axes) {
+template <class Visit, class T> void visit_axes(const Visit& visit, Axes<T>& axes) {
   visit("x", axes.x);
   visit("y", axes.y);
   visit("z", axes.z);
 }
 
 /// The rows of this step: the arrays are as long as they ever were.
-template <class S> void visit_spring_rows(const LeafVisitor& visit, SpringRows<S>& rows) {
+template <class Visit, class S> void visit_spring_rows(const Visit& visit, SpringRows<S>& rows) {
   const auto now = [&](auto& array) { return std::span(array.data(), rows.count); };
   visit("a", now(rows.a));
   visit("b", now(rows.b));
@@ -68,15 +68,19 @@ void ParticleEngine<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
 }
 
 template <class S>
-void ParticleEngine<S>::walk_leaves(void* self, LeafPart part, std::uint32_t stage, const LeafSink* sink,
-                                    const LeafEditor* editor) {
-  ParticleEngine& engine = *static_cast<ParticleEngine*>(self);
-  const LeafVisitor visit(nullptr, sink, editor);
+template <class Visit>
+void ParticleEngine<S>::visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit) {
   if (part == LeafPart::scratch) {
-    if (stage < kParticleStages) engine.visit_scratch(visit, static_cast<ParticleStage>(stage));
+    if (stage < kParticleStages) visit_scratch(visit, static_cast<ParticleStage>(stage));
   } else {
-    ParticleState<S>::members(StateLeaves(visit), engine.state_);
+    ParticleState<S>::members(StateLeaves(visit), state_);
   }
+}
+
+template <class S>
+void ParticleEngine<S>::walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink) {
+  const LeafReading reading = {sink};
+  static_cast<ParticleEngine*>(engine)->visit_leaves(part, stage, LeafVisitor(nullptr, reading));
 }
 
 }  // namespace isostep

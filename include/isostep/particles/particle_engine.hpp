@@ -57,8 +57,8 @@ template <class S> class ParticleEngine {
   StageView view(std::uint32_t stage);
 
   // engine_leaves.inl
-  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink* sink,
-                          const LeafEditor* editor);
+  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink);
+  template <class Visit> void visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit);
 
   // engine_state.inl
   void load(const ParticleState<S>& from);

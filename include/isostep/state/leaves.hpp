@@ -1,4 +1,4 @@
-// Leaves one by one, by name: what looks at every number of a state or of a step's scratch, and may turn a bit of one.
+// Leaves one by one, by name: what looks at every number of a state or of a step's scratch.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -27,12 +27,6 @@ struct LeafSink {
   void* user;
 };
 
-/// Is asked of every leaf which bits it shall have from now on. Leaves that may not be written keep theirs.
-struct LeafEditor {
-  std::uint64_t (*leaf)(void* user, const PathPart& path, LeafFormat format, std::uint64_t bits);
-  void* user;
-};
-
 /// Two parts of what an engine has: what lasts, and what one stage of a step leaves for those that follow it.
 enum class LeafPart : std::uint32_t { state, scratch };
 
@@ -40,8 +34,7 @@ enum class LeafPart : std::uint32_t { state, scratch };
 struct LeafSource {
   void* engine;
   std::uint64_t (*state_hash)(const void* engine);
-  /// With a null sink every leaf is edited, else none.
-  void (*walk)(void* engine, LeafPart part, std::uint32_t stage, const LeafSink* sink, const LeafEditor* editor);
+  void (*walk)(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink);
 };
 
 /// All state, and of a step's scratch what one stage made: given to an observer for the length of its call.
@@ -57,22 +50,9 @@ class StageView {
   void visit(const LeafSink& sink) const;
 
  private:
-  friend class FaultDrill;
+  friend class FaultDrill;  // of src/diagnostics
   LeafSource source_;
   std::uint32_t stage_;
-};
-
-/// A fault made on purpose: one bit of one leaf, after one stage. For tests of what finds faults: an index or a count
-/// that is turned may lead the engine beyond its arrays.
-class FaultDrill {
- public:
-  FaultDrill(std::string_view path, std::uint32_t bit);
-  /// False when no leaf has that path and bit, or none that may be written: what lies in an island asleep is not.
-  bool strike(const StageView& view) const;
-
- private:
-  std::string path_;
-  std::uint32_t bit_;
 };
 
 }  // namespace isostep

@@ -25,17 +25,26 @@ concept LeafList = requires(T& list) {
 /// A copy of a part of T, to be written only where T may be.
 template <class T, class Part> using ConstAs = std::conditional_t<std::is_const_v<T>, const Part, Part>;
 
-class LeafVisitor;
-template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& visit, T& value);
+/// Tells a sink of every leaf.
+struct LeafReading {
+  static constexpr bool kEdits = false;
+  const LeafSink& sink;
 
-/// visit("name", value) for a leaf, a struct with `fields`, an array or a list of such.
-class LeafVisitor {
+  void operator()(const PathPart& path, LeafFormat format, std::uint64_t bits) const {
+    sink.leaf(sink.user, path, format, bits);
+  }
+};
+
+template <class Visitor, class T> void walk_leaves(const PathPart& path, const Visitor& visit, T& value);
+
+/// visit("name", value) for a leaf, a struct with `fields`, an array or a list of such. `Access` is LeafReading, or
+/// with kEdits returns the bits that a leaf is to have: leaves that are not const get them.
+template <class Access> class LeafVisitor {
  public:
-  LeafVisitor(const PathPart* outer, const LeafSink* sink, const LeafEditor* editor)
-      : outer_(outer), sink_(sink), editor_(editor) {}
-  LeafVisitor(const PathPart& outer, const LeafVisitor& other) : LeafVisitor(&outer, other.sink_, other.editor_) {}
+  static constexpr bool kEdits = Access::kEdits;
 
-  bool edits() const { return sink_ == nullptr; }
+  LeafVisitor(const PathPart* outer, const Access& access) : outer_(outer), access_(access) {}
+  LeafVisitor(const PathPart& outer, const LeafVisitor& other) : LeafVisitor(&outer, other.access_) {}
 
   template <class T> void operator()(const char* name, T&& value) const {
     walk_leaves(PathPart{outer_, name, 0}, *this, value);
@@ -62,22 +71,17 @@ class LeafVisitor {
 
   template <class T> void leaf(const PathPart& path, T& value) const {
     using Bare = std::remove_const_t<T>;
-    constexpr LeafFormat format = kLeafFormat<Bare>;
-    const std::uint64_t bits = leaf_bits(value);
-    const std::uint64_t wanted = told<T>(path, format, bits);
-    if constexpr (!std::is_const_v<T>) {
-      if (wanted != bits) value = leaf_from_bits<Bare>(static_cast<LeafBits<Bare>>(wanted));
-    }
+    visit_bits(path, kLeafFormat<Bare>, value, leaf_bits(value),
+               [](std::uint64_t wanted) { return leaf_from_bits<Bare>(static_cast<LeafBits<Bare>>(wanted)); });
   }
   /// A format of fixed point that is no Scalar by itself: steps of time.
   template <class T> void fixed_leaf(const PathPart& path, T& value) const {
     using Bare = std::remove_const_t<T>;
     using Raw = typename Bare::Raw;
-    const std::uint64_t bits = leaf_bits(value.raw());
-    const std::uint64_t wanted = told<T>(path, {LeafKind::scalar, sizeof(Raw), ScalarTraits<Bare>::kId}, bits);
-    if constexpr (!std::is_const_v<T>) {
-      if (wanted != bits) value = Bare::from_raw(leaf_from_bits<Raw>(static_cast<LeafBits<Raw>>(wanted)));
-    }
+    constexpr LeafFormat format = {LeafKind::scalar, sizeof(Raw), ScalarTraits<Bare>::kId};
+    visit_bits(path, format, value, leaf_bits(value.raw()), [](std::uint64_t wanted) {
+      return Bare::from_raw(leaf_from_bits<Raw>(static_cast<LeafBits<Raw>>(wanted)));
+    });
   }
   /// As a part of what is visited.
   template <class Inside> void within(const char* name, const Inside& inside) const {
@@ -86,19 +90,21 @@ class LeafVisitor {
   }
 
  private:
-  /// The bits that the leaf is to have.
-  template <class T> std::uint64_t told(const PathPart& path, LeafFormat format, std::uint64_t bits) const {
-    if (sink_ != nullptr) sink_->leaf(sink_->user, path, format, bits);
-    else if (!std::is_const_v<T>) return editor_->leaf(editor_->user, path, format, bits);
-    return bits;
+  template <class T, class FromBits>
+  void visit_bits(const PathPart& path, LeafFormat format, T& value, std::uint64_t bits, FromBits&& from_bits) const {
+    if constexpr (!kEdits) {
+      access_(path, format, bits);
+    } else if constexpr (!std::is_const_v<T>) {
+      const std::uint64_t wanted = access_(path, format, bits);
+      if (wanted != bits) value = from_bits(wanted);
+    }
   }
 
   const PathPart* outer_;
-  const LeafSink* sink_;
-  const LeafEditor* editor_;
+  const Access& access_;
 };
 
-template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& visit, T& value) {
+template <class Visitor, class T> void walk_leaves(const PathPart& path, const Visitor& visit, T& value) {
   using Bare = std::remove_const_t<T>;
   if constexpr (std::is_bounded_array_v<Bare>) {
     if constexpr (std::extent_v<Bare> == 1) {  // a block of one lane
@@ -109,7 +115,7 @@ template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& vis
       }
     }
   } else if constexpr (HasFields<Bare>) {
-    Bare::fields(LeafVisitor(path, visit), value);
+    Bare::fields(Visitor(path, visit), value);
   } else if constexpr (Leaf<Bare>) {
     visit.leaf(path, value);
   } else if constexpr (LeafList<Bare>) {
@@ -120,40 +126,40 @@ template <class T> void walk_leaves(const PathPart& path, const LeafVisitor& vis
   } else if constexpr (requires { value.value(); }) {  // Exact
     ConstAs<T, decltype(value.value())> bare = value.value();
     visit.leaf(path, bare);
-    if constexpr (!std::is_const_v<T>) value = Bare(bare);
+    if constexpr (Visitor::kEdits && !std::is_const_v<T>) value = Bare(bare);
   } else if constexpr (sizeof(value.raw) <= 8) {  // a sum of products
     visit.leaf(path, value.raw);
   } else {
     ConstAs<T, UInt128Parts> words = parts(value.raw);
     visit.leaf(PathPart{&path, "high", 0}, words.high);
     visit.leaf(PathPart{&path, "low", 0}, words.low);
-    if constexpr (!std::is_const_v<T>) value.raw = int128_from(words);
+    if constexpr (Visitor::kEdits && !std::is_const_v<T>) value.raw = int128_from(words);
   }
 }
 
 /// A whole state leaf by leaf: see members.hpp. What copies of a state share is copied first where it is written;
 /// islands are never written.
-class StateLeaves {
+template <class Visitor> class StateLeaves {
  public:
-  explicit StateLeaves(const LeafVisitor& visit) : visit_(visit) {}
+  explicit StateLeaves(const Visitor& visit) : visit_(visit) {}
 
   template <class T> void operator()(const char* name, T& value) const {
     if constexpr (std::is_same_v<std::remove_const_t<T>, SlotMap>) {
       slots(name, value);
     } else if constexpr (requires { value.all(); }) {  // Registry
       slots((std::string(name) + "_slots").c_str(), std::as_const(value).slots());
-      if (visit_.edits()) visit_(name, value.change_all());
-      else visit_(name, value.all());
+      if constexpr (Visitor::kEdits) visit_(name, value.change_all());
+      else visit_(name, std::as_const(value).all());
     } else {
       visit_(name, value);
     }
   }
   template <class T, class Arrays> void shared(T& value, const Arrays& arrays) const {
-    if (visit_.edits()) arrays(visit_, value.change());
+    if constexpr (Visitor::kEdits) arrays(visit_, value.change());
     else arrays(visit_, *value);
   }
   template <class List> void islands(const char* name, const List& list) const {
-    visit_.each(name, list.size(), [&](const LeafVisitor& of_island, std::size_t i) {
+    visit_.each(name, list.size(), [&](const Visitor& of_island, std::size_t i) {
       const auto& island = *list[i];
       std::remove_cvref_t<decltype(island)>::sections(of_island, island);
     });
@@ -161,14 +167,14 @@ class StateLeaves {
 
  private:
   void slots(const char* name, const SlotMap& slots) const {
-    visit_.within(name, [&](const LeafVisitor& of_slots) {
+    visit_.within(name, [&](const Visitor& of_slots) {
       const std::uint32_t first_free = slots.first_free();
       of_slots("first_free", first_free);
     });
     visit_(name, slots.entries());
   }
 
-  const LeafVisitor& visit_;
+  const Visitor& visit_;
 };
 
 }  // namespace

@@ -74,8 +74,8 @@ template <class S> class WorldEngine {
   S joint_error(JointId joint) const;
 
   // engine_leaves.inl
-  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink* sink,
-                          const LeafEditor* editor);
+  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink);
+  template <class Visit> void visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit);
 
   // engine_queries.inl
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;

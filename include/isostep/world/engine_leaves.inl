@@ -71,15 +71,19 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
 }
 
 template <class S>
-void WorldEngine<S>::walk_leaves(void* self, LeafPart part, std::uint32_t stage, const LeafSink* sink,
-                                 const LeafEditor* editor) {
-  WorldEngine& engine = *static_cast<WorldEngine*>(self);
-  const LeafVisitor visit(nullptr, sink, editor);
+template <class Visit>
+void WorldEngine<S>::visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit) {
   if (part == LeafPart::scratch) {
-    if (stage < kStages) engine.visit_scratch(visit, static_cast<Stage>(stage));
+    if (stage < kStages) visit_scratch(visit, static_cast<Stage>(stage));
   } else {
-    WorldState<S>::members(StateLeaves(visit), engine.state_);
+    WorldState<S>::members(StateLeaves(visit), state_);
   }
+}
+
+template <class S>
+void WorldEngine<S>::walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink) {
+  const LeafReading reading = {sink};
+  static_cast<WorldEngine*>(engine)->visit_leaves(part, stage, LeafVisitor(nullptr, reading));
 }
 
 }  // namespace isostep

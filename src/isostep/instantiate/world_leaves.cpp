@@ -5,7 +5,7 @@
 namespace isostep {
 
 #define ISO_INSTANTIATE(S) \
-  template void WorldEngine<S>::walk_leaves(void*, LeafPart, std::uint32_t, const LeafSink*, const LeafEditor*);
+  template void WorldEngine<S>::walk_leaves(void*, LeafPart, std::uint32_t, const LeafSink&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Leaves as hashes, and drills.
+// Leaves as hashes.
 // SPDX-License-Identifier: MIT
 #include "isostep/state/leaves.hpp"
 
@@ -44,7 +44,7 @@ std::uint64_t StageView::hash() const {
                            static_cast<LeafHash*>(user)->add(bits);
                          },
                          &scratch};
-  source_.walk(source_.engine, LeafPart::scratch, stage_, &sink, nullptr);
+  source_.walk(source_.engine, LeafPart::scratch, stage_, sink);
   const std::uint64_t state = source_.state_hash(source_.engine);
   if (!scratch.any()) return state;
   HashCombiner root;
@@ -54,28 +54,8 @@ std::uint64_t StageView::hash() const {
 }
 
 void StageView::visit(const LeafSink& sink) const {
-  source_.walk(source_.engine, LeafPart::state, stage_, &sink, nullptr);
-  source_.walk(source_.engine, LeafPart::scratch, stage_, &sink, nullptr);
-}
-
-FaultDrill::FaultDrill(std::string_view path, std::uint32_t bit) : path_(path), bit_(bit) {}
-
-bool FaultDrill::strike(const StageView& view) const {
-  struct Search {
-    const FaultDrill& drill;
-    bool found = false;
-  } search{*this};
-  const LeafEditor editor = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                               Search& s = *static_cast<Search*>(user);
-                               if (s.drill.bit_ >= 8 * format.size || path_text(path) != s.drill.path_) return bits;
-                               s.found = true;
-                               return bits ^ std::uint64_t{1} << s.drill.bit_;
-                             },
-                             &search};
-  for (const LeafPart part : {LeafPart::state, LeafPart::scratch}) {
-    view.source_.walk(view.source_.engine, part, view.stage_, nullptr, &editor);
-  }
-  return search.found;
+  source_.walk(source_.engine, LeafPart::state, stage_, sink);
+  source_.walk(source_.engine, LeafPart::scratch, stage_, sink);
 }
 
 }  // namespace isostep

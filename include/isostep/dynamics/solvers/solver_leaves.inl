@@ -98,7 +98,7 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
     LaneOfBlock<S> lane(memory_.data() + run.offset + block, width, k % width, points, rolling);
     visit.one("prepared", order_[run.first + k],
               [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
-    if (visit.edits()) lane.write_back();
+    if constexpr (Visit::kEdits) lane.write_back();
   };
   for (const Run& run : runs_) {
     for (std::uint32_t k = 0; k < run.count; ++k) prepared(run, k);
@@ -144,7 +144,7 @@ void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const
       const bool rolling = context.geometry[c].material.rolling_resistance > S(0);
       LaneOfBlock<S> lane(memory_[c].bytes, 1, 0, points, rolling);
       visit.one("prepared", c, [&](const auto& of_contact) { lane.visit(of_contact, stage != SolverStage::prepare); });
-      if (visit.edits()) lane.write_back();
+      if constexpr (Visit::kEdits) lane.write_back();
     }
   }
   if (stage == SolverStage::prepare) return;

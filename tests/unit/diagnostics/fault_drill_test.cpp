@@ -1,11 +1,12 @@
 // A drill strikes what may be written, and says of anything else that it struck nothing.
 // SPDX-License-Identifier: MIT
-#include "isostep/state/leaves.inl"
+#include "diagnostics/fault_drill.hpp"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
+#include "diagnostics/leaf_editing.inl"
 #include "isostep/scalar/exact.hpp"
 #include "isostep/scalar/fixed.hpp"
 
@@ -32,10 +33,16 @@ struct Engine {
   Numbers own, shared;
 
   static std::uint64_t hash(const void*) { return 0; }
-  static void walk(void* engine, LeafPart part, std::uint32_t, const LeafSink* sink, const LeafEditor* editor) {
+  static void walk(void* engine, LeafPart part, std::uint32_t, const LeafSink& sink) {
+    visit_leaves(engine, part, LeafReading{sink});
+  }
+  static void edit(void* engine, LeafPart part, std::uint32_t, const LeafEditor& editor) {
+    visit_leaves(engine, part, LeafEditing{editor});
+  }
+  template <class Access> static void visit_leaves(void* engine, LeafPart part, const Access& access) {
     if (part != LeafPart::state) return;
     Engine& e = *static_cast<Engine*>(engine);
-    const LeafVisitor visit(nullptr, sink, editor);
+    const LeafVisitor visit(nullptr, access);
     visit("own", e.own);
     visit("shared", std::as_const(e.shared));
   }
@@ -59,11 +66,11 @@ TEST(Leaves, ADrillTurnsTheOneBitAndNoOther) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].path.rfind("own.", 0) != 0) continue;
     ++struck;
-    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view())) << before[i].path;
+    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit)) << before[i].path;
     const std::vector<NamedLeaf> after = leaves_of(engine);
     for (std::size_t j = 0; j < before.size(); ++j)
       EXPECT_EQ(after[j].bits, before[j].bits ^ (i == j ? 8u : 0u)) << before[i].path << " at " << before[j].path;
-    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view()));  // back
+    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit));  // back
   }
   EXPECT_EQ(struck, 6) << "two words of the wide sum";
 }
@@ -74,15 +81,15 @@ TEST(Leaves, ADrillOnWhatIsSharedStrikesNothing) {
   for (const NamedLeaf& leaf : leaves_of(engine)) {
     if (leaf.path.rfind("shared.", 0) != 0) continue;
     ++tried;
-    EXPECT_FALSE(FaultDrill(leaf.path, 3).strike(engine.view())) << leaf.path;
+    EXPECT_FALSE(FaultDrill(leaf.path, 3).strike(engine.view(), &Engine::edit)) << leaf.path;
   }
   EXPECT_EQ(tried, 6);
 }
 
 TEST(Leaves, ADrillOnWhatIsNotThereStrikesNothing) {
   Engine engine;
-  EXPECT_FALSE(FaultDrill("own.cuont", 3).strike(engine.view()));
-  EXPECT_FALSE(FaultDrill("own.count", 32).strike(engine.view()));
+  EXPECT_FALSE(FaultDrill("own.cuont", 3).strike(engine.view(), &Engine::edit));
+  EXPECT_FALSE(FaultDrill("own.count", 32).strike(engine.view(), &Engine::edit));
 }
 
 }  // namespace

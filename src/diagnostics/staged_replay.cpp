@@ -1,9 +1,8 @@
 // Which world a replay needs, played with somebody who watches.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/staged_replay.hpp"
+#include "diagnostics/staged_replay.hpp"
 
-#include <optional>
-
+#include "diagnostics/fault_drill.hpp"
 #include "isostep/core/number_text.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/state/replay_format.hpp"
@@ -19,6 +18,7 @@ struct Watch {
   const TraceSink* trace;  // or, for the leaves of one point:
   const StagePoint* at;
   const LeafSink* leaves;
+  EditLeaves edit = nullptr;  // of the world's engine
   std::uint64_t frame = 0;
   bool struck = false, visited = false;
 
@@ -28,9 +28,9 @@ struct Watch {
   void look(std::uint32_t step, const char* stage, const StageView& view) {
     const StageFault* const fault = how.fault;
     const bool faulty = fault != nullptr && is_at(fault->at, step, stage);
-    if (faulty) struck = FaultDrill(fault->path, fault->bit).strike(view);
+    if (faulty) struck = FaultDrill(fault->path, fault->bit).strike(view, edit);
     tell(step, stage, view);
-    if (faulty && fault->heals) FaultDrill(fault->path, fault->bit).strike(view);
+    if (faulty && fault->heals) FaultDrill(fault->path, fault->bit).strike(view, edit);
   }
   void tell(std::uint32_t step, const char* stage, const StageView& view) {
     if (trace != nullptr) trace->stage(trace->user, {frame, step, stage, view.hash()});
@@ -73,6 +73,7 @@ template <class W> Result<void> play_frame(W& world, Bytes tape, Watch& watch) {
 
 template <class W> Result<void> play_as(const ReplayReader& replay, Watch& watch) {
   W world;
+  watch.edit = edit_leaves_of(WorldTag<W>{});
   use_lanes(world, watch.how.simd);
   Reader reader(replay.state());
   const Result<void> read = world.read_portable(reader);

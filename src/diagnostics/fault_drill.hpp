@@ -1,0 +1,26 @@
+// A fault made on purpose: one bit of one leaf is turned after one stage.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "diagnostics/leaf_editor.hpp"
+
+namespace isostep {
+
+/// For tests of what finds faults: an index or a count that is turned may lead the engine beyond its arrays.
+class FaultDrill {
+ public:
+  FaultDrill(std::string_view path, std::uint32_t bit);
+  /// False when no leaf has that path and bit, or none that may be written: what lies in an island asleep is not.
+  /// `edit`: of the engine that the view is of.
+  bool strike(const StageView& view, EditLeaves edit) const;
+
+ private:
+  std::string path_;
+  std::uint32_t bit_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,18 @@
+// Editing the leaves of particle worlds, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "diagnostics/leaf_editing.inl"
+#include "isostep/particles/engine_leaves.inl"
+
+namespace isostep {
+
+template <class S>
+void edit_particle_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafEditor& editor) {
+  const LeafEditing editing = {editor};
+  static_cast<ParticleEngine<S>*>(engine)->visit_leaves(part, stage, LeafVisitor(nullptr, editing));
+}
+
+#define ISO_INSTANTIATE(S) template void edit_particle_leaves<S>(void*, LeafPart, std::uint32_t, const LeafEditor&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
