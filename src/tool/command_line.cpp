@@ -1,18 +1,25 @@
 // The command line: options in, an exit status out, errors as one line on stderr.
 // SPDX-License-Identifier: MIT
+#include "command_line.hpp"
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <iostream>
 
-#include "commands.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/particles/settings.hpp"
-#include "lab/report/report.hpp"
-#include "lab/tolerance.hpp"
-#include "scene_game.hpp"
-#include "tool.hpp"
+#include "tool/common/scene_game.hpp"
+#include "tool/common/tool.hpp"
+#include "tool/demo/commands.hpp"
+#include "tool/diff/commands.hpp"
+#include "tool/lab/commands.hpp"
+#include "tool/lab/report/report.hpp"
+#include "tool/lab/tolerance.hpp"
+#include "tool/match/commands.hpp"
+#include "tool/run/commands.hpp"
+#include "tool/verify/commands.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The isostep program.
 // SPDX-License-Identifier: MIT
-#include "commands.hpp"
+#include "command_line.hpp"
 
 int main(int argc, char** argv) { return isostep::tool::run_command_line(argc, argv); }

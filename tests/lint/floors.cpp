@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Folders of the library by their names in include/isostep, whose sources in src/isostep are on the same floor; the
-/// others by their names in src/.
+/// others by their paths in src/. A file directly in src/tool is of the folder "tool".
 const std::map<std::string, int> kFloors = {
     {"scalar", 0},  // below core, for it is a target of its own
     {"core", 1},
@@ -39,17 +39,28 @@ const std::map<std::string, int> kFloors = {
     {"diagnostics", 8},
     {"prover", 9},
     {"examples", 9},
-    {"tool", 9},
+    // The tool, see its page: what commands share, then commands that know nothing of each other.
+    {"tool/common", 9},
+    {"tool/page", 10},
+    {"tool/run", 11},
+    {"tool/diff", 11},
+    {"tool/verify", 11},
+    {"tool/match", 11},
+    {"tool/lab", 11},
+    {"tool/demo", 12},
+    {"tool", 13},  // main and the command line
 };
 
 /// "" for what has no folder; such files have no floor.
 std::string folder_of(const std::string& path) {
   static const std::regex library("(?:include|scalar/include|src)/isostep/([a-z]+)/.*");
+  static const std::regex tool("src/(tool/[a-z]+)/.*");
   static const std::regex other("src/([a-z]+)/.*");
   std::smatch match;
   if (starts_with(path, "scalar/src/")) return "scalar";
-  if (std::regex_match(path, match, library) || std::regex_match(path, match, other)) return match[1];
-  return "";
+  const bool found = std::regex_match(path, match, library) || std::regex_match(path, match, tool) ||
+                     std::regex_match(path, match, other);
+  return found ? match[1].str() : "";
 }
 
 /// The file that an #include names, from the root: beside the file, or in a folder that the compiler searches. Nothing

@@ -13,8 +13,8 @@
 #include "isostep/core/version.hpp"
 #include "isostep/state/replay_format.hpp"
 #include "own_folder.hpp"
-#include "tool/commands.hpp"
-#include "tool/files.hpp"
+#include "tool/command_line.hpp"
+#include "tool/common/files.hpp"
 
 namespace isostep::tool {
 namespace {

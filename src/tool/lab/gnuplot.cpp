@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "../tool.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 

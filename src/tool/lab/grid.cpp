@@ -4,11 +4,11 @@
 #include <iterator>
 #include <set>
 
-#include "../tool.hpp"
 #include "isostep/dynamics/solvers/solver_name.hpp"
 #include "isostep/particles/settings.hpp"
 #include "subject.hpp"
 #include "sweep.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

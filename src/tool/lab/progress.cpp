@@ -8,7 +8,7 @@
 #include <unistd.h>
 #endif
 
-#include "../tool.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "../files.hpp"
-#include "../tool.hpp"
 #include "isostep/dynamics/solvers/solver_name.hpp"
+#include "tool/common/files.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <memory>
 
-#include "../tool.hpp"
 #include "median.hpp"
 #include "particle_run.hpp"
 #include "rigid_run.hpp"
 #include "scenes/bars.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

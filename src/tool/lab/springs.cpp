@@ -1,13 +1,13 @@
 // The spring experiment's worlds, and what is measured of them.
 // SPDX-License-Identifier: MIT
-#include "tool/lab/springs.hpp"
+#include "springs.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/particle_world.hpp"
-#include "tool/tool.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

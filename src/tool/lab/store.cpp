@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "../files.hpp"
-#include "../tool.hpp"
+#include "tool/common/files.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "subject.hpp"
 
-#include "../games.hpp"
-#include "../tool.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/state/hash.hpp"
 #include "scenes/named.hpp"
 #include "scenes/scene_file.hpp"
+#include "tool/common/games.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

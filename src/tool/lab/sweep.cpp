@@ -11,10 +11,10 @@
 #include <numeric>
 #include <thread>
 
-#include "../tool.hpp"
 #include "progress.hpp"
 #include "run_point.hpp"
 #include "store.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

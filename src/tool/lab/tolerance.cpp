@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "../tool.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "own_folder.hpp"
-#include "tool/commands.hpp"
+#include "tool/command_line.hpp"
 
 namespace isostep::tool {
 

@@ -9,8 +9,9 @@
 #include "isostep/core/crc32c.hpp"
 #include "isostep/state/replay_format.hpp"
 #include "isostep/world/replay_check.hpp"
-#include "tool/files.hpp"
-#include "tool/goldens.hpp"
+#include "tool/common/files.hpp"
+#include "tool/common/hash_lines.hpp"
+#include "tool/verify/goldens.hpp"
 #include "unit/tool/command_line.hpp"
 
 namespace isostep::tool {

@@ -14,8 +14,8 @@
 #include "isostep/world/desync_bundle.hpp"
 #include "isostep/world/session_recorder.hpp"
 #include "own_folder.hpp"
-#include "tool/commands.hpp"
-#include "tool/files.hpp"
+#include "tool/command_line.hpp"
+#include "tool/common/files.hpp"
 #include "unit/world/played_session.hpp"
 
 namespace isostep::test {

@@ -15,7 +15,7 @@
 
 #include "isostep/state/replay_format.hpp"
 #include "isostep/world/world_kinds.hpp"
-#include "tool/stage_side.hpp"
+#include "tool/diff/stage_side.hpp"
 
 namespace isostep::test {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "lab_results.hpp"
+#include "tool/common/tool.hpp"
 #include "tool/lab/advice.hpp"
 #include "tool/lab/tolerance.hpp"
-#include "tool/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "own_folder.hpp"
 #include "scenes/named.hpp"
+#include "tool/common/tool.hpp"
 #include "tool/lab/models.hpp"
 #include "tool/lab/particle_run.hpp"
 #include "tool/lab/run_point.hpp"
 #include "tool/lab/sweep.hpp"
-#include "tool/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

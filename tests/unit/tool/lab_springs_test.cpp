@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "own_folder.hpp"
-#include "tool/commands.hpp"
+#include "tool/command_line.hpp"
+#include "tool/common/tool.hpp"
 #include "tool/lab/springs.hpp"
-#include "tool/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

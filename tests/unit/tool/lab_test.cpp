@@ -10,8 +10,8 @@
 
 #include "lab_results.hpp"
 #include "own_folder.hpp"
+#include "tool/common/tool.hpp"
 #include "tool/lab/store.hpp"
-#include "tool/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "own_folder.hpp"
-#include "tool/checked_file.hpp"
-#include "tool/commands.hpp"
-#include "tool/diff_bundles.hpp"
+#include "tool/command_line.hpp"
+#include "tool/diff/diff_bundles.hpp"
+#include "tool/verify/checked_file.hpp"
 #include "unit/state/toy_world.hpp"
 
 namespace toy {

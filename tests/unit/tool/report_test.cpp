@@ -5,8 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "tool/goldens.hpp"
-#include "tool/run_report.hpp"
+#include "tool/common/hash_lines.hpp"
+#include "tool/verify/goldens.hpp"
+#include "tool/run/run_report.hpp"
 
 namespace isostep::tool {
 namespace {

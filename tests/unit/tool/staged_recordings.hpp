@@ -13,7 +13,7 @@
 #include "isostep/particles/recorder.hpp"
 #include "isostep/world/recorder.hpp"
 #include "own_folder.hpp"
-#include "tool/commands.hpp"
+#include "tool/command_line.hpp"
 
 namespace isostep::test {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "../../tool.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/script.hpp"
 #include "scenes/shapes.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../result.hpp"
+#include "tool/lab/result.hpp"
 
 namespace isostep::tool::lab {
 

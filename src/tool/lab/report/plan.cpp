@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "../../tool.hpp"
 #include "isostep/dynamics/solvers/solver_name.hpp"
 #include "scenes/named.hpp"
+#include "tool/common/tool.hpp"
 
 namespace isostep::tool::lab {
 namespace {

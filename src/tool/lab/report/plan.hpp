@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "../result.hpp"
 #include "scenes/bars.hpp"
+#include "tool/lab/result.hpp"
 
 namespace isostep::tool::lab {
 

@@ -8,14 +8,14 @@
 #include <iostream>
 #include <thread>
 
-#include "../../commands.hpp"
-#include "../../files.hpp"
-#include "../../tool.hpp"
-#include "../gnuplot.hpp"
-#include "../sweep.hpp"
 #include "charts.hpp"
 #include "isostep/core/version.hpp"
 #include "page.hpp"
+#include "tool/common/files.hpp"
+#include "tool/common/tool.hpp"
+#include "tool/lab/commands.hpp"
+#include "tool/lab/gnuplot.hpp"
+#include "tool/lab/sweep.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "stage_costs.hpp"
 
-#include "../../tool.hpp"
-#include "../median.hpp"
 #include "isostep/world/stages.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/script.hpp"
+#include "tool/common/tool.hpp"
+#include "tool/lab/median.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -1,3 +1,3 @@
 // A source that includes the tool.
 // SPDX-License-Identifier: MIT
-#include "tool/high.hpp"
+#include "tool/run/high.hpp"

@@ -1,0 +1,36 @@
+// Files that hold worlds: recordings and snapshots, read whole, and how they are refused.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "files.hpp"
+#include "isostep/state/verify.hpp"
+
+namespace isostep::tool {
+
+struct Input {
+  std::string path;
+  std::vector<std::uint8_t> bytes;
+
+  explicit Input(const std::string& p) : path(p), bytes(read_file(p)) {}
+  bool is_replay() const {
+    return bytes.size() >= sizeof kReplayMagic && std::memcmp(bytes.data(), kReplayMagic, sizeof kReplayMagic) == 0;
+  }
+};
+
+/// With the exit status of `verify` for such a file.
+[[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error);
+
+/// Of HEAD.
+struct ReplayKind {
+  std::string world;
+  std::uint64_t scalar;  // its number
+};
+/// Once the file is known to be whole blocks with a start; others are refused. A cut one gets a line on stderr.
+ReplayKind kind_of(const Input& input);
+
+}  // namespace isostep::tool

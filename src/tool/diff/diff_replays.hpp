@@ -1,0 +1,24 @@
+// What both ways of comparing replays share: whether two can be compared at all, and what was recorded of those that
+// play alike.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "tool/common/recorded_file.hpp"
+
+namespace isostep::tool {
+
+inline constexpr char kTapesDiffer[] = "  the commands or steps of this frame differ\n";
+
+/// False after a line on stdout that says what differs.
+bool are_comparable(const ReplayKind& a, const ReplayKind& b);
+
+/// Played here they agree, so at least one was recorded by something that behaves otherwise; an exit status.
+int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::uint64_t here);
+
+/// Of replays that play alike for so many frames: whether the recorded hashes agree as well, those of one replay twice
+/// with what is played here. False after a line on stdout that says where they do not.
+bool are_recorded_alike(const Input& a, const Input& b, std::uint64_t frames);
+
+}  // namespace isostep::tool

@@ -1,0 +1,35 @@
+// What the tool's networked commands share: addresses, profiles, a clock, and files that tell a port.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "isostep/core/result.hpp"
+#include "isostep/session/frame.hpp"
+#include "tool/common/tool.hpp"
+#include "transport/network_profile.hpp"
+
+namespace isostep::tool {
+
+/// A clock that never runs backwards [us].
+Time steady_now();
+
+struct Address {
+  std::string host;
+  std::uint16_t port;
+};
+/// Of "HOST:PORT". Throws ToolError 64.
+Address parse_address(const std::string& text);
+/// A profile's name or items. Throws ToolError 64.
+transport::NetworkProfile profile_of(const std::string& text);
+/// Into the file, unless its name is empty: for scripts that let the system choose. Throws ToolError 74.
+void write_port(const std::string& path, std::uint16_t port);
+
+/// The value, or a ToolError 66 that begins with `what`.
+template <class T> T expect(Result<T> result, const std::string& what) {
+  if (!result) throw ToolError(exit_status::kNoInput, what + ": " + std::string(result.error().message.view()));
+  return std::move(result.value());
+}
+
+}  // namespace isostep::tool

@@ -1,0 +1,30 @@
+// The commands verify, rebake and selfcheck: what each is told; each returns an exit status.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace isostep::tool {
+
+struct VerifyOptions {
+  std::vector<std::string> paths;
+  int jobs = 1;
+  bool json = false;
+  double max_seconds = 0;  // [s] of all files together; 0: any number
+  int max_memory = 0;      // [MiB] beyond what the program takes itself; 0: any number
+};
+int command_verify(const VerifyOptions& options);
+
+struct RebakeOptions {
+  std::string directory;  // empty: the repository's
+  bool record = false;    // the self-check's recordings instead of the lists
+};
+int command_rebake(const RebakeOptions& options);
+
+struct SelfcheckOptions {
+  bool verbose = false, json = false;
+};
+int command_selfcheck(const SelfcheckOptions& options);
+
+}  // namespace isostep::tool

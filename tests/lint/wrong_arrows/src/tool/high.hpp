@@ -1,3 +1,0 @@
-// A header of the tool.
-// SPDX-License-Identifier: MIT
-#pragma once

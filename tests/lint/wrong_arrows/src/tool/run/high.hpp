@@ -1,0 +1,3 @@
+// A header of a command.
+// SPDX-License-Identifier: MIT
+#pragma once
