@@ -57,11 +57,10 @@ VerifyResult corrupt(std::uint64_t frames, std::size_t offset, const Error& erro
 VerifyResult incompatible(const HeaderMismatch& mismatch);
 bool same_bytes(Bytes a, Bytes b);
 
-/// `sim` becomes the span's start, which must be the state that the replay has there; `verified` if it is.
+/// `sim` becomes the span's start; `verified` if that can be read.
 template <ReplayableSimulation Sim>
-ISO_INLINE VerifyResult verify_start(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
+ISO_INLINE VerifyResult read_start(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
   const bool own = span.state.empty();
-  if (span.first > replay.frame_count()) return too_short(replay);
   Reader reader(own ? replay.state() : span.state);
   Result<void> read = sim.read_portable(reader);
   if (read) {
@@ -69,17 +68,16 @@ ISO_INLINE VerifyResult verify_start(const ReplayReader& replay, Sim& sim, const
     read = reader.result(own ? "INIT" : "state");
   }
   if (!read) return corrupt(span.first, (own ? replay.state_offset() : 0) + reader.offset(), read.error());
-  const std::uint64_t expected = span.first == 0 ? replay.state_hash() : replay.frame(span.first - 1).hash;
-  const std::uint64_t hash = sim.hash();
-  if (hash != expected) return diverged(VerifyResult::Where::start, span.first, expected, hash);
   return {};
 }
 
-/// Steps through what the reader holds. A keyframe must be, byte for byte, the state that was reached.
+/// `sim` is at the span's start, which must be the state that the replay has there. Steps through what the reader holds.
+/// A keyframe must be, byte for byte, the state that was reached.
 template <ReplayableSimulation Sim>
 ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
-  const VerifyResult start = verify_start(replay, sim, span);
-  if (start.outcome != VerifyOutcome::verified) return start;
+  const std::uint64_t expected = span.first == 0 ? replay.state_hash() : replay.frame(span.first - 1).hash;
+  const std::uint64_t hash = sim.hash();
+  if (hash != expected) return diverged(VerifyResult::Where::start, span.first, expected, hash);
 
   const std::uint64_t left = replay.frame_count() - span.first;
   const std::uint64_t count = left < span.count ? left : span.count;
@@ -120,7 +118,9 @@ ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& che
     if (!mismatch.key.empty()) return detail::incompatible(mismatch);
   }
   if (!replay.has_state()) return detail::verify_end(replay, 0);
-  return detail::verify_frames(replay, sim, span);
+  if (span.first > replay.frame_count()) return detail::too_short(replay);
+  const VerifyResult start = detail::read_start(replay, sim, span);
+  return start.outcome == VerifyOutcome::verified ? detail::verify_frames(replay, sim, span) : start;
 }
 
 /// Accepts what has the same required fields as `here`.

@@ -21,14 +21,11 @@ std::string worlds_here() {
   return names;
 }
 
-/// The header that this build would write for the world in the file; without one, for what the file claims.
-template <class W> Result<ReplayHeader> header_here(const ReplayReader& replay, const ReplayIdentity& claimed) {
-  ReplayIdentity here = claimed;
-  if (replay.has_state()) {
-    W world;
-    Reader reader(replay.state());
-    if (world.read_portable(reader)) here = identity_of_world(world.settings(), claimed.scene);
-  }
+/// The header that this build would write for `settings` of the world in the file, or, with null, for what the file
+/// claims.
+template <class W, class Settings>
+Result<ReplayHeader> header_here(const Settings* settings, const ReplayIdentity& claimed) {
+  ReplayIdentity here = settings != nullptr ? identity_of_world(*settings, claimed.scene) : claimed;
   here.behaviour = behaviour_version();
   here.scalar = ScalarTraits<typename W::Scalar>::kName;
   here.scalar_id = ScalarTraits<typename W::Scalar>::kId;
@@ -37,19 +34,30 @@ template <class W> Result<ReplayHeader> header_here(const ReplayReader& replay, 
   return make_replay_header(here);
 }
 
+/// Of a file that is sound in itself. Its start is read once: for the header that this build would write, and to be
+/// stepped on. `lanes`: becomes what steps it once the header is one that can be compared.
+template <class W>
+VerifyResult verify_as(const ReplayReader& replay, W& world, const ReplayIdentity& claimed, const VerifySpan& span,
+                       const char*& lanes) {
+  const VerifyResult start = replay.has_state() ? detail::read_start(replay, world, {}) : VerifyResult{};
+  const bool known = replay.has_state() && start.outcome == VerifyOutcome::verified;
+  const Result<ReplayHeader> here = header_here<W>(known ? &world.settings() : nullptr, claimed);
+  if (!here) return detail::corrupt(0, 0, {ErrorCode::corrupt, "the header's scene or solver cannot be read", ""});
+  lanes = world.simd_name();
+  const HeaderMismatch mismatch = compare_headers(replay.header(), here.value());
+  if (!mismatch.key.empty()) return detail::incompatible(mismatch);
+  if (!replay.has_state()) return detail::verify_end(replay, 0);
+  if (span.first > replay.frame_count()) return detail::too_short(replay);
+  const VerifyResult begun = span.state.empty() ? start : detail::read_start(replay, world, span);
+  return begun.outcome == VerifyOutcome::verified ? detail::verify_frames(replay, world, span) : begun;
+}
+
 template <class W>
 void check_as(const ReplayReader& replay, const ReplayIdentity& claimed, const ReplayCheck& check,
               CheckedReplay& checked) {
-  const Result<ReplayHeader> here = header_here<W>(replay, claimed);
-  if (!here) {
-    const Error error = {ErrorCode::corrupt, "the header's scene or solver cannot be read", ""};
-    checked.result = detail::corrupt(0, 0, error);
-    return;
-  }
   W world;
   use_lanes(world, check.simd);
-  checked.lanes = world.simd_name();
-  checked.result = verify(replay, world, SameHeader{here.value()}, check.span);
+  checked.result = verify_as(replay, world, claimed, check.span, checked.lanes);
   if (check.reached == nullptr || checked.result.outcome != VerifyOutcome::verified) return;
   check.reached->clear();
   Writer writer(*check.reached);
