@@ -86,17 +86,14 @@ template <class W> Result<void> play_as(const ReplayReader& replay, Watch& watch
   return {};
 }
 
-Result<void> play(Bytes file, Watch& watch) {
-  const ReplayReader replay(file);
+Result<void> play(const ReplayReader& replay, Watch& watch) {
   if (!replay.has_state() || replay.status() == ReplayStatus::corrupt || replay.status() == ReplayStatus::incompatible)
     return replay.error();
-  const Result<std::uint64_t> scalar = replay.header().number("scalar_id");
-  if (!scalar) return scalar.error();
-  const ReplayField* const kind = replay.header().find(kWorldKey);
+  const Result<RecordedWorld> world = recorded_world(replay.header());
+  if (!world) return world.error();
   Result<void> played;
   const std::string_view missing =
-      with_world(kind == nullptr ? std::string_view() : kind->value.view(), scalar.value(),
-                 [&](auto tag) { played = play_as<typename decltype(tag)::Type>(replay, watch); });
+      with_world(world.value(), [&](auto tag) { played = play_as<typename decltype(tag)::Type>(replay, watch); });
   if (!missing.empty()) return Error{ErrorCode::incompatible, "of a world that this build lacks", missing};
   return played;
 }
@@ -133,15 +130,16 @@ bool read_stage_fault(std::string_view text, StageFault& fault) {
   return true;
 }
 
-Result<void> trace_stages(Bytes file, const StagedReplay& how, const TraceSink& sink) {
+Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, const TraceSink& sink) {
   Watch watch = {how, &sink, nullptr, nullptr};
-  const Result<void> played = play(file, watch);
+  const Result<void> played = play(replay, watch);
   return played ? end_of(watch) : played;
 }
 
-Result<void> visit_stage(Bytes file, const StagedReplay& how, const StagePoint& at, const LeafSink& sink) {
+Result<void> visit_stage(const ReplayReader& replay, const StagedReplay& how, const StagePoint& at,
+                         const LeafSink& sink) {
   Watch watch = {how, nullptr, &at, &sink};
-  const Result<void> played = play(file, watch);
+  const Result<void> played = play(replay, watch);
   if (!played) return played;
   if (!watch.visited) return Error{ErrorCode::invalid, "the recording has no such stage", std::string_view(at.stage)};
   return end_of(watch);

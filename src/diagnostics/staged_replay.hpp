@@ -60,9 +60,10 @@ struct TraceSink {
 /// Every stage of every step, and the end of every frame. A recording that is cut off is played as far as it goes. What
 /// it says of its behaviour version does not matter, nor do its hashes: `invalid` is a fault that struck nothing, all
 /// else is the file's.
-Result<void> trace_stages(Bytes file, const StagedReplay& how, const TraceSink& sink);
+Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, const TraceSink& sink);
 
 /// At one point; `invalid` when the recording has not got it.
-Result<void> visit_stage(Bytes file, const StagedReplay& how, const StagePoint& at, const LeafSink& sink);
+Result<void> visit_stage(const ReplayReader& replay, const StagedReplay& how, const StagePoint& at,
+                         const LeafSink& sink);
 
 }  // namespace isostep

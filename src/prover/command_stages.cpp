@@ -3,9 +3,9 @@
 #include <string>
 
 #include "commands.hpp"
+#include "diagnostics/staged_replay.hpp"
 #include "isostep/core/short_text.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "diagnostics/staged_replay.hpp"
 #include "streams.hpp"
 
 namespace isostep::prover {
@@ -30,8 +30,7 @@ int answer(const Result<void>& played) {
 }
 
 /// All that is there has been traced; that more was asked for is told as `verify` tells it.
-int end_of(Bytes file, std::uint64_t frames) {
-  const ReplayReader replay(file);
+int end_of(const ReplayReader& replay, std::uint64_t frames) {
   if (replay.status() != ReplayStatus::truncated || frames <= replay.frame_count()) return exit_status::kOk;
   return answer(replay.error());
 }
@@ -54,8 +53,9 @@ int command_trace(const Request& request) {
                             print(line.view());
                           },
                           nullptr};
-  const int status = answer(trace_stages(file, how(request), sink));
-  return status == exit_status::kOk ? end_of(file, request.frames) : status;
+  const ReplayReader replay(file);
+  const int status = answer(trace_stages(replay, how(request), sink));
+  return status == exit_status::kOk ? end_of(replay, request.frames) : status;
 }
 
 int command_leaves(const Request& request) {
@@ -70,8 +70,9 @@ int command_leaves(const Request& request) {
                            print(leaf_line({path_text(path), format, bits}) + "\n");
                          },
                          nullptr};
-  const Result<void> visited = visit_stage(file, how(request), at, sink);
-  if (!visited && visited.error().code == ErrorCode::invalid && at.frame >= ReplayReader(file).frame_count()) {
+  const ReplayReader replay(file);
+  const Result<void> visited = visit_stage(replay, how(request), at, sink);
+  if (!visited && visited.error().code == ErrorCode::invalid && at.frame >= replay.frame_count()) {
     return refuse(exit_code(VerifyOutcome::truncated), "the recording is shorter than that", request.operands[1]);
   }
   return answer(visited);

@@ -71,13 +71,13 @@ ISO_INLINE VerifyResult read_start(const ReplayReader& replay, Sim& sim, const V
   return {};
 }
 
-/// `sim` is at the span's start, which must be the state that the replay has there. Steps through what the reader holds.
-/// A keyframe must be, byte for byte, the state that was reached.
+/// `sim` is at the span's start, which must be the state that the replay has there. Steps through what the reader
+/// holds. A keyframe must be, byte for byte, the state that was reached.
 template <ReplayableSimulation Sim>
 ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
   const std::uint64_t expected = span.first == 0 ? replay.state_hash() : replay.frame(span.first - 1).hash;
-  const std::uint64_t hash = sim.hash();
-  if (hash != expected) return diverged(VerifyResult::Where::start, span.first, expected, hash);
+  const std::uint64_t begun = sim.hash();
+  if (begun != expected) return diverged(VerifyResult::Where::start, span.first, expected, begun);
 
   const std::uint64_t left = replay.frame_count() - span.first;
   const std::uint64_t count = left < span.count ? left : span.count;

@@ -13,6 +13,7 @@
 #include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/recorder.hpp"
+#include "isostep/state/replay_header.hpp"
 #include "isostep/world/recorder.hpp"
 #include "isostep/world/stages.hpp"
 
@@ -75,11 +76,22 @@ ISO_INLINE std::string_view with_world(std::string_view kind, std::string_view s
   return with_world_if(
       kind, [&](std::string_view name, std::uint32_t) ISO_INLINE_LAMBDA { return name == scalar; }, visit);
 }
-template <class Visit>
-ISO_INLINE std::string_view with_world(std::string_view kind, std::uint64_t scalar_id, Visit&& visit) {
-  return with_world_if(
-      kind, [&](std::string_view, std::uint32_t id) ISO_INLINE_LAMBDA { return id == scalar_id; }, visit);
+/// What the header of a recording says of its world; views of it.
+struct RecordedWorld {
+  std::string_view kind;    // WorldTraits::kName
+  std::uint64_t scalar_id;  // of ScalarTraits
+};
+ISO_INLINE Result<RecordedWorld> recorded_world(const ReplayHeader& header) {
+  const Result<std::uint64_t> scalar = header.number("scalar_id");
+  if (!scalar) return scalar.error();
+  const ReplayField* const kind = header.find(kWorldKey);
+  return RecordedWorld{kind == nullptr ? std::string_view() : kind->value.view(), scalar.value()};
 }
+template <class Visit> ISO_INLINE std::string_view with_world(const RecordedWorld& world, Visit&& visit) {
+  return with_world_if(
+      world.kind, [&](std::string_view, std::uint32_t id) ISO_INLINE_LAMBDA { return id == world.scalar_id; }, visit);
+}
+
 /// visit(WorldTag<W>{}) for the world whose portable form begins with that number; false when there is none.
 template <class Visit> ISO_INLINE bool with_portable_world(std::uint32_t id, Visit&& visit) {
   return any_world([&](auto tag) ISO_INLINE_LAMBDA {

@@ -9,14 +9,16 @@
 
 #include "files.hpp"
 #include "isostep/state/verify.hpp"
+#include "isostep/world/world_kinds.hpp"
 
 namespace isostep::tool {
 
 struct Input {
   std::string path;
   std::vector<std::uint8_t> bytes;
+  ReplayReader replay;  // of the bytes; says what is wrong with those that are no replay
 
-  explicit Input(const std::string& p) : path(p), bytes(read_file(p)) {}
+  explicit Input(const std::string& p) : path(p), bytes(read_file(p)), replay(bytes) {}
   bool is_replay() const {
     return bytes.size() >= sizeof kReplayMagic && std::memcmp(bytes.data(), kReplayMagic, sizeof kReplayMagic) == 0;
   }
@@ -25,12 +27,7 @@ struct Input {
 /// With the exit status of `verify` for such a file.
 [[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error);
 
-/// Of HEAD.
-struct ReplayKind {
-  std::string world;
-  std::uint64_t scalar;  // its number
-};
 /// Once the file is known to be whole blocks with a start; others are refused. A cut one gets a line on stderr.
-ReplayKind kind_of(const Input& input);
+RecordedWorld world_of(const Input& input);
 
 }  // namespace isostep::tool

@@ -26,7 +26,7 @@ inline const ReplayAncillary* facts_chunk(const ReplayReader& replay) {
 /// Frames are counted as the session counted them.
 template <class W> class RecordedPeer {
  public:
-  explicit RecordedPeer(const Input& input) : path_(input.path), replay_(input.bytes) {
+  explicit RecordedPeer(const Input& input) : path_(input.path), replay_(input.replay) {
     if (const ReplayAncillary* chunk = facts_chunk(replay_)) {
       Result<BundleFacts> facts = read_facts(chunk->payload, replay_.frame_count(), kHashes);
       if (!facts) refuse(path_, VerifyOutcome::corrupt, facts.error());
@@ -113,7 +113,7 @@ template <class W> class RecordedPeer {
   }
 
   const std::string& path_;
-  ReplayReader replay_;
+  const ReplayReader& replay_;
   std::optional<BundleFacts> facts_;
   Frame first_ = 0;
 };

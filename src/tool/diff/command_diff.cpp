@@ -16,7 +16,7 @@ namespace {
 /// One of the two replays, played here.
 template <class W> class Player {
  public:
-  explicit Player(const Input& input) : input_(input), replay_(input.bytes) {
+  explicit Player(const Input& input) : input_(input), replay_(input.replay) {
     Reader reader(replay_.state());
     const Result<void> read = world_.read_portable(reader);
     if (!read) refuse(input.path, VerifyOutcome::corrupt, read.error());
@@ -39,7 +39,7 @@ template <class W> class Player {
 
  private:
   const Input& input_;
-  ReplayReader replay_;
+  const ReplayReader& replay_;
   W world_;
   typename W::Snapshot before_;
 };
@@ -80,11 +80,11 @@ template <class W> int diff_as(const Input& input_a, const Input& input_b) {
 }
 
 int diff_replays(const Input& a, const Input& b) {
-  const ReplayKind kind = kind_of(a);
-  if (!are_comparable(kind, kind_of(b))) return exit_status::kDifferent;
+  const RecordedWorld world = world_of(a);
+  if (!are_comparable(world, world_of(b))) return exit_status::kDifferent;
   int status = exit_code(VerifyOutcome::incompatible);
   const bool bundles = is_bundle(a) || is_bundle(b);
-  const std::string_view missing = with_world(kind.world, kind.scalar, [&](auto tag) {
+  const std::string_view missing = with_world(world, [&](auto tag) {
     using W = typename decltype(tag)::Type;
     status = bundles ? diff_bundles<W>(a, b) : diff_as<W>(a, b);
   });

@@ -15,7 +15,7 @@
 
 namespace isostep::tool {
 
-inline bool is_bundle(const Input& input) { return facts_chunk(ReplayReader(input.bytes)) != nullptr; }
+inline bool is_bundle(const Input& input) { return facts_chunk(input.replay) != nullptr; }
 
 template <class W> void print_peer(const char* name, const RecordedPeer<W>& peer) {
   std::printf("%s: ", name);

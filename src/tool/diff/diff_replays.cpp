@@ -12,7 +12,7 @@ namespace isostep::tool {
 namespace {
 
 template <class W> std::vector<std::uint64_t> hashes_as(const Input& input, std::uint64_t frames) {
-  const ReplayReader replay(input.bytes);
+  const ReplayReader& replay = input.replay;
   W world;
   Reader reader(replay.state());
   const Result<void> read = world.read_portable(reader);
@@ -28,18 +28,15 @@ template <class W> std::vector<std::uint64_t> hashes_as(const Input& input, std:
 }
 /// After each of the first frames, as it comes out here; empty where this build lacks the world.
 std::vector<std::uint64_t> hashes_here(const Input& input, std::uint64_t frames) {
-  const ReplayReader replay(input.bytes);
-  const Result<std::uint64_t> scalar = replay.header().number("scalar_id");
-  const ReplayField* const world = replay.header().find(kWorldKey);
+  const Result<RecordedWorld> world = recorded_world(input.replay.header());
   std::vector<std::uint64_t> hashes;
-  if (!scalar) return hashes;
-  with_world(world == nullptr ? std::string_view() : world->value.view(), scalar.value(),
-             [&](auto tag) { hashes = hashes_as<typename decltype(tag)::Type>(input, frames); });
+  if (!world) return hashes;
+  with_world(world.value(), [&](auto tag) { hashes = hashes_as<typename decltype(tag)::Type>(input, frames); });
   return hashes;
 }
 
 bool comes_out_as_recorded(const Input& input, std::uint64_t frames) {
-  const ReplayReader replay(input.bytes);
+  const ReplayReader& replay = input.replay;
   const std::vector<std::uint64_t> here = hashes_here(input, frames);
   for (std::size_t i = 0; i < here.size(); ++i) {
     const std::uint64_t recorded = replay.frame(i).hash;
@@ -53,9 +50,9 @@ bool comes_out_as_recorded(const Input& input, std::uint64_t frames) {
 
 }  // namespace
 
-bool are_comparable(const ReplayKind& a, const ReplayKind& b) {
-  if (a.world == b.world && a.scalar == b.scalar) return true;
-  std::printf("the %s differ\n", a.world != b.world ? "kinds of world" : "scalars");
+bool are_comparable(const RecordedWorld& a, const RecordedWorld& b) {
+  if (a.kind == b.kind && a.scalar_id == b.scalar_id) return true;
+  std::printf("the %s differ\n", a.kind != b.kind ? "kinds of world" : "scalars");
   return false;
 }
 
@@ -69,11 +66,10 @@ int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::
 }
 
 bool are_recorded_alike(const Input& a, const Input& b, std::uint64_t frames) {
-  const ReplayReader replay_a(a.bytes), replay_b(b.bytes);
-  const std::uint64_t both = std::min({frames, replay_a.frame_count(), replay_b.frame_count()});
+  const std::uint64_t both = std::min({frames, a.replay.frame_count(), b.replay.frame_count()});
   if (isostep::detail::same_bytes(a.bytes, b.bytes)) return comes_out_as_recorded(a, both);
   for (std::uint64_t i = 0; i < both; ++i) {
-    const std::uint64_t of_a = replay_a.frame(i).hash, of_b = replay_b.frame(i).hash;
+    const std::uint64_t of_a = a.replay.frame(i).hash, of_b = b.replay.frame(i).hash;
     if (of_a == of_b) continue;
     const std::vector<std::uint64_t> here = hashes_here(a, i + 1);
     if (!here.empty()) {

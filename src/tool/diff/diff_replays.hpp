@@ -12,7 +12,7 @@ namespace isostep::tool {
 inline constexpr char kTapesDiffer[] = "  the commands or steps of this frame differ\n";
 
 /// False after a line on stdout that says what differs.
-bool are_comparable(const ReplayKind& a, const ReplayKind& b);
+bool are_comparable(const RecordedWorld& a, const RecordedWorld& b);
 
 /// Played here they agree, so at least one was recorded by something that behaves otherwise; an exit status.
 int report_recorded(std::uint64_t frame, std::uint64_t a, std::uint64_t b, std::uint64_t here);

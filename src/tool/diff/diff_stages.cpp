@@ -56,8 +56,8 @@ int report(const Input& input_a, const StageSide& a, const Points& trace_a, cons
   const std::vector<const char*>& stages = (of_a.stages().empty() ? of_b : of_a).stages();
   const StagePlace place(of_a.hashes(), of_b.hashes(), stages);
   std::printf("frame %llu, %s\n", static_cast<unsigned long long>(frame), place.text().c_str());
-  const ReplayReader replay_a(input_a.bytes), replay_b(input_b.bytes);
-  const bool same_tapes = isostep::detail::same_bytes(replay_a.frame(frame).input, replay_b.frame(frame).input);
+  const bool same_tapes =
+      isostep::detail::same_bytes(input_a.replay.frame(frame).input, input_b.replay.frame(frame).input);
   if (!same_tapes) std::printf("%s", kTapesDiffer);
   const std::size_t stage = place.index % place.hashes;
   const StagePoint at = {frame, static_cast<std::uint32_t>(place.index / place.hashes) + 1,
@@ -93,8 +93,8 @@ int diff_stages(const DiffOptions& options) {
   for (const Input* input : {&input_a, &input_b}) {
     if (!input->is_replay()) throw ToolError(exit_status::kUsage, input->path + ": --stages compares replays");
   }
-  const ReplayKind kind = kind_of(input_a);
-  if (!options.b.empty() && !are_comparable(kind, kind_of(input_b))) return exit_status::kDifferent;
+  const RecordedWorld world = world_of(input_a);
+  if (!options.b.empty() && !are_comparable(world, world_of(input_b))) return exit_status::kDifferent;
   const auto side = [](const Input& input, const std::string& prover) {
     return prover.empty() ? played_here(input) : played_by(prover, input);
   };

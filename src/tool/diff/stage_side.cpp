@@ -31,7 +31,7 @@ class Here : public StageSide {
                                   {{traced.frame, traced.step, traced.stage}, traced.hash});
                             },
                             &points};
-    check(trace_stages(input_.bytes, how_, sink));
+    check(trace_stages(input_.replay, how_, sink));
     return points;
   }
   LeafList leaves(const StagePoint& at) const override {
@@ -40,7 +40,7 @@ class Here : public StageSide {
                              static_cast<LeafList*>(user)->add({path_text(path), format, bits});
                            },
                            &list};
-    check(visit_stage(input_.bytes, how_, at, sink));
+    check(visit_stage(input_.replay, how_, at, sink));
     return list;
   }
 
@@ -103,11 +103,12 @@ bool read_point(const std::string& line, TracePoint& point) {
 /// Of the kind of world that was recorded, in their order; none of a kind that this build does not know.
 using Stages = std::span<const char* const>;
 Stages stages_of(const ReplayReader& replay) {
-  const ReplayField* const kind = replay.header().find(kWorldKey);
+  const Result<RecordedWorld> world = recorded_world(replay.header());
   Stages stages;
+  if (!world) return stages;
   any_world([&](auto tag) {
     using Traits = WorldTraits<typename decltype(tag)::Type>;
-    if ((kind == nullptr ? std::string_view() : kind->value.view()) != Traits::kName) return false;
+    if (world.value().kind != Traits::kName) return false;
     stages = Traits::kStages;
     return true;
   });
@@ -133,7 +134,7 @@ class Elsewhere : public StageSide {
 
   std::vector<TracePoint> trace() const override {
     std::vector<TracePoint> points;
-    const ReplayReader replay(input_.bytes);
+    const ReplayReader& replay = input_.replay;
     const Stages stages = stages_of(replay);
     const bool cut = replay.status() == ReplayStatus::truncated;  // which a prover tells by its status
     const auto take = [&](const std::string& line) {

@@ -32,8 +32,7 @@ void film_frames(const RecordedPeer<W>& peer, Frame from, Frame end, int every, 
 }
 
 template <class Visit> void with_world_of(const Input& input, Visit&& visit) {
-  const ReplayKind kind = kind_of(input);
-  const std::string_view missing = with_world(kind.world, kind.scalar, visit);
+  const std::string_view missing = with_world(world_of(input), visit);
   if (!missing.empty()) {
     throw ToolError(exit_code(VerifyOutcome::incompatible),
                     input.path + ": of a " + std::string(missing) + " that this build lacks");
@@ -41,8 +40,7 @@ template <class Visit> void with_world_of(const Input& input, Visit&& visit) {
 }
 
 std::string scene_of(const Input& input) {
-  const ReplayReader replay(input.bytes);
-  const ReplayField* const scene = replay.header().find("scene");
+  const ReplayField* const scene = input.replay.header().find("scene");
   return scene == nullptr ? input.path : std::string(scene->value.view());
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tool/common/tool.hpp"
 #include "unit/tool/drills.hpp"
 #include "unit/tool/staged_recordings.hpp"
 
