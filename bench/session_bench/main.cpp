@@ -37,7 +37,7 @@ constexpr Part kParts[] = {{"overhead", report_overhead},
 int main(int count, char** words) {
   using namespace isostep::bench;
   SessionBenchOptions options;
-  options.scalars = scalar_names();
+  options.scalars = isostep::scalar_names();
   std::vector<std::string> parts;
   for (const Part& part : kParts) parts.push_back(part.name);
   CLI::App app("What sessions cost: time in a frame, bytes on a link, rollbacks, kept states");
@@ -47,7 +47,7 @@ int main(int count, char** words) {
   app.add_option("--players", options.players, "Of overhead and bandwidth")->delimiter(',')->check(CLI::Range(2, 8));
   app.add_option("--scalars", options.scalars, "Of rollback, drive and kept")
       ->delimiter(',')
-      ->check(CLI::IsMember(scalar_names()));
+      ->check(CLI::IsMember(isostep::scalar_names()));
   app.add_option("--frames", options.frames, "Of a match of overhead")->check(CLI::Range(400, 100000));
   app.add_option("--repeats", options.repeats, "Of the same match; times are the least of them")
       ->check(CLI::Range(1, 99));

@@ -150,7 +150,7 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
       case 16: done = w.counts().shapes > 6 && w.remove_shape(shape()); break;
       case 17: {
         const BodyId c = neighbour(b);
-        const auto type = static_cast<JointType>(dice.below(4));
+        const auto type = static_cast<JointType>(dice.below(kJointTypes));
         JointProperties<S> j = w.joint_at(type, b, c, {w.centre(b), dice.orientation<S>()});
         if (type == JointType::distance) j.upper = num<S>(20);
         if (type == JointType::distance) j.flags = joint_flag::kLimit;

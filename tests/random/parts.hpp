@@ -76,8 +76,6 @@ enum class Drive {
 };
 inline constexpr int kDrives = 4;
 
-inline constexpr std::uint32_t kJointTypes = 4;
-
 /// Limits, springs and motors of a joint that was just placed: what holds at its pose. Distance joints join centres.
 template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, JointProperties<S>& p) {
   using namespace joint_flag;
