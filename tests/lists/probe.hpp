@@ -43,7 +43,7 @@ class ListProbe : public OwnFolder {
   }
   /// Of a program of the tests, which takes from the library what no list has a part in.
   std::string output_of(const std::string& program) {
-    const std::string failed = failure("-O1 -o " + quoted(folder_ / "probe") + " " + quoted(source(program)) + " " +
+    const std::string failed = failure("-O0 -o " + quoted(folder_ / "probe") + " " + quoted(source(program)) + " " +
                                        isostep_lint::quoted(ISOSTEP_LIBRARY) + " " +
                                        isostep_lint::quoted(ISOSTEP_SCALAR_LIBRARY) + " " + ISOSTEP_CXX_FLAGS);
     if (!failed.empty()) return failed;

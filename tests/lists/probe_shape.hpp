@@ -9,6 +9,7 @@ namespace isostep {
 template <class S = Literal> struct Probe {
   static constexpr ShapeType kType = ShapeType::probe;
   static constexpr bool kBounded = true;
+  static constexpr bool kHasBlob = false;
 
   S half_side;  // [m]
 

@@ -7,8 +7,6 @@
 
 #include "isostep/scalar/platform.hpp"
 
-#include "isostep/scalar/platform.hpp"
-
 namespace isostep {
 
 /// Identical on every peer.

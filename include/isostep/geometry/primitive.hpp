@@ -11,15 +11,15 @@ namespace isostep {
 /// 2 x 4 bytes and eight numbers of one width. Fields that the type does not use are 0.
 template <class S> struct Primitive {
   ShapeType type;
-  std::uint32_t reserved;  // 0
-  Vec3<S> half;            // [m] half extents of the core
-  S radius;                // [m] added around the core
-  Vec3<Unit<S>> normal;    // [1] half-space only
-  S offset;                // [m] half-space only
+  std::uint32_t blob;    // 1 + the place of its blob, for shapes that have one; else 0
+  Vec3<S> half;          // [m] half extents of the core
+  S radius;              // [m] added around the core
+  Vec3<Unit<S>> normal;  // [1] half-space only
+  S offset;              // [m] half-space only
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);
-    visit("reserved", self.reserved);
+    visit("blob", self.blob);
     visit("half", self.half);
     visit("radius", self.radius);
     visit("normal", self.normal);
@@ -27,8 +27,8 @@ template <class S> struct Primitive {
   }
 
   friend ISO_INLINE constexpr bool operator==(const Primitive& a, const Primitive& b) {
-    return a.type == b.type && a.reserved == b.reserved && a.half == b.half && a.radius == b.radius &&
-           a.normal == b.normal && a.offset == b.offset;
+    return a.type == b.type && a.blob == b.blob && a.half == b.half && a.radius == b.radius && a.normal == b.normal &&
+           a.offset == b.offset;
   }
 };
 

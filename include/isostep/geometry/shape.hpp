@@ -17,6 +17,7 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
                            S s) {
   { Shape<S>::kType } -> std::convertible_to<ShapeType>;
   { Shape<S>::kBounded } -> std::convertible_to<bool>;           // else for static bodies alone
+  { Shape<S>::kHasBlob } -> std::convertible_to<bool>;           // its content is too large for a record: blob.hpp
   { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;            // the inverse of primitive()
   { Shape<S>::of(literal) } -> std::same_as<Shape<S>>;           // rounded once
   { shape.primitive() } -> std::same_as<Primitive<S>>;           // unused fields are 0
@@ -61,6 +62,12 @@ ISO_INLINE constexpr decltype(auto) visit_shape(const Primitive<S>& primitive, V
 /// Whether a dynamic body may have it.
 ISO_INLINE constexpr bool is_bounded(ShapeType type) {
   return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kBounded; });
+}
+
+/// Whether it names a blob. Such a shape's file has `ShapeFault fault_of(const Blob&) const`, which also says whether its
+/// other fields are what the blob makes them.
+ISO_INLINE constexpr bool has_blob(ShapeType type) {
+  return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kHasBlob; });
 }
 
 /// As stored.

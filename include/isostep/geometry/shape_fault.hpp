@@ -20,6 +20,8 @@ enum class ShapeFault : std::uint32_t {
   offset_too_large,      // a half-space further from the body's origin than Limits<S>::position()
   normal_not_unit,       // squared length off one by more than 1/64
   orientation_not_unit,  // likewise
+  blob_missing,          // a shape that has one names no blob, or one of another type
+  blob_not_valid,        // its bytes are not what the type's are
   outside_extent         // a child reaches further from the body's origin than Limits<S>::extent(), along some axis
 };
 
@@ -37,6 +39,8 @@ ISO_INLINE constexpr const char* describe(ShapeFault fault) {
     case ShapeFault::offset_too_large: return "a half-space's offset is above the scalar's largest position";
     case ShapeFault::normal_not_unit: return "a normal is not of unit length";
     case ShapeFault::orientation_not_unit: return "an orientation is not of unit length";
+    case ShapeFault::blob_missing: return "a shape names no blob of its type";
+    case ShapeFault::blob_not_valid: return "a blob's bytes make no shape of its type";
     case ShapeFault::outside_extent: return "a child reaches beyond the scalar's largest extent";
   }
   return "unknown fault";

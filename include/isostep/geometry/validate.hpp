@@ -5,6 +5,7 @@
 #include <span>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/geometry/shape_fault.hpp"
 
@@ -14,14 +15,17 @@ namespace isostep {
 template <class S> ShapeFault validate(const Primitive<S>& primitive);
 template <class S> ShapeFault validate(const Pose<S>& pose);
 template <class S> ShapeFault validate(std::span<const Child<S>> children);
+/// Of the blob that a valid primitive names, null where it names none.
+template <class S> ShapeFault validate_blob(const Primitive<S>& primitive, const Blob* blob);
 
 /// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
-#define ISO_EXTERN(S)                                                \
-  extern template ShapeFault validate<S>(const Primitive<S>&);       \
-  extern template ShapeFault validate<S>(const Pose<S>&);            \
-  extern template ShapeFault validate<S>(std::span<const Child<S>>); \
+#define ISO_EXTERN(S)                                                            \
+  extern template ShapeFault validate<S>(const Primitive<S>&);                   \
+  extern template ShapeFault validate<S>(const Pose<S>&);                        \
+  extern template ShapeFault validate<S>(std::span<const Child<S>>);             \
+  extern template ShapeFault validate_blob<S>(const Primitive<S>&, const Blob*); \
   extern template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

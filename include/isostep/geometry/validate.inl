@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/validate.hpp"
@@ -39,6 +41,15 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children) {
     if (!contains(room, bounds(unit.primitive, Transform<S>::of(unit.pose)))) return ShapeFault::outside_extent;
   }
   return ShapeFault::none;
+}
+
+template <class S> ShapeFault validate_blob(const Primitive<S>& p, const Blob* blob) {
+  return visit_shape(p, [&](const auto& shape) {
+    using Shape = std::remove_cvref_t<decltype(shape)>;
+    if constexpr (!Shape::kHasBlob) return ShapeFault::none;
+    else if (blob == nullptr || blob->type() != Shape::kType) return ShapeFault::blob_missing;
+    else return shape.fault_of(*blob);
+  });
 }
 
 template <class S> Child<S> normalised(const Child<S>& child) {

@@ -17,6 +17,21 @@ inline constexpr char kHashName[] = "xxh3-64";
 /// XXH3-64 with seed 0. The answer depends on the bytes alone, not on the instruction set.
 std::uint64_t hash_bytes(const void* bytes, std::size_t size);
 
+/// Names content by what it is: XXH3-128, in which no two different contents are ever met by chance.
+struct ContentId {
+  std::uint64_t low = 0, high = 0;
+
+  friend ISO_INLINE constexpr bool operator==(const ContentId& a, const ContentId& b) {
+    return a.low == b.low && a.high == b.high;
+  }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("low", self.low);
+    visit("high", self.high);
+  }
+};
+/// Of the tag's bytes and then the content's.
+ContentId content_id_of(Bytes tag, Bytes content);
+
 /// The same hash of bytes that arrive in pieces.
 class HashStream {
  public:

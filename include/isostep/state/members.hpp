@@ -21,6 +21,8 @@
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) tells its vectors, two at most
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
+//   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all; a state
+//                                without any has the hash and the portable form of one that knows of no store
 
 namespace isostep::detail {
 
@@ -74,6 +76,11 @@ class StateHasher {
     }
     add_page(root_, list.pages() - 1);
   }
+  template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
+    if (value->empty()) return;
+    root_.add(value.remembered().get(
+        [&]() ISO_INLINE_LAMBDA { return hash_records(value->names().data(), value->names().size()); }));
+  }
 
  private:
   HashCombiner root_;
@@ -96,6 +103,7 @@ class StateSize {
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     bytes_ += list.pages() * sizeof(void*);
   }
+  template <class Store> ISO_INLINE void store(const char*, const Shared<Store>&) {}
 
  private:
   std::size_t bytes_ = 0;
@@ -121,15 +129,24 @@ class StateWriter {
     writer_.write_count(list.size());
     for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
   }
+  template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
+    if (!value->empty()) value->write(writer_);
+  }
 
  private:
   Writer& writer_;
 };
 
+/// For what has no store.
+struct ReadNoStore {
+  template <class Store> ISO_INLINE void operator()(Store&) const {}
+};
 /// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
-class StateReader {
+/// `read_store`: of a store that may be changed, when its turn comes.
+template <class ReadStore = ReadNoStore> class StateReader {
  public:
-  ISO_INLINE explicit StateReader(Reader& reader) : reader_(reader) {}
+  ISO_INLINE explicit StateReader(Reader& reader, const ReadStore& read_store = {})
+      : reader_(reader), read_store_(read_store) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
   ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
@@ -153,9 +170,11 @@ class StateReader {
       list.push_back(std::move(island));
     }
   }
+  template <class Store> ISO_INLINE void store(const char*, Shared<Store>& value) { read_store_(value.change()); }
 
  private:
   Reader& reader_;
+  const ReadStore& read_store_;
 };
 
 }  // namespace isostep::detail

@@ -7,6 +7,7 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/tape.hpp"
@@ -18,9 +19,21 @@ inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
 
 template <class S> struct AddShape {
   std::vector<Child<S>> children;
+  std::vector<BlobMention> blobs = {};  // 1 + the index here is Primitive::blob of the children that name it
 
-  ISO_INLINE void write(Writer& writer) const { writer.write_array(children); }
-  ISO_INLINE void read(Reader& reader) { reader.read_array(children, kMaxChildren); }
+  ISO_INLINE void write(Writer& writer) const {
+    writer.write_array(children);
+    for (const BlobMention& blob : blobs) blob.write(writer);
+  }
+  /// There are as many blobs as the children name.
+  ISO_INLINE void read(Reader& reader) {
+    reader.read_array(children, kMaxChildren);
+    std::uint32_t count = 0;
+    for (const Child<S>& child : children) count = max(count, child.primitive.blob);
+    if (count > children.size()) reader.fail(ErrorCode::invalid, "a shape names more blobs than it has parts");
+    blobs.resize(reader.ok() ? count : 0);
+    for (BlobMention& blob : blobs) blob.read(reader);
+  }
 };
 struct RemoveShape {
   ShapeId shape;

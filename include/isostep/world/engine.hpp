@@ -106,6 +106,7 @@ template <class S> class WorldEngine {
   const PairKernels<S>* pair_kernels_;
   const TreeKernels<S>* tree_kernels_;
   TaskRunner runner_;
+  AssetSource assets_;
   std::vector<RenderPose> render_poses_;
 
  private:
@@ -128,6 +129,7 @@ template <class S> class WorldEngine {
   void halt(std::uint32_t slot);
 
   // engine_commands.inl
+  bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
   bool check(const BodyDefinition<S>& definition);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
   PendingForce<S>& pending_force(std::uint32_t slot);

@@ -84,17 +84,25 @@ template <class S> void WorldEngine<S>::renew_places(bool other_fixed) {
   }
 }
 
+namespace detail {
+/// In the first word of a portable world, beside the scalar's id: blobs stand at its end.
+inline constexpr std::uint32_t kBlobsBit = 0x40000000u;
+}  // namespace detail
+
 template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
-  writer.write(ScalarTraits<S>::kId);
+  writer.write(ScalarTraits<S>::kId | (state_.geometry->empty() ? 0 : detail::kBlobsBit));
   WorldState<S>::members(detail::StateWriter(writer), state_);
 }
 
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S> next;
-  if (reader.read<std::uint32_t>() != ScalarTraits<S>::kId && reader.ok()) {
+  const auto kind = reader.read<std::uint32_t>();
+  if ((kind & ~detail::kBlobsBit) != ScalarTraits<S>::kId && reader.ok())
     reader.fail(ErrorCode::incompatible, "not written by a rigid world of this scalar");
-  }
-  WorldState<S>::members(detail::StateReader(reader), next);
+  const auto read_store = [&](GeometryStore& store) {
+    if ((kind & detail::kBlobsBit) != 0) store.read(reader, *state_.geometry, assets_);
+  };
+  WorldState<S>::members(detail::StateReader(reader, read_store), next);
   if (reader.ok()) {
     if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
   }

@@ -36,6 +36,7 @@
   template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
   template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>);                                         \
+  template ShapeFault validate_blob<OwnScalar>(const Primitive<OwnScalar>&, const Blob*);                             \
   template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                           \
   template void collide<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&,                          \
                                    const Primitive<OwnScalar>&, const Transform<OwnScalar>&, OwnScalar,               \

@@ -13,6 +13,7 @@
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/geometry/geometry_store.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/settings.hpp"
@@ -110,6 +111,7 @@ template <class S> struct WorldState {
   // What only commands change: copies have it in common until one of them does.
   Shared<std::vector<ShapeRecord>> shapes;  // by slot
   Shared<std::vector<Child<S>>> children;   // the shapes' pool
+  Shared<GeometryStore> geometry;           // what they name
   Shared<BodySet<S>> fixed;
   BodySet<S> awake;
   std::vector<Contact<S>> contacts;  // ascending by key
@@ -143,6 +145,7 @@ template <class S> struct WorldState {
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
     visit.islands("frozen", self.frozen);
+    visit.store("geometry", self.geometry);
   }
 };
 

@@ -84,7 +84,29 @@ template <class S> class StateValidator {
       total += shape.child_count;
       if (validate(parts_of(i)) != ShapeFault::none) return "a shape is not valid";
     }
-    return total == state_.children->size() ? nullptr : "a part belongs to no shape";
+    if (total != state_.children->size()) return "a part belongs to no shape";
+    return blobs();
+  }
+  /// Every blob is of its parts' type, and used as often as its name says.
+  const char* blobs() const {
+    const GeometryStore& store = *state_.geometry;
+    std::vector<std::uint64_t> uses(store.names().size(), 0);
+    for (const Child<S>& child : *state_.children) {
+      const std::uint32_t blob = child.primitive.blob;
+      const bool exists = blob != 0 && store.is_taken(blob - 1);
+      if (blob != 0 && !exists) return "a part names no blob";
+      if (validate_blob(child.primitive, exists ? store.content(blob - 1).get() : nullptr) != ShapeFault::none)
+        return "a part's blob is not valid";
+      if (exists) ++uses[blob - 1];
+    }
+    for (std::uint32_t place = 0; place < uses.size(); ++place) {
+      const BlobName& name = store.names()[place];
+      if (name.uses != uses[place] || (name.uses == 0 && !(name.id == ContentId{})) ||
+          (place + 1 == uses.size() && name.uses == 0))
+        return "a blob is named more or less often than it is used";
+      if (name.uses != 0 && store.find(name.id) != place) return "two blobs have one name";
+    }
+    return nullptr;
   }
   std::span<const Child<S>> parts_of(std::uint32_t shape) const {
     return {state_.children->data() + (*state_.shapes)[shape].first_child, (*state_.shapes)[shape].child_count};

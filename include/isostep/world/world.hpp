@@ -100,6 +100,8 @@ template <class S> class World final {
   /// Threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the
   /// calling thread. What `runner` points to outlives the world or the next call.
   void use_threads(const TaskRunner& runner);
+  /// Who brings the blobs that states and commands name and do not carry: BlobHome::asset. None by default.
+  void use_assets(const AssetSource& assets);
 
   // Shapes: shared by the bodies that name them. Any of the list, with the world's numbers, or without a scalar:
   // Box{{0.5, 0.5, 0.5}}.
@@ -108,7 +110,8 @@ template <class S> class World final {
   ShapeId add_shape(const Shape<Literal>& shape);
   ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
-  ShapeId add_shape(std::span<const Child<S>> children);
+  /// `blobs`: what the children name by Primitive::blob, 1 + its index here.
+  ShapeId add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
   bool remove_shape(ShapeId shape);
 
   // Bodies.

@@ -81,6 +81,10 @@ template <class S> void World<S>::use_threads(const TaskRunner& runner) {
   engine_->runner_ = runner;
   engine_->runner_.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
 }
+template <class S> void World<S>::use_assets(const AssetSource& assets) {
+  const CommandJournal::Call call(engine_->journal_, "use_assets");
+  if (call.allowed()) engine_->assets_ = assets;
+}
 
 #define ISO_APPLY(name, Type, Result, S)                           \
   template <class S> Result World<S>::apply(const Type& command) { \
@@ -108,8 +112,18 @@ template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& sh
   }
 ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
-template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children) {
-  return apply(AddShape<S>{{children.begin(), children.end()}});
+/// What the world has already a command names without its content: a recording holds it once.
+template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
+  AddShape<S> command = {{children.begin(), children.end()}};
+  for (const BlobRef& blob : blobs) {
+    if (blob == nullptr) {
+      engine_->journal_.refuse_call("add_shape", {Fault::bad_shape, "", "blobs", "none that is null"});
+      return {};
+    }
+    const bool known = engine_->state_.geometry->find(blob->id()) != GeometryStore::kNone;
+    command.blobs.push_back({blob->id(), known ? nullptr : blob});
+  }
+  return apply(command);
 }
 template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
 template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {

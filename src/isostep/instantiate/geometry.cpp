@@ -10,6 +10,7 @@ namespace isostep {
   template ShapeFault validate<S>(const Primitive<S>&);                        \
   template ShapeFault validate<S>(const Pose<S>&);                             \
   template ShapeFault validate<S>(std::span<const Child<S>>);                  \
+  template ShapeFault validate_blob<S>(const Primitive<S>&, const Blob*);      \
   template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

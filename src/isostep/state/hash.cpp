@@ -21,6 +21,15 @@ static_assert(sizeof(XXH3_state_t) <= sizeof(HashStream) && alignof(XXH3_state_t
 
 std::uint64_t hash_bytes(const void* bytes, std::size_t size) { return XXH3_64bits(bytes, size); }
 
+ContentId content_id_of(Bytes tag, Bytes content) {
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  XXH3_128bits_update(&state, tag.data(), tag.size());
+  XXH3_128bits_update(&state, content.data(), content.size());
+  const XXH128_hash_t id = XXH3_128bits_digest(&state);
+  return {id.low64, id.high64};
+}
+
 HashStream::HashStream() {
   new (state_) XXH3_state_t;
   XXH3_64bits_reset(as_xxh3(state_));

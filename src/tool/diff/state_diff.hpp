@@ -79,6 +79,7 @@ class RowKeys {
     arrays(*this, *value);
   }
   template <class List> void islands(const char*, const List&) {}
+  template <class Store> void store(const char*, const Store&) {}
 
   const std::vector<RowKey>* find(const std::string& name) const {
     constexpr std::pair<const char*, const char*> kProperties[] = {
@@ -104,6 +105,7 @@ struct MemberList {
     arrays(*this, *value);
   }
   template <class List> void islands(const char*, const List& list) { members.push_back(&list); }
+  template <class Store> void store(const char*, const Store& value) { members.push_back(&value); }
 };
 
 /// Visits one object beside another of its type, whose members come in the same order: walk(visitor, object).
@@ -134,6 +136,9 @@ class StateDiffer {
   }
   template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
     arrays(*this, *value);
+  }
+  template <class Store> void store(const char* name, const Store& a) {
+    rows(PathPart{outer_, name, 0}, name, a->names(), other(a)->names());
   }
   /// Islands are the same by their first body.
   template <class List> void islands(const char* name, const List& a) {

@@ -116,9 +116,9 @@ TYPED_TEST(ValidateTest, AnOrientationThatIsNotUnitIsRefused) {
 
 TYPED_TEST(ValidateTest, AFieldThatTheTypeDoesNotUseMustBeZero) {
   using S = TypeParam;
-  auto reserved = this->ball(S(1));
-  reserved.reserved = 1;
-  EXPECT_EQ(validate(reserved), ShapeFault::unused_field_set);
+  auto with_blob = this->ball(S(1));
+  with_blob.blob = 1;
+  EXPECT_EQ(validate(with_blob), ShapeFault::unused_field_set);
   auto ball = this->ball(S(1));
   ball.half.x = S(1);
   EXPECT_EQ(validate(ball), ShapeFault::unused_field_set);

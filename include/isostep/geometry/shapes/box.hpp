@@ -48,6 +48,7 @@ template <class S> ISO_INLINE LocalHit<S> cast_box(const LocalRay<S>& ray, Vec3<
 template <class S = Literal> struct Box {
   static constexpr ShapeType kType = ShapeType::box;
   static constexpr bool kBounded = true;
+  static constexpr bool kHasBlob = false;
 
   Vec3<S> half_extents;  // [m]
 

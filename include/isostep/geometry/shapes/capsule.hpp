@@ -45,6 +45,7 @@ template <class S> ISO_INLINE LocalHit<S> cast_capsule(const LocalRay<S>& ray, S
 template <class S = Literal> struct Capsule {
   static constexpr ShapeType kType = ShapeType::capsule;
   static constexpr bool kBounded = true;
+  static constexpr bool kHasBlob = false;
 
   S radius;       // [m]
   S half_height;  // [m] of the cylinder alone

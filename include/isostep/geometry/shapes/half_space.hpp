@@ -10,6 +10,7 @@ namespace isostep {
 template <class S = Literal> struct HalfSpace {
   static constexpr ShapeType kType = ShapeType::half_space;
   static constexpr bool kBounded = false;
+  static constexpr bool kHasBlob = false;
 
   Vec3<Unit<S>> normal;  // [1]
   S offset;              // [m]

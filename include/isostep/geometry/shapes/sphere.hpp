@@ -10,6 +10,7 @@ namespace isostep {
 template <class S = Literal> struct Sphere {
   static constexpr ShapeType kType = ShapeType::sphere;
   static constexpr bool kBounded = true;
+  static constexpr bool kHasBlob = false;
 
   S radius;  // [m]
 

@@ -1,0 +1,69 @@
+// Blob: the content of a shape that is too large for a record: a hull's faces, a level's triangles.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/geometry/shape_type.hpp"
+#include "isostep/state/archive.hpp"
+#include "isostep/state/hash.hpp"
+
+namespace isostep {
+
+inline constexpr std::uint32_t kMaxBlobBytes = 1u << 28;  // of one blob in a file
+
+/// Where those find a blob who read a state or a recording that names it.
+enum class BlobHome : std::uint8_t {
+  carried,  // in it
+  asset     // with the game, which brings it: a level's mesh in a replay of ten seconds
+};
+
+class Blob;
+using BlobRef = std::shared_ptr<const Blob>;
+
+/// Immutable, and shared by all that name it: worlds, snapshots, commands. Its name is the hash of its type and its
+/// bytes, so equal content has one name on every machine. The bytes are little-endian integers; what they mean, the
+/// shape's file says.
+class Blob {
+ public:
+  static BlobRef make(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home = BlobHome::carried);
+
+  ISO_INLINE ContentId id() const { return id_; }
+  ISO_INLINE ShapeType type() const { return type_; }
+  ISO_INLINE BlobHome home() const { return home_; }
+  ISO_INLINE Bytes bytes() const { return bytes_; }
+
+  void write(Writer& writer) const;
+  /// What `write` wrote of a blob with that name; null, and a reader that has failed, for anything else.
+  static BlobRef read(Reader& reader, const ContentId& id);
+
+ private:
+  Blob(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home);
+
+  ContentId id_;
+  ShapeType type_;
+  BlobHome home_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// The game's blobs by their names: called while a state is read or a command executed, returns null for a name that it
+/// does not know.
+struct AssetSource {
+  BlobRef (*find)(void* user, const ContentId& id) = nullptr;
+  void* user = nullptr;
+
+  ISO_INLINE BlobRef operator()(const ContentId& id) const { return find == nullptr ? nullptr : find(user, id); }
+};
+
+/// A blob as a command names it: with its content, or by its name alone where the world or its assets have it.
+struct BlobMention {
+  ContentId id;
+  BlobRef content;  // or null
+
+  void write(Writer& writer) const;
+  void read(Reader& reader);
+};
+
+}  // namespace isostep

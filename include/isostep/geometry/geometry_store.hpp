@@ -1,0 +1,57 @@
+// GeometryStore: the blobs that a state's shapes name.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/geometry/blob.hpp"
+
+namespace isostep {
+
+inline constexpr std::uint32_t kMaxBlobs = 1u << 16;  // of one store: names are searched one by one
+
+/// A blob's name, and how many parts of shapes name it. Unused: all 0.
+struct BlobName {
+  ContentId id;
+  std::uint64_t uses;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("id", self.id);
+    visit("uses", self.uses);
+  }
+};
+static_assert(kHasNoPadding<BlobName>);
+
+/// The names are state; the content stands outside it, shared by reference count: what a world, a snapshot or a
+/// recorded command still names is kept. Parts of shapes name a blob by its place here, which follows from the commands
+/// alone: the lowest that is free.
+class GeometryStore {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  ISO_INLINE bool empty() const { return names_.empty(); }
+  ISO_INLINE const std::vector<BlobName>& names() const { return names_; }
+  ISO_INLINE bool is_taken(std::uint32_t place) const { return place < names_.size() && names_[place].uses != 0; }
+  /// Of a place that is taken.
+  ISO_INLINE const BlobRef& content(std::uint32_t place) const { return contents_[place]; }
+  /// kNone: the store does not have it.
+  std::uint32_t find(const ContentId& id) const;
+
+  /// One use more of a blob, whose place it returns.
+  std::uint32_t take(const BlobRef& blob);
+  /// One use less; a blob without any leaves the store.
+  void give_back(std::uint32_t place);
+
+  /// Names, and of each what is carried.
+  void write(Writer& writer) const;
+  /// Content that the file does not carry comes from `known`, another store, or from the assets. What no one has is
+  /// ErrorCode::incompatible.
+  void read(Reader& reader, const GeometryStore& known, const AssetSource& assets);
+
+ private:
+  std::vector<BlobName> names_;    // the last one is taken
+  std::vector<BlobRef> contents_;  // of each name
+};
+
+}  // namespace isostep

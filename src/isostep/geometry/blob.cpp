@@ -1,0 +1,53 @@
+// Blobs and how they are written.
+// SPDX-License-Identifier: MIT
+#include "isostep/geometry/blob.hpp"
+
+#include <utility>
+
+namespace isostep {
+namespace {
+
+ContentId id_of(ShapeType type, Bytes bytes) {
+  std::uint8_t tag[4];
+  store_le(tag, static_cast<std::uint32_t>(type));
+  return content_id_of(tag, bytes);
+}
+
+}  // namespace
+
+Blob::Blob(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home)
+    : id_(id_of(type, bytes)), type_(type), home_(home), bytes_(std::move(bytes)) {}
+
+BlobRef Blob::make(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home) {
+  return BlobRef(new Blob(type, std::move(bytes), home));
+}
+
+void Blob::write(Writer& writer) const {
+  writer.write(type_);
+  writer.write_bytes(bytes_);
+}
+
+BlobRef Blob::read(Reader& reader, const ContentId& id) {
+  const auto type = reader.read<ShapeType>();
+  const Bytes bytes = reader.read_bytes(kMaxBlobBytes);
+  if (!reader.ok()) return nullptr;
+  if (!(id_of(type, bytes) == id)) {
+    reader.fail(ErrorCode::corrupt, "a blob's name is not the hash of its content");
+    return nullptr;
+  }
+  return make(type, {bytes.begin(), bytes.end()});
+}
+
+void BlobMention::write(Writer& writer) const {
+  const bool carried = content != nullptr && content->home() == BlobHome::carried;
+  writer.write(id);
+  writer.write(carried);
+  if (carried) content->write(writer);
+}
+
+void BlobMention::read(Reader& reader) {
+  reader.read(id);
+  content = reader.read<bool>() ? Blob::read(reader, id) : nullptr;
+}
+
+}  // namespace isostep

@@ -1,0 +1,69 @@
+// The geometry store.
+// SPDX-License-Identifier: MIT
+#include "isostep/geometry/geometry_store.hpp"
+
+namespace isostep {
+
+std::uint32_t GeometryStore::find(const ContentId& id) const {
+  for (std::uint32_t place = 0; place < names_.size(); ++place) {
+    if (names_[place].uses != 0 && names_[place].id == id) return place;
+  }
+  return kNone;
+}
+
+std::uint32_t GeometryStore::take(const BlobRef& blob) {
+  const std::uint32_t known = find(blob->id());
+  if (known != kNone) {
+    ++names_[known].uses;
+    return known;
+  }
+  std::uint32_t place = 0;
+  while (is_taken(place)) ++place;
+  if (place == names_.size()) {
+    names_.emplace_back();
+    contents_.emplace_back();
+  }
+  names_[place] = {blob->id(), 1};
+  contents_[place] = blob;
+  return place;
+}
+
+void GeometryStore::give_back(std::uint32_t place) {
+  if (--names_[place].uses != 0) return;
+  names_[place] = {};
+  contents_[place] = nullptr;
+  while (!names_.empty() && names_.back().uses == 0) {
+    names_.pop_back();
+    contents_.pop_back();
+  }
+}
+
+void GeometryStore::write(Writer& writer) const {
+  writer.write_array(names_);
+  for (std::uint32_t place = 0; place < names_.size(); ++place) {
+    if (!is_taken(place)) continue;
+    const BlobRef& blob = contents_[place];
+    const bool carried = blob->home() == BlobHome::carried;
+    writer.write(carried);
+    if (carried) blob->write(writer);
+  }
+}
+
+void GeometryStore::read(Reader& reader, const GeometryStore& known, const AssetSource& assets) {
+  reader.read_array(names_, kMaxBlobs);
+  contents_.assign(names_.size(), nullptr);
+  for (std::uint32_t place = 0; place < names_.size() && reader.ok(); ++place) {
+    if (!is_taken(place)) continue;
+    const ContentId id = names_[place].id;
+    const std::uint32_t there = known.find(id);
+    BlobRef& blob = contents_[place];
+    if (reader.read<bool>()) blob = Blob::read(reader, id);
+    // One content stands in memory once, and what is an asset here stays one.
+    if (there != kNone) blob = known.content(there);
+    else if (blob == nullptr && reader.ok()) blob = assets(id);
+    if (reader.ok() && (blob == nullptr || !(blob->id() == id)))
+      reader.fail(ErrorCode::incompatible, "it names a blob that neither it nor the game's assets have");
+  }
+}
+
+}  // namespace isostep

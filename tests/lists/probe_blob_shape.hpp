@@ -1,0 +1,55 @@
+// A shape for the tests alone whose content is a blob: a box of so many millimetres, as a file in shapes/ would declare
+// it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "isostep/geometry/blob.hpp"
+#include "isostep/geometry/shapes/box.hpp"
+
+namespace isostep {
+
+template <class S = Literal> struct Probe {
+  static constexpr ShapeType kType = ShapeType::probe;
+  static constexpr bool kBounded = true;
+  static constexpr bool kHasBlob = true;
+
+  std::uint32_t blob;  // as Primitive has it
+  Vec3<S> half;        // [m] as the blob has it
+
+  static BlobRef bake(std::uint32_t x, std::uint32_t y, std::uint32_t z, BlobHome home = BlobHome::carried) {  // [mm]
+    std::vector<std::uint8_t> bytes(12);
+    store_le(&bytes[0], x);
+    store_le(&bytes[4], y);
+    store_le(&bytes[8], z);
+    return Blob::make(kType, bytes, home);
+  }
+  static Vec3<S> half_of(const Blob& blob) {
+    const auto side = [&](std::size_t at) { return S(load_le<std::uint32_t>(&blob.bytes()[at])) / S(1000); };
+    return {side(0), side(4), side(8)};
+  }
+  ISO_INLINE ShapeFault fault_of(const Blob& from) const {
+    return from.bytes().size() == 12 && half_of(from) == half ? ShapeFault::none : ShapeFault::blob_not_valid;
+  }
+
+  static ISO_INLINE constexpr Probe of(const Primitive<S>& p) { return {p.blob, p.half}; }
+  static ISO_INLINE constexpr Probe of(const Probe<Literal>& p) {
+    return {p.blob, {from_literal<S>(p.half.x), from_literal<S>(p.half.y), from_literal<S>(p.half.z)}};
+  }
+  ISO_INLINE constexpr Primitive<S> primitive() const { return {kType, blob, half, S(0), Vec3<Unit<S>>::zero(), S(0)}; }
+  ISO_INLINE constexpr ShapeFault fault() const { return box().fault(); }
+  ISO_INLINE constexpr Probe normalised() const { return *this; }
+  ISO_INLINE constexpr Aabb<S> bounds(const Transform<S>& t) const { return box().bounds(t); }
+  ISO_INLINE S mass(S density) const { return box().mass(density); }
+  ISO_INLINE Vec3<S> kappa() const { return box().kappa(); }
+  ISO_INLINE Unit<S> relative_volume(S scale) const { return box().relative_volume(scale); }
+  ISO_INLINE Vec3<Unit<S>> relative_inertia(S scale) const { return box().relative_inertia(scale); }
+  ISO_INLINE detail::LocalHit<S> cast(const Transform<S>& t, Vec3<S> origin, Vec3<S> translation) const {
+    return box().cast(t, origin, translation);
+  }
+  ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const { return box().closest(t, query); }
+  ISO_INLINE constexpr Box<S> box() const { return {half}; }
+};
+
+}  // namespace isostep
