@@ -49,6 +49,8 @@ template <class S = Literal> struct Probe {
     return box().cast(t, origin, translation);
   }
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const { return box().closest(t, query); }
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const { box().visit_lines(line); }
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
   ISO_INLINE constexpr Box<S> box() const { return {half}; }
 };
 

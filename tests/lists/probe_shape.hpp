@@ -31,6 +31,8 @@ template <class S = Literal> struct Probe {
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const {  // of the cube
     return box().closest(t, query);
   }
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const { box().visit_lines(line); }
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
   ISO_INLINE constexpr Box<S> box() const { return {{half_side, half_side, half_side}}; }
 };
 Probe(Literal)->Probe<Literal>;

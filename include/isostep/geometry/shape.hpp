@@ -14,7 +14,7 @@ namespace isostep {
 /// What a shape's file says of it. Transforms lead from the shape's frame to the one that results are in.
 template <template <class> class Shape, class S>
 concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> literal, Transform<S> t, Vec3<S> v,
-                           S s) {
+                           Pose<S> pose, S s) {
   { Shape<S>::kType } -> std::convertible_to<ShapeType>;
   { Shape<S>::kBounded } -> std::convertible_to<bool>;           // else for static bodies alone
   { Shape<S>::kHasBlob } -> std::convertible_to<bool>;           // its content is too large for a record: blob.hpp
@@ -30,6 +30,8 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
   { shape.relative_inertia(s) } -> std::same_as<Vec3<Unit<S>>>;  // [1] inertia over mass and s^2, about its own axes
   { shape.cast(t, v, v) } -> std::same_as<detail::LocalHit<S>>;  // from origin v along translation v
   { shape.closest(t, v) } -> std::same_as<ClosestPoint<S>>;      // see closest_point.hpp
+  shape.visit_lines(detail::NoLine{});                           // for debug drawing: line(from, to), its own frame
+  { shape.drawn_at(pose, pose) } -> std::same_as<Pose<S>>;  // of body's origin and shape's frame: its middle, world
 };
 #define ISO_COMPLETE(name, Shape)                                        \
   static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member"); \

@@ -41,6 +41,12 @@ struct DrawnPart {
   float normal[3];  // [1] of a half-space, world, out of the ground
 };
 
+/// One line of a part's outline.
+struct DrawnLine {
+  BodyId body;
+  float from[3], to[3];  // [m]
+};
+
 struct DrawnMass {
   BodyId body;
   DrawnPose frame;   // centre of mass, principal axes
@@ -123,6 +129,7 @@ struct DrawnCollider {
 /// What is wanted: each calls the function of its name, bodies and particles first.
 struct DrawOptions {
   bool bodies = true;  // and their parts
+  bool lines = false;  // of the parts: for who draws no solids
   bool masses = false;
   bool boxes = false;
   bool islands = false;
@@ -142,6 +149,7 @@ class DebugDraw {
   virtual ~DebugDraw();
   virtual void body(const DrawnBody& body);
   virtual void part(const DrawnBody& body, const DrawnPart& part);  // after its body, before the next
+  virtual void line(const DrawnLine& line);                         // of the part before
   virtual void mass(const DrawnMass& mass);                         // of dynamic bodies
   virtual void box(const DrawnBox& box);
   virtual void island(const DrawnIsland& island);

@@ -78,20 +78,27 @@ template <class S> class BodySketch {
   ISO_INLINE void draw_part(const DrawnBody& body, const Pose<S>& origin, const Child<S>& child,
                             std::uint32_t index) const {
     const Primitive<S>& primitive = child.primitive;
-    Pose<S> pose = child.pose.is_identity() ? origin : compose(origin, child.pose);
+    const Pose<S> pose = child.pose.is_identity() ? origin : compose(origin, child.pose);
     DrawnPart part = {};
     part.type = primitive.type;
     part.child = index;
-    if (primitive.type == ShapeType::half_space) {
-      const Vec3<Unit<S>> normal = to_matrix(pose.orientation) * primitive.normal;
-      const S height = dot(origin.position - pose.position, normal);
-      pose.position = origin.position + normal * (primitive.offset - height);
-      sketch_.vector(normal, part.normal);
-    }
-    part.pose = sketch_.pose(pose);
+    part.pose = sketch_.pose(
+        visit_shape(primitive, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.drawn_at(origin, pose); }));
     sketch_.vector(primitive.half, part.half);
     part.radius = sketch_.number(primitive.radius);
+    sketch_.vector(rotate(pose.orientation, primitive.normal), part.normal);
     to_.part(body, part);
+    if (options_.lines) draw_lines(body, primitive, Transform<S>::of(pose));
+  }
+  ISO_INLINE void draw_lines(const DrawnBody& body, const Primitive<S>& primitive, const Transform<S>& at) const {
+    visit_shape(primitive, [&](const auto& shape) ISO_INLINE_LAMBDA {
+      shape.visit_lines([&](Vec3<S> from, Vec3<S> to) ISO_INLINE_LAMBDA {
+        DrawnLine line = {body.body, {}, {}};
+        sketch_.point(to_world(at, from), line.from);
+        sketch_.point(to_world(at, to), line.to);
+        to_.line(line);
+      });
+    });
   }
 
   /// kappa is mass times inverse inertia.

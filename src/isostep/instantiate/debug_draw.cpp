@@ -7,6 +7,7 @@ namespace isostep {
 DebugDraw::~DebugDraw() = default;
 void DebugDraw::body(const DrawnBody&) {}
 void DebugDraw::part(const DrawnBody&, const DrawnPart&) {}
+void DebugDraw::line(const DrawnLine&) {}
 void DebugDraw::mass(const DrawnMass&) {}
 void DebugDraw::box(const DrawnBox&) {}
 void DebugDraw::island(const DrawnIsland&) {}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "isostep/collision/query/closest_point.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "unit/world/worlds.hpp"
 
@@ -19,6 +20,7 @@ struct ToldPart {
 struct Told : DebugDraw {
   void body(const DrawnBody& drawn) override { bodies.push_back(drawn); }
   void part(const DrawnBody& of, const DrawnPart& drawn) override { parts.push_back({of, drawn}); }
+  void line(const DrawnLine& drawn) override { lines.push_back(drawn); }
   void mass(const DrawnMass& drawn) override { masses.push_back(drawn); }
   void box(const DrawnBox& drawn) override { boxes.push_back(drawn); }
   void island(const DrawnIsland& drawn) override { islands.push_back(drawn); }
@@ -31,6 +33,7 @@ struct Told : DebugDraw {
 
   std::vector<DrawnBody> bodies;
   std::vector<ToldPart> parts;
+  std::vector<DrawnLine> lines;
   std::vector<DrawnMass> masses;
   std::vector<DrawnBox> boxes;
   std::vector<DrawnIsland> islands;
@@ -130,6 +133,47 @@ TYPED_TEST(DebugDraws, PlacesPartsOfCompoundAndTurnedBodies) {
   expect_near(real(all.parts[1].part.pose.position), {1, 4, 3}, 1e-3);
   EXPECT_EQ(all.parts[1].part.child, 1u);
   EXPECT_EQ(all.parts[1].part.radius, 0.25f);
+}
+
+/// Every line of a shape lies on its surface or within it, and on each axis the outline reaches as far as the shape.
+TYPED_TEST(DebugDraws, OutlinesPartsByLines) {
+  using S = TypeParam;
+  const std::pair<Primitive<S>, D3> cases[] = {{primitive_of(Sphere<S>{S(0.5)}), {0.5, 0.5, 0.5}},
+                                               {primitive_of(Box<S>{{S(0.5), S(1), S(1.5)}}), {0.5, 1, 1.5}},
+                                               {primitive_of(Capsule<S>{S(0.5), S(1)}), {0.5, 1.5, 0.5}}};
+  for (const auto& [primitive, reach] : cases) {
+    SCOPED_TRACE(kShapeNames[static_cast<std::uint32_t>(primitive.type)]);
+    World<S> world(settings<S>());
+    const Child<S> part = {primitive, Pose<S>::identity()};
+    world.create(moving<S>(world.add_shape(std::span<const Child<S>>(&part, 1)), {1, 2, 3}));
+    EXPECT_TRUE(told(world).lines.empty()) << "nobody asked for them";
+    const Told all = told(world, {.lines = true});
+    EXPECT_GE(all.lines.size(), 12u);
+    D3 most = {0, 0, 0};
+    for (const DrawnLine& line : all.lines) {
+      EXPECT_EQ(line.body, all.bodies[0].body);
+      for (const D3& end : {real(line.from), real(line.to)}) {
+        const D3 p = end - D3{1, 2, 3};
+        const Vec3<S> local = vec<S>(p);
+        const Transform<S> here = Transform<S>::of(Pose<S>::identity());
+        EXPECT_NEAR(to_double(closest_point(primitive, here, local).distance), 0, 1e-3);
+        for (int axis = 0; axis < 3; ++axis) most[axis] = std::max(most[axis], std::abs(p[axis]));
+      }
+    }
+    expect_near(most, reach, 1e-3);
+  }
+}
+
+TYPED_TEST(DebugDraws, OutlinesHalfSpacesOnTheirSurface) {
+  using S = TypeParam;
+  World<S> world(settings<S>());
+  world.create(still<S>(world.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(-3)}), {2, 7, 1}));
+  const Told all = told(world, {.lines = true});
+  ASSERT_EQ(all.lines.size(), 6u);
+  for (const DrawnLine& line : all.lines) {
+    EXPECT_NEAR(line.from[1], 4, 1e-4);
+    EXPECT_NEAR(line.to[1], 4, 1e-4);
+  }
 }
 
 TYPED_TEST(DebugDraws, TellsWhichPointOfAHalfSpaceIsNearest) {

@@ -98,6 +98,20 @@ template <class S = Literal> struct Box {
     return detail::closest_on_core(half_extents, S(0), t, query);
   }
 
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 4; ++corner) {
+        Vec3<S> to = half_extents;
+        if ((corner & 1) != 0) to[(axis + 1) % 3] = -to[(axis + 1) % 3];
+        if ((corner & 2) != 0) to[(axis + 2) % 3] = -to[(axis + 2) % 3];
+        Vec3<S> from = to;
+        from[axis] = -from[axis];
+        line(from, to);
+      }
+    }
+  }
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
+
  private:
   ISO_INLINE Vec3<Unit<S>> relative_to(S scale) const {
     using U = Unit<S>;

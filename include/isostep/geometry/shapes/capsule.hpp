@@ -99,6 +99,21 @@ template <class S = Literal> struct Capsule {
     return detail::closest_on_core(core(), radius, t, query);
   }
 
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const {
+    const Vec3<S> top = {S(0), half_height, S(0)};
+    for (const Vec3<S>& end : {top, -top}) {
+      const int begin = end.y > S(0) ? 0 : 8;
+      detail::visit_arc(line, end, radius, 0, 2);
+      detail::visit_arc(line, end, radius, 0, 1, begin, begin + 8);
+      detail::visit_arc(line, end, radius, 2, 1, begin, begin + 8);
+    }
+    for (const Vec3<S>& side : {Vec3<S>{radius, S(0), S(0)}, Vec3<S>{S(0), S(0), radius}}) {
+      line(side - top, side + top);
+      line(-side - top, -side + top);
+    }
+  }
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
+
  private:
   ISO_INLINE constexpr Vec3<S> core() const { return {S(0), half_height, S(0)}; }
   ISO_INLINE detail::CapsuleParts<Unit<S>> fractions() const {

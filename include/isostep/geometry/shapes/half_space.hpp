@@ -68,6 +68,21 @@ template <class S = Literal> struct HalfSpace {
     const S distance = round_to<S>(dot_sum(n, query - t.position) - widen<SumOf<Unit<S>, S>>(offset));
     return {query - n * distance, distance, n};
   }
+
+  /// A square of 8 m with its diagonals, about the point of the surface that is nearest to the origin.
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const {
+    const Tangents<Unit<S>> basis = tangents_of(normal);
+    const Vec3<S> middle = normal * offset, u = basis.t * S(4), v = basis.u * S(4);
+    const Vec3<S> corners[4] = {middle + u + v, middle + u - v, middle - u - v, middle - u + v};
+    for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4]);
+    for (int i = 0; i < 2; ++i) line(corners[i], corners[i + 2]);
+  }
+  /// The point of its surface that is nearest to the body's origin.
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>& origin, const Pose<S>& pose) const {
+    const Vec3<Unit<S>> out = to_matrix(pose.orientation) * normal;
+    const S height = dot(origin.position - pose.position, out);
+    return {origin.position + out * (offset - height), pose.orientation};
+  }
 };
 HalfSpace(Vec3<Literal>, Literal)->HalfSpace<Literal>;
 

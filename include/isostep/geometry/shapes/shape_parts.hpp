@@ -9,6 +9,7 @@
 #include "isostep/geometry/ray.hpp"
 #include "isostep/geometry/shape_fault.hpp"
 #include "isostep/math/aabb.hpp"
+#include "isostep/math/transform.hpp"
 #include "isostep/scalar/literal.hpp"
 
 namespace isostep::detail {
@@ -36,5 +37,31 @@ template <class U> ISO_INLINE bool nearly_unit(U x, U y, U z, U w) {
 }
 /// As close to one as the format can say.
 template <class U> ISO_INLINE bool is_unit(U x, U y, U z, U w) { return round_to<U>(squared_norm(x, y, z, w)) == U(1); }
+
+// ---- debug drawing
+
+struct NoLine {
+  template <class V> ISO_INLINE void operator()(V, V) const {}
+};
+
+/// cos(k pi / 8), for circles of sixteen lines.
+template <class S> ISO_INLINE constexpr Unit<S> cosine_of_sixteenths(int k) {
+  constexpr Unit<S> kQuarter[5] = {Unit<S>(1), Unit<S>(0.9238795325112867), Unit<S>(0.7071067811865476),
+                                   Unit<S>(0.3826834323650898), Unit<S>(0)};
+  k = (k + 16) % 16;
+  if (k > 8) k = 16 - k;
+  return k <= 4 ? kQuarter[k] : -kQuarter[8 - k];
+}
+/// Part of a circle: from the axis `across` towards the axis `up`, begin and end in sixteenths of a turn.
+template <class S, class Line>
+ISO_INLINE void visit_arc(const Line& line, Vec3<S> centre, S radius, int across, int up, int begin = 0, int end = 16) {
+  const auto at = [&](int k) ISO_INLINE_LAMBDA {
+    Vec3<S> p = centre;
+    p[across] += radius * cosine_of_sixteenths<S>(k);
+    p[up] += radius * cosine_of_sixteenths<S>(k - 4);
+    return p;
+  };
+  for (int k = begin; k < end; ++k) line(at(k), at(k + 1));
+}
 
 }  // namespace isostep::detail

@@ -48,6 +48,12 @@ template <class S = Literal> struct Sphere {
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const {
     return detail::closest_on_core(Vec3<S>::zero(), radius, t, query);
   }
+
+  template <class Line> ISO_INLINE void visit_lines(const Line& line) const {
+    for (int axis = 0; axis < 3; ++axis)
+      detail::visit_arc(line, Vec3<S>::zero(), radius, (axis + 1) % 3, (axis + 2) % 3);
+  }
+  ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 };
 Sphere(Literal)->Sphere<Literal>;
 
