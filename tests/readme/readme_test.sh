@@ -44,8 +44,12 @@ shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; inden
   inside {if (indent < 0) indent = match($0, /[^ ]/); print substr($0, indent)}' hello.cpp lockstep_game.cpp cloth.cpp selfcheck.cpp)
 [ "$quoted" = "$shown" ] || complain "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
 
-for link in $(grep -o ']([^)#]*)' "$readme" | sed 's/^](//; s/)$//' | grep -v '^http'); do
-  [ -e "$repository/$link" ] || complain "links to $link, which does not exist"
+# Links of every page lead to files that are there.
+links_of() { grep -o ']([^)#]*)' "$1" | sed 's/^](//; s/)$//' | grep -v '^http'; }
+for page in "$readme" $(find "$repository/include" "$repository/scalar" "$repository/src" "$repository/bench" -name '*.md'); do
+  for link in $(links_of "$page"); do
+    [ -e "$(dirname "$page")/$link" ] || complain "${page#"$repository"/} links to $link, which does not exist"
+  done
 done
 
 [ "$failures" -eq 0 ] && echo "README: all true"
