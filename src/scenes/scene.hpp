@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/scalar/text.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep::test {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "isostep/dynamics/solver_body.hpp"
 #include "random/dice.hpp"
 #include "random/joint_angles.hpp"
 

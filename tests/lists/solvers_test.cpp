@@ -8,7 +8,7 @@ namespace {
 
 class SolverList : public ListProbe {
  protected:
-  void add_to_list() { edit("include/isostep/dynamics/solvers/solver_name.hpp", "X(direct)", "X(direct) X(probe)"); }
+  void add_to_list() { edit("include/isostep/dynamics/solver_name.hpp", "X(direct)", "X(direct) X(probe)"); }
   void add_member() {
     edit("include/isostep/dynamics/solvers/solvers.hpp", "  DirectSolver<S> direct;\n",
          "  DirectSolver<S> direct;\n  DirectSolver<S> probe;\n");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "isostep/core/id.hpp"
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/fields.hpp"
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {

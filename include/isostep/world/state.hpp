@@ -12,7 +12,7 @@
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/contact.hpp"
-#include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/geometry/geometry_store.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/world/events.hpp"

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <set>
 
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/particles/settings.hpp"
 #include "subject.hpp"
 #include "sweep.hpp"

@@ -4,20 +4,10 @@
 
 #include <cstdint>
 
+#include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 
 namespace isostep {
-
-/// Which part of its law a drive is on. Kept from step to step: it is the first guess of the next sub-step.
-enum class DrivePiece : std::uint32_t {
-  free,      // between the limits, no motor
-  lower,     // stopped at the lower limit
-  upper,     // stopped at the upper limit
-  driven,    // at the motor's speed
-  forwards,  // slower than the motor wants: it gives all that it has
-  backwards  // faster than the motor wants: it brakes with all that it has
-};
-inline constexpr std::uint32_t kDrivePieces = 6;
 
 /// Source:  the sum of an implicit spring, a motor with a largest force and two stops is a maximal monotone law between
 ///          speed and impulse (Brogliato 2016, Nonsmooth Mechanics, ch. 5): at every speed at most one part of it is

@@ -5,7 +5,7 @@
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/rigid_solver.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/dynamics/solvers/worst_first.hpp"
 
 namespace isostep {

@@ -12,7 +12,7 @@
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "isostep/dynamics/solvers/solver_name.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "scenes/named.hpp"
 #include "tool/common/tool.hpp"
 

@@ -1,0 +1,117 @@
+// What is stored of a joint: what commands change, and what the step changes. The kinds: joint_type.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/fields.hpp"
+#include "isostep/dynamics/joints/joint_type.hpp"
+#include "isostep/math/transform.hpp"
+
+namespace isostep {
+
+/// Bits of JointProperties::flags.
+namespace joint_flag {
+inline constexpr std::uint32_t kCollideConnected = 1u << 0;  // the two bodies have contacts with each other
+inline constexpr std::uint32_t kLimit = 1u << 1;             // lower..upper holds
+inline constexpr std::uint32_t kMotor = 1u << 2;
+inline constexpr std::uint32_t kSpring = 1u << 3;
+inline constexpr std::uint32_t kCone = 1u << 4;  // cone holds
+}  // namespace joint_flag
+
+inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
+
+/// Which part of its law a drive is on. Kept from step to step: it is the first guess of the next sub-step.
+enum class DrivePiece : std::uint32_t {
+  free,      // between the limits, no motor
+  lower,     // stopped at the lower limit
+  upper,     // stopped at the upper limit
+  driven,    // at the motor's speed
+  forwards,  // slower than the motor wants: it gives all that it has
+  backwards  // faster than the motor wants: it brakes with all that it has
+};
+inline constexpr std::uint32_t kDrivePieces = 6;
+
+/// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass.
+template <class S> struct JointState {
+  std::uint32_t slot;         // of its id
+  std::uint32_t pieces;       // DrivePiece of the drive, and, eight bits up, of the swing
+  Vec3<Velocity<S>> point;    // [m/s] world, on b; distance: x along the joint
+  Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the joint's radius
+  Velocity<S> drive, swing;   // [m/s] of spring, motor and limits together; of the cone
+
+  ISO_INLINE constexpr DrivePiece drive_piece() const { return static_cast<DrivePiece>(pieces & 0xffu); }
+  ISO_INLINE constexpr DrivePiece swing_piece() const { return static_cast<DrivePiece>(pieces >> 8); }
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("pieces", self.pieces);
+    visit("point", self.point);
+    visit("angular", self.angular);
+    visit("drive", self.drive);
+    visit("swing", self.swing);
+  }
+};
+
+/// The part of a joint that only commands change. Angles: [rad] of frame b against frame a about z, in (-pi, pi].
+template <class S> struct JointProperties {
+  JointType type = JointType::ball;
+  std::uint32_t flags = 0;         // joint_flag
+  std::uint32_t body_a = kNoBody;  // slots
+  std::uint32_t body_b = kNoBody;
+  std::uint32_t generation_a = 0;  // of the bodies' ids: checked when the joint is made
+  std::uint32_t generation_b = 0;
+  std::uint64_t user_data = 0;
+  Pose<S> frame_a = Pose<S>::identity();  // from the centre of mass, body axes; for the world its own frame
+  Pose<S> frame_b = Pose<S>::identity();
+  S lower = S(0);  // [rad] or [m]: the kind's JointMeasure
+  S upper = S(0);
+  S cone = S(0);              // [rad] largest angle between the z axes
+  S motor_speed = S(0);       // [rad/s] of b against a
+  S motor_torque = S(0);      // [N m] most that the motor gives; less where in one sub-step it would turn the bodies,
+                              // were they free, beyond Limits<S>::surface_speed()
+  S spring_target = S(0);     // [rad] or [m], as lower
+  S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step
+  S spring_damping = S(0);    // [1] ratio, 1 = critical
+
+  /// All that a joint may be set to once it is made: neither its kind, nor its bodies, nor its frames.
+  ISO_INLINE constexpr void take_settings(const JointProperties& from) {
+    flags = from.flags;
+    user_data = from.user_data;
+    lower = from.lower;
+    upper = from.upper;
+    cone = from.cone;
+    motor_speed = from.motor_speed;
+    motor_torque = from.motor_torque;
+    spring_target = from.spring_target;
+    spring_frequency = from.spring_frequency;
+    spring_damping = from.spring_damping;
+  }
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("type", self.type);
+    visit("flags", self.flags);
+    visit("body_a", self.body_a);
+    visit("body_b", self.body_b);
+    visit("generation_a", self.generation_a);
+    visit("generation_b", self.generation_b);
+    visit("user_data", self.user_data);
+    visit("frame_a", self.frame_a);
+    visit("frame_b", self.frame_b);
+    visit("lower", self.lower);
+    visit("upper", self.upper);
+    visit("cone", self.cone);
+    visit("motor_speed", self.motor_speed);
+    visit("motor_torque", self.motor_torque);
+    visit("spring_target", self.spring_target);
+    visit("spring_frequency", self.spring_frequency);
+    visit("spring_damping", self.spring_damping);
+  }
+};
+
+static_assert(kHasNoPadding<JointState<float>> && kHasNoPadding<JointState<double>>);
+static_assert(kHasNoPadding<JointState<Q16_16>> && kHasNoPadding<JointState<Q32_32>>);
+static_assert(kHasNoPadding<JointProperties<float>> && kHasNoPadding<JointProperties<double>>);
+static_assert(kHasNoPadding<JointProperties<Q16_16>> && kHasNoPadding<JointProperties<Q32_32>>);
+
+}  // namespace isostep
