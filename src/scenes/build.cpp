@@ -59,7 +59,7 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
   const ShapeId shape = world.add_shape(std::span<const Child<S>>(children));
   if (!shape)
     throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
-                                            ? describe(world.fault_report())
+                                            ? describe(world.fault())
                                             : describe(validate(std::span<const Child<S>>(children))));
   return shape;
 }
@@ -95,7 +95,7 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
 
 template <class S> BodyId create(World<S>& world, const BodyDefinition<S>& definition, const std::string& place) {
   const BodyId id = world.create(definition);
-  if (!id) throw SceneError(place, std::string("the body is refused: ") + describe(world.fault_report()));
+  if (!id) throw SceneError(place, std::string("the body is refused: ") + describe(world.fault()));
   return id;
 }
 
@@ -137,7 +137,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
   properties.spring_frequency = read<S>(joint.spring_frequency, place + "/spring_frequency");
   properties.spring_damping = read<S>(joint.spring_damping, place + "/spring_damping");
   const JointId id = world.create(properties);
-  if (!id) throw SceneError(place, std::string("the joint is refused: ") + describe(world.fault_report()));
+  if (!id) throw SceneError(place, std::string("the joint is refused: ") + describe(world.fault()));
   return id;
 }
 

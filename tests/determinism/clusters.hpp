@@ -118,7 +118,7 @@ template <class S> class Cluster {
     d.pinned = pinned;
     if (pinned) d.velocity = Vec3<S>::zero();
     particles_.push_back(w.create(d));
-    EXPECT_TRUE(particles_.back()) << fault_text(w.fault());
+    EXPECT_TRUE(particles_.back()) << describe(w.fault());
     return true;
   }
   ParticleId former(int i) const { return i < 0 ? ParticleId{} : particles_[static_cast<std::size_t>(i)]; }
@@ -126,7 +126,7 @@ template <class S> class Cluster {
     Spring<S> s = spring_of<S>(particles_.back(), former(to), stiffness, 0.5);
     s.damping = num<S>(0.5);
     if (to % 3 == 0) s.type = SpringType::bungee;
-    EXPECT_TRUE(w.add(s)) << fault_text(w.fault());
+    EXPECT_TRUE(w.add(s)) << describe(w.fault());
   }
   Spring<S> spring_to(ParticleWorld<S>&, int i, SpringType type, double stiffness) const {
     Spring<S> s = spring_of<S>(particles_.back(), {}, stiffness, 0);
@@ -138,7 +138,7 @@ template <class S> class Cluster {
   void link(ParticleWorld<S>& w, LinkType type, int to, double length) {
     Link<S> l = link_of<S>(type, particles_.back(), former(to), length);
     if (to < 0) l.anchor = vec<S>(at_ + D3{-2.75, 3.25, 0});
-    EXPECT_TRUE(w.add(l)) << fault_text(w.fault());
+    EXPECT_TRUE(w.add(l)) << describe(w.fault());
   }
 
   Kind kind_;

@@ -71,7 +71,7 @@ template <class S> class Island {
     if (bodies_.size() == parts_.size()) return false;
     const Part& part = parts_[bodies_.size()];
     bodies_.push_back(w.create(part.body));
-    EXPECT_TRUE(bodies_.back()) << fault_text(w.fault());
+    EXPECT_TRUE(bodies_.back()) << describe(w.fault());
     for (const Tie& tie : part.ties) {
       const BodyId other = tie.to < 0 ? BodyId{} : bodies_[static_cast<std::size_t>(tie.to + 1)];
       JointProperties<S> j = w.joint_at(tie.type, other, bodies_.back(), {place(tie.at), Quat<Unit<S>>::identity()});
@@ -81,7 +81,7 @@ template <class S> class Island {
         j.motor_speed = S(1);
         j.motor_torque = num<S>(4);
       }
-      EXPECT_TRUE(w.create(j)) << fault_text(w.fault());
+      EXPECT_TRUE(w.create(j)) << describe(w.fault());
     }
     return true;
   }

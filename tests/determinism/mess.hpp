@@ -49,7 +49,7 @@ template <class S> Mess<S> build_mess(World<S>& w, D3 at = {0, 0, 0}) {
                                JointType::distance, JointType::fixed, JointType::ball};
     JointProperties<S> j = w.joint_at(kinds[i], previous, m.chain.back(), frame);
     if (j.type == JointType::distance) j.upper = num<S>(0.25);
-    if (!w.create(j)) ADD_FAILURE() << fault_text(w.fault());
+    if (!w.create(j)) ADD_FAILURE() << describe(w.fault());
     previous = m.chain.back();
   }
   d = still<S>(m.hammer, place({1, 0.75, 1}));

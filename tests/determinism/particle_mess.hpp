@@ -39,7 +39,7 @@ template <class S> ParticleMess build_particle_mess(ParticleWorld<S>& w) {
     return w.create(d);
   };
   const auto link = [&](LinkType type, ParticleId a, ParticleId b, double length) {
-    EXPECT_TRUE(w.add(link_of<S>(type, a, b, length))) << fault_text(w.fault());
+    EXPECT_TRUE(w.add(link_of<S>(type, a, b, length))) << describe(w.fault());
   };
 
   const ParticleMaterialId balls = w.add(ball_material<S>(0.25, 0.25, 0.5));

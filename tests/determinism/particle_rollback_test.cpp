@@ -67,7 +67,7 @@ TYPED_TEST(ParticleRollback, the_portable_form_rebuilt_in_a_new_world_continues_
     play_on(w, 0, 50);
     ASSERT_GT(w.counts().contacts, 0u) << "the form must carry contacts";
     ASSERT_FALSE(w.state().lifetimes.empty());
-    ASSERT_TRUE(w.apply_force(w.particles()[2], vec<S>(1, 2, 3))) << fault_text(w.fault());
+    ASSERT_TRUE(w.apply_force(w.particles()[2], vec<S>(1, 2, 3))) << describe(w.fault());
     ParticleTouch<S> touch = {};
     touch.particle = w.particles()[5];
     touch.normal.y = Unit<S>(-1);

@@ -77,7 +77,7 @@ TYPED_TEST(Rollback, the_portable_form_rebuilt_in_a_new_world_continues_equal) {
   this->play_on(w, 0, 280);
   ASSERT_GT(w.counts().asleep, 0u) << "the form must carry sleepers";
   ASSERT_GT(w.counts().joints, 0u);
-  ASSERT_TRUE(w.apply_force(w.bodies()[2], vec<S>(1, 2, 3))) << fault_text(w.fault());
+  ASSERT_TRUE(w.apply_force(w.bodies()[2], vec<S>(1, 2, 3))) << describe(w.fault());
   const std::vector<std::uint8_t> bytes = bytes_of(w);
   World<S> rebuilt;
   build_mess(rebuilt, {5, 0, 0});

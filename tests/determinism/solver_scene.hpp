@@ -76,7 +76,7 @@ template <class S> class SolverScene {
         j.flags = joint_flag::kCone;
         j.cone = num<S>(0.25);
       }
-      if (!w.create(j)) ADD_FAILURE() << fault_text(w.fault());
+      if (!w.create(j)) ADD_FAILURE() << describe(w.fault());
       last = bodies_.back();
     }
   }

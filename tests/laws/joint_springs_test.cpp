@@ -31,7 +31,7 @@ template <class S> class JointSprings : public ::testing::Test {
     j.flags = joint_flag::kSpring;
     j.spring_target = num<S>(turns ? 0.5 : 1.5);
     j.spring_frequency = num<S>(frequency);
-    EXPECT_TRUE(w.create(j)) << fault_text(w.fault());
+    EXPECT_TRUE(w.create(j)) << describe(w.fault());
     const int swings = std::max(2, static_cast<int>(2 * 60 / frequency));
     double first = 0, last = 0;
     for (int i = 0; i < 600; ++i) {
@@ -101,7 +101,7 @@ TYPED_TEST(JointSprings, replace_rods_and_ropes_without_a_jerk) {
     rod.flags = joint_flag::kLimit;
     rod.lower = rod.upper = S(2);
     const JointId joint = w.create(rod);
-    ASSERT_TRUE(joint) << fault_text(w.fault());
+    ASSERT_TRUE(joint) << describe(w.fault());
     for (int i = 0; i < 60; ++i) w.step();
     JointProperties<S> rope = rod, spring = rod;
     rope.lower = S(0);
@@ -110,7 +110,7 @@ TYPED_TEST(JointSprings, replace_rods_and_ropes_without_a_jerk) {
     spring.spring_frequency = S(5);
     spring.spring_damping = S(1);
     for (const JointProperties<S>& next : {rope, spring, rod, spring, rope, rod}) {
-      ASSERT_TRUE(w.set_joint(joint, next)) << fault_text(w.fault());
+      ASSERT_TRUE(w.set_joint(joint, next)) << describe(w.fault());
       double fastest = 0;
       for (int i = 0; i < 60; ++i) {
         w.step();

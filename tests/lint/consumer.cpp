@@ -286,7 +286,7 @@ void use_the_rest() {
   slots.give_back(id.slot);
   ShortText<8> text;
   text.append("seven").append_number(7);
-  keep(text.view().size()), keep(fault_text(Fault::none)[0]), keep(hash_bytes("x", 1));
+  keep(text.view().size()), keep(fault_text(Fault::none)[0]), keep(describe(FaultReport{}).size()), keep(hash_bytes("x", 1));
   const FloatEnvironment environment;
   Lcg lcg{1};
   const auto look = [](auto tag) {

@@ -24,7 +24,7 @@ int main() {
   std::vector<std::uint8_t> tape;
   world.record_to(&tape);
   const bool taken = world.apply(Probe{3}), again = world.apply(Probe{2});
-  const FaultReport& fault = world.fault_report();
+  const FaultReport& fault = world.fault();
   const Result<void> played = play_tape<Command<float>>(
       tape, [&](const Command<float>& command) { return other.apply(command); }, [] {});
   std::printf("taken %d again %d %s.%s bytes %d number %d played %d tick %d\n", taken, again, fault.command,

@@ -35,7 +35,7 @@ template <class S> class RangeWorld : public ::testing::Test {
   }
   BodyId add(ShapeId shape, Vec3<S> position, S mass) {
     const BodyId body = world.create({.type = dynamic, .shape = shape, .position = position, .mass = mass});
-    EXPECT_TRUE(body) << fault_text(world.fault());
+    EXPECT_TRUE(body) << describe(world.fault());
     bodies.push_back(body);
     return body;
   }
@@ -146,7 +146,7 @@ TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
     JointProperties<S> joint = this->world.joint_at(static_cast<JointType>(i % 4), last, body,
                                                     {{S(i) - S(0.5), S(10), 0}, Quat<Unit<S>>::identity()});
     if (joint.type == JointType::distance) joint.upper = S(0.5);
-    EXPECT_TRUE(this->world.create(joint)) << fault_text(this->world.fault());
+    EXPECT_TRUE(this->world.create(joint)) << describe(this->world.fault());
     last = body;
   }
   for (int i = 0; i < 120; ++i) this->world.step();
@@ -164,7 +164,7 @@ TYPED_TEST(RangeContract, ChainsOfBallJointsCarryLoad) {
       const BodyId body = this->add(i < 11 ? shape : weight, {S(i), S(10), z}, i < 11 ? S(1) : S(20));
       const JointProperties<S> joint =
           this->world.joint_at(JointType::ball, last, body, {{S(i) - S(0.5), S(10), z}, Quat<Unit<S>>::identity()});
-      EXPECT_TRUE(this->world.create(joint)) << fault_text(this->world.fault());
+      EXPECT_TRUE(this->world.create(joint)) << describe(this->world.fault());
       last = body;
     }
     this->world.set_velocity(last, {0, Limits<S>::speed() * S(0.25), 0}, {0, 0, 0});

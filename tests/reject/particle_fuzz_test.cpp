@@ -39,8 +39,8 @@ template <class S> void play(ParticleWorld<S>& w, std::uint64_t seed, std::uint3
     const std::uint64_t before = looks ? w.hash() : 0;
     const bool taken = w.apply(command);
     ++(taken ? tally.accepted : tally.refused)[command.index()];
-    ++tally.faults[static_cast<std::size_t>(w.fault())];
-    ASSERT_EQ(taken, w.fault() == Fault::none) << fault_text(w.fault());
+    ++tally.faults[static_cast<std::size_t>(w.fault().fault)];
+    ASSERT_EQ(taken, w.fault() == Fault::none) << describe(w.fault());
     if (!looks || taken) continue;
     ASSERT_EQ(w.hash(), before) << "refused command " << command.index() << " changed something";
   }

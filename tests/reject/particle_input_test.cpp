@@ -29,13 +29,13 @@ TYPED_TEST(ParticleInput, springs_without_length_push_nowhere) {
         Spring<S> s = spring_of<S>(a, b, 100, rest);
         s.type = type;
         s.damping = S(1);
-        ASSERT_TRUE(w.add(s)) << fault_text(w.fault());
+        ASSERT_TRUE(w.add(s)) << describe(w.fault());
         s.a = c;
         s.b = {};
         s.anchor = vec<S>(4, 5, 6);
         s.stiffness = S(0);
         s.damping = S(0);
-        ASSERT_TRUE(w.add(s)) << fault_text(w.fault());
+        ASSERT_TRUE(w.add(s)) << describe(w.fault());
         for (int i = 0; i < 30; ++i) EXPECT_TRUE(w.step().clean());
         EXPECT_EQ(w.position(a), w.position(b));
         EXPECT_EQ(w.position(a).x, S(1));
@@ -158,7 +158,7 @@ template <class S> std::vector<std::uint64_t> explode(ParticleReport& sum) {
   for (int i = 0; i < 16; ++i) {
     for (const int next : {1, 4, 5}) {
       if (i + next >= 16) continue;
-      EXPECT_TRUE(w.add(spring_of<S>(ids[i], ids[i + next], 15625))) << fault_text(w.fault());
+      EXPECT_TRUE(w.add(spring_of<S>(ids[i], ids[i + next], 15625))) << describe(w.fault());
     }
   }
   std::vector<std::uint64_t> hashes;

@@ -101,11 +101,11 @@ TYPED_TEST(WorldFuzz, a_world_reads_what_it_writes_whatever_was_commanded) {
     const std::uint64_t before = w.hash();
     const bool taken = this->command();
     ++(taken ? accepted : refused);
-    ASSERT_EQ(taken, w.fault() == Fault::none) << describe(w.fault_report());
+    ASSERT_EQ(taken, w.fault() == Fault::none) << describe(w.fault());
     if (!taken) {
-      ASSERT_EQ(w.hash(), before) << describe(w.fault_report());
-      ASSERT_STRNE(w.fault_report().command, "");
-      ASSERT_STRNE(w.fault_report().field, "");
+      ASSERT_EQ(w.hash(), before) << describe(w.fault());
+      ASSERT_STRNE(w.fault().command, "");
+      ASSERT_STRNE(w.fault().field, "");
     }
     if (i % 7 == 0) w.step();
     if (i % 3 != 0) continue;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "isostep/scalar/platform.hpp"
 
@@ -37,7 +38,18 @@ struct FaultReport {
 
   friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault fault) { return report.fault == fault; }
   friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault fault) { return report.fault != fault; }
+  friend ISO_INLINE constexpr bool operator==(const FaultReport& a, const FaultReport& b) {
+    return a.fault == b.fault && std::string_view(a.command) == b.command && std::string_view(a.field) == b.field &&
+           std::string_view(a.expected) == b.expected;
+  }
 };
+/// Is told of every call that is refused, as it is: where a game writes its log or stops its debugger. On the thread that
+/// calls; it changes nothing of the world.
+struct FaultHandler {
+  void (*refused)(void* user, const FaultReport& report) = nullptr;
+  void* user = nullptr;
+};
+
 /// "create_body: material.friction: a number is beyond the scalar's limits; expected 0 to 16"
 std::string describe(const FaultReport& report);
 

@@ -88,7 +88,13 @@ template <class S> class ParticleWorld final {
 #undef ISO_APPLY_RECORD
   /// Any of them, as recorded ones are.
   bool apply(const ParticleCommand<S>& command);
-  Fault fault() const;
+  /// Why the last call was refused: the rule and the call; `describe` makes a sentence of it. Commands clear it.
+  const FaultReport& fault() const;
+  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains.
+  const FaultReport& first_fault() const;
+  void forget_faults();
+  /// Told of every refused call from now on, as it is refused.
+  void tell_faults_to(const FaultHandler& handler);
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);

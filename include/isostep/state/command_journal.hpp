@@ -57,6 +57,7 @@ class CommandJournal {
     if (fault_ == Fault::none) return;
     fault_.command = command;
     if (first_fault_ == Fault::none) first_fault_ = fault_;
+    if (handler_.refused != nullptr) handler_.refused(handler_.user, fault_);
   }
   /// For calls that are no commands. A query that is accepted leaves the fault as it is, so that any number of threads
   /// may ask at once.
@@ -72,6 +73,7 @@ class CommandJournal {
   ISO_INLINE const FaultReport& fault() const { return fault_; }
   /// Of the first one since `forget_faults`.
   ISO_INLINE const FaultReport& first_fault() const { return first_fault_; }
+  ISO_INLINE void tell_faults_to(const FaultHandler& handler) { handler_ = handler; }
   ISO_INLINE void clear_fault() { fault_ = {}; }
   ISO_INLINE void forget_faults() { fault_ = first_fault_ = {}; }
 
@@ -104,6 +106,7 @@ class CommandJournal {
 
  private:
   FaultReport fault_, first_fault_;
+  FaultHandler handler_;
   OneAtATime one_at_a_time_;
   std::vector<std::uint8_t>* tape_ = nullptr;
   std::vector<std::uint64_t>* trace_ = nullptr;

@@ -149,14 +149,15 @@ template <class S> class World final {
 #undef ISO_APPLY
   /// Any of them, as recorded ones are.
   bool apply(const Command& command);
-  /// Why the last call was refused. Commands clear it; queries that are answered and steps leave it.
-  Fault fault() const;
-  /// The same with the names of the call and the field; `describe` makes a sentence of it.
-  const FaultReport& fault_report() const;
+  /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence of
+  /// it. Commands clear it; queries that are accepted and steps leave it.
+  const FaultReport& fault() const;
   /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
   /// was refused has no id.
   const FaultReport& first_fault() const;
   void forget_faults();
+  /// Told of every refused call from now on, as it is refused.
+  void tell_faults_to(const FaultHandler& handler);
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);

@@ -24,7 +24,7 @@ template <class T> Vec3<T> enter(Vec3<double> v) {
 }
 
 template <class Id, class S> Id expect(Id id, const ParticleWorld<S>& world, const char* what) {
-  if (!id) throw scenes::SceneError("", std::string("a ") + what + " is refused: " + fault_text(world.fault()));
+  if (!id) throw scenes::SceneError("", std::string("a ") + what + " is refused: " + describe(world.fault()));
   return id;
 }
 
@@ -64,7 +64,7 @@ scenes::Overlap summary(const std::vector<double>& depths) {
 template <class S>
 ParticleRun<S>::ParticleRun(const Subject& subject, const LabPoint& point)
     : plan_(subject.particles.model), world_(settings_of<S>(plan_, point)) {
-  if (world_.fault() != Fault::none) throw scenes::SceneError("", fault_text(world_.fault()));
+  if (world_.fault() != Fault::none) throw scenes::SceneError("", describe(world_.fault()));
   add_particles();
   add_rods();
   add_scenery();

@@ -322,7 +322,7 @@ TYPED_TEST(WorstFirstBodies, a_stretched_rod_closes_without_making_speed_and_kee
   rod.frame_a.position = rod.frame_b.position = Vec3<S>::zero();
   rod.lower = rod.upper = S(1);
   const JointId id = w.create(rod);
-  ASSERT_TRUE(id) << fault_text(w.fault());
+  ASSERT_TRUE(id) << describe(w.fault());
   run(w, 30);
   EXPECT_LT(to_double(w.joint_error(id)), 1e-4);
   expect_near(real(w.velocity(a)), {0, 0, 0}, 0, "speed");
@@ -347,7 +347,7 @@ TYPED_TEST(WorstFirstBodies, a_chain_of_joints_holds_a_weight) {
       JointProperties<S> j = w.joint_at(type, last, id, {vec<S>(0, y + 0.25, 0), Quat<Unit<S>>::identity()});
       if (type == JointType::distance) j.upper = num<S>(0.125);
       joints.push_back(w.create(j));
-      ASSERT_TRUE(joints.back()) << fault_text(w.fault());
+      ASSERT_TRUE(joints.back()) << describe(w.fault());
       last = id;
     }
     double worst = 0;
@@ -371,7 +371,7 @@ TYPED_TEST(WorstFirstBodies, a_motor_turns_as_told_until_its_limit_stops_it) {
   j.motor_torque = S(10);
   j.lower = num<S>(-0.5);
   j.upper = S(1);
-  ASSERT_TRUE(w.create(j)) << fault_text(w.fault());
+  ASSERT_TRUE(w.create(j)) << describe(w.fault());
   run(w, 20);
   expect_near(real(w.angular_velocity(id)), {0, 0, 2}, 2e-3, "turns");
   run(w, 60);

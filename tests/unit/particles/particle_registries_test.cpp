@@ -19,13 +19,13 @@ template <class S> class ParticleRegistries : public ::testing::Test {
   void expect_bad(Fault fault, Record record, Change&& change, int line = __builtin_LINE()) {
     SCOPED_TRACE(line);
     const auto good = world.add(record);
-    ASSERT_TRUE(good) << fault_text(world.fault());
+    ASSERT_TRUE(good) << describe(world.fault());
     change(record);
     const std::uint64_t before = world.hash();
     EXPECT_FALSE(world.add(record));
-    EXPECT_STREQ(fault_text(world.fault()), fault_text(fault));
+    EXPECT_EQ(world.fault(), fault) << describe(world.fault());
     EXPECT_FALSE(world.set(good, record));
-    EXPECT_STREQ(fault_text(world.fault()), fault_text(fault));
+    EXPECT_EQ(world.fault(), fault) << describe(world.fault());
     EXPECT_EQ(world.hash(), before);
     EXPECT_TRUE(world.remove(good));
   }

@@ -136,7 +136,7 @@ TYPED_TEST(MatchOf, IsBusyAndStaysWithinTheScalar) {
   for (int frame = 0; frame < 1500; ++frame) {
     play(match, frame, frame + 1);
     ASSERT_TRUE(match.report().clean()) << frame;
-    ASSERT_EQ(match.world().fault(), Fault::none) << frame << fault_text(match.world().fault());
+    ASSERT_EQ(match.world().fault(), Fault::none) << frame << describe(match.world().fault());
     ASSERT_LE(match.events().size(), kMaxMatchEvents);
     for (const MatchEvent& event : match.events()) ++heard[static_cast<std::size_t>(event.kind)];
     const WorldCounts counts = match.world().counts();

@@ -79,11 +79,11 @@ TEST(ParticleSceneList, NamesAreFoundAndDiffer) {
 TYPED_TEST(ParticleScenes, NoCommandIsRefusedAndNothingHasToBeMended) {
   for (const ParticleScene& scene : particle_scenes()) {
     ParticleGame<TypeParam> game(scene);
-    ASSERT_EQ(game.world.fault(), Fault::none) << scene.name << ": " << fault_text(game.world.fault());
+    ASSERT_EQ(game.world.fault(), Fault::none) << scene.name << ": " << describe(game.world.fault());
     const std::uint64_t first = game.world.hash();
     for (int i = 0; i < 300; ++i) {
       const ParticleReport report = game.advance();
-      ASSERT_EQ(game.world.fault(), Fault::none) << scene.name << ' ' << i << ": " << fault_text(game.world.fault());
+      ASSERT_EQ(game.world.fault(), Fault::none) << scene.name << ' ' << i << ": " << describe(game.world.fault());
       ASSERT_TRUE(report.clamped_speed == 0 && report.clamped_position == 0 && report.stopped == 0 &&
                   report.unsolved == 0 && report.lost_pairs == 0)
           << scene.name << ' ' << i;

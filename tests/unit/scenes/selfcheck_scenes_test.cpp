@@ -74,7 +74,7 @@ TYPED_TEST(SelfcheckScenes, MedleyAsksForEveryPartOfTheRigidEngine) {
   Sights<S> sights;
   for (int i = 0; i < kFrames; ++i) {
     before_step(scene.script, world);
-    ASSERT_EQ(world.fault(), Fault::none) << i << ": " << fault_text(world.fault());
+    ASSERT_EQ(world.fault(), Fault::none) << i << ": " << describe(world.fault());
     ASSERT_TRUE(world.step().clean()) << i;
     sights.see(world);
   }

@@ -46,7 +46,7 @@ template <class S> class WorldCommands : public ::testing::Test {
     world.record_to(&tape);
     EXPECT_FALSE(static_cast<bool>(command()));
     world.record_to(nullptr);
-    EXPECT_STREQ(fault_text(world.fault()), fault_text(fault));
+    EXPECT_EQ(world.fault(), fault) << describe(world.fault());
     EXPECT_EQ(world.hash(), before) << "a refused command changed something: " << fault_text(fault);
     EXPECT_TRUE(tape.empty());
   }

@@ -20,7 +20,7 @@ template <class S> class WorldFaults : public ::testing::Test {
     b = world.create(moving<S>(ball, {3, 2, 0}));
   }
   void expect_fault(Fault fault, const char* command, const char* field, const char* expected = nullptr) {
-    const FaultReport& report = world.fault_report();
+    const FaultReport& report = world.fault();
     EXPECT_STREQ(fault_text(report.fault), fault_text(fault));
     EXPECT_STREQ(report.command, command);
     EXPECT_STREQ(report.field, field);
@@ -50,6 +50,31 @@ TYPED_TEST(WorldFaults, a_dynamic_body_needs_a_density_or_a_mass_and_others_neit
   EXPECT_TRUE(this->world.create(d));
 }
 
+TYPED_TEST(WorldFaults, a_handler_is_told_of_each_refusal_and_of_nothing_else) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  std::vector<std::string> told;
+  w.tell_faults_to({[](void* user, const FaultReport& report) {
+                      static_cast<std::vector<std::string>*>(user)->push_back(describe(report));
+                    },
+                    &told});
+  w.apply_impulse(this->a, vec<S>(1, 0, 0));
+  w.step();
+  EXPECT_TRUE(told.empty());
+  w.apply_impulse(this->ground, vec<S>(1, 0, 0));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0], describe(w.fault()));
+  w.cast_ray(vec<S>(0, 5, 0), vec<S>(0, to_double(highest<S>()), 0));
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_NE(told[1].find("cast_ray"), std::string::npos) << told[1];
+  w.destroy(this->b);
+  w.destroy(this->b);
+  EXPECT_EQ(told.size(), 3u);
+  w.tell_faults_to({});
+  w.destroy(this->b);
+  EXPECT_EQ(told.size(), 3u);
+}
+
 TYPED_TEST(WorldFaults, a_joint_takes_no_flag_that_its_kind_does_not_know) {
   using S = TypeParam;
   using namespace joint_flag;
@@ -73,7 +98,7 @@ TYPED_TEST(WorldFaults, a_joint_takes_no_flag_that_its_kind_does_not_know) {
   const JointId id = w.create(j);
   j.flags = kMotor;
   EXPECT_FALSE(w.set_joint(id, j));
-  EXPECT_EQ(describe(w.fault_report()),
+  EXPECT_EQ(describe(w.fault()),
             "set_joint: flags: a flag, count, ratio or enumerator is not one; expected of a ball joint kLimit, kCone, "
             "kCollideConnected");
 }
@@ -299,7 +324,7 @@ TYPED_TEST(WorldFaults, each_field_has_a_text_of_its_own) {
     BodyDefinition<S> d = moving<S>(this->ball, {0, 9, 0});
     change(d);
     EXPECT_FALSE(w.create(d));
-    const std::string text = describe(w.fault_report());
+    const std::string text = describe(w.fault());
     for (const std::string& known : texts) EXPECT_NE(known, text);
     texts.push_back(text);
   };

@@ -73,7 +73,7 @@ TYPED_TEST(WorldTapes, a_command_returns_what_it_made) {
   EXPECT_TRUE(w.contains(joint));
   EXPECT_TRUE(w.apply(DestroyBody{body}));
   EXPECT_FALSE(w.apply(CreateBody<S>{moving<S>({7, 1}, {0, 2, 0})}));
-  EXPECT_STREQ(w.fault_report().command, "create_body");
+  EXPECT_STREQ(w.fault().command, "create_body");
 }
 
 TYPED_TEST(WorldTapes, a_recording_ends_where_the_world_is_loaded) {

@@ -79,12 +79,12 @@ template <class S> class BodyBuilder {
   }
   ParticleMaterialId material(const ParticleMaterial<S>& material) {
     if (good()) body_.material = world_.add(material);
-    require(static_cast<bool>(body_.material), world_.fault());
+    require(static_cast<bool>(body_.material), world_.fault().fault);
     return body_.material;
   }
   void cohesion(const Cohesion<S>& cohesion) {
     if (good()) body_.cohesion = world_.add(cohesion);
-    require(static_cast<bool>(body_.cohesion), world_.fault());
+    require(static_cast<bool>(body_.cohesion), world_.fault().fault);
   }
   /// The kind with its numbers, for a share of k h^2/m: see SpringKind.
   SpringKind<S> resolve(const SpringKind<S>& kind, S mass, S share) const {
@@ -103,7 +103,7 @@ template <class S> class BodyBuilder {
     if (good() && !condition) body_.fault = fault;
   }
   template <class Id> void keep(std::vector<Id>& ids, Id id) {
-    require(static_cast<bool>(id), world_.fault());
+    require(static_cast<bool>(id), world_.fault().fault);
     if (id) ids.push_back(id);
   }
 
