@@ -207,8 +207,8 @@ template <class S> std::vector<std::uint64_t> run_scripted(std::uint32_t way, st
     const ParticleId a = m.balls[f % m.balls.size()], b = m.tossed[f * 5 % m.tossed.size()];
     w.apply_impulse(a, s.impulse);
     w.apply_force(b, s.force);
-    if (f % 4 == 1) w.set_motion(b, s.place, s.speed);
-    if (f % 4 == 3) w.set_motion(a, tiny, tiny);
+    if (f % 4 == 1) w.place(b, s.place, s.speed);
+    if (f % 4 == 3) w.place(a, tiny, tiny);
     if (f % 9 == 0) w.add(s.spring);
     if (f % 7 == 3) w.create(s.birth);
     if (f == 11) w.set(w.add(s.material), s.material);
@@ -251,7 +251,7 @@ TYPED_TEST(SameParticleHashes, and_the_same_portable_form_in_whatever_environmen
   play_on(w, 0, 60);
   if constexpr (!kIsFixed<S>) {
     const Vec3<S> tiny = {std::numeric_limits<S>::denorm_min(), S(0), -std::numeric_limits<S>::denorm_min()};
-    ASSERT_TRUE(w.set_motion(m.tossed[1], tiny, tiny));
+    ASSERT_TRUE(w.place(m.tossed[1], tiny, tiny));
   }
   const std::vector<std::uint8_t> plain = bytes_of(w);
   const Hostile scope(kMasks);

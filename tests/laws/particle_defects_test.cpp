@@ -295,8 +295,8 @@ TYPED_TEST(ParticleDefects, what_was_added_can_be_removed_and_is_gone) {
   EXPECT_EQ(w.fault(), Fault::stale_id);
   const ParticleCounts left = w.counts();
   EXPECT_EQ(left.springs + left.forces + left.links + left.colliders, 0u);
-  ASSERT_TRUE(w.set_motion(a, vec<S>(-1, 0.25, 0), vec<S>(0, 0, 0)));
-  ASSERT_TRUE(w.set_motion(b, vec<S>(1, 0.25, 0), vec<S>(0, 0, 0)));
+  ASSERT_TRUE(w.place(a, vec<S>(-1, 0.25, 0), vec<S>(0, 0, 0)));
+  ASSERT_TRUE(w.place(b, vec<S>(1, 0.25, 0), vec<S>(0, 0, 0)));
   run(w, 16);
   EXPECT_EQ(w.position(a), vec<S>(-1, 0.25, 0)) << "nothing acts any more";
   EXPECT_EQ(w.position(b), vec<S>(1, 0.25, 0));

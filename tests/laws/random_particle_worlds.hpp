@@ -129,7 +129,7 @@ template <class S> class RandomParticleWorld {
       const bool pinned = i > 0 && chance_.one_in(12);
       add(at, chance_.point(3), pinned);
       if (system_.masses.back() == 0)
-        world_.set_motion(system_.ids.back(), world_.position(system_.ids.back()), vec<S>(0, 0, 0));
+        world_.place(system_.ids.back(), world_.position(system_.ids.back()), vec<S>(0, 0, 0));
     }
     const auto joints = chance_.below(2 * count);
     for (std::uint32_t i = 0; i < joints; ++i) {

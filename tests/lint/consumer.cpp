@@ -235,7 +235,7 @@ template <class S> void use_particles() {
   definition.velocity = {S(0), S(3), S(0)};
   const ParticleId a = world.create(definition), b = world.create({.position = {0, 4, 0}, .pinned = true});
   use_particle_records(world, a, b);
-  keep(world.set_motion(a, {S(0), S(2), S(0)}, {S(0), S(0), S(0)})), keep(world.set_mass(a, S(2)));
+  keep(world.place(a, {S(0), S(2), S(0)}, {S(0), S(0), S(0)})), keep(world.set_mass(a, S(2)));
   keep(world.apply_force(a, {S(0), S(3), S(0)})), keep(world.apply_impulse(a, {S(0), S(3), S(0)}));
   keep(world.position(a)), keep(world.velocity(a)), keep(world.mass(a)), keep(world.particles().size());
   std::vector<std::uint8_t> file;

@@ -68,8 +68,8 @@ template <class S> class ParticleWorld final {
   ParticleId create(const ParticleDefinition<S>& definition);
   /// With it go the springs, forces and links that name it.
   bool destroy(ParticleId particle);
-  bool set_motion(ParticleId particle, Vec3<S> position, Vec3<S> velocity);
-  /// A pinned particle goes on at the velocity that it has, whatever acts on it, until `set_motion` gives it another.
+  bool place(ParticleId particle, Vec3<S> position, Vec3<S> velocity);
+  /// A pinned particle goes on at the velocity that it has, whatever acts on it, until `place` gives it another.
   bool set_mass(ParticleId particle, S mass, bool pinned = false);
   bool set_material(ParticleId particle, ParticleMaterialId material);
   bool set_gravity(Vec3<S> gravity);

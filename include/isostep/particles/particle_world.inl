@@ -99,7 +99,7 @@ template <class S> ParticleId ParticleWorld<S>::create(const ParticleDefinition<
   return apply(CreateParticle<S>{definition});
 }
 template <class S> bool ParticleWorld<S>::destroy(ParticleId particle) { return apply(DestroyParticle{particle}); }
-template <class S> bool ParticleWorld<S>::set_motion(ParticleId particle, Vec3<S> position, Vec3<S> velocity) {
+template <class S> bool ParticleWorld<S>::place(ParticleId particle, Vec3<S> position, Vec3<S> velocity) {
   return apply(SetParticleMotion<S>{particle, position, velocity});
 }
 template <class S> bool ParticleWorld<S>::set_mass(ParticleId particle, S mass, bool pinned) {

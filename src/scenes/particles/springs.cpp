@@ -36,7 +36,7 @@ template <class S> void add_springs(ParticleWorld<S>& world) {
   for (const SpringType type : types) {
     const ParticleId a = add_at(world, S(alley), S(4)), b = add_at(world, S(alley), S(2), S(2));
     add_spring(world, type, a, b, S(0));
-    world.set_motion(a, world.position(a), {S(0), S(8), S(1)});
+    world.place(a, world.position(a), {S(0), S(8), S(1)});
     alley += 1;
   }
   for (const SpringType type : types) {

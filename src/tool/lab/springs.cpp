@@ -62,7 +62,7 @@ template <class S> class Springs {
     const int pulled = side_ == 1 ? 0 : kPulled;
     const Vec3<S> rest = place(pulled);
     const S far = number(side_ == 1 ? scale_.length : scale_.length / 4);
-    world_.set_motion(ids[static_cast<std::size_t>(pulled)], {rest.x + far, rest.y, side_ == 1 ? rest.z : rest.z + far},
+    world_.place(ids[static_cast<std::size_t>(pulled)], {rest.x + far, rest.y, side_ == 1 ? rest.z : rest.z + far},
                       Vec3<S>::zero());
     world_.save(start_);
   }

@@ -282,7 +282,7 @@ TYPED_TEST(Bodies, AKickedBodyNeverHasMoreEnergyThanTheKick) {
     const ParticleBody body = build(world, definition);
     ASSERT_TRUE(body);
     const ParticleId kicked = body.particles[body.particles.size() / 2];
-    ASSERT_TRUE(world.set_motion(kicked, world.position(kicked), {S(2), S(5), S(3)}));
+    ASSERT_TRUE(world.place(kicked, world.position(kicked), {S(2), S(5), S(3)}));
     const double given = this->energy_of_motion(world);
     for (int i = 0; i < 300; ++i) {
       world.step();

@@ -176,7 +176,7 @@ TYPED_TEST(ParticleCommands, stale_ids_are_refused_by_every_command) {
   const Vec3<S> v = vec<S>(1, 2, 3);
   for (const ParticleId id : {this->gone, ParticleId{}, ParticleId{1000, 1}}) {
     this->expect_refused(Fault::stale_id, [&] { return w.destroy(id); });
-    this->expect_refused(Fault::stale_id, [&] { return w.set_motion(id, v, v); });
+    this->expect_refused(Fault::stale_id, [&] { return w.place(id, v, v); });
     this->expect_refused(Fault::stale_id, [&] { return w.set_mass(id, S(1)); });
     this->expect_refused(Fault::stale_id, [&] { return w.set_material(id, this->balls); });
     this->expect_refused(Fault::stale_id, [&] { return w.apply_force(id, v); });
@@ -236,8 +236,8 @@ TYPED_TEST(ParticleCommands, arguments_out_of_range_are_refused) {
   const Vec3<S> zero = Vec3<S>::zero();
   const Vec3<S> far_off = {ParticleLimits<S>::position() + S(1), S(0), S(0)};
   const Vec3<S> fast = {S(0), -ParticleLimits<S>::speed() - S(1), S(0)};
-  this->expect_refused(Fault::out_of_range, [&] { return w.set_motion(this->a, far_off, zero); });
-  this->expect_refused(Fault::out_of_range, [&] { return w.set_motion(this->a, zero, fast); });
+  this->expect_refused(Fault::out_of_range, [&] { return w.place(this->a, far_off, zero); });
+  this->expect_refused(Fault::out_of_range, [&] { return w.place(this->a, zero, fast); });
   this->expect_refused(Fault::out_of_range, [&] { return w.set_gravity(fast); });
   this->expect_refused(Fault::bad_mass, [&] { return w.set_mass(this->a, S(0)); });
   this->expect_refused(Fault::out_of_range, [&] { return w.set_mass(this->a, highest<S>()); });
@@ -246,8 +246,8 @@ TYPED_TEST(ParticleCommands, arguments_out_of_range_are_refused) {
   if constexpr (!kIsFixed<S>) {
     const Vec3<S> nan = {S(0), S(0), not_a_number<S>()}, inf = {endless<S>(), S(0), S(0)};
     for (const Vec3<S> v : {nan, inf}) {
-      this->expect_refused(Fault::not_finite, [&] { return w.set_motion(this->a, v, zero); });
-      this->expect_refused(Fault::not_finite, [&] { return w.set_motion(this->a, zero, v); });
+      this->expect_refused(Fault::not_finite, [&] { return w.place(this->a, v, zero); });
+      this->expect_refused(Fault::not_finite, [&] { return w.place(this->a, zero, v); });
       this->expect_refused(Fault::not_finite, [&] { return w.set_gravity(v); });
       this->expect_refused(Fault::not_finite, [&] { return w.apply_force(this->a, v); });
       this->expect_refused(Fault::not_finite, [&] { return w.apply_impulse(this->a, v); });
@@ -259,7 +259,7 @@ TYPED_TEST(ParticleCommands, arguments_out_of_range_are_refused) {
 TYPED_TEST(ParticleCommands, accepted_mutators_do_what_they_say) {
   using S = TypeParam;
   ParticleWorld<S>& w = this->world;
-  EXPECT_TRUE(w.set_motion(this->a, vec<S>(1, 2, 3), vec<S>(4, 5, 6)));
+  EXPECT_TRUE(w.place(this->a, vec<S>(1, 2, 3), vec<S>(4, 5, 6)));
   EXPECT_EQ(w.position(this->a), vec<S>(1, 2, 3));
   EXPECT_EQ(w.velocity(this->a), vec<S>(4, 5, 6));
   EXPECT_TRUE(w.set_mass(this->a, S(4)));

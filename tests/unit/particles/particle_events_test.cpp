@@ -87,10 +87,10 @@ TYPED_TEST(ParticleHappenings, a_spring_beyond_its_elastic_limit_stays_as_long_a
   const SpringId never = w.add(s);
   s.elastic_limit = S(8);
   const SpringId strong = w.add(s);
-  w.set_motion(b, vec<S>(1.5, 0, 0), vec<S>(0, 0, 0));
+  w.place(b, vec<S>(1.5, 0, 0), vec<S>(0, 0, 0));
   w.step();
   EXPECT_TRUE(w.events().yielded.empty()) << "the limit itself is elastic";
-  w.set_motion(b, vec<S>(4, 0, 0), vec<S>(0, 0, 0));
+  w.place(b, vec<S>(4, 0, 0), vec<S>(0, 0, 0));
   w.step();
   ASSERT_EQ(w.events().yielded.size(), 1u);
   EXPECT_EQ(w.events().yielded[0], yields);
@@ -100,7 +100,7 @@ TYPED_TEST(ParticleHappenings, a_spring_beyond_its_elastic_limit_stays_as_long_a
   w.step();
   EXPECT_TRUE(w.events().yielded.empty());
   // Pressed together it yields the other way.
-  w.set_motion(b, vec<S>(1, 0, 0), vec<S>(0, 0, 0));
+  w.place(b, vec<S>(1, 0, 0), vec<S>(0, 0, 0));
   w.step();
   ASSERT_EQ(w.events().yielded.size(), 1u);
   EXPECT_NEAR(to_double(w.find(yields)->rest_length), 1.5, 1e-4);
@@ -157,7 +157,7 @@ TYPED_TEST(ParticleHappenings, a_contact_is_told_when_it_begins_and_not_again_wh
     EXPECT_EQ(told[1].a, high);
     EXPECT_NEAR(to_double(told[1].speed), std::sqrt(2 * 10 * 3.25), 0.3);
     // Parted and met again: told again.
-    w.set_motion(high, vec<S>(2, 1, 0), vec<S>(0, 0, 0));
+    w.place(high, vec<S>(2, 1, 0), vec<S>(0, 0, 0));
     EXPECT_EQ(told_in(w, 90).size(), 1u);
   }
 }

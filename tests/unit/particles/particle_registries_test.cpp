@@ -178,8 +178,8 @@ TYPED_TEST(ParticleRegistries, a_destroyed_particle_takes_with_it_all_that_names
   ParticleWorld<S>& w = this->world;
   ParticleMaterial<S> ball = ball_material<S>(0.75, 0);
   ASSERT_TRUE(w.set(w.default_material(), ball));
-  ASSERT_TRUE(w.set_motion(this->b, vec<S>(1, 0, 0), vec<S>(0, 0, 0)));
-  ASSERT_TRUE(w.set_motion(this->c, vec<S>(2, 0, 0), vec<S>(0, 0, 0)));
+  ASSERT_TRUE(w.place(this->b, vec<S>(1, 0, 0), vec<S>(0, 0, 0)));
+  ASSERT_TRUE(w.place(this->c, vec<S>(2, 0, 0), vec<S>(0, 0, 0)));
   const ColliderId ground = add_plane(w, -0.5);
   ParticleDefinition<S> mortal = particle_at<S>({9, 9, 9});
   mortal.lifetime = 500;
