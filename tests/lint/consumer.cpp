@@ -286,7 +286,8 @@ void use_the_rest() {
   slots.give_back(id.slot);
   ShortText<8> text;
   text.append("seven").append_number(7);
-  keep(text.view().size()), keep(fault_text(Fault::none)[0]), keep(describe(FaultReport{}).size()), keep(hash_bytes("x", 1));
+  keep(text.view().size()), keep(fault_text(Fault::none)[0]), keep(describe(FaultReport{}).size()),
+      keep(hash_bytes("x", 1));
   const FloatEnvironment environment;
   Lcg lcg{1};
   const auto look = [](auto tag) {
@@ -294,7 +295,7 @@ void use_the_rest() {
     use_lanes(world, simd_named("best").value());
     keep(read_whole(world, {}).ok()), keep(world.tick());
   };
-  keep(with_world("", std::string_view("float"), look).size()), keep(with_world("", std::uint64_t{1}, look).size());
+  keep(with_world("", std::string_view("float"), look).size()), keep(with_world(RecordedWorld{"", 1}, look).size());
   keep(with_portable_world(1, look)), keep(check_replay({}).result.frames);
   keep(random_below(lcg, 6)), keep(kVersionText[0]), keep(probe_environment_here());
 }

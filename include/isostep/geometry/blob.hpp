@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "isostep/geometry/shape_type.hpp"
@@ -61,6 +62,14 @@ struct AssetSource {
 struct BlobMention {
   ContentId id;
   BlobRef content;  // or null
+
+  // As the compiler makes them, but no weak functions in each of the files that hold commands.
+  ISO_INLINE BlobMention() = default;
+  ISO_INLINE BlobMention(const ContentId& name, BlobRef blob) : id(name), content(std::move(blob)) {}
+  ISO_INLINE BlobMention(const BlobMention&) = default;
+  ISO_INLINE BlobMention(BlobMention&&) = default;
+  ISO_INLINE BlobMention& operator=(const BlobMention&) = default;
+  ISO_INLINE BlobMention& operator=(BlobMention&&) = default;
 
   void write(Writer& writer) const;
   void read(Reader& reader);

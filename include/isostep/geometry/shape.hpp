@@ -66,8 +66,8 @@ ISO_INLINE constexpr bool is_bounded(ShapeType type) {
   return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kBounded; });
 }
 
-/// Whether it names a blob. Such a shape's file has `ShapeFault fault_of(const Blob&) const`, which also says whether its
-/// other fields are what the blob makes them.
+/// Whether it names a blob. Such a shape's file has `ShapeFault fault_of(const Blob&) const`, which also says whether
+/// its other fields are what the blob makes them.
 ISO_INLINE constexpr bool has_blob(ShapeType type) {
   return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kHasBlob; });
 }

@@ -149,8 +149,8 @@ template <class S> class World final {
 #undef ISO_APPLY
   /// Any of them, as recorded ones are.
   bool apply(const Command& command);
-  /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence of
-  /// it. Commands clear it; queries that are accepted and steps leave it.
+  /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence
+  /// of it. Commands clear it; queries that are accepted and steps leave it.
   const FaultReport& fault() const;
   /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
   /// was refused has no id.

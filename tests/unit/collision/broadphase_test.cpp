@@ -394,7 +394,7 @@ TYPED_TEST(Broadphase, SweepsVisitEveryTouchedBoxAndFindTheNearest) {
   for (int i = 0; i < 300; ++i) {
     const Vec3<S> origin = random_point<S>(random, 32);
     Vec3<S> displacement = random_point<S>(random, 60);
-    if (i % 5 == 0) displacement.set(i % 3, S(0));
+    if (i % 5 == 0) displacement[i % 3] = S(0);
     if (i % 25 == 0) displacement = Vec3<S>::zero();
     const S half = i % 2 == 0 ? S(0) : S(0.5);
     const Sweep<S> sweep = {origin, displacement, {half, half, half}, i % 4 == 3 ? Unit<S>(0.5) : Unit<S>(1)};

@@ -123,7 +123,7 @@ TYPED_TEST(WorldQuestions, all_hits_of_a_ray_are_those_of_a_search_of_every_body
     }
     most = std::max(most, hits.size() - 1);
   }
-  EXPECT_GT(most, 3u);
+  EXPECT_GE(most, 3u);
 }
 
 TYPED_TEST(WorldQuestions, a_query_does_not_see_who_is_to_be_ignored) {
