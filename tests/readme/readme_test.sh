@@ -1,26 +1,29 @@
 #!/bin/sh
-# README tells the truth: its commands run, its code is the example's, the files it links to exist.
+# The pages tell the truth: their commands run, the code they quote is the example's, the files they link to exist.
 # usage: readme_test.sh REPOSITORY TOOL
 set -u
 . "$(dirname "$0")/../scratch.sh"
 repository=$1
 tool=$2
-readme=$repository/README.md
-cd "$repository" || exit 1  # README's paths are the repository's
+cd "$repository" || exit 1  # commands name files from here
+pages=$(find README.md CHANGELOG.md bench cmake include replays scalar src tests -name '*.md' | sort)
 failures=0
 complain() {
-  echo "README: $1" >&2
+  echo "readme: $1" >&2
   failures=$((failures + 1))
 }
 
-# Commands of sh blocks. demo, test and matrix build everything and are CI's own words; bench measures for minutes.
-commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme" | sed 's/ *#.*$//' | grep '^\./isostep ' |
-  grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix')
+# Commands of sh blocks. demo, test and matrix build everything and are CI's own words; bench and lab --all measure for
+# minutes.
+# shellcheck disable=SC2086
+commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' $pages | sed 's/ *#.*$//' | grep '^\./isostep ' |
+  grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix' \
+    -e '^\./isostep lab --all')
 # What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
 # Peers are patient: on a machine that stalls nobody has left.
 commands=$(printf '%s\n' "$commands" |
   sed "s|/tmp/|'$dir'/|g; s/41873/$((20000 + $$ % 10000))/g; s/isostep peer /isostep peer --patience 600 /")
-[ "$(printf '%s\n' "$commands" | wc -l)" -ge 5 ] || complain "fewer commands than expected were found to run"
+[ "$(printf '%s\n' "$commands" | wc -l)" -ge 13 ] || complain "fewer commands than expected were found to run"
 background=''
 while IFS= read -r command; do
   arguments=${command#./isostep }
@@ -38,19 +41,37 @@ for pid in $background; do
   wait "$pid" || complain "a command in the background exits $?"
 done
 
-# The C++ blocks are the parts of the examples between their marks, each less its first line's indentation.
-quoted=$(awk '/^```cpp$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$readme")
-shown=$(cd "$repository/src/examples" && awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}
-  inside {if (indent < 0) indent = match($0, /[^ ]/); print substr($0, indent)}' hello.cpp lockstep_game.cpp cloth.cpp selfcheck.cpp)
-[ "$quoted" = "$shown" ] || complain "the C++ blocks differ from src/examples/hello.cpp, lockstep_game.cpp, cloth.cpp and selfcheck.cpp"
-
-# Links of every page lead to files that are there.
-links_of() { grep -o ']([^)#]*)' "$1" | sed 's/^](//; s/)$//' | grep -v '^http'; }
-for page in "$readme" $(find "$repository/include" "$repository/scalar" "$repository/src" "$repository/bench" -name '*.md'); do
-  for link in $(links_of "$page"); do
-    [ -e "$(dirname "$page")/$link" ] || complain "${page#"$repository"/} links to $link, which does not exist"
+# A C++ block after the line <!-- from FILE --> is quoted: all blocks of a page from one file are the parts of that file
+# between its marks, each less its first line's indentation.
+quoted() { # page, file
+  awk -v mark="<!-- from $2 -->" '/^```$/ {inside = 0} inside; /^```cpp$/ {inside = last == mark} {last = $0}' "$1"
+}
+marked() { # file
+  awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}
+    inside {if (indent < 0) indent = match($0, /[^ ]/); print substr($0, indent)}' "$1"
+}
+for page in $pages; do
+  for file in $(sed -n 's/^<!-- from \(.*\) -->$/\1/p' "$page" | sort -u); do
+    [ -n "$(quoted "$page" "$file")" ] || complain "$page names $file, and quotes nothing of it"
+    [ "$(quoted "$page" "$file")" = "$(marked "$file")" ] || complain "the C++ of $page differs from $file"
   done
 done
+for file in $(grep -l 'README: begin' src/examples/*.cpp); do
+  # shellcheck disable=SC2086
+  grep -Fqx -e "<!-- from $file -->" $pages || complain "no page quotes the marked parts of $file"
+done
+[ "$(grep -c '^```cpp$' README.md)" -eq "$(grep -c '^<!-- from ' README.md)" ] ||
+  complain "README.md has C++ that no example has"
 
-[ "$failures" -eq 0 ] && echo "README: all true"
+# Links of every page lead to files that are there; README leads to every page, once.
+links_of() { grep -o ']([^)]*)' "$1" | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^http'; }
+for page in $pages; do
+  for link in $(links_of "$page"); do
+    [ -e "$(dirname "$page")/$link" ] || complain "$page links to $link, which does not exist"
+  done
+  [ "$page" = README.md ] || [ "$(links_of README.md | grep -Fxc -e "$page")" -eq 1 ] ||
+    complain "README.md does not link to $page once"
+done
+
+[ "$failures" -eq 0 ] && echo "readme: all true"
 exit "$failures"
