@@ -1,4 +1,4 @@
-# The flags behind "same inputs, same bits": what each is for is measured and told in README.
+# The flags behind "same inputs, same bits": what they are for is in tests/matrix/README.md.
 
 # Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Without errno a square
 # root is the instruction and never a call of the C library. Private: a user's own code is compiled as the user likes,

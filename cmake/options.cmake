@@ -1,7 +1,7 @@
 # What is built. Inside another project only the library is.
 option(ISOSTEP_TOOL "The command line tool" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_PROVER "The program that proves a build by recordings" ${PROJECT_IS_TOP_LEVEL})
-option(ISOSTEP_EXAMPLES "Examples, which tests run and README quotes" ${PROJECT_IS_TOP_LEVEL})
+option(ISOSTEP_EXAMPLES "Examples, which tests run and pages quote" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_TESTS "Tests" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FULL_TESTS "Also those tests that build the library once more, or take minutes" OFF)
 option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; tool, examples and tests bring it anyway" OFF)

@@ -1,4 +1,4 @@
-// Scene files: JSON in and out. The format is in README; whatever it does not know is an error that names its place.
+// Scene files: JSON in and out. The format is in src/tool/README.md; an error names the place of what is not known.
 // SPDX-License-Identifier: MIT
 #pragma once
 

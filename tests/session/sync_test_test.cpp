@@ -187,7 +187,7 @@ struct Pushes {
     visit("count", self.count);
   }
 };
-/// A game as README shows it, which counts in its state or, forgetfully, in a member beside it.
+/// A game as the page of sessions shows it, which counts in its state or, forgetfully, in a member beside it.
 template <bool kForgets> struct CountingGame : Composite<World<Q16_16>, Pushes> {
   using Input = ToyInput;
   BodyId ball;

@@ -63,7 +63,7 @@ TEST(Composite, ItsHashSeesEitherPart) {
   EXPECT_NE(both.hash(), before);
 }
 
-/// A game as README shows it: its parts by value.
+/// A game as the page of sessions shows it: its parts by value.
 struct WholeGame : Composite<toy::Game, Score> {
   WholeGame() : Composite{{}, {1, false}} {}
 };
