@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude tests/fuzz/replay_fuzz.cpp
-//         src/isostep/state/*.cpp scalar/src/*.cpp build/release/behaviour_version.cpp -o replay_fuzz
+//         src/isostep/{geometry,state}/*.cpp scalar/src/*.cpp build/release/libisostep.a -o replay_fuzz
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude -Isrc -Itests
-//         tests/fuzz/session_fuzz.cpp src/isostep/{session,state}/*.cpp scalar/src/*.cpp behaviour_version.cpp
-//         src/transport/{simulated_network,impaired_direction,network_profile}.cpp -o session_fuzz
+//         tests/fuzz/session_fuzz.cpp src/isostep/{session,geometry,state}/*.cpp scalar/src/*.cpp
+//         src/transport/{simulated_network,impaired_direction,network_profile}.cpp build/release/libisostep.a
+//         -o session_fuzz
 
 #include <deque>
 #include <map>
