@@ -71,7 +71,7 @@ const Exception kExceptions[] = {
     {"geometry/limits.hpp", "0x1p", "the published limits of float itself"},
     {"particles/limits.hpp", "0x1p", "likewise"},
     {"math/eigen.hpp", "floating_point", "Eigen knows float and double by their own names"},
-    {"world/engine_queries.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
+    {"world/render_poses.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
     {"session/core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
     {"session/peer_core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
     {"world/debug_draw.hpp", "virtual", "what draws is outside of worlds: never copied, hashed or rolled back"},

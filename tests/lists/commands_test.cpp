@@ -21,13 +21,13 @@ class CommandList : public ListProbe {
          "#include \"isostep/world/definitions.hpp\"\n#include \"isostep/world/probe_command.hpp\"");
   }
   void add_body() {
-    edit("include/isostep/world/engine_commands.inl",
-         "template <class S> bool WorldEngine<S>::execute(const SetGravity<S>&",
-         "template <class S> bool WorldEngine<S>::execute(const Probe& command) {\n"
+    edit("include/isostep/world/execute_bodies.inl",
+         "template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>&",
+         "template <class S> bool CommandExecutor<S>::execute(const Probe& command) {\n"
          "  if (command.tick < state_.tick) return journal_.refuse({Fault::bad_argument, \"\", \"tick\", \"no past "
          "one\"});\n"
          "  state_.tick = command.tick;\n  return true;\n}\n"
-         "template <class S> bool WorldEngine<S>::execute(const SetGravity<S>&");
+         "template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>&");
   }
 };
 

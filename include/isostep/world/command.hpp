@@ -168,7 +168,7 @@ template <class S> struct SetJoint {
 };
 
 /// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
-/// what World<S>::apply and WorldEngine<S>::execute return: an id of what was made, or whether it was accepted. To add
+/// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
 /// one: its record above, its line here, its `execute`; see README.md. The position is the number in replays: append,
 /// never reorder.
 #define ISO_FOR_EACH_COMMAND(X, S)            \

@@ -4,8 +4,8 @@
 
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/scalar/environment.hpp"
+#include "isostep/world/body_frames.hpp"
 #include "isostep/world/debug_draw_particles.inl"
-#include "isostep/world/engine_bodies.inl"
 #include "isostep/world/state.hpp"
 
 namespace isostep {

@@ -10,52 +10,20 @@
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
-template <class S> template <class Visit> void WorldEngine<S>::visit_places(const Visit& visit) {
-  visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
-  visit("joint_locations", std::span(joint_locations_.data(), state_.joint_slots.entries().size()));
-}
-
-template <class S> template <class Visit> void WorldEngine<S>::visit_manifolds(const Visit& visit) {
-  visit("frames", frames_);
-  visit("materials", materials_);
-  visit("parts", parts_);
-  visit("old_contacts", old_contacts_);
-  visit("new_overlaps", new_overlaps_);
-  visit.each("geometry", geometry_.size(), [&](const auto& of_contact, std::size_t i) {
-    ContactGeometry<S>& g = geometry_[i];
-    of_contact("row_a", g.row_a);
-    of_contact("row_b", g.row_b);
-    of_contact("normal", g.normal);
-    of_contact("points", std::span(g.points, state_.contacts[i].count));
-    of_contact("material", g.material);
-  });
-}
-
-template <class S> template <class Visit> void WorldEngine<S>::visit_solver(const Visit& visit, SolverStage stage) {
-  StepContext<S> context = {};
-  context.properties = state_.awake.properties;
-  context.contacts = state_.contacts;
-  context.geometry = geometry_;
-  with_solver(solvers_, state_.settings.solver, [&](auto& solver) { solver.visit_scratch(visit, stage, context); });
-}
 
 /// Of the broad phase the pairs: its trees are functions of the state and of what came before, and differ between
 /// worlds that agree.
 template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(const Visit& visit, Stage stage) {
+  const auto solved = [&](SolverStage part) { solver_.visit_solver(visit, part, narrow_phase_.geometry()); };
   switch (stage) {
-    case Stage::find_pairs:
-      visit("pairs", const_cast<std::vector<std::uint64_t>&>(proxies_.pairs()));  // a drill's to write
-      return visit_places(visit);
-    case Stage::apply_forces:
-      visit("accelerations", accelerations_);
-      visit("start_poses", start_poses_);
-      return visit("start_slots", start_slots_);
-    case Stage::update_manifolds: return visit_manifolds(visit);
-    case Stage::colour_constraints: return visit_solver(visit, SolverStage::colour);
-    case Stage::prepare: return visit_solver(visit, SolverStage::prepare);
-    case Stage::solve_substeps: return visit_solver(visit, SolverStage::solve);
-    case Stage::restitution: return visit_solver(visit, SolverStage::restitute);
-    case Stage::store_impulses: visit("step_impulses", step_impulses_); return visit_solver(visit, SolverStage::store);
+    case Stage::find_pairs: proxies_.visit_scratch(visit); return map_.visit_scratch(visit);
+    case Stage::apply_forces: solver_.visit_forces(visit); return render_poses_.visit_scratch(visit);
+    case Stage::update_manifolds: return narrow_phase_.visit_scratch(visit);
+    case Stage::colour_constraints: return solved(SolverStage::colour);
+    case Stage::prepare: return solved(SolverStage::prepare);
+    case Stage::solve_substeps: return solved(SolverStage::solve);
+    case Stage::restitution: return solved(SolverStage::restitute);
+    case Stage::store_impulses: solver_.visit_impulses(visit); return solved(SolverStage::store);
     case Stage::finalise_bodies: return visit("report", report_);
     case Stage::update_sensors:
       visit("sensor_begin", events_.sensor_begin);
@@ -66,7 +34,7 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
     case Stage::update_sleep:
       visit("fell_asleep", events_.fell_asleep);
       visit("woke", events_.woke);
-      return visit_places(visit);
+      return map_.visit_scratch(visit);
   }
 }
 

@@ -1,13 +1,46 @@
-// WorldEngine: hashing, loading, and the portable form.
+// WorldEngine: making, hashing and loading it, and the portable form.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/state/members.hpp"
+#include "isostep/world/checks.hpp"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/engine_sleep.inl"
 #include "isostep/world/state_validator.hpp"
 
 namespace isostep {
+
+namespace detail {
+/// With every field brought to the nearest that is in range.
+template <class S> Settings<S> in_range(Settings<S> s) {
+  s.hz = clamp(s.hz, 10, 1000);
+  s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
+  if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
+  s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
+  s.most_pairs = clamp(s.most_pairs, kLeastPairs, kMostPairs);
+  const S limit = Limits<S>::speed();
+  for (int axis = 0; axis < 3; ++axis) {
+    const S g = s.gravity[axis];
+    s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
+  }
+  return s;
+}
+}  // namespace detail
+
+/// Settings out of range are brought to the nearest that is in range, and that is a fault.
+template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
+  tools_.use_simd(Simd::best);
+  const Settings<S>& s = state_.settings = detail::in_range(settings);
+  const FaultReport report =
+      detail::Checklist()
+          .in_range(s.hz == settings.hz, "hz", "10 to 1000")
+          .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
+          .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
+          .in_range(s.solver == settings.solver, "solver", "one of SolverName")
+          .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
+          .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
+          .report();
+  journal_.accept_call("World", report);
+}
 
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
   detail::StateHasher root;
@@ -15,73 +48,12 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
   return root.value();
 }
 
-namespace detail {
-/// What a world was made with: gravity alone is changed by commands.
-template <class S> bool same_making(const Settings<S>& a, const Settings<S>& b) {
-  return a.hz == b.hz && a.substeps == b.substeps && a.allow_sleep == b.allow_sleep && a.solver == b.solver &&
-         a.id_space == b.id_space && a.most_pairs == b.most_pairs;
-}
-}  // namespace detail
-
-/// Takes time for what is awake in either state, for the islands that only one of them has at their place, and for what
-/// is fixed if that differs.
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
-  other_islands_.clear();
-  state_.frozen.each_difference(from.frozen,
-                                [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
-  const bool other_fixed = !state_.fixed.is_same(from.fixed);
-  forget_places(other_fixed);
-  state_ = from;
+  loader_.load(from);
   journal_.note_load();
   events_.clear();
   report_ = {};
-  start_slots_.clear();
-  renew_places(other_fixed);
-}
-
-/// Of everything but the islands, and the fixed bodies, that stay.
-template <class S> void WorldEngine<S>::forget_places(bool other_fixed) {
-  slots_.clear();
-  const auto forget = [&](const BodySet<S>& bodies, const JointSet<S>& joints) {
-    for (const BodyState<S>& body : bodies.states) {
-      locations_[body.slot] = Location{};
-      slots_.push_back(body.slot);
-    }
-    for (const JointState<S>& joint : joints.states) joint_locations_[joint.slot] = Location{};
-  };
-  if (other_fixed) forget(*state_.fixed, {});
-  forget(state_.awake, state_.joints);
-  for (const std::uint32_t i : other_islands_) {
-    if (i >= state_.frozen.size()) continue;
-    forget(state_.frozen[i]->bodies, state_.frozen[i]->joints);
-    count_names(*state_.frozen[i], ~0u);
-  }
-}
-
-/// Of the same in the new state; the broad phase changes only where a body differs from what it knew.
-template <class S> void WorldEngine<S>::renew_places(bool other_fixed) {
-  if (locations_.size() < state_.body_slots.entries().size()) {
-    locations_.resize(state_.body_slots.entries().size());
-    named_.resize(locations_.size());
-  }
-  if (joint_locations_.size() < state_.joint_slots.entries().size())
-    joint_locations_.resize(state_.joint_slots.entries().size());
-  const auto take = [&](const BodySet<S>& set, std::uint32_t name, bool awake) {
-    relabel(set, name, 0);
-    for (std::size_t i = 0; i < set.states.size(); ++i) proxies_.place(set.states[i], set.properties[i], awake);
-  };
-  if (other_fixed) take(*state_.fixed, Location::kFixed, false);
-  take(state_.awake, Location::kAwake, true);
-  relabel_joints(state_.joints, Location::kAwake, 0);
-  for (const std::uint32_t i : other_islands_) {
-    if (i >= state_.frozen.size()) continue;
-    take(state_.frozen[i]->bodies, i, false);
-    relabel_joints(state_.frozen[i]->joints, i, 0);
-    count_names(*state_.frozen[i], 1);
-  }
-  for (const std::uint32_t slot : slots_) {
-    if (locations_[slot].set == Location::kNone) proxies_.remove(slot);
-  }
+  render_poses_.forget();
 }
 
 namespace detail {

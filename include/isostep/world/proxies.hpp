@@ -33,6 +33,11 @@ template <class S> class Proxies {
   std::uint32_t bodies_left_out() const { return left_out_; }
   const AabbTree<S>& tree() const { return tree_; }
 
+  /// The pairs alone: trees differ between worlds that agree.
+  template <class Visit> void visit_scratch(const Visit& visit) {
+    visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // fault drills write to them
+  }
+
  private:
   struct MayCollide {
     const std::vector<Proxy<S>>* proxies;

@@ -5,50 +5,30 @@
 #include <utility>
 #include <variant>
 
+#include "isostep/dynamics/carriers.inl"
 #include "isostep/state/tape.hpp"
+#include "isostep/world/body_finisher.inl"
+#include "isostep/world/body_map.inl"
+#include "isostep/world/contact_events.inl"
+#include "isostep/world/destruction.inl"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/engine_bodies.inl"
-#include "isostep/world/engine_commands.inl"
-#include "isostep/world/engine_contacts.inl"
-#include "isostep/world/engine_destroy.inl"
-#include "isostep/world/engine_joint_commands.inl"
-#include "isostep/world/engine_queries.inl"
-#include "isostep/world/engine_sleep.inl"
 #include "isostep/world/engine_state.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/execute_bodies.inl"
+#include "isostep/world/execute_forces.inl"
+#include "isostep/world/execute_joints.inl"
+#include "isostep/world/execute_shapes.inl"
+#include "isostep/world/island_sleep.inl"
+#include "isostep/world/island_wake.inl"
+#include "isostep/world/narrow_phase.inl"
 #include "isostep/world/proxies.inl"
+#include "isostep/world/queries.inl"
+#include "isostep/world/render_poses.inl"
+#include "isostep/world/sensor_overlaps.inl"
+#include "isostep/world/state_loader.inl"
+#include "isostep/world/step_solver.inl"
 
 namespace isostep {
-
-/// Settings out of range are brought to the nearest that is in range, and that is a fault.
-template <class S>
-WorldEngine<S>::WorldEngine(const Settings<S>& settings)
-    : kernels_(contact_kernels<S>(Simd::best)),
-      pair_kernels_(pair_kernels<S>(Simd::best)),
-      tree_kernels_(tree_kernels<S>(Simd::best)) {
-  state_.settings = settings;
-  Settings<S>& s = state_.settings;
-  s.hz = clamp(s.hz, 10, 1000);
-  s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
-  if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
-  s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
-  s.most_pairs = clamp(s.most_pairs, kLeastPairs, kMostPairs);
-  const S limit = Limits<S>::speed();
-  for (int axis = 0; axis < 3; ++axis) {
-    const S g = s.gravity[axis];
-    s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
-  }
-  const FaultReport report =
-      detail::Checklist()
-          .in_range(s.hz == settings.hz, "hz", "10 to 1000")
-          .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
-          .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
-          .in_range(s.solver == settings.solver, "solver", "one of SolverName")
-          .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
-          .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
-          .report();
-  journal_.accept_call("World", report);
-}
 
 template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
 template <class S> World<S>::~World() = default;
@@ -67,28 +47,23 @@ template <class S> std::uint64_t World<S>::tick() const { return engine_->state_
 template <class S> bool World<S>::use_simd(Simd simd) {
   const CommandJournal::Call call(engine_->journal_, "use_simd");
   if (!call.allowed()) return false;
-  const ContactKernels<S>* kernels = contact_kernels<S>(simd);
-  if (kernels == nullptr) return false;
-  engine_->kernels_ = kernels;
-  engine_->pair_kernels_ = pair_kernels<S>(simd);
-  engine_->tree_kernels_ = tree_kernels<S>(simd);
-  return true;
+  return engine_->tools_.use_simd(simd);
 }
-template <class S> const char* World<S>::simd_name() const { return engine_->kernels_->name; }
+template <class S> const char* World<S>::simd_name() const { return engine_->tools_.contact_kernels->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) {
   const CommandJournal::Call call(engine_->journal_, "use_threads");
   if (!call.allowed()) return;
-  engine_->runner_ = runner;
-  engine_->runner_.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
+  engine_->tools_.runner = runner;
+  engine_->tools_.runner.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
 }
 template <class S> void World<S>::use_assets(const AssetSource& assets) {
   const CommandJournal::Call call(engine_->journal_, "use_assets");
   if (call.allowed()) engine_->assets_ = assets;
 }
 
-#define ISO_APPLY(name, Type, Result, S)                           \
-  template <class S> Result World<S>::apply(const Type& command) { \
-    return engine_->journal_.run(#name, *engine_, command);        \
+#define ISO_APPLY(name, Type, Result, S)                              \
+  template <class S> Result World<S>::apply(const Type& command) {    \
+    return engine_->journal_.run(#name, engine_->commands_, command); \
   }
 ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
 #undef ISO_APPLY
@@ -134,7 +109,7 @@ template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies)
   const CommandJournal::Call call(engine_->journal_, "destroy");
   if (!call.allowed()) return 0;
   engine_->journal_.clear_fault();
-  return engine_->destroy_all(bodies);
+  return engine_->commands_.destroy_all(bodies);
 }
 template <class S> bool World<S>::wake(BodyId body) { return apply(WakeBody{body}); }
 template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) { return apply(SetPose<S>{body, pose}); }
@@ -177,11 +152,11 @@ template <class S> bool World<S>::set_joint(JointId joint, const JointProperties
   return apply(SetJoint<S>{joint, properties});
 }
 template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const {
-  return engine_->properties_of(joint);
+  return engine_->map_.properties_of(joint);
 }
 template <class S> S World<S>::joint_error(JointId joint) const {
   const FloatEnvironment environment;
-  return engine_->joint_error(joint);
+  return engine_->queries_.joint_error(joint);
 }
 
 /// Both frames from one frame in the world, as the bodies lie now.
@@ -195,7 +170,7 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
     slot = body.slot;
     generation = body.generation;
     if (!contains(body)) return frame;
-    const Pose<S> centre = engine_->centre_pose_at(body.slot);
+    const Pose<S> centre = engine_->map_.centre_pose_at(body.slot);
     const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
     return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
   };
@@ -221,35 +196,35 @@ template <class S> bool World<S>::contains(BodyId body) const { return engine_->
 template <class S> bool World<S>::contains(ShapeId shape) const { return engine_->state_.shape_slots.holds(shape); }
 template <class S> bool World<S>::contains(JointId joint) const { return engine_->state_.joint_slots.holds(joint); }
 template <class S> bool World<S>::is_awake(BodyId body) const {
-  return contains(body) && engine_->location(body.slot).set == Location::kAwake;
+  return contains(body) && engine_->map_.location(body.slot).set == Location::kAwake;
 }
 template <class S> BodyType World<S>::type(BodyId body) const {
-  const BodyProperties<S>* properties = engine_->properties_of(body);
+  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
   return properties == nullptr ? BodyType::fixed : properties->type;
 }
 template <class S> Pose<S> World<S>::pose(BodyId body) const {
   const FloatEnvironment environment;
   if (!contains(body)) return Pose<S>::identity();
-  return engine_->origin_pose(*engine_->state_of(body), *engine_->properties_of(body));
+  return BodyMap<S>::origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
 }
 template <class S> Vec3<S> World<S>::centre(BodyId body) const {
-  const BodyState<S>* state = engine_->state_of(body);
+  const BodyState<S>* state = engine_->map_.state_of(body);
   return state == nullptr ? Vec3<S>::zero() : state->centre;
 }
 template <class S> Vec3<S> World<S>::velocity(BodyId body) const {
-  const BodyState<S>* state = engine_->state_of(body);
+  const BodyState<S>* state = engine_->map_.state_of(body);
   return state == nullptr ? Vec3<S>::zero() : convert<S>(state->velocity);
 }
 template <class S> Vec3<S> World<S>::angular_velocity(BodyId body) const {
-  const BodyState<S>* state = engine_->state_of(body);
+  const BodyState<S>* state = engine_->map_.state_of(body);
   return state == nullptr ? Vec3<S>::zero() : convert<S>(state->spin);
 }
 template <class S> S World<S>::mass(BodyId body) const {
-  const BodyProperties<S>* properties = engine_->properties_of(body);
+  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
   return properties == nullptr ? S(0) : properties->mass;
 }
 template <class S> std::uint64_t World<S>::user_data(BodyId body) const {
-  const BodyProperties<S>* properties = engine_->properties_of(body);
+  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
   return properties == nullptr ? 0 : properties->user_data;
 }
 template <class S> std::vector<BodyId> World<S>::bodies() const {
@@ -291,36 +266,37 @@ template <class S> WorldCounts World<S>::counts() const {
 template <class S>
 std::optional<RayCastHit<S>> World<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
   const FloatEnvironment environment;
-  return engine_->cast_ray(origin, translation, filter);
+  return engine_->queries_.cast_ray(origin, translation, filter);
 }
 template <class S>
 void World<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                             QueryFilter filter) const {
   const FloatEnvironment environment;
-  engine_->cast_ray_all(origin, translation, out, filter);
+  engine_->queries_.cast_ray_all(origin, translation, out, filter);
 }
 template <class S>
 std::optional<ClosestBody<S>> World<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const FloatEnvironment environment;
-  return engine_->closest(point, max_distance, filter);
+  return engine_->queries_.closest(point, max_distance, filter);
 }
 template <class S>
 void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                            QueryFilter filter) const {
   const FloatEnvironment environment;
-  engine_->overlapping(shape, pose, out, filter);
+  engine_->queries_.overlapping(shape, pose, out, filter);
 }
 
 template <class S> void World<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
   const FloatEnvironment environment;
-  engine_->bodies_near(box, out, filter);
+  engine_->queries_.bodies_near(box, out, filter);
 }
 template <class S> BodyView<S> World<S>::view(BodyId body) const {
   if (!contains(body)) return {};
   const FloatEnvironment environment;
-  const BodyState<S>* state = engine_->state_of(body);
-  const BodyProperties<S>* properties = engine_->properties_of(body);
-  return {state, properties, engine_->children_of(properties->shape), engine_->origin_pose(*state, *properties)};
+  const BodyState<S>* state = engine_->map_.state_of(body);
+  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
+  return {state, properties, engine_->map_.children_of(properties->shape),
+          BodyMap<S>::origin_pose(*state, *properties)};
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
@@ -331,8 +307,7 @@ template <class S> StepReport World<S>::step(const StageObserver& observer) {
 }
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
 template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {
-  engine_->fill_render_poses(alpha);
-  return engine_->render_poses_;
+  return engine_->render_poses_.fill(alpha);
 }
 
 template <class S> World<S>::Snapshot::Snapshot() = default;
@@ -379,8 +354,25 @@ template <class S> StageView World<S>::leaves() const { return engine_->view(kSt
 
 }  // namespace isostep
 
-/// World<S> and what each command does: a command of the list without `execute` does not compile.
-#define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result WorldEngine<S>::execute(const Type&);
+/// World<S>, the rooms behind it, each a class that links alone, and what each command does: a command of the list
+/// without `execute` does not compile.
+#define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);
 #define ISO_INSTANTIATE_WORLD(S)                   \
+  template class BodyMap<S>;                       \
+  template class Proxies<S>;                       \
+  template class IslandWake<S>;                    \
+  template class IslandSleep<S>;                   \
+  template class PartPairs<S>;                     \
+  template class NarrowPhase<S>;                   \
+  template class Carriers<S>;                      \
+  template class StepSolver<S>;                    \
+  template class BodyFinisher<S>;                  \
+  template class SensorOverlaps<S>;                \
+  template class ContactEvents<S>;                 \
+  template class RenderPoses<S>;                   \
+  template class Destruction<S>;                   \
+  template class Queries<S>;                       \
+  template class StateLoader<S>;                   \
   ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S) \
+  template class CommandExecutor<S>;               \
   template class World<S>;

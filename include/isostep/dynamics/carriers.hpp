@@ -1,0 +1,32 @@
+// Carriers<S>: finds the kinematic bodies that turn, and the contacts on them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/carrying.hpp"
+#include "isostep/dynamics/contact.hpp"
+
+namespace isostep {
+
+/// Input:   the awake bodies, the geometry of the contacts, the rate at which the solver integrates [1/s].
+/// Output:  contacts on carriers, ascending.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class Carriers {
+ public:
+  void update(std::span<const BodyState<S>> states, std::span<const BodyProperties<S>> properties,
+              std::span<const ContactGeometry<S>> geometry, std::int32_t rate);
+  ISO_INLINE const std::vector<Carried<S>>& carried() const { return carried_; }
+
+ private:
+  void find_carriers(std::span<const BodyState<S>> states, std::span<const BodyProperties<S>> properties,
+                     std::int32_t rate);
+
+  std::vector<Carrier<S>> carriers_;  // by row
+  std::vector<Carried<S>> carried_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,36 @@
+// BodyFinisher<S>: keeps what a step moved within the scalar's range.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/events.hpp"
+#include "isostep/world/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state after the solver; the poses of the awake bodies' centres as the step began.
+/// Output:  the same state with no number that is not finite and none beyond Limits<S>; what was changed, as counts in
+///          the report; fat boxes; the broad phase knows of them.
+/// Keeps:   nothing.
+template <class S> class BodyFinisher {
+ public:
+  ISO_INLINE BodyFinisher(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  void finish(std::span<const Pose<S>> start, StepReport& report);
+
+ private:
+  static void stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report);
+  void clamp_speed(BodyState<S>& state, StepReport& report) const;
+  static void clamp_position(BodyState<S>& state, StepReport& report);
+  void discard_bad_impulses();
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+};
+
+}  // namespace isostep

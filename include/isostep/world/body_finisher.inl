@@ -1,0 +1,100 @@
+// Bodies of body_finisher.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/step_context.hpp"
+#include "isostep/world/body_finisher.hpp"
+#include "isostep/world/checks.hpp"
+#include "isostep/world/fat_box.inl"
+
+namespace isostep {
+
+template <class S> void BodyFinisher<S>::finish(std::span<const Pose<S>> start, StepReport& report) {
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    stop_if_not_finite(state, start[i], report);
+    clamp_speed(state, report);
+    clamp_position(state, report);
+    detail::renew_fat_box(map_, state, body, false);
+    proxies_.place(state, body, true);
+  }
+  if (report.stopped > 0) discard_bad_impulses();
+}
+
+/// A body with a number that is not finite stops where it was as the step began.
+template <class S>
+ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report) {
+  const auto& q = state.orientation;
+  const bool finite = is_finite(state.centre) && is_finite(state.velocity) && is_finite(state.spin) && is_finite(q.x) &&
+                      is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
+  if (finite) return;
+  state.centre = start.position;
+  state.orientation = start.orientation;
+  state.velocity = Vec3<Velocity<S>>::zero();
+  state.spin = Vec3<Velocity<S>>::zero();
+  ++report.stopped;
+}
+
+namespace detail {
+/// Most are not half as long along any axis, and need no square root.
+template <class V> bool is_longer(Vec3<V> v, V limit) { return limit * V(0.5) < max_abs(v) && limit < length(v); }
+/// To `limit`, or to 2^-12 less where rounding leads beyond.
+template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
+  if (!is_longer(v, limit)) return v;
+  const auto way = direction_of(v.x, v.y, v.z);
+  const auto along = [&](V length) {
+    const auto part = [&](auto x) { return round_to<V>(product(length, x)); };
+    return Vec3<V>{part(way.x), part(way.y), part(way.z)};
+  };
+  const Vec3<V> cut = along(limit);
+  return is_longer(cut, limit) ? along(limit - limit * V(0x1p-12)) : cut;
+}
+}  // namespace detail
+
+template <class S> ISO_INLINE void BodyFinisher<S>::clamp_speed(BodyState<S>& state, StepReport& report) const {
+  using V = Velocity<S>;
+  const V speed = convert<V>(Limits<S>::speed());
+  const V spin = spin_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
+  const bool overspins = detail::overspins(state.spin, state.fat);
+  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.spin, spin) || overspins)) return;
+  const S most = overspins ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low) : Limits<S>::spin();
+  state.velocity = detail::shortened(state.velocity, speed);
+  state.spin = detail::shortened(state.spin, min(spin, convert<V>(most)));
+  ++report.clamped_speed;
+}
+
+/// A body at the edge of the world does not move on.
+template <class S> ISO_INLINE void BodyFinisher<S>::clamp_position(BodyState<S>& state, StepReport& report) {
+  const S edge = Limits<S>::position();
+  if (!(edge < max_abs(state.centre))) return;
+  const Vec3<S> c = state.centre;
+  state.centre = {clamp(c.x, -edge, edge), clamp(c.y, -edge, edge), clamp(c.z, -edge, edge)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(state.centre[axis] == c[axis])) state.velocity[axis] = Velocity<S>(0);
+  }
+  ++report.clamped_position;
+}
+
+/// A body that was stopped leaves contacts and joints behind whose impulses are not finite either.
+template <class S> void BodyFinisher<S>::discard_bad_impulses() {
+  using V = Velocity<S>;
+  for (Contact<S>& contact : state_.contacts) {
+    bool finite = is_finite(contact.friction_impulse) && is_finite(contact.twist_impulse);
+    for (const V impulse : contact.normal_impulse) finite = finite && is_finite(impulse);
+    if (finite) continue;
+    for (V& impulse : contact.normal_impulse) impulse = V(0);
+    contact.friction_impulse = Vec3<V>::zero();
+    contact.twist_impulse = V(0);
+  }
+  for (JointState<S>& joint : state_.joints.states) {
+    const bool finite =
+        is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.drive) && is_finite(joint.swing);
+    if (finite) continue;
+    JointState<S> fresh = {};
+    fresh.slot = joint.slot;
+    joint = fresh;
+  }
+}
+
+}  // namespace isostep

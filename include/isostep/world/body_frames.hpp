@@ -1,0 +1,33 @@
+// Bodies as the narrow phase sees them: their frames, the pairs of their parts, and what two parts give when they meet.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/collision/narrowphase/pair_kernels.hpp"
+#include "isostep/world/body_map.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// [m] contacts are found this far ahead of touching, so that the solver sees them before they overlap.
+template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
+}  // namespace detail
+
+template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at);
+
+/// visit(child_a, child_b) for every two parts whose bounds meet within the margin, in order of their indices, until it
+/// returns false or `looks`, which counts down, are used up. False: that came before the end.
+template <class S, class Visit>
+ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
+                            Visit&& visit);
+
+/// Part i of body a and part j of body b.
+template <class S>
+void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, S margin,
+                   Manifold<S>& out);
+
+/// Whether two bodies have a contact.
+template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b);
+
+}  // namespace isostep

@@ -1,0 +1,89 @@
+// BodyMap<S>: where the bodies and joints of a state lie.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/world/state.hpp"
+
+namespace isostep {
+
+/// The array that holds a body or joint, and its place there.
+struct Location {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kFixed = 0xfffffffeu;
+  static constexpr std::uint32_t kAwake = 0xfffffffdu;
+  std::uint32_t set = kNone;  // one of the above, or an index into WorldState::frozen
+  std::uint32_t index = 0;
+
+  ISO_INLINE bool is_asleep() const { return set < kAwake; }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("set", self.set);
+    visit("index", self.index);
+  }
+};
+
+/// From a slot to the record, in O(1). A cache: all of it follows from the state.
+/// Input:   the state, and calls from whatever moves records between its arrays.
+/// Output:  locations, and the records that lie there.
+/// Keeps:   a location for each slot; how often sleeping islands name a body.
+template <class S> class BodyMap {
+ public:
+  ISO_INLINE explicit BodyMap(WorldState<S>& state) : state_(state) {}
+
+  // Locations, by slot.
+  ISO_INLINE std::size_t slots() const { return locations_.size(); }
+  ISO_INLINE Location location(std::uint32_t slot) const { return locations_[slot]; }
+  ISO_INLINE Location joint_location(std::uint32_t slot) const { return joint_locations_[slot]; }
+  /// The row of SolverBodies: 0, which nothing moves, unless the body is awake.
+  std::uint32_t row_of(std::uint32_t slot) const;
+  /// Contacts and joints of sleeping islands that name the body.
+  ISO_INLINE std::uint32_t names(std::uint32_t slot) const { return names_[slot]; }
+
+  // Records. Those by id are null for an id that names nothing.
+  const BodyState<S>& state_at(Location at) const;
+  const BodyProperties<S>& properties_at(Location at) const;
+  const BodyState<S>* state_of(BodyId body) const;
+  const BodyProperties<S>* properties_of(BodyId body) const;
+  const JointProperties<S>* properties_of(JointId joint) const;
+  /// Of a body that does not sleep, to be changed.
+  BodyProperties<S>& change_properties(std::uint32_t slot);
+  std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
+  /// Pose of the centre of mass, or for kNoBody of the world itself.
+  Pose<S> centre_pose_at(std::uint32_t slot) const;
+
+  // Changes. `set` is the array's name in a Location.
+  /// Puts a body among the fixed or the awake ones, and a joint among the awake ones.
+  void insert(const BodyState<S>& state, const BodyProperties<S>& body);
+  void insert(const JointState<S>& state, const JointProperties<S>& joint);
+  /// Of an awake joint.
+  void erase_joint(std::uint32_t slot);
+  /// The records of an array from index `from` on were moved.
+  void relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from);
+  void relabel(const JointSet<S>& joints, std::uint32_t set, std::size_t from);
+  ISO_INLINE void place(std::uint32_t slot, Location at) { locations_[slot] = at; }
+  ISO_INLINE void place_joint(std::uint32_t slot, Location at) { joint_locations_[slot] = at; }
+  /// Counts the bodies that an island's contacts and joints name. `by`: 1 when it falls asleep; modulo 2^32, -1 when it
+  /// wakes.
+  void count_names(const FrozenIsland<S>& island, std::uint32_t by);
+  /// For every slot that the state has handed out.
+  void make_room();
+
+  template <class Visit> void visit_scratch(const Visit& visit) {
+    visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
+    visit("joint_locations", std::span(joint_locations_.data(), state_.joint_slots.entries().size()));
+  }
+
+ private:
+  Location locate(BodyId body) const;
+
+  WorldState<S>& state_;
+  std::vector<Location> locations_, joint_locations_;
+  std::vector<std::uint32_t> names_;  // by body slot
+};
+
+}  // namespace isostep

@@ -1,0 +1,128 @@
+// Bodies of body_map.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/lower_bound.hpp"
+#include "isostep/world/body_map.hpp"
+
+namespace isostep {
+
+template <class S> Location BodyMap<S>::locate(BodyId body) const {
+  return state_.body_slots.holds(body) ? locations_[body.slot] : Location{};
+}
+
+template <class S> std::uint32_t BodyMap<S>::row_of(std::uint32_t slot) const {
+  if (slot == kNoBody) return 0;
+  const Location at = locations_[slot];
+  return at.set == Location::kAwake ? at.index + 1 : 0;
+}
+
+template <class S> const BodyState<S>& BodyMap<S>::state_at(Location at) const {
+  if (at.set == Location::kAwake) return state_.awake.states[at.index];
+  if (at.set == Location::kFixed) return state_.fixed->states[at.index];
+  return state_.frozen[at.set]->bodies.states[at.index];
+}
+template <class S> const BodyProperties<S>& BodyMap<S>::properties_at(Location at) const {
+  if (at.set == Location::kAwake) return state_.awake.properties[at.index];
+  if (at.set == Location::kFixed) return state_.fixed->properties[at.index];
+  return state_.frozen[at.set]->bodies.properties[at.index];
+}
+template <class S> const BodyState<S>* BodyMap<S>::state_of(BodyId body) const {
+  const Location at = locate(body);
+  return at.set == Location::kNone ? nullptr : &state_at(at);
+}
+template <class S> const BodyProperties<S>* BodyMap<S>::properties_of(BodyId body) const {
+  const Location at = locate(body);
+  return at.set == Location::kNone ? nullptr : &properties_at(at);
+}
+template <class S> const JointProperties<S>* BodyMap<S>::properties_of(JointId joint) const {
+  if (!state_.joint_slots.holds(joint)) return nullptr;
+  const Location at = joint_locations_[joint.slot];
+  const JointSet<S>& set = at.is_asleep() ? state_.frozen[at.set]->joints : state_.joints;
+  return &set.properties[at.index];
+}
+template <class S> BodyProperties<S>& BodyMap<S>::change_properties(std::uint32_t slot) {
+  const Location at = locations_[slot];
+  return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.change().properties[at.index];
+}
+
+template <class S> std::span<const Child<S>> BodyMap<S>::children_of(std::uint32_t shape_slot) const {
+  const ShapeRecord& record = (*state_.shapes)[shape_slot];
+  return {state_.children->data() + record.first_child, record.child_count};
+}
+
+/// A body's origin is its centre less the centre's place in the body.
+template <class S> Pose<S> BodyMap<S>::origin_pose(const BodyState<S>& state, const BodyProperties<S>& body) {
+  if (body.local_centre == Vec3<S>::zero()) return {state.centre, state.orientation};
+  return {state.centre - to_matrix(state.orientation) * body.local_centre, state.orientation};
+}
+template <class S> Pose<S> BodyMap<S>::centre_pose_at(std::uint32_t slot) const {
+  if (slot == kNoBody) return Pose<S>::identity();
+  const BodyState<S>& state = state_at(locations_[slot]);
+  return {state.centre, state.orientation};
+}
+
+template <class S> void BodyMap<S>::relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from) {
+  for (std::size_t i = from; i < bodies.states.size(); ++i)
+    locations_[bodies.states[i].slot] = {set, static_cast<std::uint32_t>(i)};
+}
+template <class S> void BodyMap<S>::relabel(const JointSet<S>& joints, std::uint32_t set, std::size_t from) {
+  for (std::size_t i = from; i < joints.states.size(); ++i)
+    joint_locations_[joints.states[i].slot] = {set, static_cast<std::uint32_t>(i)};
+}
+
+namespace detail {
+/// Where a record of that slot stands or belongs.
+template <class Set> ISO_INLINE std::ptrdiff_t place_of_slot(const Set& set, std::uint32_t slot) {
+  const std::size_t at =
+      lower_bound(set.states.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return set.states[i].slot < slot; });
+  return static_cast<std::ptrdiff_t>(at);
+}
+}  // namespace detail
+
+template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
+  const bool fixed = body.type == BodyType::fixed;
+  BodySet<S>& set = fixed ? state_.fixed.change() : state_.awake;
+  const std::ptrdiff_t at = detail::place_of_slot(set, state.slot);
+  set.states.insert(set.states.begin() + at, state);
+  set.properties.insert(set.properties.begin() + at, body);
+  make_room();
+  relabel(set, fixed ? Location::kFixed : Location::kAwake, static_cast<std::size_t>(at));
+}
+template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
+  const std::ptrdiff_t at = detail::place_of_slot(state_.joints, state.slot);
+  state_.joints.states.insert(state_.joints.states.begin() + at, state);
+  state_.joints.properties.insert(state_.joints.properties.begin() + at, joint);
+  make_room();
+  relabel(state_.joints, Location::kAwake, static_cast<std::size_t>(at));
+}
+template <class S> void BodyMap<S>::erase_joint(std::uint32_t slot) {
+  const std::uint32_t index = joint_locations_[slot].index;
+  const auto at = static_cast<std::ptrdiff_t>(index);
+  state_.joints.states.erase(state_.joints.states.begin() + at);
+  state_.joints.properties.erase(state_.joints.properties.begin() + at);
+  joint_locations_[slot] = Location{};
+  relabel(state_.joints, Location::kAwake, index);
+}
+
+template <class S> void BodyMap<S>::count_names(const FrozenIsland<S>& island, std::uint32_t by) {
+  for (const Contact<S>& contact : island.contacts) {
+    names_[contact.key.body_a] += by;
+    names_[contact.key.body_b] += by;
+  }
+  for (const JointProperties<S>& joint : island.joints.properties) {
+    if (joint.body_a != kNoBody) names_[joint.body_a] += by;
+    if (joint.body_b != kNoBody) names_[joint.body_b] += by;
+  }
+}
+
+template <class S> void BodyMap<S>::make_room() {
+  const std::size_t bodies = state_.body_slots.entries().size(), joints = state_.joint_slots.entries().size();
+  if (locations_.size() < bodies) {
+    locations_.resize(bodies);
+    names_.resize(bodies);
+  }
+  if (joint_locations_.size() < joints) joint_locations_.resize(joints);
+}
+
+}  // namespace isostep

@@ -1,0 +1,76 @@
+// CommandExecutor<S>: what each command does.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/geometry/mass_properties.hpp"
+#include "isostep/state/command_journal.hpp"
+#include "isostep/world/checks.hpp"
+#include "isostep/world/command.hpp"
+#include "isostep/world/destruction.hpp"
+#include "isostep/world/island_wake.hpp"
+#include "isostep/world/render_poses.hpp"
+
+namespace isostep {
+
+/// Input:   commands, which CommandJournal::run brings.
+/// Output:  the changed state, and what each command returns. A refused command changes nothing and leaves its fault in
+///          the journal.
+/// Keeps:   nothing.
+template <class S> class CommandExecutor {
+ public:
+  using Command = isostep::Command<S>;
+
+  ISO_INLINE CommandExecutor(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
+                             Destruction<S>& destruction, RenderPoses<S>& render_poses, const AssetSource& assets,
+                             CommandJournal& journal)
+      : state_(state),
+        map_(map),
+        proxies_(proxies),
+        wake_(wake),
+        destruction_(destruction),
+        render_poses_(render_poses),
+        assets_(assets),
+        journal_(journal) {}
+
+  // execute_*.inl: one for each line of the list. Returns what the command made, or whether it was accepted.
+#define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
+  ISO_FOR_EACH_COMMAND(ISO_EXECUTE, S)
+#undef ISO_EXECUTE
+  /// As many DestroyBody; a stale id is a fault, and the others go on. Returns how many were destroyed.
+  std::size_t destroy_all(std::span<const BodyId> bodies);
+
+ private:
+  // Whether a command may do what it is to do; if not, that is its fault.
+  template <class AnyId> bool known(const SlotMap& slots, AnyId id, const char* field) {
+    return journal_.accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
+  }
+  bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
+  bool may_change(BodyId body);
+  bool may_push(BodyId body);
+  bool mark_for_destruction(BodyId body);
+  bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
+  bool check(const BodyDefinition<S>& definition);
+  bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
+  bool check_ends(const JointProperties<S>& joint);
+
+  static BodyProperties<S> properties_of(const BodyDefinition<S>& definition);
+  bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+  void halt(std::uint32_t slot);
+  PendingForce<S>& pending_force(std::uint32_t slot);
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  IslandWake<S>& wake_;
+  Destruction<S>& destruction_;
+  RenderPoses<S>& render_poses_;
+  const AssetSource& assets_;
+  CommandJournal& journal_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,41 @@
+// ContactEvents<S>: which bodies began and ceased to press on each other.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/world/events.hpp"
+#include "isostep/world/state.hpp"
+
+namespace isostep {
+
+/// A step's contacts as the narrow phase and the solver leave them.
+template <class S> struct SolvedContacts {
+  std::span<const Contact<S>> old, now;          // of the last step and of this one, ascending
+  std::span<const ContactGeometry<S>> geometry;  // parallel to `now`
+  std::span<const Velocity<S>> impulses;         // [m/s] likewise, of the whole step
+};
+
+/// Input:   the contacts of two steps.
+/// Output:  events of their begin, with the impulse, and of their end, in order.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class ContactEvents {
+ public:
+  ISO_INLINE explicit ContactEvents(const WorldState<S>& state) : state_(state) {}
+
+  /// Two bodies touch when any of their contacts carried an impulse. Appends to `events`, which may hold ends that
+  /// commands made.
+  void emit(const SolvedContacts<S>& contacts, Events<S>& events);
+
+ private:
+  S mass_of_row(std::uint32_t row) const;
+  S normal_impulse(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end) const;
+
+  const WorldState<S>& state_;
+  std::vector<ContactEnd> end_scratch_;
+};
+
+}  // namespace isostep

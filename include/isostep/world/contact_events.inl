@@ -1,0 +1,58 @@
+// Bodies of contact_events.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/world/contact_events.hpp"
+#include "isostep/world/event_order.hpp"
+
+namespace isostep {
+
+/// Both lists ascend, so the events do, but for ends that commands made.
+template <class S> void ContactEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
+  const std::span<const Contact<S>> old = contacts.old, now = contacts.now;
+  const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
+  constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  const auto pair_at = [&](std::span<const Contact<S>> list, std::size_t at) {
+    return at < list.size() ? pair_key(list[at].key.body_a, list[at].key.body_b) : kNone;
+  };
+  const auto touching = [](const Contact<S>& c) { return (c.flags & contact_flag::kTouching) != 0; };
+  const bool told = !events.contact_end.empty();
+  std::size_t i = 0, j = 0;
+  std::uint64_t old_pair = pair_at(old, 0), new_pair = pair_at(now, 0);
+  while (min(old_pair, new_pair) != kNone) {
+    const std::uint64_t pair = min(old_pair, new_pair);
+    const std::size_t first = j;
+    bool was = false, is = false;
+    for (; old_pair == pair; old_pair = pair_at(old, ++i)) was = was || touching(old[i]);
+    for (; new_pair == pair; new_pair = pair_at(now, ++j)) is = is || touching(now[j]);
+    if (was && !is) events.contact_end.push_back({id(pair_a(pair)), id(pair_b(pair))});
+    if (!was && is)
+      events.contact_begin.push_back(
+          {id(pair_a(pair)), id(pair_b(pair)), normal_impulse(contacts, first, j), contacts.geometry[first].normal});
+  }
+  if (told) detail::sort_ends(events.contact_end, end_scratch_);
+}
+
+/// [kg] As solvers have it: 0 for what no impulse moves.
+template <class S> S ContactEvents<S>::mass_of_row(std::uint32_t row) const {
+  if (row == 0) return S(0);
+  const BodyProperties<S>& body = state_.awake.properties[row - 1];
+  return body.type == BodyType::dynamic ? body.mass : S(0);
+}
+
+/// [kg m/s] Of contacts first..end-1 together.
+template <class S>
+S ContactEvents<S>::normal_impulse(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end) const {
+  auto total = SumOf<S, Velocity<S>>{};
+  for (std::size_t i = first; i < end; ++i) {
+    const ContactGeometry<S>& g = contacts.geometry[i];
+    const S mass_a = mass_of_row(g.row_a), mass_b = mass_of_row(g.row_b);
+    const MassShare<S> share = mass_share(mass_a, mass_b);
+    total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, contacts.impulses[i]);
+  }
+  const auto most = product(highest<S>(), Velocity<S>(1));
+  return most < total ? highest<S>() : round_to<S>(total);
+}
+
+}  // namespace isostep

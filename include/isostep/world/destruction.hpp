@@ -1,0 +1,47 @@
+// Destruction<S>: destroys bodies, one or many, with all that names them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/bitset.hpp"
+#include "isostep/world/island_wake.hpp"
+
+namespace isostep {
+
+/// Input:   slots of bodies and joints that exist.
+/// Output:  the state without them: their ids, records, contacts, joints, overlaps and forces. WorldState::untold tells
+///          what their touches and overlaps were. What they may have held up is awake.
+/// Keeps:   bodies that are marked and not yet erased.
+template <class S> class Destruction {
+ public:
+  ISO_INLINE Destruction(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake)
+      : state_(state), map_(map), proxies_(proxies), wake_(wake) {}
+
+  /// All of destroying a body but what takes a pass over the world: its id and its records stay until `erase_marked`.
+  void mark(std::uint32_t slot);
+  ISO_INLINE bool is_marked(std::uint32_t slot) const { return is_marked_.test(slot); }
+  ISO_INLINE std::size_t marked() const { return marked_.size(); }
+  /// One pass over each array, whatever the number of bodies.
+  void erase_marked();
+  void destroy_joint(std::uint32_t slot);
+
+ private:
+  void destroy_joints_of(std::uint32_t slot);
+  void tell_ends();
+  void erase_what_names_them();
+  void erase_records();
+  void erase_records(BodySet<S>& set, std::uint32_t name, std::size_t first);
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  IslandWake<S>& wake_;
+  std::vector<std::uint32_t> marked_;
+  Bitset is_marked_;  // the same
+  std::vector<ContactEnd> contact_end_scratch_;
+  std::vector<SensorEvent> sensor_end_scratch_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,54 @@
+// IslandSleep<S>: puts islands of bodies at rest to sleep.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/core/disjoint_sets.hpp"
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints.
+/// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
+///          WorldState::frozen; the ids of their bodies. The body map and the broad phase know of it.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class IslandSleep {
+ public:
+  ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  /// Appends to `fell_asleep`.
+  void update(std::vector<BodyId>& fell_asleep);
+
+ private:
+  std::uint32_t delay() const;
+  void update_clocks();
+  void stop_clocks_of_carried();
+  bool some_body_is_ready() const;
+
+  bool is_dynamic(std::uint32_t slot) const;
+  void find_islands();
+  void find_island_clocks();
+  bool mark_ready_islands();
+
+  FrozenIsland<S>* island_of(std::size_t index);
+  FrozenIsland<S>* island_of_either(std::uint32_t slot_a, std::uint32_t slot_b);
+  void move_contacts();
+  void move_joints();
+  void move_bodies(std::vector<BodyId>& fell_asleep);
+  void list_islands();
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  DisjointSets islands_;              // of indices of awake bodies
+  std::vector<std::uint32_t> clock_;  // by island: the least of its bodies', then 1 if it falls asleep and 0 if not
+  std::vector<std::shared_ptr<FrozenIsland<S>>> asleep_;  // by island
+};
+
+}  // namespace isostep

@@ -1,0 +1,210 @@
+// Bodies of island_sleep.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include "isostep/state/members.hpp"
+#include "isostep/world/island_sleep.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s], and [rad/s] times the body's size
+inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
+}  // namespace detail
+
+template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep) {
+  if (!state_.settings.allow_sleep) return;
+  update_clocks();
+  stop_clocks_of_carried();
+  if (!some_body_is_ready()) return;
+  find_islands();
+  find_island_clocks();
+  if (!mark_ready_islands()) return;
+  asleep_.resize(state_.awake.states.size());
+  move_contacts();
+  move_joints();
+  move_bodies(fell_asleep);
+  list_islands();
+}
+
+/// [steps] of rest before an island falls asleep.
+template <class S> std::uint32_t IslandSleep<S>::delay() const {
+  return static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
+}
+
+template <class S> void IslandSleep<S>::update_clocks() {
+  const Velocity<S> limit = convert<Velocity<S>>(detail::kSleepSpeed<S>);
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    const bool may = (body.flags & body_flag::kAllowSleep) != 0;
+    // A kinematic body rests when told to: however slow, it carries what lies on it.
+    const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.spin == Vec3<Velocity<S>>::zero();
+    const bool slow = max_abs(state.velocity) < limit && max_abs(state.spin) < limit;
+    const bool rests = body.type == BodyType::kinematic ? still : slow;
+    state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
+  }
+}
+/// What rests on something that moves is not at rest: a drum or a conveyor carries it.
+template <class S> void IslandSleep<S>::stop_clocks_of_carried() {
+  for (const Contact<S>& contact : state_.contacts) {
+    const std::uint32_t slots[2] = {contact.key.body_a, contact.key.body_b};
+    for (int side = 0; side < 2; ++side) {
+      const Location at = map_.location(slots[side]);
+      const Location other = map_.location(slots[1 - side]);
+      if (other.set != Location::kAwake) continue;
+      const BodyProperties<S>& body = map_.properties_at(at);
+      const bool driven = body.type == BodyType::kinematic && map_.state_at(at).sleep_clock == 0;
+      if (driven || !(body.material.surface_velocity == Vec3<S>::zero()))
+        state_.awake.states[other.index].sleep_clock = 0;
+    }
+  }
+}
+template <class S> bool IslandSleep<S>::some_body_is_ready() const {
+  const std::uint32_t least = delay();
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    if (state_.awake.states[i].sleep_clock >= least && state_.awake.properties[i].type == BodyType::dynamic)
+      return true;
+  }
+  return false;
+}
+
+/// And awake.
+template <class S> bool IslandSleep<S>::is_dynamic(std::uint32_t slot) const {
+  const Location at = map_.location(slot);
+  return at.set == Location::kAwake && state_.awake.properties[at.index].type == BodyType::dynamic;
+}
+
+/// Dynamic bodies that contacts and joints tie together.
+template <class S> void IslandSleep<S>::find_islands() {
+  islands_.begin(state_.awake.states.size());
+  const auto tie = [&](std::uint32_t a, std::uint32_t b) {
+    if (is_dynamic(a) && is_dynamic(b)) islands_.join(map_.location(a).index, map_.location(b).index);
+  };
+  const auto flags_of = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).flags; };
+  for (const Contact<S>& contact : state_.contacts) {
+    const std::uint32_t a = contact.key.body_a, b = contact.key.body_b;
+    if (((flags_of(a) | flags_of(b)) & body_flag::kSensor) == 0) tie(a, b);
+  }
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    if (joint.body_a != kNoBody && joint.body_b != kNoBody) tie(joint.body_a, joint.body_b);
+  }
+}
+
+/// How long all bodies of an island have rested.
+template <class S> void IslandSleep<S>::find_island_clocks() {
+  const std::size_t count = state_.awake.states.size();
+  clock_.assign(count, 0xffffffffu);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t& clock = clock_[islands_.find(static_cast<std::uint32_t>(i))];
+    clock = min(clock, state_.awake.states[i].sleep_clock);
+  }
+  // A joint to something driven keeps an island awake as a contact does.
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    for (const auto& [here, there] : {std::pair{joint.body_a, joint.body_b}, std::pair{joint.body_b, joint.body_a}}) {
+      if (here == kNoBody || there == kNoBody || is_dynamic(here) || !is_dynamic(there)) continue;
+      const Location at = map_.location(here);
+      if (at.set == Location::kAwake && map_.state_at(at).sleep_clock == 0)
+        clock_[islands_.find(map_.location(there).index)] = 0;
+    }
+  }
+}
+
+/// From here on `clock_` is 1 for islands that fall asleep. False: there is none.
+template <class S> bool IslandSleep<S>::mark_ready_islands() {
+  const std::uint32_t least = delay();
+  bool any = false;
+  for (std::size_t i = 0; i < clock_.size(); ++i) {
+    const bool root = islands_.find(static_cast<std::uint32_t>(i)) == i;
+    const bool dynamic_body = state_.awake.properties[i].type == BodyType::dynamic;
+    clock_[i] = root && dynamic_body && clock_[i] >= least ? 1u : 0u;
+    any = any || clock_[i] != 0;
+  }
+  return any;
+}
+
+/// Of the awake body at that index; null if it stays awake.
+template <class S> FrozenIsland<S>* IslandSleep<S>::island_of(std::size_t index) {
+  const std::uint32_t root = islands_.find(static_cast<std::uint32_t>(index));
+  if (clock_[root] == 0) return nullptr;
+  if (asleep_[root] == nullptr) asleep_[root] = std::make_shared<FrozenIsland<S>>();
+  return asleep_[root].get();
+}
+template <class S> FrozenIsland<S>* IslandSleep<S>::island_of_either(std::uint32_t slot_a, std::uint32_t slot_b) {
+  for (const std::uint32_t slot : {slot_a, slot_b}) {
+    if (slot == kNoBody || map_.location(slot).set != Location::kAwake) continue;
+    FrozenIsland<S>* island = island_of(map_.location(slot).index);
+    if (island != nullptr) return island;
+  }
+  return nullptr;
+}
+
+template <class S> void IslandSleep<S>::move_contacts() {
+  std::size_t kept = 0;
+  for (const Contact<S>& contact : state_.contacts) {
+    FrozenIsland<S>* island = island_of_either(contact.key.body_a, contact.key.body_b);
+    if (island != nullptr) island->contacts.push_back(contact);
+    else state_.contacts[kept++] = contact;
+  }
+  state_.contacts.resize(kept);
+}
+
+template <class S> void IslandSleep<S>::move_joints() {
+  std::size_t kept = 0;
+  JointSet<S>& joints = state_.joints;
+  for (std::size_t i = 0; i < joints.states.size(); ++i) {
+    FrozenIsland<S>* island = island_of_either(joints.properties[i].body_a, joints.properties[i].body_b);
+    if (island != nullptr) {
+      island->joints.states.push_back(joints.states[i]);
+      island->joints.properties.push_back(joints.properties[i]);
+    } else {
+      joints.states[kept] = joints.states[i];
+      joints.properties[kept++] = joints.properties[i];
+    }
+  }
+  joints.states.resize(kept);
+  joints.properties.resize(kept);
+}
+
+template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_asleep) {
+  std::size_t kept = 0;
+  BodySet<S>& awake = state_.awake;
+  for (std::size_t i = 0; i < awake.states.size(); ++i) {
+    FrozenIsland<S>* island = island_of(i);
+    if (island != nullptr) {
+      BodyState<S> still = awake.states[i];
+      still.velocity = Vec3<Velocity<S>>::zero();
+      still.spin = Vec3<Velocity<S>>::zero();
+      island->bodies.states.push_back(still);
+      island->bodies.properties.push_back(awake.properties[i]);
+      fell_asleep.push_back(state_.body_slots.template id_of<BodyId>(still.slot));
+    } else {
+      awake.states[kept] = awake.states[i];
+      awake.properties[kept++] = awake.properties[i];
+    }
+  }
+  awake.states.resize(kept);
+  awake.properties.resize(kept);
+}
+
+/// In order of their first bodies.
+template <class S> void IslandSleep<S>::list_islands() {
+  map_.relabel(state_.awake, Location::kAwake, 0);
+  map_.relabel(state_.joints, Location::kAwake, 0);
+  for (const std::shared_ptr<FrozenIsland<S>>& island : asleep_) {
+    if (island == nullptr) continue;
+    island->hash = detail::hash_sections(*island);
+    const auto name = static_cast<std::uint32_t>(state_.frozen.size());
+    map_.relabel(island->bodies, name, 0);
+    map_.relabel(island->joints, name, 0);
+    for (std::size_t i = 0; i < island->bodies.states.size(); ++i)
+      proxies_.place(island->bodies.states[i], island->bodies.properties[i], false);
+    map_.count_names(*island, 1);
+    state_.frozen.push_back(island);
+  }
+  asleep_.clear();
+}
+
+}  // namespace isostep

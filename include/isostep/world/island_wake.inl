@@ -1,0 +1,196 @@
+// Bodies of island_wake.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/world/body_frames.inl"
+#include "isostep/world/island_wake.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// Merges two ascending runs from the back, in place: put(to, from_old, index) moves one record of either.
+template <class OldIsLater, class Put>
+void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is_later, const Put& put) {
+  for (std::size_t to = old + more; more > 0; --to) {
+    const bool from_old = old > 0 && old_is_later(old - 1, more - 1);
+    put(to - 1, from_old, from_old ? --old : --more);
+  }
+}
+}  // namespace detail
+
+template <class S> void IslandWake<S>::wake(std::uint32_t slot) { wake({&slot, 1}); }
+template <class S> void IslandWake<S>::wake(std::span<const std::uint32_t> slots) {
+  for (const std::uint32_t slot : slots) {
+    const Location at = map_.location(slot);
+    if (at.is_asleep()) unlist(at.set);
+  }
+  merge_unlisted();
+}
+template <class S> void IslandWake<S>::wake_all() {
+  while (!state_.frozen.empty()) unlist(static_cast<std::uint32_t>(state_.frozen.size() - 1));
+  merge_unlisted();
+  for (BodyState<S>& state : state_.awake.states) state.sleep_clock = 0;
+}
+
+template <class S> bool IslandWake<S>::wake_touched() {
+  if (state_.frozen.empty()) return false;
+  touched_.clear();
+  for (const std::uint64_t pair : proxies_.pairs()) {
+    if (!is_touched(pair)) continue;
+    touched_.push_back(map_.location(pair_a(pair)).is_asleep() ? pair_a(pair) : pair_b(pair));
+  }
+  wake(touched_);
+  return !touched_.empty();
+}
+/// Whether one of the two sleeps and the other is awake, moves and touches it.
+template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
+  const Location a = map_.location(pair_a(pair)), b = map_.location(pair_b(pair));
+  if (a.is_asleep() == b.is_asleep()) return false;
+  const Location mover = a.is_asleep() ? b : a;
+  if (mover.set != Location::kAwake) return false;
+  const BodyState<S>& state = state_.awake.states[mover.index];
+  const BodyProperties<S>& body = state_.awake.properties[mover.index];
+  const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.spin == Vec3<Velocity<S>>::zero();
+  if (body.type == BodyType::kinematic && still) return false;
+  if (((body.flags | map_.properties_at(a.is_asleep() ? a : b).flags) & body_flag::kSensor) != 0) return false;
+  return bodies_touch(map_, pair_a(pair), pair_b(pair));
+}
+
+template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
+  if (!proxies_.present(slot)) return;
+  std::vector<std::uint32_t> met;
+  proxies_.tree().query(proxies_.tree().box(slot), [&](std::uint32_t other) {
+    if (map_.location(other).is_asleep()) met.push_back(other);
+    else if (other != slot) reset_clock(other);
+    return true;
+  });
+  std::vector<std::uint32_t> scratch(met.size());
+  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  wake(met);
+}
+
+template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
+  for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); map_.names(slot) != 0 && i-- > 0;) {
+    const FrozenIsland<S>& island = *state_.frozen[i];
+    bool held = false;
+    for (const JointProperties<S>& joint : island.joints.properties)
+      held = held || joint.body_a == slot || joint.body_b == slot;
+    for (const Contact<S>& contact : island.contacts)
+      held = held || contact.key.body_a == slot || contact.key.body_b == slot;
+    if (held) unlist(i);
+  }
+  merge_unlisted();
+}
+
+template <class S> std::uint32_t IslandWake<S>::wake_joint(std::uint32_t slot) {
+  const Location at = map_.joint_location(slot);
+  if (at.is_asleep()) {
+    unlist(at.set);
+    merge_unlisted();
+  }
+  const std::uint32_t index = map_.joint_location(slot).index;
+  const JointProperties<S>& properties = state_.joints.properties[index];
+  reset_clock(properties.body_a);
+  reset_clock(properties.body_b);
+  return index;
+}
+
+template <class S> BodyState<S>& IslandWake<S>::wake_for_change(std::uint32_t slot) {
+  wake(slot);
+  BodyState<S>& state = state_.awake.states[map_.location(slot).index];
+  state.sleep_clock = 0;
+  return state;
+}
+
+template <class S> void IslandWake<S>::reset_clock(std::uint32_t slot) {
+  if (slot != kNoBody && map_.location(slot).set == Location::kAwake)
+    state_.awake.states[map_.location(slot).index].sleep_clock = 0;
+}
+
+/// Takes an island off the list; the last one takes its place. Its bodies count as awake but are nowhere until
+/// `merge_unlisted`.
+template <class S> void IslandWake<S>::unlist(std::uint32_t index) {
+  const std::shared_ptr<const FrozenIsland<S>> island = state_.frozen[index];
+  const std::size_t last = state_.frozen.size() - 1;
+  if (index != last) {
+    const std::shared_ptr<const FrozenIsland<S>> moved = state_.frozen[last];
+    state_.frozen.change(index) = moved;
+    map_.relabel(moved->bodies, index, 0);
+    map_.relabel(moved->joints, index, 0);
+  }
+  state_.frozen.pop_back();
+  map_.count_names(*island, ~0u);
+  for (const BodyState<S>& body : island->bodies.states) map_.place(body.slot, {Location::kAwake, 0});
+  unlisted_.push_back(island);
+}
+
+/// Moves the bodies, joints and contacts of unlisted islands among the awake ones, in canonical order and in one pass
+/// over each array.
+template <class S> void IslandWake<S>::merge_unlisted() {
+  if (unlisted_.empty()) return;
+  merge_set(
+      state_.awake, [](const FrozenIsland<S>& island) -> const auto& { return island.bodies; });
+  merge_set(
+      state_.joints, [](const FrozenIsland<S>& island) -> const auto& { return island.joints; });
+  merge_contacts();
+  map_.relabel(state_.awake, Location::kAwake, 0);
+  map_.relabel(state_.joints, Location::kAwake, 0);
+  for (const auto& island : unlisted_) {
+    for (const BodyState<S>& asleep : island->bodies.states) {
+      const std::uint32_t index = map_.location(asleep.slot).index;
+      state_.awake.states[index].sleep_clock = 0;
+      proxies_.place(state_.awake.states[index], state_.awake.properties[index], true);
+      state_.untold.woke.push_back(state_.body_slots.template id_of<BodyId>(asleep.slot));
+    }
+  }
+  unlisted_.clear();
+}
+
+/// Fills `records_` with one array of every unlisted island, in order. Returns how many records there are.
+template <class S>
+template <class ArrayOf, class KeyOf>
+std::size_t IslandWake<S>::sort_records(const ArrayOf& array_of, const KeyOf& key_of) {
+  records_.clear();
+  for (const auto& island : unlisted_) {
+    const auto& array = array_of(*island);
+    for (std::size_t i = 0; i < array.size(); ++i) records_.push_back({key_of(array[i]), island.get(), i});
+  }
+  scratch_.resize(records_.size());
+  stable_sort(records_.data(), scratch_.data(), static_cast<std::uint32_t>(records_.size()), ByKey{});
+  return records_.size();
+}
+
+template <class S> template <class Set, class SetOf> void IslandWake<S>::merge_set(Set& into, const SetOf& set_of) {
+  const std::size_t old = into.states.size();
+  const std::size_t more = sort_records(
+      [&](const FrozenIsland<S>& island) -> const auto& { return set_of(island).states; },
+      [](const auto& state) { return std::uint64_t{state.slot}; });
+  into.states.resize(old + more);
+  into.properties.resize(old + more);
+  detail::merge_from_back(
+      old, more, [&](std::size_t i, std::size_t j) { return records_[j].key < into.states[i].slot; },
+      [&](std::size_t to, bool from_old, std::size_t i) {
+        const auto& from = from_old ? into : set_of(*records_[i].island);
+        const std::size_t at = from_old ? i : records_[i].index;
+        into.states[to] = from.states[at];
+        into.properties[to] = from.properties[at];
+      });
+}
+
+/// Contacts of one pair lie in one island, ascending, and the sort keeps their order: the pair is key enough.
+template <class S> void IslandWake<S>::merge_contacts() {
+  const auto pair_of = [](const Contact<S>& contact) { return pair_key(contact.key.body_a, contact.key.body_b); };
+  std::vector<Contact<S>>& contacts = state_.contacts;
+  const std::size_t old = contacts.size();
+  const std::size_t more = sort_records(
+      [](const FrozenIsland<S>& island) -> const auto& { return island.contacts; }, pair_of);
+  contacts.resize(old + more);
+  detail::merge_from_back(
+      old, more, [&](std::size_t i, std::size_t j) { return records_[j].key < pair_of(contacts[i]); },
+      [&](std::size_t to, bool from_old, std::size_t i) {
+        contacts[to] = from_old ? contacts[i] : records_[i].island->contacts[records_[i].index];
+      });
+}
+
+}  // namespace isostep

@@ -1,0 +1,224 @@
+// Bodies of narrow_phase.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+
+#include "isostep/core/lower_bound.hpp"
+#include "isostep/world/narrow_phase.hpp"
+#include "isostep/world/part_pairs.inl"
+
+namespace isostep {
+
+namespace detail {
+/// Whether both have the same points in the same order, and no name twice: then every impulse stays where it is.
+template <class S> ISO_INLINE bool has_same_points(const Contact<S>& old, const Contact<S>& contact) {
+  const std::uint32_t *f = old.features, *g = contact.features;
+  if (old.count != contact.count || f[0] != g[0] || f[1] != g[1] || f[2] != g[2] || f[3] != g[3]) return false;
+  const bool distinct2 = old.count < 2 || f[0] != f[1];
+  const bool distinct3 = old.count < 3 || (f[0] != f[2] && f[1] != f[2]);
+  return distinct2 && distinct3 && (old.count < 4 || (f[0] != f[3] && f[1] != f[3] && f[2] != f[3]));
+}
+
+/// Points keep the impulse of their feature. What no feature claims is shared among the points that found none: when
+/// two boxes trade places as reference every feature changes at once, and the load they carry must not vanish with the
+/// names.
+template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& contact) {
+  using V = Velocity<S>;
+  if (has_same_points(old, contact)) {
+    for (std::uint32_t p = 0; p < contact.count; ++p) contact.normal_impulse[p] = old.normal_impulse[p];
+    return;
+  }
+  std::uint32_t claimed = 0, missing = 0;  // bit q: of old's point q; bit p: of contact's point p
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    bool found = false;
+    for (std::uint32_t q = 0; q < old.count; ++q) {
+      if (old.features[q] != contact.features[p]) continue;
+      contact.normal_impulse[p] = old.normal_impulse[q];
+      claimed |= 1u << q;
+      found = true;
+    }
+    if (!found) missing |= 1u << p;
+  }
+  if (missing == 0) return;
+  V left = V(0);
+  for (std::uint32_t q = 0; q < old.count; ++q) left += (claimed >> q & 1u) != 0 ? V(0) : old.normal_impulse[q];
+  if (!(left > V(0))) return;
+  const V share = left / V(std::popcount(missing));
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    if ((missing >> p & 1u) != 0) contact.normal_impulse[p] = share;
+  }
+}
+}  // namespace detail
+
+template <class S>
+std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools) {
+  pairs_ = pairs;
+  kernels_ = tools.pair_kernels;
+  part_pairs_.begin();
+  old_contacts_.swap(state_.contacts);
+  overlaps_.clear();
+  placed_ = 0;
+  if (tools.runner.threads > 1 && pairs.size() >= kLeastSharedPairs) update_shared(tools.runner);
+  else update_alone();
+  state_.contacts.resize(placed_);
+  geometry_.resize(placed_);
+  return cut_compounds_;
+}
+
+template <class S> void NarrowPhase<S>::update_alone() {
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) part_pairs_.frame_awake_body(i);
+  cut_compounds_ = part_pairs_.gather(pairs_);
+  point_counts_.resize(PartGroup::kMost);
+  manifolds_.resize(PartGroup::kMost);
+  std::size_t old_cursor = 0;
+  for (std::size_t group = 0; group < part_pairs_.groups(); ++group) {  // merged while its manifolds are in the cache
+    collide_group(group, point_counts_.data(), manifolds_.data());
+    const std::size_t first = place_group(group, point_counts_.data());
+    merge_group(group, point_counts_.data(), manifolds_.data(), first, old_cursor);
+  }
+}
+
+/// The same by threads: frames, collisions and merging side by side, what counts places in between one after another.
+template <class S> void NarrowPhase<S>::update_shared(const TaskRunner& runner) {
+  pieces_ = min(4 * static_cast<std::uint32_t>(runner.threads), kMaxPieces);
+  const std::uint32_t stages[] = {pieces_, 1, pieces_, 1, pieces_};  // of run_piece
+  run_stages(runner, stages, &NarrowPhase::run_piece, this);
+}
+template <class S> void NarrowPhase<S>::run_piece(void* data, std::uint32_t stage, std::uint32_t piece) {
+  NarrowPhase& phase = *static_cast<NarrowPhase*>(data);
+  PartPairs<S>& part_pairs = phase.part_pairs_;
+  const auto each = [&](std::size_t count, const auto& work) {
+    const std::size_t pieces = phase.pieces_;
+    for (std::size_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) work(i);
+  };
+  const auto counts = [&](std::size_t group) { return phase.point_counts_.data() + group * PartGroup::kMost; };
+  const auto manifolds = [&](std::size_t group) { return phase.manifolds_.data() + group * PartGroup::kMost; };
+  const std::size_t groups = part_pairs.groups();
+  switch (stage) {
+    case 0: return each(phase.state_.awake.states.size(), [&](std::size_t i) { part_pairs.frame_awake_body(i); });
+    case 1:
+      phase.cut_compounds_ = part_pairs.gather(phase.pairs_);
+      phase.point_counts_.resize(part_pairs.groups() * PartGroup::kMost);
+      phase.manifolds_.resize(part_pairs.groups() * PartGroup::kMost);
+      return;
+    case 2: return each(groups, [&](std::size_t g) { phase.collide_group(g, counts(g), manifolds(g)); });
+    case 3:
+      phase.group_firsts_.resize(groups);
+      for (std::size_t g = 0; g < groups; ++g) phase.group_firsts_[g] = phase.place_group(g, counts(g));
+      return;
+    default: break;
+  }
+  each(groups, [&](std::size_t g) {
+    std::size_t old_cursor = phase.first_old_contact(g);
+    phase.merge_group(g, counts(g), manifolds(g), phase.group_firsts_[g], old_cursor);
+  });
+}
+
+/// Every pair fills its own count and manifold and reads frames alone: with room for all of them, groups may be
+/// collided at once.
+template <class S>
+void NarrowPhase<S>::collide_group(std::size_t index, std::uint8_t* counts, Manifold<S>* manifolds) const {
+  const PartGroup group = part_pairs_.group(index);
+  PairRun<S> run = {part_pairs_.frames().data(),
+                    group.parts.data(),
+                    nullptr,
+                    0,
+                    0,
+                    detail::kSpeculativeDistance<S>,
+                    counts,
+                    manifolds};
+  const auto run_of = [&](std::span<const std::uint32_t> list) {
+    run.order = list.data();
+    run.end = static_cast<std::uint32_t>(list.size());
+    return run;
+  };
+  kernels_->spheres(run_of(group.spheres));
+  kernels_->boxes(run_of(group.boxes));
+  collide_others(run_of(group.others));
+}
+template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) {
+  for (std::uint32_t i = run.begin; i < run.end; ++i) {
+    const PartPair& pair = run.pairs[run.order[i]];
+    const BodyFrame<S>&a = run.frames[pair.frame_a], &b = run.frames[pair.frame_b];
+    const S margin = a.sensor || b.sensor ? S(0) : run.margin;
+    Manifold<S>& out = run.manifolds[run.order[i]];
+    collide_parts(a, pair.child_a, b, pair.child_b, margin, out);
+    run.counts[run.order[i]] = static_cast<std::uint8_t>(out.count);
+  }
+}
+
+template <class S>
+ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifold<S>& manifold, Contact<S>& contact,
+                                             ContactGeometry<S>& g, std::size_t& old_cursor) const {
+  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
+  const std::vector<Material<S>>& materials = part_pairs_.materials();
+  const BodyFrame<S>&a = frames[parts.frame_a], &b = frames[parts.frame_b];
+  contact = {};
+  contact.key = {a.slot, b.slot, parts.child_a, parts.child_b};
+  contact.count = static_cast<std::uint32_t>(manifold.count);
+  g.row_a = a.row;
+  g.row_b = b.row;
+  g.normal = manifold.normal;
+  g.material = mix(materials[parts.frame_a], materials[parts.frame_b]);
+  const Vec3<S> from_a_to_b = b.centre - a.centre;
+  for (int p = 0; p < kMaxContactPoints; ++p) {
+    if (p == manifold.count) break;
+    const ManifoldPoint<S>& point = manifold.points[p];
+    contact.features[p] = point.feature;
+    g.points[p] = {point.position, point.position - from_a_to_b, point.separation};
+  }
+  while (old_cursor < old_contacts_.size() && old_contacts_[old_cursor].key < contact.key) ++old_cursor;
+  if (old_cursor == old_contacts_.size() || !(old_contacts_[old_cursor].key == contact.key)) return;
+  const Contact<S>& old = old_contacts_[old_cursor];
+  contact.flags = old.flags;
+  contact.friction_impulse = old.friction_impulse;
+  contact.twist_impulse = old.twist_impulse;
+  detail::inherit_impulses(old, contact);
+}
+
+/// Makes room for a group's contacts behind those there are; notes which sensors it touches. Returns where they begin.
+/// Contacts are written over those of the step before the last: nothing is cleared first.
+template <class S> std::size_t NarrowPhase<S>::place_group(std::size_t index, const std::uint8_t* counts) {
+  const PartGroup group = part_pairs_.group(index);
+  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
+  const std::size_t first = placed_, parts = group.parts.size();
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < parts; ++i) touching += counts[i] != 0 ? 1u : 0u;
+  for (const std::uint32_t i : group.others) {
+    const PartPair& part = group.parts[i];
+    const BodyFrame<S>&a = frames[part.frame_a], &b = frames[part.frame_b];
+    if (counts[i] == 0 || !(a.sensor || b.sensor)) continue;
+    const SensorOverlap overlap = a.sensor ? SensorOverlap{a.slot, b.slot} : SensorOverlap{b.slot, a.slot};
+    if (overlaps_.empty() || !(overlaps_.back() == overlap)) overlaps_.push_back(overlap);
+    --touching;
+  }
+  placed_ += touching;
+  if (state_.contacts.size() < placed_) state_.contacts.resize(placed_);
+  if (geometry_.size() < placed_) geometry_.resize(placed_);
+  return first;
+}
+
+/// The manifolds of one group become contacts, in order, from `next` on.
+template <class S>
+void NarrowPhase<S>::merge_group(std::size_t index, const std::uint8_t* counts, const Manifold<S>* manifolds,
+                                 std::size_t next, std::size_t& old_cursor) {
+  const PartGroup group = part_pairs_.group(index);
+  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
+  for (std::size_t i = 0; i < group.parts.size(); ++i) {
+    const PartPair& part = group.parts[i];
+    if (counts[i] == 0 || frames[part.frame_a].sensor || frames[part.frame_b].sensor) continue;
+    fill_contact(part, manifolds[i], state_.contacts[next], geometry_[next], old_cursor);
+    ++next;
+  }
+}
+
+/// The first of the last step's contacts that any of a group's may continue.
+template <class S> std::size_t NarrowPhase<S>::first_old_contact(std::size_t index) const {
+  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
+  const PartPair& part = part_pairs_.group(index).parts.front();
+  const ContactKey least = {frames[part.frame_a].slot, frames[part.frame_b].slot, part.child_a, part.child_b};
+  return lower_bound(old_contacts_.size(), [&](std::size_t i) { return old_contacts_[i].key < least; });
+}
+
+}  // namespace isostep

@@ -1,0 +1,91 @@
+// PartPairs<S>: from pairs of bodies to the pairs of their parts that might touch, in groups.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/world/body_frames.hpp"
+
+namespace isostep {
+
+/// Pairs of parts that are collided and merged together: they fit in a core's cache. The lists are places in `parts`,
+/// ascending: of two plain spheres, of two plain boxes, of anything else.
+struct PartGroup {
+  static constexpr std::size_t kMost = 256;  // pairs
+  std::span<const PartPair> parts;
+  std::span<const std::uint32_t> spheres, boxes, others;
+};
+
+/// Input:   the state, the pairs of the broad phase in ascending order.
+/// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Pairs that a
+///          joint keeps from colliding are left out.
+/// Keeps:   nothing from step to step but memory.
+/// Budget:  compounds may compare 64 pairs of parts and collide 2 for each pair of bodies that Settings::most_pairs
+///          allows: comparing takes a hundredth of what a contact takes. Beyond it every pair of bodies gets the same
+///          share.
+template <class S> class PartPairs {
+ public:
+  ISO_INLINE PartPairs(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  /// Calls in this order: begin, frame_awake_body for each awake body in any order or at once, gather.
+  void begin();
+  void frame_awake_body(std::size_t index);
+  /// Returns how many pairs of compounds lack parts, because the budget is used up.
+  std::uint32_t gather(std::span<const std::uint64_t> pairs);
+
+  /// Of awake bodies in their order, then of those that they might touch.
+  ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
+  ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }
+  ISO_INLINE std::size_t groups() const { return groups_.size(); }
+  PartGroup group(std::size_t index) const;
+
+  template <class Visit> void visit_scratch(const Visit& visit) {
+    visit("frames", frames_);
+    visit("materials", materials_);
+    visit("parts", parts_);
+  }
+
+ private:
+  /// A body's place among the frames, and what tells how it collides: its PartKind and the bits below.
+  struct Framed {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr std::uint32_t kSensor = 1u << 8, kAsleep = 1u << 9;
+    std::uint32_t index = kNone;
+    std::uint32_t traits = 0;
+  };
+  /// Where each list stands when a group begins.
+  struct ListEnds {
+    std::uint32_t spheres, boxes, others;
+  };
+  /// Two parts that are compared, and two that are collided.
+  struct Budget {
+    std::uint64_t looks, parts;
+  };
+  static constexpr std::uint64_t kLooksPerPair = 64, kPartsPerPair = 2;
+
+  void collect_joined_pairs();
+  void make_room_for_frames();
+  void frame_body(std::uint32_t slot);
+  static std::uint32_t traits_of(const BodyFrame<S>& frame);
+  bool gather(std::span<const std::uint64_t> pairs, Budget each, Budget all);
+  bool gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all);
+  void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
+  ListEnds list_ends() const;
+
+  const WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  std::vector<std::uint64_t> joined_pairs_, sort_scratch_;  // pairs that joints keep from colliding, ascending
+  std::vector<BodyFrame<S>> frames_;
+  std::vector<Material<S>> materials_;       // by frame
+  std::vector<Framed> framed_;               // by slot
+  std::vector<std::uint32_t> framed_slots_;  // those that are not empty
+  std::vector<PartPair> parts_;
+  std::vector<ListEnds> groups_;
+  std::vector<std::uint32_t> spheres_, boxes_, others_;  // places in their groups
+  std::uint32_t cut_compounds_ = 0;
+};
+
+}  // namespace isostep

@@ -1,0 +1,38 @@
+// StateLoader<S>: replaces the state by another one.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state to take, of the same settings or read from a file.
+/// Output:  that state; the body map and the broad phase renewed where it differs.
+/// Keeps:   nothing from call to call but memory.
+/// Cost:    time for what is awake in either state, for the islands that only one of them has at their place, and for
+///          what is fixed if that differs.
+template <class S> class StateLoader {
+ public:
+  ISO_INLINE StateLoader(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  void load(const WorldState<S>& from);
+
+ private:
+  void forget_places(bool other_fixed);
+  void forget(const BodySet<S>& bodies, const JointSet<S>& joints);
+  void renew_places(bool other_fixed);
+  void place(const BodySet<S>& bodies, std::uint32_t set);
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  std::vector<std::uint32_t> other_islands_;  // indices at which the two states differ
+  std::vector<std::uint32_t> forgotten_;      // slots of bodies
+};
+
+}  // namespace isostep

@@ -1,0 +1,55 @@
+// StepSolver<S>: the solver that the settings name, and what a step gives it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "isostep/dynamics/solvers/solvers.hpp"
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/events.hpp"
+#include "isostep/world/step_tools.hpp"
+
+namespace isostep {
+
+/// Input:   the state, the geometry of its contacts, those that turning bodies carry.
+/// Output:  a StepContext for the calls of rigid_solver.hpp, which move the awake bodies and leave impulses in contacts
+///          and joints; each contact's impulse of the whole step.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class StepSolver {
+ public:
+  ISO_INLINE StepSolver(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  /// Takes the forces that commands left in the state.
+  void take_forces(StepReport& report);
+  /// `watched`: somebody looks between the stages.
+  StepContext<S> context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
+                         const StepTools<S>& tools, bool watched);
+  /// visit(the solver)
+  template <class Visit> void with_solver(Visit&& visit) {
+    isostep::with_solver(solvers_, state_.settings.solver, static_cast<Visit&&>(visit));
+  }
+  /// [m/s] Parallel to the contacts, of the whole step.
+  ISO_INLINE std::span<const Velocity<S>> impulses() const { return impulses_; }
+
+  template <class Visit> void visit_forces(const Visit& visit) { visit("accelerations", accelerations_); }
+  template <class Visit> void visit_impulses(const Visit& visit) { visit("step_impulses", impulses_); }
+  template <class Visit>
+  void visit_solver(const Visit& visit, SolverStage stage, std::span<const ContactGeometry<S>> geometry) {
+    StepContext<S> context = {};
+    context.properties = state_.awake.properties;
+    context.contacts = state_.contacts;
+    context.geometry = geometry;
+    with_solver([&](auto& solver) { solver.visit_scratch(visit, stage, context); });
+  }
+
+ private:
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Solvers<S> solvers_;
+  std::vector<Acceleration<S>> accelerations_;  // by awake body, or empty
+  std::vector<JointEnds<S>> joint_ends_;
+  std::vector<Velocity<S>> impulses_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,50 @@
+// Bodies of step_solver.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/solvers.inl"
+#include "isostep/world/step_solver.hpp"
+
+namespace isostep {
+
+template <class S> void StepSolver<S>::take_forces(StepReport& report) {
+  accelerations_.clear();
+  if (state_.forces.empty()) return;
+  accelerations_.resize(state_.awake.states.size(), Acceleration<S>{Vec3<S>::zero(), Vec3<S>::zero()});
+  for (const PendingForce<S>& force : state_.forces) {
+    accelerations_[map_.location(force.slot).index] = {force.linear, force.angular};
+    report.clamped_force += force.cut;
+  }
+  state_.forces.clear();
+}
+
+template <class S>
+StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
+                                      const StepTools<S>& tools, bool watched) {
+  const auto end_at = [&](std::uint32_t slot) { return JointEnd<S>{map_.row_of(slot), map_.centre_pose_at(slot)}; };
+  joint_ends_.resize(state_.joints.properties.size());
+  for (std::size_t i = 0; i < joint_ends_.size(); ++i) {
+    const JointProperties<S>& joint = state_.joints.properties[i];
+    joint_ends_[i] = {end_at(joint.body_a), end_at(joint.body_b)};
+  }
+  impulses_.resize(state_.contacts.size());
+  return {state_.awake.states,
+          state_.awake.properties,
+          accelerations_,
+          state_.contacts,
+          geometry,
+          impulses_,
+          state_.joints.properties,
+          state_.joints.states,
+          joint_ends_,
+          state_.settings.gravity,
+          state_.settings.hz,
+          state_.settings.substeps,
+          watched,
+          tools.runner,
+          tools.contact_kernels,
+          tools.tree_kernels,
+          carried};
+}
+
+}  // namespace isostep

@@ -1,0 +1,81 @@
+// BodyFinisher alone: what is beyond the scalar's range is cut, and counted.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/world/body_finisher.hpp"
+
+#include <limits>
+
+#include "unit/world/rooms.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class BodyFinishers : public ::testing::Test {
+ protected:
+  BodyFinishers() : rooms(made()) {}
+  World<S>& made() {
+    ball = world.create(moving<S>(add_ball(world, 0.5), {1, 0, 0}));
+    return world;
+  }
+  StepReport finish() {
+    StepReport report;
+    const Pose<S> start[] = {{vec<S>(1, 0, 0), Quat<Unit<S>>::identity()}};
+    finisher.finish(start, report);
+    return report;
+  }
+
+  World<S> world{settings<S>(0)};
+  BodyId ball;
+  Rooms<S> rooms;
+  BodyFinisher<S> finisher{rooms.state, rooms.map, rooms.proxies};
+};
+TYPED_TEST_SUITE(BodyFinishers, RoomScalars);
+
+TYPED_TEST(BodyFinishers, what_is_in_range_stays_and_its_fat_box_is_renewed_when_it_leaves_it) {
+  using S = TypeParam;
+  BodyState<S>& body = this->rooms.awake(this->ball);
+  const Aabb<S> fat = body.fat;
+  body.centre = vec<S>(1.0625, 0, 0);
+  EXPECT_TRUE(this->finish().clean());
+  EXPECT_TRUE(body.fat == fat) << "inside the margin of 0.1 m";
+  body.centre = vec<S>(2, 0, 0);
+  EXPECT_TRUE(this->finish().clean());
+  EXPECT_NEAR(to_double(body.fat.low.x), 1.4, 1e-4);
+  EXPECT_TRUE(this->rooms.proxies.tree().box(this->ball.slot) == body.fat);
+}
+
+TYPED_TEST(BodyFinishers, speed_and_position_are_cut_to_their_limits) {
+  using S = TypeParam;
+  BodyState<S>& body = this->rooms.awake(this->ball);
+  const S edge = Limits<S>::position();
+  body.centre.x = edge + S(2);
+  body.velocity.x = convert<Velocity<S>>(Limits<S>::speed() * S(1.25));
+  const StepReport report = this->finish();
+  EXPECT_EQ(report.clamped_speed, 1u);
+  EXPECT_EQ(report.clamped_position, 1u);
+  EXPECT_EQ(body.centre.x, edge);
+  EXPECT_EQ(body.velocity.x, Velocity<S>(0)) << "it does not move on";
+}
+
+TEST(BodyFinishersOfFloat, a_body_that_is_no_number_goes_back_and_stops) {
+  World<float> world(settings<float>(0));
+  const BodyId ball = world.create(moving<float>(add_ball(world, 0.5), {1, 0, 0}));
+  Rooms<float> rooms(world);
+  BodyFinisher<float> finisher(rooms.state, rooms.map, rooms.proxies);
+  BodyState<float>& body = rooms.awake(ball);
+  body.centre.y = std::numeric_limits<float>::quiet_NaN();
+  body.velocity.y = 3;
+  Contact<float> contact = {};
+  contact.normal_impulse[1] = std::numeric_limits<float>::infinity();
+  rooms.state.contacts.push_back(contact);
+  const Pose<float> start[] = {{{1, 2, 3}, Quat<float>::identity()}};
+  StepReport report;
+  finisher.finish(start, report);
+  EXPECT_EQ(report.stopped, 1u);
+  EXPECT_EQ(body.centre.y, 2.0f);
+  EXPECT_EQ(body.velocity.y, 0.0f);
+  EXPECT_EQ(rooms.state.contacts[0].normal_impulse[1], 0.0f);
+}
+
+}  // namespace
+}  // namespace isostep::test

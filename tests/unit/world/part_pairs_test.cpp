@@ -1,0 +1,103 @@
+// PartPairs alone: which parts of two bodies are looked at.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/world/part_pairs.hpp"
+
+#include "unit/world/rooms.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class PartPairsOf : public ::testing::Test {
+ protected:
+  PartPairsOf() : world(settings<S>(0)) {}
+
+  /// Of the world as it is now. Returns how many pairs of compounds lack parts.
+  std::uint32_t gather() {
+    rooms = std::make_unique<Rooms<S>>(world);
+    rooms->find_pairs();
+    pairs = std::make_unique<PartPairs<S>>(rooms->state, rooms->map);
+    pairs->begin();
+    for (std::size_t i = 0; i < rooms->state.awake.states.size(); ++i) pairs->frame_awake_body(i);
+    return pairs->gather(rooms->proxies.pairs());
+  }
+  std::size_t parts() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pairs->groups(); ++i) count += pairs->group(i).parts.size();
+    return count;
+  }
+  /// So many small boxes in a row from the origin on.
+  ShapeId add_row(int count) {
+    std::vector<Child<S>> children;
+    for (int i = 0; i < count; ++i) {
+      const Pose<S> pose = {vec<S>(i, 0, 0), Quat<Unit<S>>::identity()};
+      children.push_back({primitive_of(Box<S>{vec<S>(0.25, 0.25, 0.25)}), pose});
+    }
+    return world.add_shape(std::span<const Child<S>>(children));
+  }
+
+  World<S> world;
+  std::unique_ptr<Rooms<S>> rooms;
+  std::unique_ptr<PartPairs<S>> pairs;
+};
+TYPED_TEST_SUITE(PartPairsOf, RoomScalars);
+
+TYPED_TEST(PartPairsOf, plain_bodies_have_a_frame_each_and_a_list_by_their_kinds) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  const ShapeId ball = add_ball(w, 0.5), box = add_box(w, 0.5, 0.5, 0.5);
+  for (const ShapeId shape : {ball, ball, box, box}) w.create(moving<S>(shape, {0, 0, 0}));
+  EXPECT_EQ(this->gather(), 0u);
+  ASSERT_EQ(this->pairs->groups(), 1u);
+  const PartGroup group = this->pairs->group(0);
+  EXPECT_EQ(this->pairs->frames().size(), 4u);
+  EXPECT_EQ(group.parts.size(), 6u);
+  EXPECT_EQ(group.spheres.size(), 1u);
+  EXPECT_EQ(group.boxes.size(), 1u);
+  EXPECT_EQ(group.others.size(), 4u);
+}
+
+TYPED_TEST(PartPairsOf, a_joint_keeps_its_bodies_from_colliding_unless_it_says_otherwise) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  const ShapeId ball = add_ball(w, 0.5);
+  const BodyId a = w.create(moving<S>(ball, {0, 0, 0})), b = w.create(moving<S>(ball, {0.5, 0, 0}));
+  const JointId joint = w.create(w.joint_at(JointType::ball, a, b, Pose<S>::identity()));
+  ASSERT_TRUE(joint);
+  this->gather();
+  EXPECT_EQ(this->parts(), 0u);
+  JointProperties<S> collides = *w.joint(joint);
+  collides.flags |= joint_flag::kCollideConnected;
+  ASSERT_TRUE(w.destroy(joint));
+  ASSERT_TRUE(w.create(collides));
+  this->gather();
+  EXPECT_EQ(this->parts(), 1u);
+}
+
+TYPED_TEST(PartPairsOf, of_compounds_only_parts_that_are_near_each_other_pair_and_groups_have_256) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  const ShapeId row = this->add_row(300);
+  w.create(moving<S>(row, {0, 0, 0}));
+  w.create(moving<S>(row, {0, 0.25, 0}));
+  EXPECT_EQ(this->gather(), 0u);
+  EXPECT_EQ(this->parts(), 300u);
+  ASSERT_EQ(this->pairs->groups(), 2u);
+  EXPECT_EQ(this->pairs->group(0).parts.size(), PartGroup::kMost);
+  EXPECT_EQ(this->pairs->group(1).others.size(), 44u);
+}
+
+TYPED_TEST(PartPairsOf, beyond_the_budget_every_pair_of_compounds_gets_the_same_share) {
+  using S = TypeParam;
+  Settings<S> few = settings<S>(0);
+  few.most_pairs = kLeastPairs;
+  this->world = World<S>(few);
+  const ShapeId row = this->add_row(100);
+  for (int i = 0; i < 3; ++i) this->world.create(moving<S>(row, {0, 0.125 * i, 0}));
+  EXPECT_EQ(this->gather(), 3u);
+  EXPECT_LE(this->parts(), 2u * static_cast<std::size_t>(kLeastPairs));
+  EXPECT_EQ(this->parts() % 3, 0u);
+}
+
+}  // namespace
+}  // namespace isostep::test

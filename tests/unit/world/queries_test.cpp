@@ -1,0 +1,65 @@
+// Queries alone: what a ray and a box meet. Worlds' own answers: questions_test.cpp.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/world/queries.hpp"
+
+#include "unit/world/rooms.hpp"
+
+namespace isostep::test {
+namespace {
+
+/// Three balls in a row.
+template <class S> class QueriesOf : public ::testing::Test {
+ protected:
+  QueriesOf() : rooms(made()) {}
+  World<S>& made() {
+    const ShapeId ball = add_ball(world, 0.5);
+    for (int i = 0; i < 3; ++i) balls[i] = world.create(moving<S>(ball, {2.0 * i, 0, 0}));
+    return world;
+  }
+
+  World<S> world{settings<S>(0)};
+  BodyId balls[3];
+  Rooms<S> rooms;
+  CommandJournal journal;
+  Queries<S> queries{rooms.state, rooms.map, rooms.proxies, journal};
+};
+TYPED_TEST_SUITE(QueriesOf, RoomScalars);
+
+TYPED_TEST(QueriesOf, a_ray_meets_the_nearest_body_that_it_may_see) {
+  using S = TypeParam;
+  const Vec3<S> from = vec<S>(-2, 0, 0), way = vec<S>(8, 0, 0);
+  const auto hit = this->queries.cast_ray(from, way, {});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->body, this->balls[0]);
+  EXPECT_NEAR(to_double(hit->point.x), -0.5, 1e-4);
+  QueryFilter others;
+  others.ignore = this->balls[0];
+  const auto behind = this->queries.cast_ray(from, way, others);
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(behind->body, this->balls[1]);
+  std::vector<RayCastHit<S>> all;
+  this->queries.cast_ray_all(from, way, all, {});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[2].body, this->balls[2]);
+}
+
+TYPED_TEST(QueriesOf, bodies_in_a_box_come_ascending_by_slot) {
+  using S = TypeParam;
+  std::vector<BodyId> found;
+  this->queries.bodies_near({vec<S>(-1, -1, -1), vec<S>(3, 1, 1)}, found, {});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0], this->balls[0]);
+  EXPECT_EQ(found[1], this->balls[1]);
+}
+
+TYPED_TEST(QueriesOf, a_question_that_is_refused_leaves_its_fault_in_the_journal) {
+  using S = TypeParam;
+  EXPECT_FALSE(this->queries.closest(vec<S>(0, 0, 0), S(-1), {}));
+  EXPECT_EQ(this->journal.fault().fault, Fault::bad_argument);
+  EXPECT_STREQ(this->journal.fault().field, "max_distance");
+  EXPECT_STREQ(this->journal.fault().command, "closest");
+}
+
+}  // namespace
+}  // namespace isostep::test

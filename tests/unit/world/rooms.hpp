@@ -1,0 +1,30 @@
+// What the tests of rooms share: a state with its caches, without a world around it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/island_wake.hpp"
+#include "isostep/world/proxies.hpp"
+#include "isostep/world/state_loader.hpp"
+#include "unit/world/worlds.hpp"
+
+namespace isostep::test {
+
+/// Of float and of fixed point: rooms hold no code of one scalar alone.
+using RoomScalars = ::testing::Types<float, Q32_32>;
+
+template <class S> struct Rooms {
+  explicit Rooms(const World<S>& world) { loader.load(world.state()); }
+
+  void find_pairs() { proxies.update(state.contacts, static_cast<std::size_t>(state.settings.most_pairs)); }
+  BodyState<S>& awake(BodyId body) { return state.awake.states[map.location(body.slot).index]; }
+  bool is_asleep(BodyId body) const { return map.location(body.slot).is_asleep(); }
+
+  WorldState<S> state;
+  BodyMap<S> map{state};
+  Proxies<S> proxies;
+  StateLoader<S> loader{state, map, proxies};
+  IslandWake<S> wake{state, map, proxies};
+};
+
+}  // namespace isostep::test

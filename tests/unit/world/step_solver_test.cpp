@@ -1,0 +1,72 @@
+// StepSolver alone: what a step's solver is given.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/world/step_solver.hpp"
+
+#include "isostep/dynamics/solvers/solvers.inl"
+#include "unit/world/rooms.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class StepSolvers : public ::testing::Test {
+ protected:
+  StepSolvers() : rooms(made()) { tools.use_simd(Simd::scalar); }
+  World<S>& made() {
+    const ShapeId ball = add_ball(world, 0.5);
+    fixed = world.create(still<S>(ball, {0, 4, 0}));
+    awake = world.create(moving<S>(ball, {0, 2, 0}));
+    world.create(world.joint_at(JointType::ball, fixed, awake, {vec<S>(0, 4, 0), Quat<Unit<S>>::identity()}));
+    return world;
+  }
+
+  World<S> world{settings<S>(0)};
+  BodyId fixed, awake;
+  Rooms<S> rooms;
+  StepTools<S> tools = {};
+  StepSolver<S> solver{rooms.state, rooms.map};
+};
+TYPED_TEST_SUITE(StepSolvers, RoomScalars);
+
+TYPED_TEST(StepSolvers, forces_become_accelerations_and_leave_the_state) {
+  using S = TypeParam;
+  this->rooms.state.forces = {{this->awake.slot, 1, vec<S>(3, 0, 0), vec<S>(0, 0, 5)}};
+  StepReport report;
+  this->solver.take_forces(report);
+  EXPECT_TRUE(this->rooms.state.forces.empty());
+  EXPECT_EQ(report.clamped_force, 1u);
+  const StepContext<S> context = this->solver.context({}, {}, this->tools, false);
+  ASSERT_EQ(context.accelerations.size(), 1u);
+  EXPECT_EQ(context.accelerations[0].linear, vec<S>(3, 0, 0));
+  this->solver.take_forces(report);
+  EXPECT_TRUE(this->solver.context({}, {}, this->tools, false).accelerations.empty());
+}
+
+TYPED_TEST(StepSolvers, joints_know_the_rows_and_the_poses_of_their_ends) {
+  using S = TypeParam;
+  const StepContext<S> context = this->solver.context({}, {}, this->tools, true);
+  EXPECT_TRUE(context.watched);
+  ASSERT_EQ(context.joint_ends.size(), 1u);
+  EXPECT_EQ(context.joint_ends[0].a.row, 0u);
+  EXPECT_EQ(context.joint_ends[0].b.row, 1u);
+  EXPECT_EQ(context.joint_ends[0].b.pose.position, vec<S>(0, 2, 0));
+}
+
+TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_of_the_state) {
+  using S = TypeParam;
+  this->rooms.state.joints = {};
+  this->rooms.awake(this->awake).velocity = vec<Velocity<S>>(0, 6, 0);
+  const StepContext<S> context = this->solver.context({}, {}, this->tools, false);
+  this->solver.with_solver([&](auto& chosen) {
+    chosen.colour_constraints(context);
+    chosen.prepare(context);
+    chosen.solve_substeps(context);
+    chosen.restitute(context);
+    chosen.store_impulses(context);
+  });
+  EXPECT_NEAR(to_double(this->rooms.awake(this->awake).centre.y), 2.1, 1e-5);
+  EXPECT_TRUE(this->solver.impulses().empty());
+}
+
+}  // namespace
+}  // namespace isostep::test
