@@ -1,4 +1,4 @@
-// ParticleEngine: its state and what each stage leaves behind, leaf by leaf.
+// ParticleEngine: its state, and what each room leaves behind from stage to stage, by name.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -34,36 +34,76 @@ template <class Visit, class S> void visit_spring_rows(const Visit& visit, Sprin
 
 }  // namespace
 
+template <class S> template <class Visit> void FreeFlight<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage == ParticleStage::find_contacts) visit("flight_rows", rows_);
+}
+
+template <class S> template <class Visit> void PairSearch<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage != ParticleStage::find_contacts) return;
+  visit("colliding", slots_);
+  visit("reaches", reaches_);
+}
+
+template <class S>
+template <class Visit>
+void ParticleContacts<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage != ParticleStage::find_contacts) return;
+  visit("pairs", pairs_);
+  visit("old_contacts", old_contacts_);
+}
+
+template <class S> template <class Visit> void ParticleRows<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage == ParticleStage::find_contacts) {
+    visit("first_contact", first_contact_);
+    visit("first_touch", first_touch_);
+  }
+  visit("rows", rows_);
+}
+
+template <class S>
+template <class Visit>
+void ParticleSprings<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage != ParticleStage::solve_substeps) return;
+  visit.within("spring_rows", [&](const auto& of_rows) { visit_spring_rows(of_rows, rows_); });
+  visit("springs_yield", may_yield_);
+}
+
+template <class S> template <class Visit> void StiffSprings<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage == ParticleStage::solve_substeps) visit("oscillators", oscillators_);
+}
+
+template <class S>
+template <class Visit>
+void ParticleSoftStep<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
+  if (stage != ParticleStage::find_contacts) return;
+  visit("contact_softness", contact_softness_);
+  visit("link_softness", link_softness_);
+}
+
 template <class S>
 template <class Visit>
 void ParticleEngine<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
   switch (stage) {
     case ParticleStage::find_contacts:
-      visit("h", h_);
-      visit("rate", rate_);
-      visit("contact_softness", contact_softness_);
-      visit("link_softness", link_softness_);
-      visit("flight_rows", flight_rows_);
-      visit("colliding", slots_);
-      visit("reaches", reaches_);
-      visit("pairs", pairs_);
-      visit("old_contacts", old_contacts_);
-      visit("first_contact", first_contact_);
-      visit("first_touch", first_touch_);
-      return visit("rows", rows_);
+      visit("h", step_.h);
+      visit("rate", step_.rate);
+      soft_step_.visit_scratch(visit, stage);
+      flight_.visit_scratch(visit, stage);
+      search_.visit_scratch(visit, stage);
+      contacts_.visit_scratch(visit, stage);
+      return rows_.visit_scratch(visit, stage);
     case ParticleStage::solve_substeps:
-      visit.within("displacement", [&](const auto& of_axes) { visit_axes(of_axes, scratch_.displacement); });
-      visit.within("spring_rows", [&](const auto& of_rows) { visit_spring_rows(of_rows, spring_rows_); });
-      visit("springs_yield", springs_yield_);
-      visit("oscillators", oscillators_);
-      return visit("rows", rows_);
-    case ParticleStage::restitution: return visit("rows", rows_);
+      visit.within("displacement", [&](const auto& of_axes) { visit_axes(of_axes, step_.displacement); });
+      springs_.visit_scratch(visit, stage);
+      stiff_springs_.visit_scratch(visit, stage);
+      return rows_.visit_scratch(visit, stage);
+    case ParticleStage::restitution: return rows_.visit_scratch(visit, stage);
     case ParticleStage::store_impulses:
-      visit("contact_begin", events_.contact_begin);
-      return visit("touch_impulses", events_.touch_impulses);
-    case ParticleStage::finalise_particles: return visit("report", report_);
-    case ParticleStage::yield_springs: return visit("yielded", events_.yielded);
-    case ParticleStage::expire_particles: return visit("expired", events_.expired);
+      visit("contact_begin", step_.events.contact_begin);
+      return visit("touch_impulses", step_.events.touch_impulses);
+    case ParticleStage::finalise_particles: return visit("report", step_.report);
+    case ParticleStage::yield_springs: return visit("yielded", step_.events.yielded);
+    case ParticleStage::expire_particles: return visit("expired", step_.events.expired);
   }
 }
 

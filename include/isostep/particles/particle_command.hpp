@@ -108,7 +108,7 @@ template <class S> struct SetParticleGravity {
 };
 
 /// ISO_FOR_EACH_PARTICLE_COMMAND(X, R, S) expands X(name, Type, Result, S) for a command: its name in faults, record,
-/// and what ParticleWorld<S>::apply and ParticleEngine<S>::execute return: an id of what was made, or whether it was
+/// and what ParticleWorld<S>::apply and ParticleCommands<S>::execute return: an id of what was made, or whether it was
 /// accepted. It expands R(name, Record, Id, S) for a kind of record, which has three commands, add_name, set_name and
 /// remove_name, and a registry in ParticleState whose name is the same with an s. To add one, see README.md. The
 /// position is the number in replays: append, never reorder.

@@ -88,6 +88,11 @@ template <class S> struct ParticleState {
   std::vector<ParticleTouch<S>> touches;  // in the order in which they came
   std::vector<ParticleLifetime> lifetimes;
 
+  /// Belongs to the world from birth; a null id names it.
+  ISO_INLINE ParticleMaterialId first_material() const {
+    return materials.slots().template id_of<ParticleMaterialId>(0);
+  }
+
   /// visit("name", registry) in a fixed order.
   template <class Visitor, class Self> static ISO_INLINE void registries(Visitor&& visit, Self&& self) {
     visit("materials", self.materials);

@@ -5,41 +5,10 @@
 #include <utility>
 #include <variant>
 
-#include "isostep/particles/engine_commands.inl"
-#include "isostep/particles/engine_contacts.inl"
-#include "isostep/particles/engine_forces.inl"
-#include "isostep/particles/engine_integrate.inl"
-#include "isostep/particles/engine_soft_step.inl"
-#include "isostep/particles/engine_state.inl"
-#include "isostep/particles/engine_step.inl"
-#include "isostep/particles/engine_worst_first.inl"
+#include "isostep/particles/particle_engine.inl"
 #include "isostep/state/tape.hpp"
 
 namespace isostep {
-
-/// Settings out of range are brought to the nearest that is in range, and that is a fault.
-template <class S>
-ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& settings) : kernels_(flight_kernels<S>(Simd::best)) {
-  state_.settings = settings;
-  ParticleSettings<S>& s = state_.settings;
-  s.hz = clamp(s.hz, 10, 1000);
-  s.substeps = clamp(s.substeps, 1, min(64, kMaxParticleRate / s.hz));
-  const S limit = ParticleLimits<S>::speed();
-  for (int axis = 0; axis < 3; ++axis) {
-    const S g = s.gravity[axis];
-    s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
-  }
-  if (static_cast<std::uint32_t>(s.integrator) >= kIntegrators) s.integrator = Integrator::semi_implicit_euler;
-  if (static_cast<std::uint32_t>(s.solver) >= kParticleSolvers) s.solver = ParticleSolver::soft_step;
-  if (static_cast<std::uint32_t>(s.stepping) >= kSteppings) s.stepping = Stepping::fixed;
-  s.pairs = min(s.pairs, kMostParticlePairs);
-  if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity) ||
-      s.integrator != settings.integrator || s.solver != settings.solver || s.stepping != settings.stepping ||
-      s.pairs != settings.pairs) {
-    journal_.refuse_call("ParticleWorld", {Fault::out_of_range});
-  }
-  state_.materials.add(ParticleMaterial<S>{});
-}
 
 template <class S>
 ParticleWorld<S>::ParticleWorld(const ParticleSettings<S>& settings)
@@ -62,31 +31,33 @@ template <class S> bool ParticleWorld<S>::use_simd(Simd simd) {
   if (!call.allowed()) return false;
   const FlightKernels<S>* kernels = flight_kernels<S>(simd);
   if (kernels == nullptr) return false;
-  engine_->kernels_ = kernels;
+  engine_->flight_.use(*kernels);
   return true;
 }
-template <class S> const char* ParticleWorld<S>::simd_name() const { return engine_->kernels_->name; }
+template <class S> const char* ParticleWorld<S>::simd_name() const { return engine_->flight_.kernels().name; }
 
 #define ISO_APPLY(name, Type, Result, S)                                   \
   template <class S> Result ParticleWorld<S>::apply(const Type& command) { \
-    return engine_->journal_.run(#name, *engine_, command);                \
+    return engine_->journal_.run(#name, engine_->commands_, command);      \
   }
 #define ISO_RECORD(name, Record, Id, S)                                                                          \
   template <class S> Id ParticleWorld<S>::apply(const AddRecord<Record>& command) {                              \
-    return engine_->journal_.run("add_" #name, *engine_, command);                                               \
+    return engine_->journal_.run("add_" #name, engine_->commands_, command);                                     \
   }                                                                                                              \
   template <class S> bool ParticleWorld<S>::apply(const SetRecord<Record, Id>& command) {                        \
-    return engine_->journal_.run("set_" #name, *engine_, command);                                               \
+    return engine_->journal_.run("set_" #name, engine_->commands_, command);                                     \
   }                                                                                                              \
   template <class S> bool ParticleWorld<S>::apply(const RemoveRecord<Id>& command) {                             \
-    return engine_->journal_.run("remove_" #name, *engine_, command);                                            \
+    return engine_->journal_.run("remove_" #name, engine_->commands_, command);                                  \
   }                                                                                                              \
   template <class S> Id ParticleWorld<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); } \
   template <class S> bool ParticleWorld<S>::set(Id id, const Record& record) {                                   \
     return apply(SetRecord<Record, Id>{id, record});                                                             \
   }                                                                                                              \
   template <class S> bool ParticleWorld<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                \
-  template <class S> const Record* ParticleWorld<S>::find(Id id) const { return engine_->registry_of(id).find(id); }
+  template <class S> const Record* ParticleWorld<S>::find(Id id) const {                                         \
+    return detail::registry_of(engine_->state_, id).find(id);                                                    \
+  }
 ISO_FOR_EACH_PARTICLE_COMMAND(ISO_APPLY, ISO_RECORD, S)
 #undef ISO_APPLY
 #undef ISO_RECORD
@@ -94,7 +65,9 @@ template <class S> bool ParticleWorld<S>::apply(const ParticleCommand<S>& comman
   return std::visit([&](const auto& c) { return static_cast<bool>(apply(c)); }, command);
 }
 
-template <class S> ParticleMaterialId ParticleWorld<S>::default_material() const { return engine_->first_material(); }
+template <class S> ParticleMaterialId ParticleWorld<S>::default_material() const {
+  return engine_->state_.first_material();
+}
 template <class S> ParticleId ParticleWorld<S>::create(const ParticleDefinition<S>& definition) {
   return apply(CreateParticle<S>{definition});
 }
@@ -136,7 +109,9 @@ template <class S> void ParticleWorld<S>::trace_to(std::vector<std::uint64_t>* h
 }
 template <class S> std::uint64_t ParticleWorld<S>::loads() const { return engine_->journal_.loads(); }
 
-template <class S> bool ParticleWorld<S>::contains(ParticleId particle) const { return engine_->holds(particle); }
+template <class S> bool ParticleWorld<S>::contains(ParticleId particle) const {
+  return engine_->state_.particles.holds(particle);
+}
 template <class S> Vec3<S> ParticleWorld<S>::position(ParticleId particle) const {
   return contains(particle) ? engine_->state_.position[particle.slot] : Vec3<S>::zero();
 }
@@ -186,7 +161,7 @@ template <class S> ParticleReport ParticleWorld<S>::step(const ParticleStageObse
   engine_->journal_.record_step();
   return engine_->step(observer);
 }
-template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { return engine_->events_; }
+template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { return engine_->step_.events; }
 
 template <class S> ParticleWorld<S>::Snapshot::Snapshot() : state_(std::make_unique<ParticleState<S>>()) {
   state_->materials.add(ParticleMaterial<S>{});
@@ -227,8 +202,26 @@ template <class S> StageView ParticleWorld<S>::leaves() const { return engine_->
 
 }  // namespace isostep
 
-/// ParticleWorld<S> and what each command does: a command of the list without `execute` does not compile.
-#define ISO_INSTANTIATE_PARTICLE_EXECUTE(name, Type, Result, S) template Result ParticleEngine<S>::execute(const Type&);
-#define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                      \
-  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_SKIP, S) \
+/// ParticleWorld<S>, the rooms behind it, and what each command does: a command of the list without `execute` does not
+/// compile.
+#define ISO_INSTANTIATE_PARTICLE_EXECUTE(name, Type, Result, S) \
+  template Result ParticleCommands<S>::execute(const Type&);
+#define ISO_INSTANTIATE_PARTICLE_RECORD(name, Record, Id, S)                \
+  template Id ParticleCommands<S>::execute(const AddRecord<Record>&);       \
+  template bool ParticleCommands<S>::execute(const SetRecord<Record, Id>&); \
+  template bool ParticleCommands<S>::execute(const RemoveRecord<Id>&);
+#define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                             \
+  template class FreeFlight<S>;                                                                       \
+  template class PairSearch<S>;                                                                       \
+  template class ParticleRows<S>;                                                                     \
+  template class ParticleContacts<S>;                                                                 \
+  template class ParticleSprings<S>;                                                                  \
+  template class StiffSprings<S>;                                                                     \
+  template class ParticleForces<S>;                                                                   \
+  template class ParticleIntegration<S>;                                                              \
+  template class ParticleSoftStep<S>;                                                                 \
+  template class WorstFirstStep<S>;                                                                   \
+  template class ParticleFinish<S>;                                                                   \
+  template class ParticleRemoval<S>;                                                                  \
+  ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_INSTANTIATE_PARTICLE_RECORD, S) \
   template class ParticleWorld<S>;

@@ -1,8 +1,8 @@
-// ParticleEngine: what each command does, and what it refuses.
+// ParticleCommands: of particles, then of the records that are registered.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/particles/particle_engine.hpp"
+#include "isostep/particles/commands.hpp"
 
 namespace isostep {
 
@@ -21,15 +21,20 @@ template <class Record> std::size_t place_of(const std::vector<Record>& records,
 
 // ---- particles
 
-template <class S> ParticleId ParticleEngine<S>::execute(const CreateParticle<S>& command) {
+template <class S> ParticleId ParticleCommands<S>::execute(const CreateParticle<S>& command) {
   const ParticleDefinition<S>& d = command.definition;
-  const ParticleMaterialId material = d.material ? d.material : first_material();
+  const ParticleMaterialId material = d.material ? d.material : state_.first_material();
   const bool good = journal_.accept(detail::fault_of_position(d.position)) &&
                     journal_.accept(detail::fault_of_velocity(d.velocity)) &&
                     journal_.accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
                     journal_.accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
   if (!good) return {};
   const auto id = state_.particles.template take<ParticleId>();
+  place_new(id, d, material);
+  return id;
+}
+template <class S>
+void ParticleCommands<S>::place_new(ParticleId id, const ParticleDefinition<S>& d, ParticleMaterialId material) {
   if (id.slot == state_.material.size()) {
     state_.position.push_back(Vec3<S>::zero());
     state_.velocity.push_back(Vec3<V>::zero());
@@ -40,57 +45,19 @@ template <class S> ParticleId ParticleEngine<S>::execute(const CreateParticle<S>
   state_.velocity.set(id.slot, convert<V>(d.velocity));
   state_.inverse_mass[id.slot] = d.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), d.mass);
   state_.material[id.slot] = material.slot;
-  if (d.lifetime > 0) {
-    const std::size_t at = detail::place_of(state_.lifetimes, id.slot);
-    state_.lifetimes.insert(state_.lifetimes.begin() + static_cast<std::ptrdiff_t>(at),
-                            ParticleLifetime{state_.tick + d.lifetime, id.slot, 0});
-  }
-  return id;
+  if (d.lifetime == 0) return;
+  const std::size_t at = detail::place_of(state_.lifetimes, id.slot);
+  state_.lifetimes.insert(state_.lifetimes.begin() + static_cast<std::ptrdiff_t>(at),
+                          ParticleLifetime{state_.tick + d.lifetime, id.slot, 0});
 }
 
-template <class S> bool ParticleEngine<S>::execute(const DestroyParticle& command) {
+template <class S> bool ParticleCommands<S>::execute(const DestroyParticle& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
-  doomed_.assign(1, command.particle.slot);
-  bury_doomed();
+  removal_.remove(command.particle);
   return true;
 }
 
-/// All at once, for a crowd may expire in one step: a pass over each list. A free slot looks the same whatever lay
-/// there.
-template <class S> void ParticleEngine<S>::bury_doomed() {
-  is_doomed_.resize(state_.material.size(), 0);
-  for (const std::uint32_t slot : doomed_) is_doomed_[slot] = 1;
-  const auto dies = [this](ParticleId id) { return static_cast<bool>(id) && is_doomed_[id.slot] != 0; };
-  remove_naming(state_.springs, [&](const Spring<S>& spring) { return dies(spring.a) || dies(spring.b); });
-  remove_naming(state_.forces, [&](const ParticleForce<S>& force) { return dies(force.particle); });
-  remove_naming(state_.links, [&](const Link<S>& link) { return dies(link.a) || dies(link.b); });
-  const auto is_gone = [this](std::uint32_t slot) { return slot < is_doomed_.size() && is_doomed_[slot] != 0; };
-  std::erase_if(state_.lifetimes, [&](const ParticleLifetime& life) { return is_gone(life.slot); });
-  std::erase_if(state_.pushes, [&](const ParticlePush<S>& push) { return is_gone(push.slot); });
-  std::erase_if(state_.contacts, [&](const ParticleContact<S>& c) { return is_gone(c.a) || is_gone(c.b); });
-  std::erase_if(state_.touches, [&](const ParticleTouch<S>& touch) { return is_gone(touch.particle.slot); });
-  for (const std::uint32_t slot : doomed_) {
-    is_doomed_[slot] = 0;
-    state_.position.set(slot, Vec3<S>::zero());
-    state_.velocity.set(slot, Vec3<V>::zero());
-    state_.inverse_mass[slot] = InverseMass<S>(0);
-    state_.material[slot] = 0;
-    state_.particles.give_back(slot);
-  }
-}
-
-template <class S>
-template <class Records, class Names>
-void ParticleEngine<S>::remove_naming(Records& records, const Names& names) {
-  for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
-    if (!records.is_taken(slot) || !names(records.all()[slot])) continue;
-    using Record = std::decay_t<decltype(records.all()[slot])>;
-    execute(RemoveRecord<typename detail::RecordId<Record>::Type>{
-        records.slots().template id_of<typename detail::RecordId<Record>::Type>(slot)});
-  }
-}
-
-template <class S> bool ParticleEngine<S>::execute(const SetParticleMotion<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const SetParticleMotion<S>& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
   if (!journal_.accept(detail::fault_of_position(command.position)) ||
       !journal_.accept(detail::fault_of_velocity(command.velocity)))
@@ -99,7 +66,7 @@ template <class S> bool ParticleEngine<S>::execute(const SetParticleMotion<S>& c
   state_.velocity.set(command.particle.slot, convert<V>(command.velocity));
   return true;
 }
-template <class S> bool ParticleEngine<S>::execute(const SetParticleMass<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const SetParticleMass<S>& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
   if (!command.pinned && !journal_.accept(detail::fault_of_particle_mass(command.mass))) return false;
   state_.inverse_mass[command.particle.slot] =
@@ -110,13 +77,13 @@ template <class S> bool ParticleEngine<S>::execute(const SetParticleMass<S>& com
   }
   return true;
 }
-template <class S> bool ParticleEngine<S>::execute(const SetParticleMaterial& command) {
+template <class S> bool ParticleCommands<S>::execute(const SetParticleMaterial& command) {
   if (!holds(command.particle) || !state_.materials.holds(command.material)) return journal_.refuse(Fault::stale_id);
   state_.material[command.particle.slot] = command.material.slot;
   return true;
 }
 
-template <class S> bool ParticleEngine<S>::execute(const PushParticle<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const PushParticle<S>& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
   if (!is_finite(command.force)) return journal_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
@@ -132,7 +99,7 @@ template <class S> bool ParticleEngine<S>::execute(const PushParticle<S>& comman
   return true;
 }
 /// What is asked of a particle until the next step.
-template <class S> ParticlePush<S>& ParticleEngine<S>::pending_push(std::uint32_t slot) {
+template <class S> ParticlePush<S>& ParticleCommands<S>::pending_push(std::uint32_t slot) {
   std::vector<ParticlePush<S>>& pushes = state_.pushes;
   const std::size_t at = detail::place_of(pushes, slot);
   if (at == pushes.size() || pushes[at].slot != slot) {
@@ -140,7 +107,7 @@ template <class S> ParticlePush<S>& ParticleEngine<S>::pending_push(std::uint32_
   }
   return pushes[at];
 }
-template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const KickParticle<S>& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
   if (!is_finite(command.impulse)) return journal_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
@@ -154,13 +121,13 @@ template <class S> bool ParticleEngine<S>::execute(const KickParticle<S>& comman
   if (!detail::lies_within(asked, speed)) pending_push(slot).cut = 1;
   return true;
 }
-template <class S> bool ParticleEngine<S>::execute(const TouchParticle<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const TouchParticle<S>& command) {
   if (!journal_.accept(detail::fault_of(command.touch))) return false;
   if (!holds(command.touch.particle)) return journal_.refuse(Fault::stale_id);
   state_.touches.push_back(command.touch);
   return true;
 }
-template <class S> bool ParticleEngine<S>::execute(const SetParticleGravity<S>& command) {
+template <class S> bool ParticleCommands<S>::execute(const SetParticleGravity<S>& command) {
   if (!journal_.accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
   state_.settings.gravity = command.gravity;
   return true;
@@ -168,32 +135,32 @@ template <class S> bool ParticleEngine<S>::execute(const SetParticleGravity<S>& 
 
 // ---- records
 
-template <class S> Fault ParticleEngine<S>::fault_of_ends(ParticleId a, ParticleId b) const {
+template <class S> Fault ParticleCommands<S>::fault_of_ends(ParticleId a, ParticleId b) const {
   return holds(a) && (!b || holds(b)) ? Fault::none : Fault::stale_id;
 }
-template <class S> Fault ParticleEngine<S>::fault_of_record(const Spring<S>& spring) const {
+template <class S> Fault ParticleCommands<S>::fault_of_record(const Spring<S>& spring) const {
   const Fault fault = detail::fault_of(spring);
   return fault == Fault::none ? fault_of_ends(spring.a, spring.b) : fault;
 }
-template <class S> Fault ParticleEngine<S>::fault_of_record(const ParticleForce<S>& force) const {
+template <class S> Fault ParticleCommands<S>::fault_of_record(const ParticleForce<S>& force) const {
   const Fault fault = detail::fault_of(force);
   return fault == Fault::none ? fault_of_ends(force.particle, {}) : fault;
 }
-template <class S> Fault ParticleEngine<S>::fault_of_record(const Cohesion<S>& cohesion) const {
+template <class S> Fault ParticleCommands<S>::fault_of_record(const Cohesion<S>& cohesion) const {
   const Fault fault = detail::fault_of(cohesion);
   return fault != Fault::none || state_.materials.holds(cohesion.material) ? fault : Fault::stale_id;
 }
-template <class S> Fault ParticleEngine<S>::fault_of_record(const Link<S>& link) const {
+template <class S> Fault ParticleCommands<S>::fault_of_record(const Link<S>& link) const {
   const Fault fault = detail::fault_of(link);
   return fault == Fault::none ? fault_of_ends(link.a, link.b) : fault;
 }
 
 template <class S>
 template <class Record>
-typename detail::RecordId<Record>::Type ParticleEngine<S>::execute(const AddRecord<Record>& command) {
+typename detail::RecordId<Record>::Type ParticleCommands<S>::execute(const AddRecord<Record>& command) {
   using IdType = typename detail::RecordId<Record>::Type;
   if (!journal_.accept(fault_of_record(command.record))) return IdType{};
-  const IdType id = registry_of(IdType{}).add(command.record);
+  const IdType id = detail::registry_of(state_, IdType{}).add(command.record);
   if constexpr (std::is_same_v<IdType, LinkId>) {
     if (state_.link_impulses.size() <= id.slot) state_.link_impulses.push_back(V(0));
     state_.link_impulses[id.slot] = V(0);
@@ -202,8 +169,8 @@ typename detail::RecordId<Record>::Type ParticleEngine<S>::execute(const AddReco
 }
 template <class S>
 template <class Record, class IdType>
-bool ParticleEngine<S>::execute(const SetRecord<Record, IdType>& command) {
-  auto& registry = registry_of(command.id);
+bool ParticleCommands<S>::execute(const SetRecord<Record, IdType>& command) {
+  auto& registry = detail::registry_of(state_, command.id);
   if (!registry.holds(command.id)) return journal_.refuse(Fault::stale_id);
   if (!journal_.accept(fault_of_record(command.record))) return false;
   if constexpr (std::is_same_v<IdType, LinkId>) {
@@ -214,21 +181,16 @@ bool ParticleEngine<S>::execute(const SetRecord<Record, IdType>& command) {
   registry.change(command.id) = command.record;
   return true;
 }
-template <class S> template <class IdType> bool ParticleEngine<S>::execute(const RemoveRecord<IdType>& command) {
-  auto& registry = registry_of(command.id);
-  if (!registry.holds(command.id)) return journal_.refuse(Fault::stale_id);
+template <class S> template <class IdType> bool ParticleCommands<S>::execute(const RemoveRecord<IdType>& command) {
+  if (!detail::registry_of(state_, command.id).holds(command.id)) return journal_.refuse(Fault::stale_id);
   if constexpr (std::is_same_v<IdType, ParticleMaterialId>) {
     if (is_in_use(command.id)) return journal_.refuse(Fault::shape_in_use);
   }
-  if constexpr (std::is_same_v<IdType, LinkId>) state_.link_impulses[command.id.slot] = V(0);
-  if constexpr (std::is_same_v<IdType, ColliderId>) {
-    const std::uint32_t b = ParticleContact<S>::kCollider | command.id.slot;
-    std::erase_if(state_.contacts, [b](const ParticleContact<S>& contact) { return contact.b == b; });
-  }
-  return registry.remove(command.id);
+  removal_.remove_record(command.id);
+  return true;
 }
 /// The first material belongs to the world.
-template <class S> bool ParticleEngine<S>::is_in_use(ParticleMaterialId material) const {
+template <class S> bool ParticleCommands<S>::is_in_use(ParticleMaterialId material) const {
   if (material.slot == 0) return true;
   for (std::uint32_t slot = 0; slot < state_.material.size(); ++slot) {
     if (state_.material[slot] == material.slot && state_.particles.is_taken(slot)) return true;

@@ -1,0 +1,63 @@
+// ParticleSoftStep: the default solver, damped springs on velocities over sub-steps, then once more without push.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/math/softness.hpp"
+#include "isostep/particles/step/integration.hpp"
+#include "isostep/particles/step/rows.hpp"
+
+namespace isostep {
+
+/// Source:  Catto 2024, Solver2D: Soft Step; the rigid world's method for what does not turn.
+/// Differs: what pushes overlaps of contacts apart is a velocity of its own, which moves particles and is forgotten
+///          (split impulses, as in Bullet): in a crowd one pass does not take back what another gave, and overlap would
+///          turn into motion.
+template <class S> class ParticleSoftStep {
+ public:
+  using V = Velocity<S>;
+  using U = Unit<S>;
+  using Row = ParticleConstraint<S>;
+
+  ParticleSoftStep(ParticleState<S>& state, ParticleStep<S>& step, ParticleRows<S>& rows,
+                   ParticleIntegration<S>& integration);
+
+  void begin_step();
+  /// Integration, and the rows held.
+  void solve_substep();
+  /// What came fast goes back as its restitution says, once, after the step.
+  void restitute();
+
+  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+
+ private:
+  void warm_start();
+  void solve(bool biased);
+  void solve_normal(Row& row, const Softness<S>& softness, bool biased);
+  void solve_friction(Row& row);
+  void push_apart(Row& row);
+  void note_work(Row& row, V before, V after);
+  V most_bounce(const Row& row, V speed, V wanted) const;
+  void note_meetings();
+  V meeting_speed(const Row& row, V there) const;
+
+  /// A touch is not: of its two sides the other is somebody else's to move, so its velocity has to.
+  static ISO_INLINE bool is_shifted(const Row& row) {
+    return row.kind == ConstraintKind::contact && (row.b != kNoParticle || row.other != kNoParticle);
+  }
+
+  ParticleState<S>& state_;
+  ParticleStep<S>& step_;
+  ParticleRows<S>& rows_;
+  ParticleIntegration<S>& integration_;
+  Softness<S> contact_softness_ = Softness<S>::rigid(), link_softness_ = contact_softness_;
+  static constexpr Softness<S> rigid_softness_ = Softness<S>::rigid();
+  Axes<V> came_;    // [m/s] velocity before forces
+  Axes<V> before_;  // [m/s] velocity before constraints
+  Axes<V> shift_;   // [m/s] with which overlaps are pushed apart; no velocity that lasts
+};
+
+#define ISO_EXTERN(S) extern template class ParticleSoftStep<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

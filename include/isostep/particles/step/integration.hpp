@@ -1,0 +1,67 @@
+// ParticleIntegration: the five integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/particles/implicit_springs.hpp"
+#include "isostep/particles/step/forces.hpp"
+#include "isostep/particles/step/free_flight.hpp"
+#include "isostep/particles/step/stiff_springs.hpp"
+
+namespace isostep {
+
+/// Each takes velocities and displacements over one sub-step as if nothing held the particles; constraints correct both
+/// afterwards. `constrained`: whether there are any.
+template <class S> class ParticleIntegration {
+ public:
+  using V = Velocity<S>;
+  using U = Unit<S>;
+
+  ParticleIntegration(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight, ParticleForces<S>& forces,
+                      StiffSprings<S>& stiff_springs);
+
+  /// Velocities become those with which particles move through the sub-step, and displacements follow them. With these
+  /// velocities constraints have to do; arrive() then makes them those of the sub-step's end. A second stage that saw
+  /// where forces alone would take the particles would feed the spring beside a rod with energy.
+  void integrate(bool constrained);
+  /// Whether the method's velocities at the end are not those of the way.
+  ISO_INLINE bool arrives() const {
+    const Integrator integrator = state_.settings.integrator;
+    return integrator == Integrator::velocity_verlet || integrator == Integrator::rk4;
+  }
+  /// Of such a method.
+  void arrive(bool constrained);
+  /// A sub-step of particles that springs and forces join, but no constraint.
+  void fly();
+
+  /// Positions `now` follow displacements.
+  ISO_INLINE void place() { flight_.place(); }
+  /// All forces where displacements have taken the particles, those of stiff springs too.
+  void accelerate_all();
+  /// Whether there are any besides those of materials.
+  ISO_INLINE bool has_forces() const { return forces_.any(); }
+
+ private:
+  void drift_verlet();
+  void arrive_verlet();
+  void drift_rk4();
+  void add_stage(int stage);
+  void turn_end();
+  void integrate_implicit();
+
+  ParticleState<S>& state_;
+  ParticleStep<S>& step_;
+  FreeFlight<S>& flight_;
+  ParticleForces<S>& forces_;
+  StiffSprings<S>& stiff_springs_;
+  ImplicitSprings<S> implicit_springs_;
+  Axes<V> start_, first_displacement_;  // where the sub-step began
+  Axes<S> first_;                       // [m/s^2] acceleration there
+  Axes<S> sum_;                         // [m/s^2] weighted mean of the stages' accelerations
+  Axes<V> mean_, end_;                  // [m/s] weighted mean of their velocities; the velocity after the sub-step
+};
+
+#define ISO_EXTERN(S) extern template class ParticleIntegration<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

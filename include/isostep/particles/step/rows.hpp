@@ -1,0 +1,65 @@
+// ParticleRows: the constraints that hold in a step, as rows that solvers read and write, and where they stand.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/particles/constraint.hpp"
+#include "isostep/particles/particle_stages.hpp"
+#include "isostep/particles/particle_state.hpp"
+#include "isostep/particles/step/step.hpp"
+
+namespace isostep {
+
+/// Links by slot, then contacts by key, then touches in the order in which they came.
+template <class S> class ParticleRows {
+ public:
+  using V = Velocity<S>;
+  using U = Unit<S>;
+  using Row = ParticleConstraint<S>;
+
+  ParticleRows(const ParticleState<S>& state, const ParticleStep<S>& step);
+
+  // Made anew every step, kind after kind.
+  void clear();
+  ISO_INLINE void add(const Row& row) { rows_.push_back(row); }
+  ISO_INLINE void end_links() { first_contact_ = first_touch_ = static_cast<std::uint32_t>(rows_.size()); }
+  ISO_INLINE void end_contacts() { first_touch_ = static_cast<std::uint32_t>(rows_.size()); }
+
+  ISO_INLINE bool empty() const { return rows_.empty(); }
+  ISO_INLINE std::vector<Row>& all() { return rows_; }
+  ISO_INLINE std::span<Row> links() { return {rows_.data(), first_contact_}; }
+  ISO_INLINE std::span<Row> contacts() { return {rows_.data() + first_contact_, rows_.data() + first_touch_}; }
+  ISO_INLINE std::span<Row> touches() { return {rows_.data() + first_touch_, rows_.data() + rows_.size()}; }
+  ISO_INLINE std::uint32_t first_contact() const { return first_contact_; }
+  ISO_INLINE std::uint32_t first_touch() const { return first_touch_; }
+
+  /// Normals and separations where particles are now: a passing particle must not meet the plane through where
+  /// something was.
+  void look();
+  /// What is touched gains the velocity that a sub-step gives it.
+  void accelerate_surfaces();
+  /// What is touched goes on at its own pace, as the impulses changed it.
+  void move_surfaces();
+
+  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+
+ private:
+  void look_at_link(Row& row) const;
+  void look_at_contact(Row& row) const;
+  void look_at_touch(Row& row) const;
+
+  const ParticleState<S>& state_;
+  const ParticleStep<S>& step_;
+  std::vector<Row> rows_;
+  std::uint32_t first_contact_ = 0, first_touch_ = 0;
+};
+
+#define ISO_EXTERN(S) extern template class ParticleRows<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

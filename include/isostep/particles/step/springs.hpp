@@ -1,0 +1,38 @@
+// ParticleSprings: springs and bungees as forces, and those that yield; stiff springs are another room's.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/particles/flight.hpp"
+#include "isostep/particles/particle_stages.hpp"
+#include "isostep/particles/particle_state.hpp"
+#include "isostep/particles/spring_rows.hpp"
+#include "isostep/particles/step/step.hpp"
+
+namespace isostep {
+
+template <class S> class ParticleSprings {
+ public:
+  ParticleSprings(ParticleState<S>& state, ParticleStep<S>& step);
+
+  /// Once a step: what pulls in it.
+  void prepare();
+  /// Adds what springs give their ends, where these are now.
+  void pull(const FlightKernels<S>& kernels);
+  /// Beyond its elastic limit a spring stays deformed: its rest length follows (Millington, ch. 6.1.2). Events tell.
+  void yield();
+
+  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+
+ private:
+  ParticleState<S>& state_;
+  ParticleStep<S>& step_;
+  SpringRows<S> rows_;
+  bool may_yield_ = false;  // any of the world's
+};
+
+#define ISO_EXTERN(S) extern template class ParticleSprings<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,52 @@
+// StiffSprings: springs that take their exact motion over a sub-step, or that of backward Euler, and are no forces.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/particles/particle_stages.hpp"
+#include "isostep/particles/particle_state.hpp"
+#include "isostep/particles/step/rows.hpp"
+#include "isostep/particles/step/step.hpp"
+#include "isostep/particles/stiff_spring.hpp"
+
+namespace isostep {
+
+/// After everything else has moved its ends as if it were not there, a stiff spring moves them on by what its motion
+/// differs from that: the exact one where nothing else holds its ends. A constraint would undo the velocity of the
+/// exact motion's end, which says nothing about the way, and give the energy back as displacement: there the spring is
+/// taken by backward Euler, whose end velocity is that of the way.
+template <class S> class StiffSprings {
+ public:
+  using V = Velocity<S>;
+  using U = Unit<S>;
+
+  StiffSprings(ParticleState<S>& state, ParticleStep<S>& step);
+
+  /// Once a step: how each moves, by whether constraints or other stiff springs hold its ends too.
+  void prepare(const std::vector<ParticleConstraint<S>>& rows);
+  /// After the integration of a sub-step: velocities and displacements of all ends.
+  void swing();
+  /// Adds them as forces, which they otherwise are not.
+  void pull();
+
+  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+
+ private:
+  void count_holds(const std::vector<ParticleConstraint<S>>& rows);
+  void swing(const Spring<S>& spring, const OscillatorStep<S>& motion);
+  void move_end(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
+
+  ParticleState<S>& state_;
+  ParticleStep<S>& step_;
+  std::vector<std::uint32_t> slots_;            // ascending
+  std::vector<OscillatorStep<S>> oscillators_;  // of those
+  std::vector<std::uint32_t> holds_;            // by particle's slot: stiff springs and constraints, 2 for more
+};
+
+#define ISO_EXTERN(S) extern template class StiffSprings<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,91 @@
+// The sum of forces: each kind's acceleration, and what is cut at the format's end.
+// SPDX-License-Identifier: MIT
+#include "isostep/particles/step/forces.hpp"
+
+#include "unit/particles/room.hpp"
+
+namespace isostep {
+namespace {
+
+template <class S> class ForcesTest : public testing::Test {
+ protected:
+  Room<S> room_;
+  FreeFlight<S> flight_{room_.state, room_.step};
+  ParticleSprings<S> springs_{room_.state, room_.step};
+  PairSearch<S> search_{room_.state, room_.step};
+  ParticleForces<S> forces_{room_.state, room_.step, flight_, springs_};
+
+  void accelerate() {
+    room_.begin();
+    forces_.begin_step();
+    flight_.prepare();
+    springs_.prepare();
+    search_.begin_step();
+    forces_.find_cohering(search_);
+    forces_.accelerate();
+  }
+};
+TYPED_TEST_SUITE(ForcesTest, Scalars);
+
+TYPED_TEST(ForcesTest, AllKindsAddUp) {
+  using S = TypeParam;
+  Room<S>& room = this->room_;
+  room.state.settings.gravity = Room<S>::vec({0, -10, 0});
+  const ParticleId a = room.add(kNowhere, {0, 0, 3}, 2);
+  EXPECT_FALSE(this->forces_.any());
+  room.state.springs.add(room.spring(a, {}, 4, 1));  // of no length: no direction, no force
+  ParticleForce<S> force;
+  force.particle = a;
+  force.acceleration = Room<S>::vec({1, 0, 0});
+  room.state.forces.add(force);
+  force.type = ForceType::drag;
+  force.linear_drag = S(2);
+  force.quadratic_drag = S(1);
+  room.state.forces.add(force);
+  force.type = ForceType::buoyancy;  // half under water
+  force.max_depth = force.volume = S(1);
+  force.density = S(8);
+  room.state.forces.add(force);
+  room.state.pushes.push_back({a.slot, 0, Room<S>::vec({5, 0, 0})});
+  EXPECT_TRUE(this->forces_.any());
+  this->accelerate();
+  EXPECT_NEAR(room.a(a).x, 6, 64 * grain<S>(6));
+  EXPECT_NEAR(room.a(a).y, -10 + 8 * 0.5 * 10 / 2, 64 * grain<S>(20));
+  EXPECT_NEAR(room.a(a).z, -(2 + 1 * 3) * 3 / 2.0, 64 * grain<S>(10));
+  EXPECT_TRUE(room.step.report.clean());
+}
+
+TYPED_TEST(ForcesTest, CohesionRepelsNearAndAttractsALittleApart) {
+  using S = TypeParam;
+  Room<S>& room = this->room_;
+  const ParticleId a = room.add(kNowhere), b = room.add({0.5, 0, 0}), c = room.add({0, 3, 0});
+  Cohesion<S> cohesion;
+  cohesion.material = room.state.first_material();
+  cohesion.repel_distance = cohesion.attract_start = S(1);
+  cohesion.repel_force = S(4);
+  cohesion.attract_end = S(4);
+  cohesion.attract_force = S(6);
+  room.state.cohesions.add(cohesion);
+  this->accelerate();
+  EXPECT_NEAR(room.a(a).y, 4, 64 * grain<S>(8));  // 6 N, two thirds between start and end
+  EXPECT_LT(room.a(a).x, -1.9);
+  EXPECT_GT(room.a(b).x, 1);
+  EXPECT_LT(room.a(c).y, -4);
+}
+
+TYPED_TEST(ForcesTest, WhatIsCutCountsOnceAParticleAndStep) {
+  using S = TypeParam;
+  Room<S>& room = this->room_;
+  const ParticleId a = room.add(kNowhere), b = room.add(kRight);
+  room.state.pushes.push_back({a.slot, 1, {highest<S>(), S(0), S(0)}});
+  room.state.pushes.push_back({b.slot, 1, Room<S>::vec(kRight)});
+  this->accelerate();
+  this->forces_.accelerate();
+  EXPECT_EQ(room.step.report.clamped_force, 2u);
+  room.state.pushes.clear();
+  this->accelerate();
+  EXPECT_EQ(room.step.report.clamped_force, 0u);
+}
+
+}  // namespace
+}  // namespace isostep
