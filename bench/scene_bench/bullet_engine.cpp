@@ -133,7 +133,7 @@ class BulletEngine : public Peer {
     if (from.type == BodyType::kinematic) {
       made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     }
-    if (from.type != BodyType::fixed && !allow_sleep()) made.body->setActivationState(DISABLE_DEACTIVATION);
+    if (from.type != BodyType::static_ && !allow_sleep()) made.body->setActivationState(DISABLE_DEACTIVATION);
     return made;
   }
   /// Bullet multiplies the two coefficients of a pair.

@@ -108,7 +108,7 @@ class OdeEngine : public Peer {
   }
   OdeBody make(const PeerBody& from) {
     OdeBody made;
-    if (from.type != BodyType::fixed) made.body = body_of(from);
+    if (from.type != BodyType::static_) made.body = body_of(from);
     if (!from.collide) return made;
     for (const PeerPart& part : from.parts) {
       const dGeomID geom = geom_of(part);

@@ -94,7 +94,7 @@ Json json_of(const PeerPart& part) {
 }
 Json json_of(const PeerBody& body) {
   if (body.group > 15) throw scenes::SceneError("", "Rapier has no more than 16 groups");
-  const char* type = body.type == BodyType::fixed       ? "fixed"
+  const char* type = body.type == BodyType::static_     ? "fixed"
                      : body.type == BodyType::kinematic ? "kinematic"
                                                         : "dynamic";
   Json json = {{"type", type},

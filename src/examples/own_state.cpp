@@ -49,7 +49,7 @@ struct Game : iso::Composite<World, Rules> {  // world and user: saved, loaded, 
     world.step();
     user.score += static_cast<std::uint32_t>(world.events().contact_begin.size());
     for (const iso::BodyId body : world.bodies()) {
-      if (world.centre(body).y < S(-3)) world.destroy(body);
+      if (world.center_of_mass(body).y < S(-3)) world.destroy(body);
     }
   }
 };

@@ -111,20 +111,20 @@ template <class S> void Match<S>::jump(int player) {
   World<S>& world = state_.world;
   const BodyId body = puck(player);
   const QueryFilter filter = {~match_category::kPuck, false};
-  if (!world.cast_ray(world.centre(body), {S(0), -MatchRules<S>::kUnderfoot, S(0)}, filter)) return;
+  if (!world.cast_ray(world.center_of_mass(body), {S(0), -MatchRules<S>::kUnderfoot, S(0)}, filter)) return;
   world.apply_impulse(body, {S(0), world.mass(body) * MatchRules<S>::kJump, S(0)});
   emit(MatchEventKind::jump, player, body);
 }
 
 template <class S> void Match<S>::shove(int player) {
   World<S>& world = state_.world;
-  const Vec3<S> from = world.centre(puck(player));
+  const Vec3<S> from = world.center_of_mass(puck(player));
   found_.clear();
-  world.overlapping(primitive_of(Sphere<S>{MatchRules<S>::kShoveReach}), {from, Quat<Unit<S>>::identity()}, found_,
-                    {match_category::kLoose | match_category::kPuck, false});
+  world.overlap_shape(primitive_of(Sphere<S>{MatchRules<S>::kShoveReach}), {from, Quat<Unit<S>>::identity()}, found_,
+                      {match_category::kLoose | match_category::kPuck, false});
   for (const BodyId body : found_) {
     if (body == puck(player) || MatchRules<S>::kShoved < max_abs(world.velocity(body))) continue;
-    const Vec3<S> apart = world.centre(body) - from;
+    const Vec3<S> apart = world.center_of_mass(body) - from;
     const Direction<S> away = direction_of(apart.x, apart.y, apart.z);
     const Vec3<Unit<S>> direction = {away.x, away.y, away.z};
     const S mass = world.mass(body);
@@ -159,10 +159,10 @@ template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
   World<S>& world = state_.world;
   MatchState& own = state_.user;
   const Vec3<S> above = {S(0), MatchRules<S>::kThrowHeight, S(0)};
-  const Vec3<S> from = world.centre(puck(player)) + above + aim * MatchRules<S>::kThrowAhead;
+  const Vec3<S> from = world.center_of_mass(puck(player)) + above + aim * MatchRules<S>::kThrowAhead;
   found_.clear();
-  world.overlapping(primitive_of(Sphere<S>{MatchRules<S>::kRoom}), {from, Quat<Unit<S>>::identity()}, found_,
-                    {match_category::kArena, false});
+  world.overlap_shape(primitive_of(Sphere<S>{MatchRules<S>::kRoom}), {from, Quat<Unit<S>>::identity()}, found_,
+                      {match_category::kArena, false});
   if (!found_.empty()) return;
   const std::uint32_t place = own.spawn_count % kMaxSpawned;
   clear_spawned(static_cast<int>(place));
@@ -185,7 +185,7 @@ template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
 template <class S> void Match<S>::strike(int player, Vec3<Unit<S>> aim) {
   World<S>& world = state_.world;
   const Vec3<S> reach = aim * MatchRules<S>::kRay;
-  const auto hit = world.cast_ray(world.centre(puck(player)), reach, {~match_category::kPuck, false});
+  const auto hit = world.cast_ray(world.center_of_mass(puck(player)), reach, {~match_category::kPuck, false});
   if (!hit) return;
   const int place = spawned_place(hit->body);
   if (place >= 0) {
@@ -205,13 +205,13 @@ template <class S> void Match<S>::tether(int player) {
     world.destroy(had);
     return;
   }
-  const Pose<S> here = {world.centre(puck(player)), Quat<Unit<S>>::identity()};
-  const auto other = world.closest(here.position, MatchRules<S>::kTetherReach, {match_category::kLoose, false});
+  const Pose<S> here = {world.center_of_mass(puck(player)), Quat<Unit<S>>::identity()};
+  const auto other = world.closest_point(here.position, MatchRules<S>::kTetherReach, {match_category::kLoose, false});
   if (!other) return;
   JointProperties<S> joint = world.joint_at(JointType::distance, puck(player), other->body, here);
   joint.frame_a = joint.frame_b = Pose<S>::identity();
   joint.flags = joint_flag::kLimit | joint_flag::kCollideConnected;
-  const Vec3<S> apart = world.centre(other->body) - here.position;
+  const Vec3<S> apart = world.center_of_mass(other->body) - here.position;
   joint.upper = max(MatchRules<S>::kTetherLength, length(apart));
   tether = world.create(joint);
 }

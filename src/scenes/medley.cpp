@@ -13,7 +13,7 @@ void add_scenery(Scene& scene) {
   SceneBody ground;
   ScenePart plane;
   plane.type = ShapeType::half_space;
-  ground.type = BodyType::fixed;
+  ground.type = BodyType::static_;
   ground.parts.push_back(plane);
   scene.bodies.push_back(ground);
   SceneBody belt = fixed_box({-3.5, 0, 0}, {1, 0.25, 2});

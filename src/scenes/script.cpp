@@ -104,7 +104,7 @@ template <class S> class Mixing {
     const SlotMap& slots = world_.state().body_slots;
     const BodyId a = slots.id_of<BodyId>(key.body_a), b = slots.id_of<BodyId>(key.body_b);
     if (world_.type(a) != BodyType::dynamic || world_.type(b) != BodyType::dynamic) return;
-    const Vec3<S> middle = (world_.centre(a) + world_.centre(b)) * scalar<S>(0.5);
+    const Vec3<S> middle = (world_.center_of_mass(a) + world_.center_of_mass(b)) * scalar<S>(0.5);
     world_.create(world_.joint_at(JointType::ball, a, b, {middle, Quat<Unit<S>>::identity()}));
   }
   void untie() {
@@ -160,7 +160,7 @@ template <class S> void play_medley(World<S>& world) {
     case 20: world.apply_force_at(heap(1), vector<S>(2, 4, -2), vector<S>(0.5, 1, 0.25)); break;
     case 28: add_body(world, dumbbell({0.25, 3, -0.25}), medley_body::kGuest, kPlace); break;
     case 36: {
-      const Vec3<S> middle = (world.centre(heap(2)) + world.centre(heap(3))) * scalar<S>(0.5);
+      const Vec3<S> middle = (world.center_of_mass(heap(2)) + world.center_of_mass(heap(3))) * scalar<S>(0.5);
       world.create(world.joint_at(JointType::ball, heap(2), heap(3), {middle, Quat<Unit<S>>::identity()}));
       break;
     }

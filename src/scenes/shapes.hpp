@@ -56,7 +56,7 @@ inline SceneBody body_of(ScenePart part, Point at) {
 }
 inline SceneBody fixed_box(Point at, Point half) {
   SceneBody body = body_of(box_part(half), at);
-  body.type = BodyType::fixed;
+  body.type = BodyType::static_;
   return body;
 }
 /// About the world's y axis.

@@ -17,7 +17,7 @@ template <class S> Sight sight_of(const World<S>& world, int faults) {
                    [&](BodyId a, BodyId b) { return world.user_data(a) < world.user_data(b); });
   for (const BodyId body : bodies) {
     const Quat<Unit<S>> q = world.pose(body).orientation;
-    sight.bodies.push_back({in_double(world.centre(body)),
+    sight.bodies.push_back({in_double(world.center_of_mass(body)),
                             {to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)},
                             in_double(world.velocity(body)),
                             in_double(world.angular_velocity(body)),

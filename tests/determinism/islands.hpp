@@ -43,7 +43,7 @@ template <class S> class Island {
 
   Island(int number, const IslandShapes& shapes) : kind_(static_cast<Kind>(number % kKinds)), shapes_(shapes) {
     at_ = {kApart * (number % 4 - 1.5), 0, kApart * (number / 4 - 1.0)};
-    add(shapes.pen, {0, 0, 0}).type = BodyType::fixed;  // what rolls stays
+    add(shapes.pen, {0, 0, 0}).type = BodyType::static_;  // what rolls stays
     switch (kind_) {
       case stack:
         for (int i = 0; i < 6; ++i) add(shapes.box, {0.0625 * (i % 2), 0.25 + 0.5 * i, 0});
@@ -114,7 +114,7 @@ template <class S> class Island {
   /// Whether all of it is where nothing of another can be.
   bool keeps_apart(const World<S>& w) const {
     return std::all_of(bodies_.begin(), bodies_.end(), [&](BodyId id) {
-      const D3 from = real(w.centre(id)) - at_;
+      const D3 from = real(w.center_of_mass(id)) - at_;
       return std::fabs(from.x) < kReach && std::fabs(from.z) < kReach;
     });
   }
@@ -188,7 +188,7 @@ template <class S> class Island {
   }
   void make_belt() {
     BodyDefinition<S>& d = add(shapes_.plank, {0, 0.125, 0});
-    d.type = BodyType::fixed;
+    d.type = BodyType::static_;
     d.material.surface_velocity = vec<S>(0.25, 0, 0);
     for (int i = 0; i < 5; ++i) add(any_shape(i), {0.25 * (i % 2), 0.75 + 0.875 * i, 0});
   }

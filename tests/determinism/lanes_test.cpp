@@ -159,8 +159,8 @@ TYPED_TEST(SameHashes, whatever_is_asked_of_the_world_on_the_way) {
   std::size_t answers = 0;
   for (std::uint64_t f = 0; f < kFrames; ++f) {
     answers += w.cast_ray(vec<S>(dice.point(5) + D3{0, 6, 0}), vec<S>(0, -12, 0)).has_value() ? 1u : 0u;
-    answers += w.closest(vec<S>(dice.point(5)), S(2)).has_value() ? 1u : 0u;
-    w.overlapping(primitive_of(Sphere<S>{S(1)}), {vec<S>(dice.point(2)), Quat<Unit<S>>::identity()}, found);
+    answers += w.closest_point(vec<S>(dice.point(5)), S(2)).has_value() ? 1u : 0u;
+    w.overlap_shape(primitive_of(Sphere<S>{S(1)}), {vec<S>(dice.point(2)), Quat<Unit<S>>::identity()}, found);
     answers += w.poses_float(0.25f).size();
     const std::vector<std::uint8_t> bytes = bytes_of(w);
     answers += bytes.size();
@@ -256,7 +256,7 @@ TYPED_TEST(SameHashes, and_the_same_answers_to_questions_in_whatever_environment
       writer.write(hit->normal);
       writer.write(hit->fraction);
     }
-    if (const auto near = w.closest(from, S(20))) {
+    if (const auto near = w.closest_point(from, S(20))) {
       writer.write(near->point);
       writer.write(near->distance);
     }

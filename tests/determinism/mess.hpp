@@ -96,8 +96,10 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
   const auto neighbour = [&](BodyId of) {
     BodyId best;
     for (const BodyId id : bodies) {
-      if (id == of || w.type(id) == BodyType::fixed) continue;
-      const auto distance = [&](BodyId other) { return length(real(w.centre(other)) - real(w.centre(of))); };
+      if (id == of || w.type(id) == BodyType::static_) continue;
+      const auto distance = [&](BodyId other) {
+        return length(real(w.center_of_mass(other)) - real(w.center_of_mass(of)));
+      };
       if (!best || distance(id) < distance(best)) best = id;
     }
     return best;
@@ -121,14 +123,14 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
         done = static_cast<bool>(w.create(d));
         break;
       }
-      case 3: done = bodies.size() > 30 && w.type(b) != BodyType::fixed && w.destroy(b); break;
+      case 3: done = bodies.size() > 30 && w.type(b) != BodyType::static_ && w.destroy(b); break;
       case 4: done = w.apply_impulse(b, point(2), point(0.5)); break;
-      case 5: done = w.apply_impulse_at(b, point(2), w.centre(b) + point(0.25)); break;
+      case 5: done = w.apply_impulse_at(b, point(2), w.center_of_mass(b) + point(0.25)); break;
       case 6: done = w.apply_force(b, point(20), point(3)); break;
-      case 7: done = w.apply_force_at(b, point(20), w.centre(b) + point(0.25)); break;
+      case 7: done = w.apply_force_at(b, point(20), w.center_of_mass(b) + point(0.25)); break;
       case 8:
-        done =
-            w.type(b) != BodyType::fixed && w.set_pose(b, {vec<S>(dice.point(4) + D3{0, 5, 0}), dice.orientation<S>()});
+        done = w.type(b) != BodyType::static_ &&
+               w.set_pose(b, {vec<S>(dice.point(4) + D3{0, 5, 0}), dice.orientation<S>()});
         break;
       case 9: done = w.set_velocity(b, point(3), point(3)); break;
       case 10: {
@@ -151,7 +153,7 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
       case 17: {
         const BodyId c = neighbour(b);
         const auto type = static_cast<JointType>(dice.below(kJointTypes));
-        JointProperties<S> j = w.joint_at(type, b, c, {w.centre(b), dice.orientation<S>()});
+        JointProperties<S> j = w.joint_at(type, b, c, {w.center_of_mass(b), dice.orientation<S>()});
         if (type == JointType::distance) j.upper = num<S>(20);
         if (type == JointType::distance) j.flags = joint_flag::kLimit;
         if (type == JointType::hinge && dice.below(2) == 0) {

@@ -47,7 +47,7 @@ TYPED_TEST(Solvers, are_given_something_to_do) {
   World<S> w(solver_settings<S>(this->kSolver));
   const SolverScene<S> scene(w);
   std::vector<D3> start;
-  for (const BodyId id : scene.bodies()) start.push_back(real(w.centre(id)));
+  for (const BodyId id : scene.bodies()) start.push_back(real(w.center_of_mass(id)));
   const double before = scenes::measure_energy(w).total();
   std::size_t begins = 0, ends = 0, frames_alike = 0;
   std::set<std::uint64_t> seen;
@@ -66,7 +66,7 @@ TYPED_TEST(Solvers, are_given_something_to_do) {
   EXPECT_LT(scenes::largest_joint_error(w), 0.1);
   double furthest = 0;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    furthest = std::max(furthest, length(real(w.centre(scene.bodies()[i])) - start[i]));
+    furthest = std::max(furthest, length(real(w.center_of_mass(scene.bodies()[i])) - start[i]));
   }
   EXPECT_GT(furthest, 0.5);
 }

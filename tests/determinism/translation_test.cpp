@@ -23,15 +23,15 @@ TYPED_TEST(FarFromTheOrigin, a_scene_does_to_the_bit_what_it_does_at_the_origin)
     if (frame % 50 == 20) {
       for (std::size_t i = 3; i < bodies.size(); i += 5) {
         const Vec3<S> push = vec<S>(0.25, 1.5, -0.5);
-        here.apply_impulse_at(bodies[i], push, here.centre(bodies[i]) + vec<S>(0.125, 0, 0.25));
-        there.apply_impulse_at(bodies[i], push, there.centre(bodies[i]) + vec<S>(0.125, 0, 0.25));
+        here.apply_impulse_at(bodies[i], push, here.center_of_mass(bodies[i]) + vec<S>(0.125, 0, 0.25));
+        there.apply_impulse_at(bodies[i], push, there.center_of_mass(bodies[i]) + vec<S>(0.125, 0, 0.25));
       }
     }
     here.step();
     there.step();
     activity.watch(here);
     for (const BodyId id : bodies) {
-      ASSERT_EQ(there.centre(id) - offset, here.centre(id)) << "body " << id.slot << " frame " << frame;
+      ASSERT_EQ(there.center_of_mass(id) - offset, here.center_of_mass(id)) << "body " << id.slot << " frame " << frame;
       ASSERT_EQ(there.pose(id).orientation, here.pose(id).orientation) << "body " << id.slot << " frame " << frame;
       ASSERT_EQ(there.velocity(id), here.velocity(id));
       ASSERT_EQ(there.is_awake(id), here.is_awake(id));

@@ -53,24 +53,26 @@ TYPED_TEST(ContactLaws, a_block_rests_on_a_slope_exactly_while_its_tangent_is_be
       d.orientation = slope.frame<S>();
       d.material.friction = num<S>(mu);
       const BodyId id = w.create(d);
-      const D3 start = real(w.centre(id));
+      const D3 start = real(w.center_of_mass(id));
       if (part > 1) {
         run(w, 30);
-        const D3 settled = real(w.centre(id));
+        const D3 settled = real(w.center_of_mass(id));
         run(w, 300);
-        EXPECT_LT(length(real(w.centre(id)) - settled), pick<S>(1e-3, 1e-3, 5e-3, 1e-3)) << "azimuth " << i;
+        EXPECT_LT(length(real(w.center_of_mass(id)) - settled), pick<S>(1e-3, 1e-3, 5e-3, 1e-3)) << "azimuth " << i;
         EXPECT_LT(length(settled - start), 0.01);
       } else {
         // A few sub-steps pass before the contact bears the weight, and so friction.
         run(w, 12);
-        const D3 from = real(w.centre(id)), v = real(w.velocity(id));
+        const D3 from = real(w.center_of_mass(id)), v = real(w.velocity(id));
         run(w, 60);
         const double a = 10 * (std::sin(angle) - mu * std::cos(angle));
         // The difference of two forces ten times as large.
         const double part_off = pick<S>(0.02, 0.02, 0.06, 0.02);
         EXPECT_NEAR(dot(real(w.velocity(id)) - v, slope.down()), a, part_off * a) << "azimuth " << i;
-        EXPECT_NEAR(dot(real(w.centre(id)) - from - v, slope.down()), a / 2, 1.5 * part_off * a / 2) << "azimuth " << i;
-        EXPECT_NEAR(dot(real(w.centre(id)) - start, cross(slope.normal(), slope.down())), 0, 0.01) << "azimuth " << i;
+        EXPECT_NEAR(dot(real(w.center_of_mass(id)) - from - v, slope.down()), a / 2, 1.5 * part_off * a / 2)
+            << "azimuth " << i;
+        EXPECT_NEAR(dot(real(w.center_of_mass(id)) - start, cross(slope.normal(), slope.down())), 0, 0.01)
+            << "azimuth " << i;
       }
     }
   }
@@ -88,7 +90,7 @@ TYPED_TEST(ContactLaws, a_sliding_block_stops_after_its_square_of_speed_over_twi
     const BodyId id = w.create(d);
     run(w, 90);
     EXPECT_LT(length(real(w.velocity(id))), 0.01);
-    const D3 at = real(w.centre(id));
+    const D3 at = real(w.center_of_mass(id));
     EXPECT_NEAR(dot(at, heading), 4.0 * 4 / (2 * 0.4 * 10), pick<S>(0.02, 0.02, 0.03, 0.02) * 2) << "heading " << i;
     EXPECT_NEAR(at.x * heading.z - at.z * heading.x, 0, 0.02) << "heading " << i;
   }
@@ -165,7 +167,7 @@ TYPED_TEST(ContactLaws, every_bounce_reaches_the_square_of_restitution_of_the_he
   double before = 1e9, now = 4;
   for (int i = 0; i < 60 * 6; ++i) {
     w.step();
-    const double next = to_double(w.centre(id).y) - 0.25;
+    const double next = to_double(w.center_of_mass(id).y) - 0.25;
     if (now > before && now >= next) peaks.push_back(now);
     before = now;
     now = next;
@@ -189,7 +191,7 @@ TYPED_TEST(ContactLaws, a_perfect_bounce_gives_no_energy_over_many_bounces) {
   double highest = 0;
   for (int i = 0; i < 60 * 20; ++i) {
     w.step();
-    if (i > 60) highest = std::max(highest, to_double(w.centre(id).y) - 0.25);
+    if (i > 60) highest = std::max(highest, to_double(w.center_of_mass(id).y) - 0.25);
   }
   EXPECT_LT(highest, 2.0 * 1.02);
   EXPECT_GT(highest, 1.0);
@@ -211,7 +213,7 @@ TYPED_TEST(ContactLaws, ten_boxes_stand_for_ten_seconds_and_sleep) {
       EXPECT_EQ(w.counts().awake, 0u);
     }
     run(w, 300);
-    const D3 top = real(w.centre(stack[9]));
+    const D3 top = real(w.center_of_mass(stack[9]));
     // Springs in series sag 3.5 n^2 / substeps^2 mm.
     EXPECT_NEAR(top.y, 9.5, 3.5e-3 * 100 / 64 + 0.004);
     EXPECT_LT(std::hypot(top.x, top.z), 0.01);
@@ -251,9 +253,9 @@ TYPED_TEST(ContactLaws, a_block_overhangs_by_up_to_half_its_length_and_no_more) 
     const BodyId id = w.create(moving<S>(add_box(w, 0.5, 0.25, 0.5), {overhang, 0.75, 0}));
     run(w, 180);
     if (overhang < 0.5) {
-      expect_near(real(w.centre(id)), {overhang, 0.75, 0}, 0.02);
+      expect_near(real(w.center_of_mass(id)), {overhang, 0.75, 0}, 0.02);
     } else {
-      EXPECT_LT(to_double(w.centre(id).y), 0.5);
+      EXPECT_LT(to_double(w.center_of_mass(id).y), 0.5);
     }
   }
 }
@@ -282,7 +284,7 @@ TYPED_TEST(ContactLaws, the_energy_of_a_settled_pile_does_not_rise) {
     double sum = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const D3 v = real(w.velocity(ids[i])), spin = real(w.angular_velocity(ids[i]));
-      sum += 10 * to_double(w.centre(ids[i]).y) + dot(v, v) / 2 + dot(spin, spin) * moments[i / 4 % 3].x / 2;
+      sum += 10 * to_double(w.center_of_mass(ids[i]).y) + dot(v, v) / 2 + dot(spin, spin) * moments[i / 4 % 3].x / 2;
     }
     return sum / static_cast<double>(ids.size());
   };

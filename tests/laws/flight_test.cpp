@@ -40,7 +40,7 @@ TYPED_TEST(FlightLaws, a_projectile_follows_the_recurrence_of_velocity_before_po
     const double in_speed = kIsFixed<S> ? n / 2 * speed_grain<S>() + grain<S>() : pick<S>(2e-3, 1e-11, 0, 0);
     const double in_place = kIsFixed<S> ? 8 * in_speed / 2 + n / 2 * speed_grain<S>() + 4.0 * rate.hz * grain<S>()
                                         : pick<S>(6e-3, 1e-10, 0, 0);
-    expect_near(real(w.centre(id)), expected, in_place, "place");
+    expect_near(real(w.center_of_mass(id)), expected, in_place, "place");
     expect_near(real(w.velocity(id)), {9, 40 - 80, -5}, in_speed, "velocity");
     EXPECT_EQ(w.angular_velocity(id), Vec3<S>::zero());
   }
@@ -192,8 +192,8 @@ TYPED_TEST(FlightLaws, a_blow_off_centre_turns_a_rod_as_its_impulse_says) {
   const double momentum = m_ball * to_double(w.velocity(ball).y) + m_rod * to_double(w.velocity(rod).y);
   EXPECT_NEAR(momentum, -m_ball * v, pick<S>(1e-5, 1e-13, 1e-3, 1e-8));
   const auto about_origin = [&](BodyId id, double m) {
-    return m * (to_double(w.centre(id).x) * to_double(w.velocity(id).y) -
-                to_double(w.centre(id).y) * to_double(w.velocity(id).x));
+    return m * (to_double(w.center_of_mass(id).x) * to_double(w.velocity(id).y) -
+                to_double(w.center_of_mass(id).y) * to_double(w.velocity(id).x));
   };
   const double angular =
       about_origin(ball, m_ball) + about_origin(rod, m_rod) + inertia * to_double(w.angular_velocity(rod).z);
@@ -221,7 +221,7 @@ TYPED_TEST(FlightLaws, a_cluster_that_collides_in_free_space_keeps_momentum_and_
       const double m = 1 + static_cast<double>(i % 4), inertia = m * (i % 2 == 0 ? 0.4 * 0.25 : 1.0 / 6);
       const D3 v = real(w.velocity(ids[i])) * m;
       p = p + v;
-      l = l + cross(real(w.centre(ids[i])), v) + real(w.angular_velocity(ids[i])) * inertia;
+      l = l + cross(real(w.center_of_mass(ids[i])), v) + real(w.angular_velocity(ids[i])) * inertia;
     }
   };
   D3 p0, l0, p1, l1;

@@ -35,7 +35,7 @@ template <class S> class HeavyTop : public ::testing::Test {
       const D3 v = real(w.velocity(body)), spin = real(w.angular_velocity(body));
       const double axial = about(),
                    turning = top.about * axial * axial + top.across * (dot(spin, spin) - axial * axial);
-      return 0.5 * (dot(v, v) + turning) + 10 * to_double(w.centre(body).y);
+      return 0.5 * (dot(v, v) + turning) + 10 * to_double(w.center_of_mass(body).y);
     };
     const double spin = about(), start = energy();
     Seen seen;
@@ -43,7 +43,7 @@ template <class S> class HeavyTop : public ::testing::Test {
       w.step();
       seen.spin = std::max(seen.spin, std::fabs(about() / spin - 1));
       seen.energy = std::max(seen.energy, std::fabs(energy() / start - 1));
-      seen.lowest = std::min(seen.lowest, to_double(w.centre(body).y));
+      seen.lowest = std::min(seen.lowest, to_double(w.center_of_mass(body).y));
     }
     return seen;
   }

@@ -36,7 +36,7 @@ template <class S> class JointSprings : public ::testing::Test {
     double first = 0, last = 0;
     for (int i = 0; i < 600; ++i) {
       EXPECT_TRUE(w.step().clean());
-      const D3 at = real(w.centre(bob));
+      const D3 at = real(w.center_of_mass(bob));
       const double way = std::fabs(turns ? std::atan2(at.y, at.x - 1) - 0.5 : length(at) - 1.5);
       if (i < swings) first = std::max(first, way);
       if (600 - swings <= i) last = std::max(last, way);
@@ -85,7 +85,7 @@ TYPED_TEST(JointSprings, stretch_by_the_weight_that_they_bear) {
     const double angle = 2 * kPi * frequency / 480, stretch = 10 / std::pow(2 * kPi * frequency, 2);
     const double heavier = 1 + std::min(angle * angle, 1.0 / 16);
     const double slack = pick<S>(0.004, 0.004, 0.015, 0.004) * stretch + 4 * grain<S>(2);
-    EXPECT_NEAR(-to_double(w.centre(bob).y) - 2, stretch * heavier, slack) << frequency;
+    EXPECT_NEAR(-to_double(w.center_of_mass(bob).y) - 2, stretch * heavier, slack) << frequency;
   }
 }
 
@@ -117,7 +117,7 @@ TYPED_TEST(JointSprings, replace_rods_and_ropes_without_a_jerk) {
         fastest = std::max(fastest, length(real(w.velocity(bob))));
       }
       EXPECT_LT(fastest, 0.5) << static_cast<int>(solver);  // a spring falls by its stretch, a rod pulls it up again
-      EXPECT_NEAR(-to_double(w.centre(bob).y), 2, 0.02) << static_cast<int>(solver);
+      EXPECT_NEAR(-to_double(w.center_of_mass(bob).y), 2, 0.02) << static_cast<int>(solver);
     }
   }
 }

@@ -81,7 +81,7 @@ TYPED_TEST(ManyContacts, four_boxes_of_three_centimetres_stand) {
     for (int i = 0; i < 4; ++i) boxes.push_back(w.create(moving<S>(box, {0, half + 2 * half * i, 0})));
     for (int i = 0; i < 1200; ++i) w.step();
     for (int i = 0; i < 4; ++i) {
-      const D3 at = real(w.centre(boxes[static_cast<std::size_t>(i)]));
+      const D3 at = real(w.center_of_mass(boxes[static_cast<std::size_t>(i)]));
       EXPECT_NEAR(at.y, half + 2 * half * i, 0.25 * half) << substeps;
       EXPECT_LT(std::hypot(at.x, at.z), 0.1 * half) << substeps;
     }

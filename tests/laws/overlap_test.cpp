@@ -39,7 +39,7 @@ template <class S> class Overlap : public ::testing::Test {
       note(w, bodies, motion);
     }
     for (const BodyId id : bodies)
-      motion.width = std::max(motion.width, length(real(w.centre(id)) - real(w.centre(bodies[0]))));
+      motion.width = std::max(motion.width, length(real(w.center_of_mass(id)) - real(w.center_of_mass(bodies[0]))));
     return motion;
   }
   /// A cube of 20 g between two boxes of 200 kg that overlap it by 18 mm, off their faces' middles and tilted.

@@ -10,11 +10,11 @@ template <class S> class PendulumLaws : public ::testing::Test {
  protected:
   /// Time of `swings` whole swings [s], by interpolated crossings of x = 0 to the right.
   static double period(World<S>& w, BodyId bob, int swings) {
-    double before = to_double(w.centre(bob).x), first = -1;
+    double before = to_double(w.center_of_mass(bob).x), first = -1;
     int crossings = 0;
     for (int i = 1; i < 60 * 60; ++i) {
       w.step();
-      const double now = to_double(w.centre(bob).x);
+      const double now = to_double(w.center_of_mass(bob).x);
       if (before < 0 && now >= 0) {
         const double at = (i - 1 + before / (before - now)) / 60;
         if (first < 0) first = at;
@@ -57,7 +57,7 @@ TYPED_TEST(PendulumLaws, a_bar_on_a_hinge_swings_as_a_compound_pendulum) {
   const double inertia = (1 + 0.125 * 0.125) / 3 + arm * arm;
   const double expected = this->swing_time(inertia / (10 * arm), angle);
   EXPECT_NEAR(this->period(w, bar, 4), expected, pick<S>(0.005, 0.005, 0.01, 0.005) * expected);
-  EXPECT_NEAR(to_double(w.centre(bar).z), 0, 0.01);
+  EXPECT_NEAR(to_double(w.center_of_mass(bar).z), 0, 0.01);
 }
 
 TYPED_TEST(PendulumLaws, a_bob_on_a_rod_of_fixed_length_swings_as_a_point) {
@@ -86,7 +86,7 @@ TYPED_TEST(PendulumLaws, a_bob_sent_round_draws_a_cone_in_its_time) {
   rod.lower = rod.upper = num<S>(arm);
   ASSERT_TRUE(w.create(rod));
   EXPECT_NEAR(this->period(w, bob, 3), 2 * kPi / rate, 0.01 * 2 * kPi / rate);
-  EXPECT_NEAR(to_double(w.centre(bob).y), 5 - arm * std::cos(angle), 0.03);
+  EXPECT_NEAR(to_double(w.center_of_mass(bob).y), 5 - arm * std::cos(angle), 0.03);
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ template <class S> class RandomCoupledWorld {
   }
   void add_scenery() {
     if (gravity_ != 0 || chance_.one_in(2)) add_ground(bodies_, slip());
-    for (const BodyType type : {BodyType::fixed, BodyType::kinematic}) {
+    for (const BodyType type : {BodyType::static_, BodyType::kinematic}) {
       if (!chance_.one_in(4)) continue;
       double reach = 0;
       BodyDefinition<S> d = still<S>(draw_shape(reach));

@@ -305,7 +305,7 @@ template <class S> class JointTrials {
   BodyId add_hold(const SingleJoint& j, D3 at) {
     if (j.hold == Hold::world) return {};
     BodyDefinition<S> d = definition(add_ball(world_, 0.5), at + D3{0.25, 0.25, 0});
-    if (j.hold == Hold::fixed) d.type = BodyType::fixed;
+    if (j.hold == Hold::fixed) d.type = BodyType::static_;
     if (j.hold == Hold::kinematic) d.type = BodyType::kinematic;
     d.mass = num<S>(50 * j.mass);
     d.gravity_scale = S(0);

@@ -41,7 +41,7 @@ template <class S> class Turntable : public ::testing::Test {
     const BodyId rider = w.create(d);
     const auto seen = [&] {
       const Pose<S> at = w.pose(platform);
-      return rotated<S>(conjugate(at.orientation), real(w.centre(rider)) - real(at.position));
+      return rotated<S>(conjugate(at.orientation), real(w.center_of_mass(rider)) - real(at.position));
     };
     for (int i = 0; i < settings.hz; ++i) w.step();
     const D3 start = seen();

@@ -180,10 +180,10 @@ template <class S> void use_world() {
   for (const BodyId asleep : world.events().fell_asleep) keep(asleep);
   if (const auto hit = world.cast_ray({S(0), S(9), S(0)}, {S(0), S(-9), S(0)})) keep(hit->body);
   std::vector<BodyId> found;
-  world.overlapping(primitive_of(Sphere<S>{S(1)}), Pose<S>::identity(), found);
+  world.overlap_shape(primitive_of(Sphere<S>{S(1)}), Pose<S>::identity(), found);
   std::vector<RayCastHit<S>> hits;
   world.cast_ray_all({S(0), S(9), S(0)}, {S(0), S(-9), S(0)}, hits);
-  keep(world.closest({S(0), S(9), S(0)}, S(4))), keep(world.pose(body)), keep(world.bodies().size());
+  keep(world.closest_point({S(0), S(9), S(0)}, S(4))), keep(world.pose(body)), keep(world.bodies().size());
   for (const RenderPose& pose : world.poses_float(0.5f)) keep(pose.position);
   world.apply(Command<S>(WakeBody{body}));
   Drawer drawer;

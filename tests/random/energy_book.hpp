@@ -39,7 +39,7 @@ template <class S> class EnergyBook {
     forces_.clear();
     motors_.clear();
     for (const AppliedForce& f : forces) {
-      if (w.contains(f.body)) forces_.push_back({f, real(w.centre(f.body))});
+      if (w.contains(f.body)) forces_.push_back({f, real(w.center_of_mass(f.body))});
     }
     for (const JointId id : w.joints()) {
       const JointProperties<S>& p = *w.joint(id);
@@ -49,7 +49,7 @@ template <class S> class EnergyBook {
   void after_step(const World<S>& w) {
     const double hz = w.settings().hz;
     for (const Pushed& push : forces_) {
-      const double work = dot(push.force.force, real(w.centre(push.force.body)) - push.from) +
+      const double work = dot(push.force.force, real(w.center_of_mass(push.force.body)) - push.from) +
                           dot(push.force.torque, real(w.angular_velocity(push.force.body))) / hz;
       give(std::max(work, 0.0));
     }

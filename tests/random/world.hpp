@@ -109,7 +109,7 @@ template <class S> class RandomWorld {
     for (std::uint32_t i = 0; i < walls; ++i) {
       const DrawnShape shape = draw_shape(world, dice);
       BodyDefinition<S> d = draw_body<S>(dice, dice.one_in(2) ? add_box(world, 1.5, 0.25, 1) : shape.shape);
-      d.type = BodyType::fixed;
+      d.type = BodyType::static_;
       d.position = vec<S>(dice.point(4) + D3{0, 1, 0});
       d.mass = S(0);
       d.locks = 0;
@@ -135,7 +135,7 @@ template <class S> class RandomWorld {
   static void turn_movers(World<S>& w, Dice& dice) {
     for (const BodyId id : w.bodies()) {
       if (w.type(id) != BodyType::kinematic || w.user_data(id) != kLift) continue;
-      const double y = to_double(w.centre(id).y), v = to_double(w.velocity(id).y);
+      const double y = to_double(w.center_of_mass(id).y), v = to_double(w.velocity(id).y);
       if (v != 0 && (y > 2 || v > 0) && (y < 4 || v < 0)) continue;
       const double next = (y < 3 ? 1 : -1) * dice.in(0.25, 1);
       w.set_velocity(id, vec<S>(0, next, 0), Vec3<S>::zero());
@@ -148,7 +148,7 @@ template <class S> class RandomWorld {
     for (int tries = 0; tries < 8; ++tries) {
       const D3 at = {dice.in(low.x, high.x), dice.in(low.y, high.y), dice.in(low.z, high.z)};
       std::vector<BodyId> there;
-      w.overlapping(around, {vec<S>(at), Quat<Unit<S>>::identity()}, there);
+      w.overlap_shape(around, {vec<S>(at), Quat<Unit<S>>::identity()}, there);
       const bool free = std::all_of(there.begin(), there.end(), [&](BodyId other) {
         return group != 0 && w.view(other).properties->filter.group == group;
       });
@@ -181,7 +181,7 @@ template <class S> class RandomWorld {
       if (hold == 1) d.locks = 0;  // a mover pulls whatever holds against it
       BodyId to;
       if (!bodies.empty()) to = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
-      const D3 from = to ? real(world.centre(to)) : at, step = dice.direction() * dice.magnitude(0.25, 2);
+      const D3 from = to ? real(world.center_of_mass(to)) : at, step = dice.direction() * dice.magnitude(0.25, 2);
       const BodyId b = place(world, dice, d, shape.reach, from + step, from + step, group);
       if (!b) continue;
       bodies.push_back(b);
@@ -192,7 +192,7 @@ template <class S> class RandomWorld {
   }
   BodyId add_hold(Dice& dice, D3 at) {
     BodyDefinition<S> d = draw_body<S>(dice, add_ball(world, 0.2));
-    d.type = drive_of(seed_) == Drive::movers ? BodyType::kinematic : BodyType::fixed;
+    d.type = drive_of(seed_) == Drive::movers ? BodyType::kinematic : BodyType::static_;
     d.position = vec<S>(at);
     d.collide = false;
     d.locks = 0;
@@ -201,8 +201,8 @@ template <class S> class RandomWorld {
   }
   void join(Dice& dice, BodyId a, BodyId b, std::vector<JointId>& joints) {
     const auto type = static_cast<JointType>(dice.below(kJointTypes));
-    const D3 end = real(world.centre(b)),
-             start = a ? real(world.centre(a)) : end + dice.direction() * dice.magnitude(0.25, 2);
+    const D3 end = real(world.center_of_mass(b)),
+             start = a ? real(world.center_of_mass(a)) : end + dice.direction() * dice.magnitude(0.25, 2);
     JointProperties<S> p =
         world.joint_at(type, a, b, {vec<S>(start + (end - start) * dice.in(0, 0.75)), dice.orientation<S>()});
     draw_joint(world, dice, drive_of(seed_), p);

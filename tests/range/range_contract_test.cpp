@@ -123,8 +123,8 @@ TYPED_TEST(RangeContract, DeepOverlapsArePushedApartAtTheHighestRate) {
   this->add(box, {S(3), S(0.375), 0}, S(1));
   this->step(240);
   for (const BodyId body : this->bodies) {
-    EXPECT_GT(to_double(this->world.centre(body).y), 0.875);
-    EXPECT_LT(to_double(this->world.centre(body).y), 2);
+    EXPECT_GT(to_double(this->world.center_of_mass(body).y), 0.875);
+    EXPECT_LT(to_double(this->world.center_of_mass(body).y), 2);
   }
 }
 
@@ -150,7 +150,7 @@ TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
     last = body;
   }
   for (int i = 0; i < 120; ++i) this->world.step();
-  EXPECT_LT(this->world.centre(last).y, S(9));
+  EXPECT_LT(this->world.center_of_mass(last).y, S(9));
 }
 
 TYPED_TEST(RangeContract, ChainsOfBallJointsCarryLoad) {
@@ -182,7 +182,7 @@ TYPED_TEST(RangeContract, TheEdgeOfTheWorldHolds) {
   std::uint32_t clamped = 0;
   for (int i = 0; i < 60; ++i) clamped += this->world.step().clamped_position;
   EXPECT_GT(clamped, 0u);
-  EXPECT_LE(this->world.centre(body).x, edge);
+  EXPECT_LE(this->world.center_of_mass(body).x, edge);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace isostep {
 
 enum class BodyType : std::uint32_t {
-  fixed,      // never moves: no velocity, infinite mass
+  static_,    // never moves: no velocity, infinite mass
   kinematic,  // moves as told: velocity given, infinite mass
   dynamic     // moves by forces and contacts
 };

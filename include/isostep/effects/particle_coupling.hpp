@@ -55,7 +55,7 @@ struct CouplingReport {
 ///          of at most 0.25 m/s.
 /// Order:   touches by particle, body and part, ascending by slots. Nothing depends on the trees.
 /// Cost:    a query of the bodies' tree for each particle, a closest point for each part near it, and a few rounds over
-///          a body's touches. No allocation of its own once warm; World::bodies_near's where more than 32 bodies meet
+///          a body's touches. No allocation of its own once warm; World::overlap_aabb's where more than 32 bodies meet
 ///          one particle.
 /// Limits:  both worlds' own ranges. A share of a body counts as no lighter than the particles' least mass (crowded in
 ///          the report): for Q16.16 a body of m kg borne by more than some 100 m heavy or pinned particles may be

@@ -93,7 +93,7 @@ template <class S> S ParticleCoupling<S>::farthest_way(const World<S>& bodies) c
 template <class S> void ParticleCoupling<S>::find_bodies(const World<S>& bodies, const Flier& flier) {
   const S reach = max_abs(flier.velocity) * step_ + margin_ + flier.material->radius + body_way_;
   found_.clear();
-  bodies.bodies_near(Aabb<S>::around(flier.position, {reach, reach, reach}), found_, {settings_.filter.mask, false});
+  bodies.overlap_aabb(Aabb<S>::around(flier.position, {reach, reach, reach}), found_, {settings_.filter.mask, false});
   for (const BodyId body : found_) {
     const std::uint32_t place = meet(bodies, body);
     const Met& met = met_[place];

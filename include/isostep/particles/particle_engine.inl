@@ -55,7 +55,7 @@ template <class S> ParticleReport ParticleEngine<S>::step(const ParticleStageObs
   after(ParticleStage::find_contacts);
   solve_substeps();
   after(ParticleStage::solve_substeps);
-  if (is_soft()) soft_step_.restitute();
+  if (is_soft()) soft_step_.apply_restitution();
   after(ParticleStage::restitution);
   contacts_.store(is_soft());
   after(ParticleStage::store_impulses);

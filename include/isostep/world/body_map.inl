@@ -81,7 +81,7 @@ template <class Set> ISO_INLINE std::ptrdiff_t place_of_slot(const Set& set, std
 }  // namespace detail
 
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
-  const bool fixed = body.type == BodyType::fixed;
+  const bool fixed = body.type == BodyType::static_;
   BodySet<S>& set = fixed ? state_.fixed.change() : state_.awake;
   const std::ptrdiff_t at = detail::place_of_slot(set, state.slot);
   set.states.insert(set.states.begin() + at, state);

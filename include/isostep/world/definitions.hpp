@@ -10,7 +10,7 @@
 namespace isostep {
 
 template <class S> struct BodyDefinition {
-  BodyType type = BodyType::fixed;
+  BodyType type = BodyType::static_;
   ShapeId shape = {};
   Vec3<S> position = {S(0), S(0), S(0)};  // [m] of the body's origin, world
   Quat<Unit<S>> orientation = Quat<Unit<S>>::identity();

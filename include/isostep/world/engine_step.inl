@@ -71,7 +71,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   if (watched) after(Stage::prepare);
   solver.solve_substeps(context);
   if (watched) after(Stage::solve_substeps);
-  solver.restitute(context);
+  solver.apply_restitution(context);
   if (watched) after(Stage::restitution);
   solver.store_impulses(context);
   report_.unsolved = solver.unsolved();

@@ -90,7 +90,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   BodyState<S> state = {};
   state.orientation = normalise(d.orientation);
   state.centre = d.position + to_matrix(state.orientation) * body.local_centre;
-  if (d.type != BodyType::fixed) {
+  if (d.type != BodyType::static_) {
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.spin = convert<Velocity<S>>(d.angular_velocity);
   }
@@ -105,7 +105,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   state.slot = id.slot;
   render_poses_.start_here(state);
   map_.insert(state, body);
-  proxies_.place(state, body, d.type != BodyType::fixed);
+  proxies_.place(state, body, d.type != BodyType::static_);
   if (d.type != BodyType::dynamic) wake_.wake_touching(id.slot);
   return id;
 }

@@ -24,9 +24,10 @@ template <class S> class Queries {
 
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const;
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out, QueryFilter filter) const;
-  std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter) const;
-  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out, QueryFilter filter) const;
-  void bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const;
+  std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S max_distance, QueryFilter filter) const;
+  void overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                     QueryFilter filter) const;
+  void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const;
   S joint_error(JointId joint) const;
 
  private:

@@ -106,13 +106,13 @@ void Queries<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<R
 // ---- distances and overlaps
 
 template <class S>
-std::optional<ClosestBody<S>> Queries<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
+std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const S edge = Limits<S>::position();
-  if (!journal_.accept_call("closest", detail::Checklist()
-                                           .also(detail::fault_of_place(point, "point"))
-                                           .finite(max_distance, "max_distance")
-                                           .proper(S(0) <= max_distance, "max_distance", "0 or more")
-                                           .report()))
+  if (!journal_.accept_call("closest_point", detail::Checklist()
+                                                 .also(detail::fault_of_place(point, "point"))
+                                                 .finite(max_distance, "max_distance")
+                                                 .proper(S(0) <= max_distance, "max_distance", "0 or more")
+                                                 .report()))
     return {};
   std::optional<ClosestBody<S>> best;
   const S reach = min(max_distance, edge);
@@ -121,7 +121,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest(Vec3<S> point, S max_distance,
     const Transform<S> placed = Transform<S>::of(pose_of(slot));
     for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
       const ClosestPoint<S> found =
-          closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
+          isostep::closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
       if (max_distance < found.distance) continue;
       const bool nearer =
           !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
@@ -135,7 +135,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest(Vec3<S> point, S max_distance,
 template <class S> bool Queries<S>::accept_overlapping(const Primitive<S>& shape, const Pose<S>& pose) const {
   const ShapeFault of_shape = validate(shape), of_pose = validate(pose);
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
-  return journal_.accept_call("overlapping",
+  return journal_.accept_call("overlap_shape",
                               detail::Checklist()
                                   .ask(of_shape == ShapeFault::none, kind(of_shape), describe(of_shape), "")
                                   .ask(of_pose == ShapeFault::none, kind(of_pose), describe(of_pose), "")
@@ -143,8 +143,8 @@ template <class S> bool Queries<S>::accept_overlapping(const Primitive<S>& shape
 }
 
 template <class S>
-void Queries<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                             QueryFilter filter) const {
+void Queries<S>::overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                               QueryFilter filter) const {
   if (!accept_overlapping(shape, pose)) return;
   std::vector<std::uint64_t> found;
   proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
@@ -169,16 +169,17 @@ void Queries<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std
 template <class S> bool Queries<S>::accept_box(const Aabb<S>& box) const {
   const S edge = Limits<S>::position() + Limits<S>::position();
   return journal_.accept_call(
-      "bodies_near", detail::Checklist()
-                         .finite(box.low, "box.low")
-                         .finite(box.high, "box.high")
-                         .in_range(detail::within(box.low, edge), "box.low", "coordinates up to 2 Limits::position()")
-                         .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")
-                         .report());
+      "overlap_aabb",
+      detail::Checklist()
+          .finite(box.low, "box.low")
+          .finite(box.high, "box.high")
+          .in_range(detail::within(box.low, edge), "box.low", "coordinates up to 2 Limits::position()")
+          .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")
+          .report());
 }
 
 template <class S>
-void Queries<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
+void Queries<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
   if (!accept_box(box)) return;
   const std::size_t first = out.size();
   proxies_.tree().query(box, [&](std::uint32_t slot) {

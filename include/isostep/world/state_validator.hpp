@@ -25,7 +25,7 @@ template <class S> class StateValidator {
       return "settings out of range";
     }
     set_of_body_.assign(state_.body_slots.entries().size(), kNowhere);
-    type_of_body_.assign(set_of_body_.size(), BodyType::fixed);
+    type_of_body_.assign(set_of_body_.size(), BodyType::static_);
     joint_met_.assign(state_.joint_slots.entries().size(), 0);
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
       if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
@@ -130,7 +130,7 @@ template <class S> class StateValidator {
     constexpr std::uint32_t kKnown =
         body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
-    if (p.type > BodyType::dynamic || (p.type == BodyType::fixed) != (name == kFixed) ||
+    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == kFixed) ||
         (name < kAwake && !dynamic_body)) {
       return "a body's type does not fit its set";
     }

@@ -176,7 +176,7 @@ template <class S> class World final {
   bool is_awake(BodyId body) const;
   BodyType type(BodyId body) const;
   Pose<S> pose(BodyId body) const;
-  Vec3<S> centre(BodyId body) const;
+  Vec3<S> center_of_mass(BodyId body) const;
   Vec3<S> velocity(BodyId body) const;
   Vec3<S> angular_velocity(BodyId body) const;
   S mass(BodyId body) const;
@@ -191,13 +191,13 @@ template <class S> class World final {
   /// The first hit of every body on the way, the nearest first and equally near ones by slot, appended to `out`.
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                     QueryFilter filter = {}) const;
-  std::optional<ClosestBody<S>> closest(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
+  std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
-  void overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                   QueryFilter filter = {}) const;
+  void overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                     QueryFilter filter = {}) const;
   /// Bodies whose bounds, with the broad phase's margin of 0.1 m at most, meet the box, ascending by slot, appended to
   /// `out`. A cheap first question: allocates nothing but room in `out`, and where more than 32 answer.
-  void bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter = {}) const;
+  void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter = {}) const;
   BodyView<S> view(BodyId body) const;
 
   // Time.

@@ -136,7 +136,7 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
   if (!engine_->journal_.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
-  return apply_force(body, force, detail::saturated_cross(point - centre(body), force));
+  return apply_force(body, force, detail::saturated_cross(point - center_of_mass(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
   return apply(ApplyImpulse<S>{body, impulse, angular_impulse});
@@ -144,7 +144,7 @@ template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Ve
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
   if (!engine_->journal_.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
-  return apply_impulse(body, impulse, detail::saturated_cross(point - centre(body), impulse));
+  return apply_impulse(body, impulse, detail::saturated_cross(point - center_of_mass(body), impulse));
 }
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) { return apply(CreateJoint<S>{joint}); }
 template <class S> bool World<S>::destroy(JointId joint) { return apply(DestroyJoint{joint}); }
@@ -200,14 +200,14 @@ template <class S> bool World<S>::is_awake(BodyId body) const {
 }
 template <class S> BodyType World<S>::type(BodyId body) const {
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);
-  return properties == nullptr ? BodyType::fixed : properties->type;
+  return properties == nullptr ? BodyType::static_ : properties->type;
 }
 template <class S> Pose<S> World<S>::pose(BodyId body) const {
   const FloatEnvironment environment;
   if (!contains(body)) return Pose<S>::identity();
   return BodyMap<S>::origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
 }
-template <class S> Vec3<S> World<S>::centre(BodyId body) const {
+template <class S> Vec3<S> World<S>::center_of_mass(BodyId body) const {
   const BodyState<S>* state = engine_->map_.state_of(body);
   return state == nullptr ? Vec3<S>::zero() : state->centre;
 }
@@ -275,20 +275,20 @@ void World<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<Ray
   engine_->queries_.cast_ray_all(origin, translation, out, filter);
 }
 template <class S>
-std::optional<ClosestBody<S>> World<S>::closest(Vec3<S> point, S max_distance, QueryFilter filter) const {
+std::optional<ClosestBody<S>> World<S>::closest_point(Vec3<S> point, S max_distance, QueryFilter filter) const {
   const FloatEnvironment environment;
-  return engine_->queries_.closest(point, max_distance, filter);
+  return engine_->queries_.closest_point(point, max_distance, filter);
 }
 template <class S>
-void World<S>::overlapping(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                           QueryFilter filter) const {
+void World<S>::overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                             QueryFilter filter) const {
   const FloatEnvironment environment;
-  engine_->queries_.overlapping(shape, pose, out, filter);
+  engine_->queries_.overlap_shape(shape, pose, out, filter);
 }
 
-template <class S> void World<S>::bodies_near(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
+template <class S> void World<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
   const FloatEnvironment environment;
-  engine_->queries_.bodies_near(box, out, filter);
+  engine_->queries_.overlap_aabb(box, out, filter);
 }
 template <class S> BodyView<S> World<S>::view(BodyId body) const {
   if (!contains(body)) return {};

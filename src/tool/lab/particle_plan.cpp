@@ -87,7 +87,7 @@ class Planner {
   void add_body(std::size_t i) {
     if (body(i).sensor) refuse(body_named(i) + " is a sensor");
     if (body(i).type == BodyType::kinematic) refuse(body_named(i) + " is moved by hand");
-    if (body(i).type == BodyType::fixed) return add_scenery(i);
+    if (body(i).type == BodyType::static_) return add_scenery(i);
     switch (joints_of_[i].size()) {
       case 0: return add_ball(i);
       case 1: return add_end(i);

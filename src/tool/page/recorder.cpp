@@ -80,7 +80,7 @@ void Recorder::body(const DrawnBody& body) {
   parts_wanted_ = cast(body.body.slot, body.body.generation, actor);
   recording_.actors[actor].type = body.type;
   recording_.actors[actor].sensor = body.sensor;
-  appear(actor, body.pose, body.awake || body.type == BodyType::fixed ? Change::awake : Change::asleep);
+  appear(actor, body.pose, body.awake || body.type == BodyType::static_ ? Change::awake : Change::asleep);
 }
 
 void Recorder::part(const DrawnBody& body, const DrawnPart& part) {

@@ -59,7 +59,7 @@ template <class S> struct Blocks {
   }
 };
 
-constexpr double kLift = 0.25, kMostLift = 1.0 / 64;  // [1], [m]
+constexpr double kPenetrationBias = 0.25, kMostPenetrationBias = 1.0 / 64;  // [1], [m]
 
 /// Bodies, contacts and the geometry between them.
 template <class S> struct Scene {
@@ -78,7 +78,7 @@ template <class S> struct Scene {
     Blocks<S> blocks(kernels, contacts.size(), points, rolling);
     kernels.prepare({blocks.memory.data(), blocks.bodies.data(), static_cast<std::int32_t>(contacts.size()), points,
                      rolling, order.data(), contacts.data(), geometry.data(), bodies.velocity.data(),
-                     bodies.mass.data(), S(kLift), S(kMostLift)});
+                     bodies.mass.data(), S(kPenetrationBias), S(kMostPenetrationBias)});
     return blocks;
   }
 };
@@ -314,7 +314,7 @@ TYPED_TEST(ContactPrepare, AnOverlapCountsAsDeeperByItsLiftWithinTheBoundAndAGap
     scene.geometry[0].points[0].separation = from_double<S>(separation);
     const Blocks<S> blocks = scene.prepare(*contact_kernels<S>(Simd::scalar), 1, true);
     const auto& block = *reinterpret_cast<const RollingBlock<S, 1, 1>*>(blocks.memory.data());
-    const double lift = separation < 0 ? std::min(-kLift * separation, kMostLift) : 0;
+    const double lift = separation < 0 ? std::min(-kPenetrationBias * separation, kMostPenetrationBias) : 0;
     EXPECT_NEAR(to_double(block.contact.normals[0].separation[0]), separation - lift, near);
   }
 }

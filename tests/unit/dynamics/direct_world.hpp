@@ -90,7 +90,7 @@ template <class S> class DirectWorld {
     solver.colour_constraints(context);
     solver.prepare(context);
     solver.solve_substeps(context);
-    solver.restitute(context);
+    solver.apply_restitution(context);
     solver.store_impulses(context);
   }
 

@@ -29,7 +29,7 @@ TYPED_TEST(Pgs, a_dropped_box_comes_to_rest_on_the_floor_and_is_told_to_touch_it
     begins += w.events().contact_begin.size();
   }
   EXPECT_EQ(begins, 1u);
-  expect_near(real(w.centre(id)), {0, 0.25, 0}, 2e-3, "centre");
+  expect_near(real(w.center_of_mass(id)), {0, 0.25, 0}, 2e-3, "centre");
   EXPECT_LT(length(real(w.velocity(id))), pick<S>(1e-4, 1e-6, 1e-3, 1e-6));
 }
 
@@ -59,7 +59,7 @@ TYPED_TEST(Pgs, passes_do_not_divide_the_step) {
     World<S> w = world_of<S>(SolverName::pgs, passes);
     const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 10, 0}));
     run(w, 30);
-    EXPECT_NEAR(real(w.centre(id)).y, 10 - 10.0 / 3600 * 30 * 31 / 2, pick<S>(1e-5, 1e-12, 2e-3, 1e-7));
+    EXPECT_NEAR(real(w.center_of_mass(id)).y, 10 - 10.0 / 3600 * 30 * 31 / 2, pick<S>(1e-5, 1e-12, 2e-3, 1e-7));
   }
 }
 

@@ -114,7 +114,7 @@ TYPED_TEST(WorstFirstBodies, a_bouncing_ball_rises_to_the_square_of_restitution_
       if (last > 0 && speed <= 0) {
         expected *= e * e;
         ++peaks;
-        EXPECT_NEAR(real(w.centre(id)).y - 0.5, expected, 0.02 * 2 + 0.01) << e << ", peak " << peaks;
+        EXPECT_NEAR(real(w.center_of_mass(id)).y - 0.5, expected, 0.02 * 2 + 0.01) << e << ", peak " << peaks;
       }
       last = speed;
     }
@@ -173,10 +173,10 @@ TYPED_TEST(WorstFirstBodies, a_block_rests_on_a_slope_exactly_while_its_tangent_
     d.material.friction = num<S>(part * 0.5);
     const BodyId id = w.create(d);
     run(w, 12);
-    const D3 from = real(w.centre(id)), v = real(w.velocity(id));
+    const D3 from = real(w.center_of_mass(id)), v = real(w.velocity(id));
     run(w, part > 1 ? 300 : 60);
     if (part > 1) {
-      EXPECT_LT(length(real(w.centre(id)) - from), pick<S>(1e-3, 1e-3, 5e-3, 1e-3));
+      EXPECT_LT(length(real(w.center_of_mass(id)) - from), pick<S>(1e-3, 1e-3, 5e-3, 1e-3));
     } else {
       const double a = 10 * (std::sin(angle) - part * 0.5 * std::cos(angle));
       const D3 down = {std::cos(angle), -std::sin(angle), 0};
@@ -231,7 +231,7 @@ TYPED_TEST(WorstFirstBodies, gravity_of_a_sub_step_does_not_make_a_resting_ball_
     for (int i = 0; i < 300; ++i) {
       w.step();
       ASSERT_LT(std::fabs(real(w.velocity(id)).y), 10.0 / (60 * substeps)) << i;
-      ASSERT_NEAR(real(w.centre(id)).y, 0.5, 1e-3) << i;
+      ASSERT_NEAR(real(w.center_of_mass(id)).y, 0.5, 1e-3) << i;
     }
   }
 }
@@ -253,7 +253,7 @@ TYPED_TEST(WorstFirstBodies, nor_a_stack_of_them_though_it_comes_through_others)
     w.step();
     for (int k = 0; k < 4; ++k) {
       const BodyId id = boxes[static_cast<std::size_t>(k)];
-      ASSERT_NEAR(real(w.centre(id)).y, 0.5 + k, 0.02) << i;
+      ASSERT_NEAR(real(w.center_of_mass(id)).y, 0.5 + k, 0.02) << i;
     }
   }
   for (const BodyId id : boxes) EXPECT_LT(length(real(w.velocity(id))), 0.02);
@@ -272,7 +272,7 @@ TYPED_TEST(WorstFirstBodies, ten_boxes_stand_for_ten_seconds) {
     boxes.push_back(w.create(d));
   }
   run(w, 600);
-  expect_near(real(w.centre(boxes[9])), {0, 9.5, 0}, 0.02, "top");
+  expect_near(real(w.center_of_mass(boxes[9])), {0, 9.5, 0}, 0.02, "top");
 }
 
 // ---- projection
@@ -285,7 +285,7 @@ TYPED_TEST(WorstFirstBodies, overlap_off_the_centre_is_shared_by_moving_and_turn
   const BodyId id = w.create(this->body(add_box(w, 1, 0.25, 1), {0, 0, 0}));
   const double kappa = 3 / (1 + 0.25 * 0.25), arm = 0.75;
   const auto moved = [&] {
-    const double risen = real(w.centre(id)).y, turned = 2 * to_double(w.pose(id).orientation.z);
+    const double risen = real(w.center_of_mass(id)).y, turned = 2 * to_double(w.pose(id).orientation.z);
     EXPECT_NEAR(turned, kappa * arm * risen, 0.02 * turned + 4 * grain<S>());
     return risen + arm * turned;
   };
@@ -308,7 +308,7 @@ TYPED_TEST(WorstFirstBodies, no_projection_turns_a_body_by_more_than_a_fifth_and
   BodyDefinition<S> d = this->body(add_box(w, 0.109375, 0.03125, 0.03125), {0, 0, 0});
   const BodyId id = w.create(d);
   w.step();
-  const double turned = 2 * std::asin(to_double(w.pose(id).orientation.z)), risen = real(w.centre(id)).y;
+  const double turned = 2 * std::asin(to_double(w.pose(id).orientation.z)), risen = real(w.center_of_mass(id)).y;
   EXPECT_NEAR(turned, 0.2, 1e-3);
   EXPECT_NEAR(risen + 0.09375 * turned, 0.05, 1e-3) << "3 m/s for a sixtieth of a second";
 }
@@ -326,7 +326,7 @@ TYPED_TEST(WorstFirstBodies, a_stretched_rod_closes_without_making_speed_and_kee
   run(w, 30);
   EXPECT_LT(to_double(w.joint_error(id)), 1e-4);
   expect_near(real(w.velocity(a)), {0, 0, 0}, 0, "speed");
-  const D3 centre = real(w.centre(a)) * 0.25 + real(w.centre(b)) * 0.75;
+  const D3 centre = real(w.center_of_mass(a)) * 0.25 + real(w.center_of_mass(b)) * 0.75;
   expect_near(centre, {0.9375, 0, 0}, 64 * grain<S>(), "centre of mass");
 }
 
@@ -356,8 +356,8 @@ TYPED_TEST(WorstFirstBodies, a_chain_of_joints_holds_a_weight) {
       for (const JointId id : joints) worst = std::max(worst, to_double(w.joint_error(id)));
     }
     EXPECT_LT(worst, 0.01) << static_cast<int>(type);
-    EXPECT_GT(real(w.centre(last)).y, -3.75);
-    EXPECT_LT(real(w.centre(last)).y, -2) << "it hangs";
+    EXPECT_GT(real(w.center_of_mass(last)).y, -3.75);
+    EXPECT_LT(real(w.center_of_mass(last)).y, -2) << "it hangs";
   }
 }
 

@@ -62,7 +62,7 @@ template <class S> struct Coupled {
   }
 
   D3 at(ParticleId id) const { return real(particles.position(id)); }
-  D3 at(BodyId id) const { return real(bodies.centre(id)); }
+  D3 at(BodyId id) const { return real(bodies.center_of_mass(id)); }
   D3 speed(ParticleId id) const { return real(particles.velocity(id)); }
   D3 speed(BodyId id) const { return real(bodies.velocity(id)); }
 

@@ -24,7 +24,7 @@ TYPED_TEST(SoftStepTest, BallsThatMeetShareTheirMotionAndRestitutionPartsThem) {
   EXPECT_NEAR(room.v(a).x, 0, slack);
   EXPECT_NEAR(room.v(b).x, 0, slack);
   EXPECT_NEAR(to_double(room.rows.all()[0].approach), -4, slack);
-  room.solver.restitute();
+  room.solver.apply_restitution();
   EXPECT_NEAR(room.v(a).x, -1, slack);
   EXPECT_NEAR(room.v(b).x, 1, slack);
   EXPECT_EQ(to_double(room.rows.all()[0].impulse), 0) << "a blow is not a load";

@@ -114,8 +114,8 @@ TYPED_TEST(Measure, OverlapIsOfPairsCloserThanACentimetre) {
 TYPED_TEST(Measure, OverlapLeavesOutFixedPairsAndJoinedPairs) {
   using S = TypeParam;
   const ShapeId ball = this->world.add_shape(Sphere{0.5});
-  this->add(ball, 0, 0, 0, BodyType::fixed);
-  this->add(ball, 0.25, 0, 0, BodyType::fixed);
+  this->add(ball, 0, 0, 0, BodyType::static_);
+  this->add(ball, 0.25, 0, 0, BodyType::static_);
   const BodyId a = this->add(ball, 10, 0, 0), b = this->add(ball, 10.5, 0, 0);
   EXPECT_NEAR(measure_overlap(this->world).worst, 0.5, 1e-9);
   const Pose<S> middle = {{from_double<S>(10.25), S(0), S(0)}, Quat<Unit<S>>::identity()};

@@ -74,7 +74,7 @@ TEST(SceneFile, MembersReachTheWorld) {
   EXPECT_FALSE(world.settings().allow_sleep);
   EXPECT_EQ(world.type(built.bodies[0]), BodyType::kinematic);
   EXPECT_EQ(world.pose(built.bodies[0]).position, (Vec3<double>{1, 2, 3}));
-  EXPECT_EQ(world.centre(built.bodies[0]), (Vec3<double>{1, 2, 3.5}));
+  EXPECT_EQ(world.center_of_mass(built.bodies[0]), (Vec3<double>{1, 2, 3.5}));
   EXPECT_EQ(world.angular_velocity(built.bodies[0]), (Vec3<double>{0, 0.5, 0}));
   EXPECT_EQ(world.mass(built.bodies[1]), 2.0);
   EXPECT_EQ(world.velocity(built.bodies[1]), (Vec3<double>{1, 0, -1}));
@@ -118,7 +118,7 @@ TEST(NamedScenes, HaveTheBodiesOfTheirDescription) {
     const std::optional<Scene> scene = find_scene(row.name);
     ASSERT_TRUE(scene) << row.name;
     std::size_t fixed = 0;
-    for (const SceneBody& body : scene->bodies) fixed += body.type == BodyType::fixed ? 1u : 0u;
+    for (const SceneBody& body : scene->bodies) fixed += body.type == BodyType::static_ ? 1u : 0u;
     EXPECT_EQ(fixed, row.fixed) << row.name;
     EXPECT_EQ(scene->bodies.size() - fixed, row.moving) << row.name;
     EXPECT_EQ(scene->joints.size(), row.joints) << row.name;

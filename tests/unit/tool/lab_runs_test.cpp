@@ -120,7 +120,7 @@ TEST(LabParticles, AreNotOfferedWhereTheyWouldBeAnotherScene) {
   EXPECT_NE(particle_model(scene("S1x5")).reason.find("in one another"), std::string::npos);
   scenes::Scene between;
   between.bodies = {body_at(0, box(1, 1, 1)), body_at(3, box(0.1, 0.1, 0.1)), body_at(-3, box(0.1, 0.1, 0.1))};
-  between.bodies[0].type = BodyType::fixed;
+  between.bodies[0].type = BodyType::static_;
   EXPECT_EQ(particle_model(between).reason, "body 0 is a box with bodies on more than one side");
 }
 

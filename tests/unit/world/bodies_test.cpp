@@ -29,7 +29,7 @@ TYPED_TEST(WorldBodies, a_fixed_body_never_moves_whatever_falls_on_it) {
   run(w, 60);
   EXPECT_EQ(w.pose(table).position, d.position);
   EXPECT_EQ(w.pose(table).orientation, d.orientation);
-  EXPECT_NEAR(to_double(w.centre(load).y), 1, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(load).y), 1, 0.02);
   EXPECT_FALSE(w.is_awake(table));
 }
 
@@ -49,8 +49,8 @@ TYPED_TEST(WorldBodies, a_kinematic_body_goes_as_told_and_nothing_stops_it) {
   expect_near(real(w.pose(pusher).position), {0, 1, 0}, 4 * grain<S>());
   EXPECT_EQ(w.velocity(pusher), vec<S>(1, 0, 0));
   EXPECT_NEAR(to_double(w.velocity(pushed).x), 1, 0.02);
-  EXPECT_NEAR(to_double(w.centre(pushed).x), 1, 0.02);
-  EXPECT_NEAR(to_double(w.centre(pushed).y), 0.5, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(pushed).x), 1, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(pushed).y), 0.5, 0.02);
 }
 
 TYPED_TEST(WorldBodies, a_kinematic_body_carries_and_drops_with_its_velocity) {
@@ -64,7 +64,7 @@ TYPED_TEST(WorldBodies, a_kinematic_body_carries_and_drops_with_its_velocity) {
   ASSERT_TRUE(w.set_velocity(lift, vec<S>(0.5, 1, 0), vec<S>(0, 0, 0)));
   run(w, 60);
   expect_near(real(w.velocity(load)), {0.5, 1, 0}, 0.02);
-  EXPECT_NEAR(to_double(w.centre(load).y) - to_double(w.centre(lift).y), 0.75, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(load).y) - to_double(w.center_of_mass(lift).y), 0.75, 0.02);
 }
 
 TYPED_TEST(WorldBodies, two_boxes_in_one_shape_have_the_mass_centre_and_inertia_of_both) {
@@ -74,14 +74,14 @@ TYPED_TEST(WorldBodies, two_boxes_in_one_shape_have_the_mass_centre_and_inertia_
   const BodyId id =
       w.create(moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}));
   EXPECT_NEAR(to_double(w.mass(id)), 2, 8 * grain<S>());
-  expect_near(real(w.centre(id)), {2.5, 2, 3}, 8 * grain<S>());
+  expect_near(real(w.center_of_mass(id)), {2.5, 2, 3}, 8 * grain<S>());
   expect_near(real(w.pose(id).position), {1, 2, 3}, 8 * grain<S>(3));
   ASSERT_TRUE(w.apply_impulse(id, Vec3<S>::zero(), vec<S>(0, 4, 0)));
   const double inertia = 2 * (1.0 / 6 + 2.25);
   EXPECT_NEAR(to_double(w.angular_velocity(id).y), 4 / inertia, pick<S>(1e-5, 1e-12, 1e-3, 1e-8));
   run(w, 60);
   // It turns about its centre, and its origin with it.
-  expect_near(real(w.centre(id)), {2.5, 2, 3}, 64 * grain<S>(3));
+  expect_near(real(w.center_of_mass(id)), {2.5, 2, 3}, 64 * grain<S>(3));
   const double angle = 480 * 2 * std::atan(4 / inertia / 960);
   expect_near(real(w.pose(id).position), {2.5 - 1.5 * std::cos(angle), 2, 3 + 1.5 * std::sin(angle)},
               pick<S>(1e-4, 1e-8, 1e-2, 1e-6));
@@ -98,10 +98,10 @@ TYPED_TEST(WorldBodies, a_compound_stands_while_its_centre_is_above_its_support_
              plate = heavy_end_supported ? D3{1, 0, 0} : D3{0, 0, 0};
     BodyDefinition<S> d = moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, cube, {0.5, 0.5, 0.05}, plate), {0, 1.5, 0});
     const BodyId id = w.create(d);
-    EXPECT_NEAR(to_double(w.centre(id).x), heavy_end_supported ? 1.0 / 11 : 10.0 / 11, 0.001);
+    EXPECT_NEAR(to_double(w.center_of_mass(id).x), heavy_end_supported ? 1.0 / 11 : 10.0 / 11, 0.001);
     run(w, 120);
     if (heavy_end_supported) expect_near(real(w.pose(id).position), {0, 1.5, 0}, 0.02);
-    else EXPECT_LT(to_double(w.centre(id).y), 1.2);
+    else EXPECT_LT(to_double(w.center_of_mass(id).y), 1.2);
   }
 }
 
@@ -119,7 +119,7 @@ TYPED_TEST(WorldBodies, gravity_acts_by_its_scale) {
     run(alone, 64);
     // Velocity first: x_n = a h^2 n (n + 1) / 2, n = 256.
     expect_near(real(alone.velocity(there)), {0, -8 * scale, 0}, 256 * speed_grain<S>(8));
-    EXPECT_NEAR(to_double(alone.centre(there).y), -8 * scale * 256 * 257 / 2 / 65536,
+    EXPECT_NEAR(to_double(alone.center_of_mass(there).y), -8 * scale * 256 * 257 / 2 / 65536,
                 pick<S>(1e-4, 1e-12, 64 * 0x1p-16, 1e-7));
     EXPECT_TRUE(w.set_motion(id, num<S>(scale), S(0), S(0), 0));
   }
@@ -163,10 +163,10 @@ TYPED_TEST(WorldBodies, a_locked_axis_holds_bit_for_bit_in_free_flight) {
   const BodyId id = w.create(d);
   ASSERT_TRUE(w.apply_impulse(id, vec<S>(5, 0, 5), vec<S>(1, 2, 3)));
   run(w, 30);
-  EXPECT_EQ(w.centre(id).x, S(1));
+  EXPECT_EQ(w.center_of_mass(id).x, S(1));
   EXPECT_EQ(w.pose(id).orientation, d.orientation);
-  EXPECT_GT(to_double(w.centre(id).z), 3.1);
-  EXPECT_LT(to_double(w.centre(id).y), 19);
+  EXPECT_GT(to_double(w.center_of_mass(id).z), 3.1);
+  EXPECT_LT(to_double(w.center_of_mass(id).y), 19);
 }
 
 TYPED_TEST(WorldBodies, a_locked_axis_holds_when_other_bodies_push) {
@@ -179,9 +179,9 @@ TYPED_TEST(WorldBodies, a_locked_axis_holds_when_other_bodies_push) {
   BodyDefinition<S> fast = moving<S>(ball, {-2, 0, 0}, {10, 0, 0});
   const BodyId hit = w.create(fast);
   run(w, 30);
-  EXPECT_EQ(w.centre(held).x, S(0));
+  EXPECT_EQ(w.center_of_mass(held).x, S(0));
   EXPECT_EQ(w.velocity(held).x, S(0));
-  EXPECT_LT(to_double(w.centre(hit).x), -0.98) << "what runs into a locked body runs into a wall";
+  EXPECT_LT(to_double(w.center_of_mass(hit).x), -0.98) << "what runs into a locked body runs into a wall";
   EXPECT_LT(std::fabs(to_double(w.velocity(hit).x)), 0.2);
 }
 
@@ -197,8 +197,8 @@ TYPED_TEST(WorldBodies, a_body_that_may_not_turn_slides_down_upright) {
   const BodyId id = w.create(d);
   run(w, 60);
   EXPECT_EQ(w.pose(id).orientation, d.orientation);
-  EXPECT_GT(to_double(w.centre(id).x), 1);
-  EXPECT_NEAR(0.6 * to_double(w.centre(id).x) + 0.8 * to_double(w.centre(id).y), 0.7, 0.03);
+  EXPECT_GT(to_double(w.center_of_mass(id).x), 1);
+  EXPECT_NEAR(0.6 * to_double(w.center_of_mass(id).x) + 0.8 * to_double(w.center_of_mass(id).y), 0.7, 0.03);
 }
 
 TYPED_TEST(WorldBodies, of_two_restitutions_the_larger_counts) {
@@ -244,7 +244,7 @@ TYPED_TEST(WorldBodies, rolling_resistance_stops_a_ball_where_its_lever_arm_says
   ASSERT_TRUE(settle(w, 60 * 5));
   // (m + I / r^2) a = arm m g / r with I = 2/5 m r^2.
   const double distance = v * v / (2 * 5.0 / 7 * 10 * arm / r);
-  const D3 at = real(w.centre(id));
+  const D3 at = real(w.center_of_mass(id));
   EXPECT_NEAR(at.x, 0.6 * distance, 0.03 * distance);
   EXPECT_NEAR(at.z, 0.8 * distance, 0.03 * distance);
 }
@@ -315,7 +315,7 @@ TYPED_TEST(WorldBodies, a_filter_set_anew_acts_at_once_both_ways) {
   EXPECT_LT(to_double(w.velocity(box).y), -1);
   ASSERT_TRUE(w.set_filter(ground, {}));
   ASSERT_TRUE(settle(w));
-  EXPECT_NEAR(to_double(w.centre(box).y), 0.5, 0.03);
+  EXPECT_NEAR(to_double(w.center_of_mass(box).y), 0.5, 0.03);
 }
 
 TYPED_TEST(WorldBodies, a_body_that_does_not_collide_falls_through_everything) {
@@ -326,7 +326,7 @@ TYPED_TEST(WorldBodies, a_body_that_does_not_collide_falls_through_everything) {
   d.collide = false;
   const BodyId id = w.create(d);
   run(w, 60);
-  EXPECT_LT(to_double(w.centre(id).y), -3);
+  EXPECT_LT(to_double(w.center_of_mass(id).y), -3);
   EXPECT_EQ(w.counts().contacts, 0u);
 }
 
@@ -361,7 +361,7 @@ TYPED_TEST(WorldBodies, a_sensor_tells_of_coming_and_going_once_each_and_pushes_
   // Surfaces meet at x = -1 and part at x = 1: 20 steps and 40 steps of 1/10 m, seen when the next step begins.
   EXPECT_NEAR(begin_step, 21, 1);
   EXPECT_NEAR(end_step, 41, 1);
-  EXPECT_EQ(w.centre(flier), without.centre(twin));
+  EXPECT_EQ(w.center_of_mass(flier), without.center_of_mass(twin));
   EXPECT_EQ(w.velocity(flier), without.velocity(twin));
 }
 
@@ -501,7 +501,7 @@ TYPED_TEST(WorldBodies, a_body_stops_at_the_edge_of_the_world_and_that_is_report
   const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {to_double(edge) - 1, 0, 0}, {60, 1, 0}));
   EXPECT_EQ(w.step().clamped_position, 0u);
   EXPECT_EQ(w.step().clamped_position, 1u);
-  EXPECT_EQ(w.centre(id).x, edge);
+  EXPECT_EQ(w.center_of_mass(id).x, edge);
   EXPECT_EQ(w.velocity(id).x, S(0));
   EXPECT_NEAR(to_double(w.velocity(id).y), 1, 1e-3);
   EXPECT_TRUE(w.step().clean());

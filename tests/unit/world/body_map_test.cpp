@@ -33,7 +33,7 @@ TYPED_TEST_SUITE(BodyMaps, RoomScalars);
 
 TYPED_TEST(BodyMaps, bodies_lie_ascending_by_slot_in_whatever_order_they_come) {
   this->insert(this->ids[2], BodyType::dynamic);
-  this->insert(this->ids[1], BodyType::fixed);
+  this->insert(this->ids[1], BodyType::static_);
   this->insert(this->ids[0], BodyType::kinematic);
   this->expect_at(this->ids[0], Location::kAwake, 0);
   this->expect_at(this->ids[1], Location::kFixed, 0);

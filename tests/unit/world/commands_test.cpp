@@ -454,7 +454,7 @@ TYPED_TEST(WorldCommands, a_force_too_large_for_the_scalar_still_pushes_its_own_
     ASSERT_TRUE(w.apply_force(id, vec<S>(force, 0, 0)));
     w.step();
     EXPECT_GT(to_double(w.velocity(id).x), 0) << force << " N";
-    EXPECT_GT(to_double(w.centre(id).x), 0) << force << " N";
+    EXPECT_GT(to_double(w.center_of_mass(id).x), 0) << force << " N";
   }
 }
 

@@ -16,7 +16,7 @@ template <class S> class ContactEventsOf : public ::testing::Test {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 3; ++i) {
       BodyDefinition<S> d = moving<S>(ball, {2.0 * i, 0, 0});
-      if (i == 0) d.type = BodyType::fixed;
+      if (i == 0) d.type = BodyType::static_;
       d.mass = S(2);
       bodies[i] = world.create(d);
     }

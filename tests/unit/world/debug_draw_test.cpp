@@ -103,7 +103,7 @@ TYPED_TEST(DebugDraws, TellsBodiesWithTheirShapesWhereTheyAre) {
   ASSERT_EQ(all.bodies.size(), 2u);
   ASSERT_EQ(all.parts.size(), 2u);
   EXPECT_EQ(all.bodies[0].body, crate.ground);
-  EXPECT_EQ(all.bodies[0].type, BodyType::fixed);
+  EXPECT_EQ(all.bodies[0].type, BodyType::static_);
   EXPECT_FALSE(all.bodies[0].awake);
   EXPECT_EQ(all.parts[0].part.type, ShapeType::half_space);
   expect_near(real(all.parts[0].part.normal), {0, 1, 0}, 1e-6);

@@ -186,7 +186,7 @@ TYPED_TEST(WorldEvents, who_is_told_so_every_frame_falls_asleep_and_so_does_a_lo
 
 TYPED_TEST(WorldEvents, a_sensor_sees_kinematic_bodies_come_and_go) {
   using S = TypeParam;
-  for (const BodyType sensor_type : {BodyType::fixed, BodyType::kinematic, BodyType::dynamic}) {
+  for (const BodyType sensor_type : {BodyType::static_, BodyType::kinematic, BodyType::dynamic}) {
     World<S> w(settings<S>(0));
     const ShapeId ball = add_ball(w, 0.5);
     BodyDefinition<S> d = still<S>(ball);

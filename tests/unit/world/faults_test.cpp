@@ -148,10 +148,10 @@ TYPED_TEST(WorldFaults, queries_say_why_they_found_nothing) {
   this->expect_fault(Fault::out_of_range, "cast_ray", "origin");
   EXPECT_FALSE(w.cast_ray(zero, far_off));
   this->expect_fault(Fault::out_of_range, "cast_ray", "translation");
-  EXPECT_FALSE(w.closest(zero, S(-1)));
-  this->expect_fault(Fault::bad_argument, "closest", "max_distance", "0 or more");
+  EXPECT_FALSE(w.closest_point(zero, S(-1)));
+  this->expect_fault(Fault::bad_argument, "closest_point", "max_distance", "0 or more");
   std::vector<BodyId> found;
-  w.overlapping(primitive_of(Sphere<S>{S(0)}), Pose<S>::identity(), found);
+  w.overlap_shape(primitive_of(Sphere<S>{S(0)}), Pose<S>::identity(), found);
   EXPECT_EQ(w.fault(), Fault::bad_shape);
   w.forget_faults();
   EXPECT_TRUE(w.cast_ray(vec<S>(0, 8, 0), vec<S>(0, -16, 0)));
@@ -162,13 +162,13 @@ TYPED_TEST(WorldFaults, queries_say_why_they_found_nothing) {
     this->expect_fault(Fault::not_finite, "cast_ray", "origin");
     EXPECT_FALSE(w.cast_ray(zero, {S(0), nan, S(0)}));
     this->expect_fault(Fault::not_finite, "cast_ray", "translation");
-    EXPECT_FALSE(w.closest({nan, S(0), S(0)}, S(1)));
-    this->expect_fault(Fault::not_finite, "closest", "point");
-    EXPECT_FALSE(w.closest(zero, nan));
-    this->expect_fault(Fault::not_finite, "closest", "max_distance");
-    w.bodies_near({zero, {nan, S(0), S(0)}}, found);
-    this->expect_fault(Fault::not_finite, "bodies_near", "box.high");
-    w.overlapping(primitive_of(Sphere<S>{nan}), Pose<S>::identity(), found);
+    EXPECT_FALSE(w.closest_point({nan, S(0), S(0)}, S(1)));
+    this->expect_fault(Fault::not_finite, "closest_point", "point");
+    EXPECT_FALSE(w.closest_point(zero, nan));
+    this->expect_fault(Fault::not_finite, "closest_point", "max_distance");
+    w.overlap_aabb({zero, {nan, S(0), S(0)}}, found);
+    this->expect_fault(Fault::not_finite, "overlap_aabb", "box.high");
+    w.overlap_shape(primitive_of(Sphere<S>{nan}), Pose<S>::identity(), found);
     EXPECT_EQ(w.fault(), Fault::not_finite);
   }
   EXPECT_TRUE(found.empty());
@@ -399,7 +399,7 @@ TYPED_TEST(WorldFaults, what_a_world_writes_it_reads_wherever_a_body_was_put) {
     const Result<void> read = World<S>(settings<S>()).read_portable(reader);
     EXPECT_TRUE(read) << (read.ok() ? "" : read.error().message.view());
   };
-  for (const BodyType type : {BodyType::dynamic, BodyType::kinematic, BodyType::fixed}) {
+  for (const BodyType type : {BodyType::dynamic, BodyType::kinematic, BodyType::static_}) {
     d.type = type;
     d.position = {edge, S(0), S(0)};
     EXPECT_FALSE(w.create(d)) << "its centre would be 2 m beyond the edge";

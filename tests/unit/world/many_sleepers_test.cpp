@@ -49,8 +49,8 @@ template <class S> void expect_equal(World<S>& a, World<S>& b) {
   ASSERT_EQ(a.hash(), b.hash());
   std::vector<BodyId> found_a, found_b;
   const Primitive<S> wide = primitive_of(Box<S>{vec<S>(40, 5, 40)});
-  a.overlapping(wide, Pose<S>::identity(), found_a);
-  b.overlapping(wide, Pose<S>::identity(), found_b);
+  a.overlap_shape(wide, Pose<S>::identity(), found_a);
+  b.overlap_shape(wide, Pose<S>::identity(), found_b);
   EXPECT_EQ(found_a, found_b);
   for (const BodyId body : found_a) {
     EXPECT_EQ(a.is_awake(body), b.is_awake(body));

@@ -101,7 +101,7 @@ TYPED_TEST(RimOfTheScalar, very_rough_surfaces_hold_whatever_stands_on_them) {
       continue;
     }
     for (int i = 0; i < 60; ++i) w.step();
-    EXPECT_LT(length(real(w.centre(id))), 1) << "friction " << friction;
+    EXPECT_LT(length(real(w.center_of_mass(id))), 1) << "friction " << friction;
     EXPECT_LT(length(real(w.velocity(id))), 0.2) << "friction " << friction;
   }
 }
@@ -131,7 +131,7 @@ TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_out_of_range_too) {
   expect_refused(w.set_gravity(v));
   expect_refused(w.set_motion(id, lowest, S(0), S(0), 0));
   EXPECT_FALSE(w.cast_ray(v, zero).has_value());
-  EXPECT_FALSE(w.closest(v, S(1)).has_value());
+  EXPECT_FALSE(w.closest_point(v, S(1)).has_value());
   EXPECT_TRUE(w.apply_impulse(id, v, v));
   EXPECT_LT(to_double(w.velocity(id).y), 0);
   EXPECT_LT(to_double(w.angular_velocity(id).y), 0);
@@ -154,7 +154,7 @@ TYPED_TEST(RimOfTheScalar, gravity_scaled_up_pulls_down_or_is_refused) {
     }
     w.step();
     EXPECT_LT(to_double(w.velocity(id).y), 0) << "scale " << scale;
-    EXPECT_LT(to_double(w.centre(id).y), 0) << "scale " << scale;
+    EXPECT_LT(to_double(w.center_of_mass(id).y), 0) << "scale " << scale;
   }
 }
 
@@ -171,7 +171,7 @@ TYPED_TEST(RimOfTheScalar, bodies_that_meet_at_the_speed_limit_part_or_stop_but_
   d.angular_velocity = vec<S>(-v / 2, 0, 0);
   const BodyId b = w.create(d);
   for (int i = 0; i < 30; ++i) w.step();
-  EXPECT_LT(to_double(w.centre(a).x), to_double(w.centre(b).x));
+  EXPECT_LT(to_double(w.center_of_mass(a).x), to_double(w.center_of_mass(b).x));
   EXPECT_LE(to_double(w.velocity(a).x), 1);
   EXPECT_GE(to_double(w.velocity(b).x), -1);
 }
@@ -187,8 +187,8 @@ TYPED_TEST(RimOfTheScalar, the_heaviest_bodies_still_stack) {
   d.position = vec<S>(0, 1.5, 0);
   const BodyId high = w.create(d);
   for (int i = 0; i < 180; ++i) w.step();
-  EXPECT_NEAR(to_double(w.centre(low).y), 0.5, 0.02);
-  EXPECT_NEAR(to_double(w.centre(high).y), 1.5, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(low).y), 0.5, 0.02);
+  EXPECT_NEAR(to_double(w.center_of_mass(high).y), 1.5, 0.02);
   EXPECT_FALSE(w.is_awake(high));
 }
 

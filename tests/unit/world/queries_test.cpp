@@ -47,7 +47,7 @@ TYPED_TEST(QueriesOf, a_ray_meets_the_nearest_body_that_it_may_see) {
 TYPED_TEST(QueriesOf, bodies_in_a_box_come_ascending_by_slot) {
   using S = TypeParam;
   std::vector<BodyId> found;
-  this->queries.bodies_near({vec<S>(-1, -1, -1), vec<S>(3, 1, 1)}, found, {});
+  this->queries.overlap_aabb({vec<S>(-1, -1, -1), vec<S>(3, 1, 1)}, found, {});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0], this->balls[0]);
   EXPECT_EQ(found[1], this->balls[1]);
@@ -55,10 +55,10 @@ TYPED_TEST(QueriesOf, bodies_in_a_box_come_ascending_by_slot) {
 
 TYPED_TEST(QueriesOf, a_question_that_is_refused_leaves_its_fault_in_the_journal) {
   using S = TypeParam;
-  EXPECT_FALSE(this->queries.closest(vec<S>(0, 0, 0), S(-1), {}));
+  EXPECT_FALSE(this->queries.closest_point(vec<S>(0, 0, 0), S(-1), {}));
   EXPECT_EQ(this->journal.fault().fault, Fault::bad_argument);
   EXPECT_STREQ(this->journal.fault().field, "max_distance");
-  EXPECT_STREQ(this->journal.fault().command, "closest");
+  EXPECT_STREQ(this->journal.fault().command, "closest_point");
 }
 
 }  // namespace

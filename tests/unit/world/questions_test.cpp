@@ -138,15 +138,15 @@ TYPED_TEST(WorldQuestions, a_query_does_not_see_who_is_to_be_ignored) {
   EXPECT_EQ(w.cast_ray(here, along, filter)->body, eye);
   filter.ignore = eye;
   EXPECT_EQ(w.cast_ray(here, along, filter)->body, other);
-  EXPECT_EQ(w.closest(here, S(4), filter)->body, other);
+  EXPECT_EQ(w.closest_point(here, S(4), filter)->body, other);
   std::vector<RayCastHit<S>> hits;
   w.cast_ray_all(here, along, hits, filter);
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_EQ(hits[0].body, other);
   std::vector<BodyId> near, over;
-  w.bodies_near(Aabb<S>::around(here, vec<S>(4, 1, 1)), near, filter);
+  w.overlap_aabb(Aabb<S>::around(here, vec<S>(4, 1, 1)), near, filter);
   EXPECT_EQ(near, std::vector<BodyId>{other});
-  w.overlapping(primitive_of(Sphere<S>{S(4)}), Pose<S>{here, Quat<Unit<S>>::identity()}, over, filter);
+  w.overlap_shape(primitive_of(Sphere<S>{S(4)}), Pose<S>{here, Quat<Unit<S>>::identity()}, over, filter);
   EXPECT_EQ(over, std::vector<BodyId>{other});
   filter.ignore = gone;
   EXPECT_EQ(w.cast_ray(here, along, filter)->body, eye) << "a stale id ignores nobody";
@@ -175,7 +175,7 @@ TYPED_TEST(WorldQuestions, of_two_bodies_in_one_place_a_ray_and_a_point_find_the
   const BodyId late = w.create(still<S>(box, {3, 1, 0}));
   EXPECT_EQ(late.slot, twins[1].slot);
   EXPECT_EQ(w.cast_ray(vec<S>(-4, 1, 0), vec<S>(16, 0, 0))->body, late);
-  EXPECT_EQ(w.closest(vec<S>(3, 3, 0), S(4))->body, late);
+  EXPECT_EQ(w.closest_point(vec<S>(3, 3, 0), S(4))->body, late);
 }
 
 TYPED_TEST(WorldQuestions, the_closest_body_is_the_closest_of_all) {
@@ -186,7 +186,7 @@ TYPED_TEST(WorldQuestions, the_closest_body_is_the_closest_of_all) {
   for (int i = 0; i < 200; ++i) {
     const Vec3<S> point = vec<S>(dice.point(5) + D3{0, 4, 0});
     const S reach = num<S>(dice.in(0, 3));
-    const auto found = w.closest(point, reach);
+    const auto found = w.closest_point(point, reach);
     std::optional<S> best;
     BodyId nearest;
     this->visit_parts({}, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
@@ -215,7 +215,7 @@ TYPED_TEST(WorldQuestions, an_overlap_names_every_body_it_meets_once_in_order) {
     const Pose<S> pose = {vec<S>(dice.point(2.5) + D3{0, 1.5, 0}), dice.orientation<S>()};
     const Primitive<S> shape = i % 2 == 0 ? primitive_of(Box<S>{vec<S>(0.75, 0.5, 1)}) : primitive_of(Sphere<S>{S(1)});
     std::vector<BodyId> found, expected;
-    w.overlapping(shape, pose, found);
+    w.overlap_shape(shape, pose, found);
     this->visit_parts({}, [&](BodyId id, const Primitive<S>& primitive, const Transform<S>& at) {
       Manifold<S> manifold;
       const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation});
@@ -249,10 +249,10 @@ TYPED_TEST(WorldQuestions, masks_and_sensors_decide_what_is_seen) {
   EXPECT_EQ(w.cast_ray(right, -along)->body, tagged);
   EXPECT_EQ(w.cast_ray(right, -along, {0xffffffffu, true})->body, sensor);
   EXPECT_FALSE(w.cast_ray(left, along, {1, false}).has_value());
-  EXPECT_EQ(w.closest(right, S(10), {4, true})->body, sensor);
-  EXPECT_FALSE(w.closest(right, S(10), {4, false}).has_value());
+  EXPECT_EQ(w.closest_point(right, S(10), {4, true})->body, sensor);
+  EXPECT_FALSE(w.closest_point(right, S(10), {4, false}).has_value());
   std::vector<BodyId> found;
-  w.overlapping(primitive_of(Sphere<S>{S(4)}), Pose<S>::identity(), found, {0xffffffffu, true});
+  w.overlap_shape(primitive_of(Sphere<S>{S(4)}), Pose<S>::identity(), found, {0xffffffffu, true});
   EXPECT_EQ(found, (std::vector<BodyId>{tagged, sensor}));
 }
 
@@ -262,10 +262,10 @@ TYPED_TEST(WorldQuestions, questions_that_cannot_be_answered_find_nothing) {
   const Vec3<S> outside = {Limits<S>::position() + S(1), S(0), S(0)};
   EXPECT_FALSE(w.cast_ray(outside, vec<S>(-1, 0, 0)).has_value());
   EXPECT_FALSE(w.cast_ray(vec<S>(0, 5, 0), outside).has_value());
-  EXPECT_FALSE(w.closest(outside, S(1)).has_value());
-  EXPECT_FALSE(w.closest(vec<S>(0, 1, 0), S(-1)).has_value());
+  EXPECT_FALSE(w.closest_point(outside, S(1)).has_value());
+  EXPECT_FALSE(w.closest_point(vec<S>(0, 1, 0), S(-1)).has_value());
   std::vector<BodyId> found;
-  w.overlapping(primitive_of(Sphere<S>{S(-1)}), Pose<S>::identity(), found);
+  w.overlap_shape(primitive_of(Sphere<S>{S(-1)}), Pose<S>::identity(), found);
   EXPECT_TRUE(found.empty());
 }
 
@@ -361,14 +361,14 @@ TYPED_TEST(WorldQuestions, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_a
   std::vector<BodyId> line;
   for (int i = 0; i < 60; ++i) {
     BodyDefinition<S> d = moving<S>(ball, {2.0 * (59 - i), 0, 0}, {0, 0, 1});
-    d.type = i % 2 == 0 ? BodyType::fixed : BodyType::dynamic;
+    d.type = i % 2 == 0 ? BodyType::static_ : BodyType::dynamic;
     d.filter.category = i % 3 == 0 ? 2u : 1u;
     d.sensor = i % 5 == 0;
     line.push_back(w.create(d));
   }
   const auto near = [&](double from, double to, QueryFilter filter) {
     std::vector<BodyId> found = {line[7]};  // appended to
-    w.bodies_near({vec<S>(from, -0.25, -0.25), vec<S>(to, 0.25, 0.25)}, found, filter);
+    w.overlap_aabb({vec<S>(from, -0.25, -0.25), vec<S>(to, 0.25, 0.25)}, found, filter);
     return found;
   };
   for (const auto& [from, to] : {std::pair{0.0, 118.0}, std::pair{9.3, 20.7}, std::pair{10.7, 11.3}}) {

@@ -16,7 +16,7 @@ template <class S> class Overlaps : public ::testing::Test {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 4; ++i) {
       BodyDefinition<S> d = moving<S>(ball, {0, 0, 0});
-      if (i == 0) d.type = BodyType::fixed;
+      if (i == 0) d.type = BodyType::static_;
       d.sensor = i == 0;
       bodies[i] = world.create(d);
     }

@@ -196,7 +196,7 @@ TYPED_TEST(WorldSleep, removing_the_support_wakes_what_it_bore_and_lets_it_fall)
 
 TYPED_TEST(WorldSleep, a_support_moved_away_wakes_what_it_bore) {
   using S = TypeParam;
-  for (const BodyType type : {BodyType::fixed, BodyType::kinematic}) {
+  for (const BodyType type : {BodyType::static_, BodyType::kinematic}) {
     World<S> w(settings<S>());
     const ShapeId cube = add_box(w, 0.5, 0.5, 0.5);
     BodyDefinition<S> d = still<S>(cube);
@@ -255,7 +255,7 @@ TYPED_TEST(WorldSleep, a_kinematic_body_at_rest_lets_its_load_sleep_and_wakes_it
       w.step();
       ASSERT_TRUE(w.is_awake(load)) << "carried at " << speed << " m/s";
     }
-    EXPECT_NEAR(to_double(w.centre(load).y) - to_double(w.centre(lift).y), 0.75, 0.02);
+    EXPECT_NEAR(to_double(w.center_of_mass(load).y) - to_double(w.center_of_mass(lift).y), 0.75, 0.02);
     EXPECT_NEAR(to_double(w.velocity(load).y), speed, 0.01);
     ASSERT_TRUE(w.set_velocity(lift, Vec3<S>::zero(), Vec3<S>::zero()));
     for (int i = 0; i < 120; ++i) w.step();
@@ -265,9 +265,9 @@ TYPED_TEST(WorldSleep, a_kinematic_body_at_rest_lets_its_load_sleep_and_wakes_it
 
 TYPED_TEST(WorldSleep, what_hangs_from_a_body_wakes_when_that_body_is_moved) {
   using S = TypeParam;
-  for (const BodyType type : {BodyType::kinematic, BodyType::fixed}) {
+  for (const BodyType type : {BodyType::kinematic, BodyType::static_}) {
     for (const bool teleport : {true, false}) {
-      if (type == BodyType::fixed && !teleport) continue;
+      if (type == BodyType::static_ && !teleport) continue;
       World<S> w(settings<S>());
       const ShapeId ball = add_ball(w, 0.25);
       BodyDefinition<S> d = still<S>(ball, {0, 10, 0});
@@ -285,7 +285,7 @@ TYPED_TEST(WorldSleep, what_hangs_from_a_body_wakes_when_that_body_is_moved) {
       else ASSERT_TRUE(w.set_velocity(hook, vec<S>(1, 0, 0), Vec3<S>::zero()));
       run(w, 30);
       EXPECT_TRUE(w.is_awake(bob));
-      EXPECT_GT(to_double(w.centre(bob).x), 0.02);
+      EXPECT_GT(to_double(w.center_of_mass(bob).x), 0.02);
     }
   }
 }
@@ -304,12 +304,12 @@ TYPED_TEST(WorldSleep, a_body_joined_to_a_kinematic_that_creeps_stays_awake) {
   rope.lower = rope.upper = S(4);
   ASSERT_TRUE(w.create(rope));
   run(w, 240);
-  EXPECT_NEAR(to_double(w.centre(hook).y) - to_double(w.centre(bob).y), 4, 0.01);
+  EXPECT_NEAR(to_double(w.center_of_mass(hook).y) - to_double(w.center_of_mass(bob).y), 4, 0.01);
 }
 
 TYPED_TEST(WorldSleep, a_body_made_inside_sleepers_wakes_them_whatever_its_kind) {
   using S = TypeParam;
-  for (const BodyType type : {BodyType::fixed, BodyType::kinematic, BodyType::dynamic}) {
+  for (const BodyType type : {BodyType::static_, BodyType::kinematic, BodyType::dynamic}) {
     World<S> w(settings<S>());
     add_ground(w);
     const ShapeId cube = add_box(w, 0.5, 0.5, 0.5);
@@ -353,7 +353,7 @@ TYPED_TEST(WorldSleep, a_slow_drifter_with_no_force_on_it_is_not_put_to_sleep_ab
   const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}, {0.06, 0, 0}));
   run(w, 600);
   EXPECT_TRUE(w.is_awake(id));
-  EXPECT_NEAR(to_double(w.centre(id).x), 0.6, 0.01);
+  EXPECT_NEAR(to_double(w.center_of_mass(id).x), 0.6, 0.01);
 }
 
 }  // namespace

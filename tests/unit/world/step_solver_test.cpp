@@ -61,7 +61,7 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_of_the_state
     chosen.colour_constraints(context);
     chosen.prepare(context);
     chosen.solve_substeps(context);
-    chosen.restitute(context);
+    chosen.apply_restitution(context);
     chosen.store_impulses(context);
   });
   EXPECT_NEAR(to_double(this->rooms.awake(this->awake).centre.y), 2.1, 1e-5);

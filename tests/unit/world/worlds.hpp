@@ -58,7 +58,7 @@ template <class S> BodyDefinition<S> moving(ShapeId shape, D3 position, D3 veloc
 }
 template <class S> BodyDefinition<S> still(ShapeId shape, D3 position = {0, 0, 0}) {
   BodyDefinition<S> d = moving<S>(shape, position);
-  d.type = BodyType::fixed;
+  d.type = BodyType::static_;
   return d;
 }
 template <class S> ShapeId add_box(World<S>& world, double x, double y, double z) {

@@ -218,7 +218,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
   }
 
-  static void restitute(const BlockRun<S>& run, const ContactPass<S>& pass) {
+  static void apply_restitution(const BlockRun<S>& run, const ContactPass<S>& pass) {
     const V threshold = V::zero() - V::broadcast(pass.restitution_speed);
     for (std::int32_t i = 0; i < run.count; ++i) {
       ContactBlock<S, W, P>& c = contact_of(static_cast<Block*>(run.blocks)[i]);
@@ -252,7 +252,7 @@ template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_ke
     table.warm_start[variant] = &Kernel::warm_start;
     table.solve[variant] = &Kernel::template solve<false>;
     table.relax[variant] = &Kernel::template solve<true>;
-    table.restitute[variant] = &Kernel::restitute;
+    table.apply_restitution[variant] = &Kernel::apply_restitution;
   };
   fill.template operator()<1, false>();
   fill.template operator()<2, false>();

@@ -44,8 +44,8 @@ template <class S> struct PrepareRun {
   const ContactGeometry<S>* geometry;
   const MotionRow<Velocity<S>>* velocity;
   const SolverMass<S>* mass;
-  S lift;       // [1] an overlap counts as deeper by this much of itself
-  S most_lift;  // [m] but by no more than this
+  S penetration_bias;  // [1] an overlap counts as deeper by this much of itself
+  S most_bias;         // [m] but by no more than this
 };
 
 /// Blocks of one shape whose impulses go back to their contacts.
@@ -70,7 +70,7 @@ template <class S> struct ContactKernels {
   void (*warm_start[kContactVariants])(const BlockRun<S>&);
   void (*solve[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
   void (*relax[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
-  void (*restitute[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
+  void (*apply_restitution[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 
 /// The kernels for `simd`. Null when the processor or build lacks it; never for `best`. Every scalar has its own full

@@ -248,14 +248,14 @@ template <class S, int W, class Isa> struct ContactPreparer {
     Arms sum = {{L::zero(), L::zero(), L::zero()}, {L::zero(), L::zero(), L::zero()}};
     Arms first = sum;
     Vec3<L> arms_b[kMaxContactPoints];
-    const L lift = L::broadcast(run.lift), most_lift = L::broadcast(run.most_lift);
+    const L bias = L::broadcast(run.penetration_bias), most_bias = L::broadcast(run.most_bias);
     for (int p = 0; p < run.points; ++p) {
       NormalRow<S, W>& row = block.normals[p];
       L separation;
       const Arms arms = gather_point(geometry, p, separation);
       const V impulse = impulses.normal[p];
       make.pushing(n, arms, impulse, row.row);
-      convert<V>(separation - min(lift * max(-separation, L::zero()), most_lift)).store(row.separation);
+      convert<V>(separation - min(bias * max(-separation, L::zero()), most_bias)).store(row.separation);
       round_to<V>(dot_sum(relative_velocity(a, b, arms), normal)).store(row.approach);
       (-impulse).store(row.total_impulse);  // the first warm start is the last step's
       total = total + impulse;

@@ -37,7 +37,7 @@ template <class S> class DirectSolver {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void restitute(const StepContext<S>& context);
+  void apply_restitution(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
   /// Some solve was swept, or its pivots came to no end.
   std::uint32_t unsolved() const;

@@ -161,7 +161,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
   }
 }
 
-template <class S> void DirectSolver<S>::restitute(const StepContext<S>& context) {
+template <class S> void DirectSolver<S>::apply_restitution(const StepContext<S>& context) {
   for (std::uint32_t i = 0; i < island_count_; ++i) {
     Island& island = islands_[i];
     if (!bounces(context, island)) continue;

@@ -17,7 +17,7 @@ template <class S> struct Schedule {
   bool relaxes;           // one more pass over contacts without push, after positions; joints always get it
   JointOrder joint_order;
   Softness<S> contact_softness, joint_softness;
-  S lift;  // [1] an overlap that a step begins with counts as deeper by this much of itself
+  S penetration_bias;  // [1] an overlap that a step begins with counts as deeper by this much of itself
 };
 
 namespace detail {
@@ -25,17 +25,17 @@ namespace detail {
 // Contacts are springs of an eighth of the sub-step rate. A quarter, all that one spring alone allows, leaves a wall of
 // 210 boxes trembling at 1e-3 J/kg, an eighth at 1e-9: springs that share a body stiffen one another and one pass over
 // them does not converge. Nor do they at a damping of 5.5: 2e-7. Softer ones sag: a stack of n boxes would sag
-// 4.5 n^2 / substeps^2 mm without kLift, and one that would sag 100 buckles. The angle a sub-step is pi / 4 whatever
+// 4.5 n^2 / substeps^2 mm without kPenetrationBias, and one that would sag 100 buckles. The angle a sub-step is pi / 4 whatever
 // the rate, and so the coefficients are constants.
 template <class S> inline constexpr S kContactAngle = S(0.785398163397448309616);  // [rad]
 template <class S> inline constexpr S kContactDamping = S(4.5);                    // [1] of critical
 
-// Sag lasts, trembling does not. So a step aims not at touching but higher, by kLift of the overlap it begins with:
-// springs are stiffer by that against what outlasts a step, no stiffer within it. Rest is at 1 / (1 + kLift) of the
-// sag. From step to step an error turns into -kLift of itself at most: below 1 it dies out whatever the sub-steps. Deep
+// Sag lasts, trembling does not. So a step aims not at touching but higher, by kPenetrationBias of the overlap it begins with:
+// springs are stiffer by that against what outlasts a step, no stiffer within it. Rest is at 1 / (1 + kPenetrationBias) of the
+// sag. From step to step an error turns into -kPenetrationBias of itself at most: below 1 it dies out whatever the sub-steps. Deep
 // overlap comes of impacts, which need no more push; the bound also keeps what is added small in every format.
-template <class S> inline constexpr S kLift = S(0.5);           // [1]
-template <class S> inline constexpr S kMostLift = S(1.0 / 64);  // [m]
+template <class S> inline constexpr S kPenetrationBias = S(0.5);           // [1]
+template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m]
 
 // One relaxation takes back what pushes one overlap apart, not what many push against each other: thirty capsules of
 // 20 cm that begin in one place left it at 7 m/s. Contacts deeper than bodies sag are relaxed so often again: 2 m/s.
@@ -59,7 +59,7 @@ template <class S> Schedule<S> soft_step_schedule(const StepContext<S>& context)
           JointOrder::trees,
           soften(detail::kContactAngle<S>, detail::kContactDamping<S>, S(rate)),
           joint_softness(S(rate)),
-          detail::kLift<S>};
+          detail::kPenetrationBias<S>};
 }
 
 /// Source:  Catto 2005, Iterative Dynamics with Temporal Coherence (GDC); Baumgarte 1972, Stabilization of constraints.

@@ -35,7 +35,7 @@ template <class S> class Sequential {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void restitute(const StepContext<S>& context);
+  void apply_restitution(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
   ISO_INLINE std::uint32_t unsolved() const { return 0; }  // it does what it does to all alike
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
@@ -73,7 +73,7 @@ template <class S> class Sequential {
     relax_joints,
     relax,
     store_joints,
-    restitute,
+    apply_restitution,
     store,
     store_bodies,
   };

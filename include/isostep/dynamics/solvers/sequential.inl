@@ -154,8 +154,8 @@ template <class S> void Sequential<S>::prepare_slice(const StepContext<S>& conte
   const SolverBodies<S>& bodies = bodies_.rows();
   run.kernels->prepare({memory_.data() + place_of(run, slice.first), &block_bodies_[run.first_block + slice.first],
                         part.count, shape.points, shape.rolling, &order_[part.first], context.contacts.data(),
-                        context.geometry.data(), bodies.velocity.data(), bodies.mass.data(), schedule_.lift,
-                        detail::kMostLift<S>});
+                        context.geometry.data(), bodies.velocity.data(), bodies.mass.data(), schedule_.penetration_bias,
+                        detail::kMostPenetrationBias<S>});
 }
 
 template <class S> void Sequential<S>::store_slice(const StepContext<S>& context, const PassPlan::Slice& slice) {

@@ -68,7 +68,7 @@ template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
     case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
     case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
-    case Work::restitute: return run.kernels->restitute[run.variant](blocks_of(slice), job.pass);
+    case Work::apply_restitution: return run.kernels->apply_restitution[run.variant](blocks_of(slice), job.pass);
     case Work::store: return store_slice(job.context, slice);
     default: return;
   }
@@ -124,10 +124,10 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
   if (context.watched) run(context);
 }
 
-template <class S> void Sequential<S>::restitute(const StepContext<S>& context) {
+template <class S> void Sequential<S>::apply_restitution(const StepContext<S>& context) {
   bool bounces = false;
   for (const ContactGeometry<S>& g : context.geometry) bounces = bounces || g.material.restitution > S(0);
-  if (bounces) add_stages(Work::restitute, colours_[detail::kShallow]);
+  if (bounces) add_stages(Work::apply_restitution, colours_[detail::kShallow]);
   if (context.watched) run(context);
 }
 

@@ -11,8 +11,8 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
-#include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/dynamics/solver_name.hpp"
+#include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {
@@ -56,7 +56,7 @@ template <class S> struct StepContext {
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.
-enum class SolverStage : std::uint32_t { colour, prepare, solve, restitute, store };
+enum class SolverStage : std::uint32_t { colour, prepare, solve, apply_restitution, store };
 
 namespace detail {
 template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);  // [m/s] overlap ends no faster

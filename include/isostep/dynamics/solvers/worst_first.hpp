@@ -7,7 +7,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/island_budgets.hpp"
-#include "isostep/core/knockout_tree.hpp"
+#include "isostep/core/tournament_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
@@ -46,7 +46,7 @@ template <class S> class WorstFirstResolver {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void restitute(const StepContext<S>&) {}  // done with the impacts
+  void apply_restitution(const StepContext<S>&) {}  // done with the impacts
   void store_impulses(const StepContext<S>& context);
   /// As often as a pass left them.
   ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
@@ -111,7 +111,7 @@ template <class S> class WorstFirstResolver {
   std::vector<std::uint32_t> neighbours_;  // rows that can move a body, ascending
   IslandBudgets budgets_;                  // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
-  KnockoutTree worst_;                     // of urgency_
+  TournamentTree worst_;                   // of urgency_
   std::uint32_t islands_left_ = 0;         // by the passes of this step, with something still to be done
 };
 

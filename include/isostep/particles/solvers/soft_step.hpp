@@ -25,7 +25,7 @@ template <class S> class ParticleSoftStep {
   /// Integration, and the rows held.
   void solve_substep();
   /// What came fast goes back as its restitution says, once, after the step.
-  void restitute();
+  void apply_restitution();
 
   template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
 

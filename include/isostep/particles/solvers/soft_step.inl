@@ -204,7 +204,7 @@ template <class S> void ParticleSoftStep<S>::note_meetings() {
   }
 }
 
-template <class S> void ParticleSoftStep<S>::restitute() {
+template <class S> void ParticleSoftStep<S>::apply_restitution() {
   for (Row& row : rows_.all()) {
     if (!(S(0) < row.restitution) || !(V(0) < row.impulse_seen) || !(row.approach < -kLeastBounce<S>)) continue;
     const V speed = detail::separating_speed(row, state_.velocity);

@@ -8,7 +8,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/island_budgets.hpp"
-#include "isostep/core/knockout_tree.hpp"
+#include "isostep/core/tournament_tree.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/constraint.hpp"
 #include "isostep/particles/limits.hpp"
@@ -130,7 +130,7 @@ template <class S> class WorstFirst {
   std::vector<std::uint8_t> touched_;      // by row
   std::vector<Urgency> urgency_;           // by row
   IslandBudgets budgets_;                  // of a call
-  KnockoutTree worst_;                     // of urgency_
+  TournamentTree worst_;                   // of urgency_
   S rate_ = S(0);                          // [1/s] of a call, as lags_
   bool lags_ = false;
   std::uint32_t iterations_ = 0;

@@ -1,6 +1,6 @@
-// KnockoutTree: the first by linear search, whoever changed and in whatever order.
+// TournamentTree: the first by linear search, whoever changed and in whatever order.
 // SPDX-License-Identifier: MIT
-#include "isostep/core/knockout_tree.hpp"
+#include "isostep/core/tournament_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ struct Field {
   }
 };
 
-TEST(KnockoutTree, the_first_is_what_linear_search_finds_after_every_change) {
+TEST(TournamentTree, the_first_is_what_linear_search_finds_after_every_change) {
   std::mt19937 random(3);
-  KnockoutTree tree;
+  TournamentTree tree;
   for (const std::uint32_t count : {1u, 2u, 3u, 7u, 64u, 100u, 33u}) {  // one tree: it shrinks too
     Field field;
     for (std::uint32_t i = 0; i < count; ++i) field.rank.push_back(static_cast<int>(random() % 10));
@@ -42,10 +42,10 @@ TEST(KnockoutTree, the_first_is_what_linear_search_finds_after_every_change) {
   }
 }
 
-TEST(KnockoutTree, the_answer_does_not_depend_on_the_order_of_changes) {
+TEST(TournamentTree, the_answer_does_not_depend_on_the_order_of_changes) {
   Field field;
   field.rank = {5, 5, 5, 5, 5, 5};
-  KnockoutTree forward, backward;
+  TournamentTree forward, backward;
   forward.plant(6, field.before());
   backward.plant(6, field.before());
   field.rank = {4, 3, 3, 9, 3, 4};

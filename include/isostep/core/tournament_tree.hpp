@@ -1,4 +1,4 @@
-// KnockoutTree: the first of many by an order that changes, at O(log n) a change.
+// TournamentTree: the first of many by an order that changes, at O(log n) a change.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@ namespace isostep {
 
 /// Players 0..count-1 meet in pairs, the winners in pairs, and so on. `before(i, j)` is a strict total order of
 /// players, so the answer depends on who plays, not on the order in which they changed.
-class KnockoutTree {
+class TournamentTree {
  public:
   /// All meet anew.
   template <class Before> ISO_INLINE void plant(std::uint32_t count, const Before& before) {
