@@ -31,7 +31,7 @@ template <class S> SleeperRow measure(int sleeping, const ScaleOptions& options)
   SleeperRow row;
   row.awake = world.counts().awake;
   row.asleep = world.counts().asleep;
-  row.islands = static_cast<unsigned>(world.state().frozen.size());
+  row.islands = static_cast<unsigned>(world.state().sleeping.size());
   typename World<S>::Snapshot settled;
   std::array<typename World<S>::Snapshot, kKept> ring;
   world.save(settled);

@@ -24,7 +24,7 @@ template <class S, class Visit> void each_body(const WorldState<S>& state, Visit
   };
   each(*state.fixed);
   each(state.awake);
-  for (const auto& island : state.frozen) each(island->bodies);
+  for (const auto& island : state.sleeping) each(island->bodies);
 }
 
 /// A part of a body, with its bounds.
@@ -93,7 +93,7 @@ template <class S> std::set<std::pair<std::uint32_t, std::uint32_t>> joined_pair
     }
   };
   each(state.joints);
-  for (const auto& island : state.frozen) each(island->joints);
+  for (const auto& island : state.sleeping) each(island->joints);
   return pairs;
 }
 

@@ -16,7 +16,7 @@ struct Location {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kFixed = 0xfffffffeu;
   static constexpr std::uint32_t kAwake = 0xfffffffdu;
-  std::uint32_t set = kNone;  // one of the above, or an index into WorldState::frozen
+  std::uint32_t set = kNone;  // one of the above, or an index into WorldState::sleeping
   std::uint32_t index = 0;
 
   ISO_INLINE bool is_asleep() const { return set < kAwake; }
@@ -69,7 +69,7 @@ template <class S> class BodyMap {
   ISO_INLINE void place_joint(std::uint32_t slot, Location at) { joint_locations_[slot] = at; }
   /// Counts the bodies that an island's contacts and joints name. `by`: 1 when it falls asleep; modulo 2^32, -1 when it
   /// wakes.
-  void count_names(const FrozenIsland<S>& island, std::uint32_t by);
+  void count_names(const SleepingIsland<S>& island, std::uint32_t by);
   /// For every slot that the state has handed out.
   void make_room();
 

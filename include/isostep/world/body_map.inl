@@ -20,12 +20,12 @@ template <class S> std::uint32_t BodyMap<S>::row_of(std::uint32_t slot) const {
 template <class S> const BodyState<S>& BodyMap<S>::state_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.states[at.index];
   if (at.set == Location::kFixed) return state_.fixed->states[at.index];
-  return state_.frozen[at.set]->bodies.states[at.index];
+  return state_.sleeping[at.set]->bodies.states[at.index];
 }
 template <class S> const BodyProperties<S>& BodyMap<S>::properties_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.properties[at.index];
   if (at.set == Location::kFixed) return state_.fixed->properties[at.index];
-  return state_.frozen[at.set]->bodies.properties[at.index];
+  return state_.sleeping[at.set]->bodies.properties[at.index];
 }
 template <class S> const BodyState<S>* BodyMap<S>::state_of(BodyId body) const {
   const Location at = locate(body);
@@ -38,7 +38,7 @@ template <class S> const BodyProperties<S>* BodyMap<S>::properties_of(BodyId bod
 template <class S> const JointProperties<S>* BodyMap<S>::properties_of(JointId joint) const {
   if (!state_.joint_slots.holds(joint)) return nullptr;
   const Location at = joint_locations_[joint.slot];
-  const JointSet<S>& set = at.is_asleep() ? state_.frozen[at.set]->joints : state_.joints;
+  const JointSet<S>& set = at.is_asleep() ? state_.sleeping[at.set]->joints : state_.joints;
   return &set.properties[at.index];
 }
 template <class S> BodyProperties<S>& BodyMap<S>::change_properties(std::uint32_t slot) {
@@ -105,7 +105,7 @@ template <class S> void BodyMap<S>::erase_joint(std::uint32_t slot) {
   relabel(state_.joints, Location::kAwake, index);
 }
 
-template <class S> void BodyMap<S>::count_names(const FrozenIsland<S>& island, std::uint32_t by) {
+template <class S> void BodyMap<S>::count_names(const SleepingIsland<S>& island, std::uint32_t by) {
   for (const Contact<S>& contact : island.contacts) {
     names_[contact.key.body_a] += by;
     names_[contact.key.body_b] += by;

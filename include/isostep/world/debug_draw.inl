@@ -23,18 +23,18 @@ template <class S> class BodySketch {
     if (any) {
       draw_set(*state_.fixed, false, DrawnBody::kNoIsland);
       draw_set(state_.awake, true, DrawnBody::kNoIsland);
-      for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) draw_set(state_.frozen[i]->bodies, false, i);
+      for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) draw_set(state_.sleeping[i]->bodies, false, i);
     }
-    for (std::uint32_t i = 0; options_.islands && i < state_.frozen.size(); ++i) draw_island(*state_.frozen[i], i);
+    for (std::uint32_t i = 0; options_.islands && i < state_.sleeping.size(); ++i) draw_island(*state_.sleeping[i], i);
     if (options_.contacts) {
       for (const Contact<S>& contact : state_.contacts) draw_contact(contact, false);
-      for (const auto& island : state_.frozen) {
+      for (const auto& island : state_.sleeping) {
         for (const Contact<S>& contact : island->contacts) draw_contact(contact, true);
       }
     }
     if (!options_.joints) return;
     draw_joints(state_.joints, false);
-    for (const auto& island : state_.frozen) draw_joints(island->joints, true);
+    for (const auto& island : state_.sleeping) draw_joints(island->joints, true);
   }
 
  private:
@@ -114,7 +114,7 @@ template <class S> class BodySketch {
     to_.mass(mass);
   }
 
-  ISO_INLINE void draw_island(const FrozenIsland<S>& island, std::uint32_t index) const {
+  ISO_INLINE void draw_island(const SleepingIsland<S>& island, std::uint32_t index) const {
     Aabb<S> bounds = island.bodies.states[0].fat;
     for (const BodyState<S>& state : island.bodies.states) bounds = merge(bounds, state.fat);
     DrawnIsland drawn = {index,

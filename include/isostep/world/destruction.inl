@@ -97,7 +97,7 @@ template <class S> void Destruction<S>::destroy_joints_of(std::uint32_t slot) {
   };
   look(state_.joints);
   if (map_.names(slot) != 0) {
-    for (const auto& island : state_.frozen) look(island->joints);
+    for (const auto& island : state_.sleeping) look(island->joints);
   }
   std::vector<std::uint64_t> scratch(found.size());
   stable_sort(found.data(), scratch.data(), static_cast<std::uint32_t>(found.size()), OwnKey{});

@@ -15,7 +15,7 @@ namespace isostep {
 
 /// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints.
 /// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
-///          WorldState::frozen; the ids of their bodies. The body map and the broad phase know of it.
+///          WorldState::sleeping; the ids of their bodies. The body map and the broad phase know of it.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class IslandSleep {
  public:
@@ -36,8 +36,8 @@ template <class S> class IslandSleep {
   void find_island_clocks();
   bool mark_ready_islands();
 
-  FrozenIsland<S>* island_of(std::size_t index);
-  FrozenIsland<S>* island_of_either(std::uint32_t slot_a, std::uint32_t slot_b);
+  SleepingIsland<S>* island_of(std::size_t index);
+  SleepingIsland<S>* island_of_either(std::uint32_t slot_a, std::uint32_t slot_b);
   void move_contacts();
   void move_joints();
   void move_bodies(std::vector<BodyId>& fell_asleep);
@@ -48,7 +48,7 @@ template <class S> class IslandSleep {
   Proxies<S>& proxies_;
   DisjointSets islands_;              // of indices of awake bodies
   std::vector<std::uint32_t> clock_;  // by island: the least of its bodies', then 1 if it falls asleep and 0 if not
-  std::vector<std::shared_ptr<FrozenIsland<S>>> asleep_;  // by island
+  std::vector<std::shared_ptr<SleepingIsland<S>>> asleep_;  // by island
 };
 
 }  // namespace isostep

@@ -126,16 +126,16 @@ template <class S> bool IslandSleep<S>::mark_ready_islands() {
 }
 
 /// Of the awake body at that index; null if it stays awake.
-template <class S> FrozenIsland<S>* IslandSleep<S>::island_of(std::size_t index) {
+template <class S> SleepingIsland<S>* IslandSleep<S>::island_of(std::size_t index) {
   const std::uint32_t root = islands_.find(static_cast<std::uint32_t>(index));
   if (clock_[root] == 0) return nullptr;
-  if (asleep_[root] == nullptr) asleep_[root] = std::make_shared<FrozenIsland<S>>();
+  if (asleep_[root] == nullptr) asleep_[root] = std::make_shared<SleepingIsland<S>>();
   return asleep_[root].get();
 }
-template <class S> FrozenIsland<S>* IslandSleep<S>::island_of_either(std::uint32_t slot_a, std::uint32_t slot_b) {
+template <class S> SleepingIsland<S>* IslandSleep<S>::island_of_either(std::uint32_t slot_a, std::uint32_t slot_b) {
   for (const std::uint32_t slot : {slot_a, slot_b}) {
     if (slot == kNoBody || map_.location(slot).set != Location::kAwake) continue;
-    FrozenIsland<S>* island = island_of(map_.location(slot).index);
+    SleepingIsland<S>* island = island_of(map_.location(slot).index);
     if (island != nullptr) return island;
   }
   return nullptr;
@@ -144,7 +144,7 @@ template <class S> FrozenIsland<S>* IslandSleep<S>::island_of_either(std::uint32
 template <class S> void IslandSleep<S>::move_contacts() {
   std::size_t kept = 0;
   for (const Contact<S>& contact : state_.contacts) {
-    FrozenIsland<S>* island = island_of_either(contact.key.body_a, contact.key.body_b);
+    SleepingIsland<S>* island = island_of_either(contact.key.body_a, contact.key.body_b);
     if (island != nullptr) island->contacts.push_back(contact);
     else state_.contacts[kept++] = contact;
   }
@@ -155,7 +155,7 @@ template <class S> void IslandSleep<S>::move_joints() {
   std::size_t kept = 0;
   JointSet<S>& joints = state_.joints;
   for (std::size_t i = 0; i < joints.states.size(); ++i) {
-    FrozenIsland<S>* island = island_of_either(joints.properties[i].body_a, joints.properties[i].body_b);
+    SleepingIsland<S>* island = island_of_either(joints.properties[i].body_a, joints.properties[i].body_b);
     if (island != nullptr) {
       island->joints.states.push_back(joints.states[i]);
       island->joints.properties.push_back(joints.properties[i]);
@@ -172,7 +172,7 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
   std::size_t kept = 0;
   BodySet<S>& awake = state_.awake;
   for (std::size_t i = 0; i < awake.states.size(); ++i) {
-    FrozenIsland<S>* island = island_of(i);
+    SleepingIsland<S>* island = island_of(i);
     if (island != nullptr) {
       BodyState<S> still = awake.states[i];
       still.velocity = Vec3<Velocity<S>>::zero();
@@ -193,16 +193,16 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
 template <class S> void IslandSleep<S>::list_islands() {
   map_.relabel(state_.awake, Location::kAwake, 0);
   map_.relabel(state_.joints, Location::kAwake, 0);
-  for (const std::shared_ptr<FrozenIsland<S>>& island : asleep_) {
+  for (const std::shared_ptr<SleepingIsland<S>>& island : asleep_) {
     if (island == nullptr) continue;
     island->hash = detail::hash_sections(*island);
-    const auto name = static_cast<std::uint32_t>(state_.frozen.size());
+    const auto name = static_cast<std::uint32_t>(state_.sleeping.size());
     map_.relabel(island->bodies, name, 0);
     map_.relabel(island->joints, name, 0);
     for (std::size_t i = 0; i < island->bodies.states.size(); ++i)
       proxies_.place(island->bodies.states[i], island->bodies.properties[i], false);
     map_.count_names(*island, 1);
-    state_.frozen.push_back(island);
+    state_.sleeping.push_back(island);
   }
   asleep_.clear();
 }

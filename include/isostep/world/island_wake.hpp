@@ -47,7 +47,7 @@ template <class S> class IslandWake {
   /// A record of an island, to be sorted into the awake ones.
   struct Record {
     std::uint64_t key;  // its place among the awake ones
-    const FrozenIsland<S>* island;
+    const SleepingIsland<S>* island;
     std::size_t index;
   };
   struct ByKey {
@@ -64,7 +64,8 @@ template <class S> class IslandWake {
   WorldState<S>& state_;
   BodyMap<S>& map_;
   Proxies<S>& proxies_;
-  std::vector<std::shared_ptr<const FrozenIsland<S>>> unlisted_;  // off the state's list, not yet among the awake ones
+  std::vector<std::shared_ptr<const SleepingIsland<S>>>
+      unlisted_;  // off the state's list, not yet among the awake ones
   std::vector<Record> records_, scratch_;
   std::vector<std::uint32_t> touched_;
 };

@@ -28,13 +28,13 @@ template <class S> void IslandWake<S>::wake(std::span<const std::uint32_t> slots
   merge_unlisted();
 }
 template <class S> void IslandWake<S>::wake_all() {
-  while (!state_.frozen.empty()) unlist(static_cast<std::uint32_t>(state_.frozen.size() - 1));
+  while (!state_.sleeping.empty()) unlist(static_cast<std::uint32_t>(state_.sleeping.size() - 1));
   merge_unlisted();
   for (BodyState<S>& state : state_.awake.states) state.sleep_clock = 0;
 }
 
 template <class S> bool IslandWake<S>::wake_touched() {
-  if (state_.frozen.empty()) return false;
+  if (state_.sleeping.empty()) return false;
   touched_.clear();
   for (const std::uint64_t pair : proxies_.pairs()) {
     if (!is_touched(pair)) continue;
@@ -71,8 +71,8 @@ template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
 }
 
 template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
-  for (std::uint32_t i = static_cast<std::uint32_t>(state_.frozen.size()); map_.names(slot) != 0 && i-- > 0;) {
-    const FrozenIsland<S>& island = *state_.frozen[i];
+  for (std::uint32_t i = static_cast<std::uint32_t>(state_.sleeping.size()); map_.names(slot) != 0 && i-- > 0;) {
+    const SleepingIsland<S>& island = *state_.sleeping[i];
     bool held = false;
     for (const JointProperties<S>& joint : island.joints.properties)
       held = held || joint.body_a == slot || joint.body_b == slot;
@@ -111,15 +111,15 @@ template <class S> void IslandWake<S>::reset_clock(std::uint32_t slot) {
 /// Takes an island off the list; the last one takes its place. Its bodies count as awake but are nowhere until
 /// `merge_unlisted`.
 template <class S> void IslandWake<S>::unlist(std::uint32_t index) {
-  const std::shared_ptr<const FrozenIsland<S>> island = state_.frozen[index];
-  const std::size_t last = state_.frozen.size() - 1;
+  const std::shared_ptr<const SleepingIsland<S>> island = state_.sleeping[index];
+  const std::size_t last = state_.sleeping.size() - 1;
   if (index != last) {
-    const std::shared_ptr<const FrozenIsland<S>> moved = state_.frozen[last];
-    state_.frozen.change(index) = moved;
+    const std::shared_ptr<const SleepingIsland<S>> moved = state_.sleeping[last];
+    state_.sleeping.change(index) = moved;
     map_.relabel(moved->bodies, index, 0);
     map_.relabel(moved->joints, index, 0);
   }
-  state_.frozen.pop_back();
+  state_.sleeping.pop_back();
   map_.count_names(*island, ~0u);
   for (const BodyState<S>& body : island->bodies.states) map_.place(body.slot, {Location::kAwake, 0});
   unlisted_.push_back(island);
@@ -130,9 +130,9 @@ template <class S> void IslandWake<S>::unlist(std::uint32_t index) {
 template <class S> void IslandWake<S>::merge_unlisted() {
   if (unlisted_.empty()) return;
   merge_set(
-      state_.awake, [](const FrozenIsland<S>& island) -> const auto& { return island.bodies; });
+      state_.awake, [](const SleepingIsland<S>& island) -> const auto& { return island.bodies; });
   merge_set(
-      state_.joints, [](const FrozenIsland<S>& island) -> const auto& { return island.joints; });
+      state_.joints, [](const SleepingIsland<S>& island) -> const auto& { return island.joints; });
   merge_contacts();
   map_.relabel(state_.awake, Location::kAwake, 0);
   map_.relabel(state_.joints, Location::kAwake, 0);
@@ -164,7 +164,7 @@ std::size_t IslandWake<S>::sort_records(const ArrayOf& array_of, const KeyOf& ke
 template <class S> template <class Set, class SetOf> void IslandWake<S>::merge_set(Set& into, const SetOf& set_of) {
   const std::size_t old = into.states.size();
   const std::size_t more = sort_records(
-      [&](const FrozenIsland<S>& island) -> const auto& { return set_of(island).states; },
+      [&](const SleepingIsland<S>& island) -> const auto& { return set_of(island).states; },
       [](const auto& state) { return std::uint64_t{state.slot}; });
   into.states.resize(old + more);
   into.properties.resize(old + more);
@@ -184,7 +184,7 @@ template <class S> void IslandWake<S>::merge_contacts() {
   std::vector<Contact<S>>& contacts = state_.contacts;
   const std::size_t old = contacts.size();
   const std::size_t more = sort_records(
-      [](const FrozenIsland<S>& island) -> const auto& { return island.contacts; }, pair_of);
+      [](const SleepingIsland<S>& island) -> const auto& { return island.contacts; }, pair_of);
   contacts.resize(old + more);
   detail::merge_from_back(
       old, more, [&](std::size_t i, std::size_t j) { return records_[j].key < pair_of(contacts[i]); },

@@ -49,7 +49,7 @@ template <class S> void PartPairs<S>::frame_body(std::uint32_t slot) {
 }
 template <class S> std::uint32_t PartPairs<S>::traits_of(const BodyFrame<S>& frame) {
   return static_cast<std::uint32_t>(frame.kind) | (frame.sensor ? Framed::kSensor : 0u) |
-         (frame.frozen ? Framed::kAsleep : 0u);
+         (frame.asleep ? Framed::kAsleep : 0u);
 }
 
 template <class S> std::uint32_t PartPairs<S>::gather(std::span<const std::uint64_t> pairs) {

@@ -31,7 +31,7 @@ template <class S> const std::vector<RenderPose>& RenderPoses<S>::fill(float alp
     const bool known = start < start_slots_.size() && start_slots_[start] == slot;
     add(state_.awake.states[i], state_.awake.properties[i], known ? &start_poses_[start] : nullptr, alpha);
   }
-  for (const std::shared_ptr<const FrozenIsland<S>>& island : state_.frozen) {
+  for (const std::shared_ptr<const SleepingIsland<S>>& island : state_.sleeping) {
     for (std::size_t i = 0; i < island->bodies.states.size(); ++i)
       add(island->bodies.states[i], island->bodies.properties[i], nullptr, alpha);
   }

@@ -83,7 +83,7 @@ struct SensorOverlap {
 
 /// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and
 /// it costs a step, a save and a hash the same whatever its size.
-template <class S> struct FrozenIsland {
+template <class S> struct SleepingIsland {
   BodySet<S> bodies;
   std::vector<Contact<S>> contacts;
   JointSet<S> joints;
@@ -102,7 +102,7 @@ template <class S> struct FrozenIsland {
 };
 
 /// Shared a page at a time, for there may be more of them than bodies awake.
-template <class S> using FrozenIslands = PagedArray<std::shared_ptr<const FrozenIsland<S>>, 256>;
+template <class S> using SleepingIslands = PagedArray<std::shared_ptr<const SleepingIsland<S>>, 256>;
 
 template <class S> struct WorldState {
   Settings<S> settings;
@@ -119,7 +119,7 @@ template <class S> struct WorldState {
   std::vector<PendingForce<S>> forces;
   std::vector<SensorOverlap> overlaps;
   UntoldEvents untold;
-  FrozenIslands<S> frozen;
+  SleepingIslands<S> sleeping;
 
   /// All of it, in the order of the hash and of the portable form: see state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
@@ -144,7 +144,7 @@ template <class S> struct WorldState {
     visit("untold_contact_end", self.untold.contact_end);
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
-    visit.islands("frozen", self.frozen);
+    visit.islands("sleeping", self.sleeping);
     visit.store("geometry", self.geometry);
   }
 };

@@ -16,8 +16,8 @@ template <class S> bool same_making(const Settings<S>& a, const Settings<S>& b) 
 
 template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
   other_islands_.clear();
-  state_.frozen.each_difference(from.frozen,
-                                [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
+  state_.sleeping.each_difference(from.sleeping,
+                                  [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
   const bool other_fixed = !state_.fixed.is_same(from.fixed);
   forget_places(other_fixed);
   state_ = from;
@@ -30,9 +30,9 @@ template <class S> void StateLoader<S>::forget_places(bool other_fixed) {
   if (other_fixed) forget(*state_.fixed, {});
   forget(state_.awake, state_.joints);
   for (const std::uint32_t i : other_islands_) {
-    if (i >= state_.frozen.size()) continue;
-    forget(state_.frozen[i]->bodies, state_.frozen[i]->joints);
-    map_.count_names(*state_.frozen[i], ~0u);
+    if (i >= state_.sleeping.size()) continue;
+    forget(state_.sleeping[i]->bodies, state_.sleeping[i]->joints);
+    map_.count_names(*state_.sleeping[i], ~0u);
   }
 }
 template <class S> void StateLoader<S>::forget(const BodySet<S>& bodies, const JointSet<S>& joints) {
@@ -50,10 +50,10 @@ template <class S> void StateLoader<S>::renew_places(bool other_fixed) {
   place(state_.awake, Location::kAwake);
   map_.relabel(state_.joints, Location::kAwake, 0);
   for (const std::uint32_t i : other_islands_) {
-    if (i >= state_.frozen.size()) continue;
-    place(state_.frozen[i]->bodies, i);
-    map_.relabel(state_.frozen[i]->joints, i, 0);
-    map_.count_names(*state_.frozen[i], 1);
+    if (i >= state_.sleeping.size()) continue;
+    place(state_.sleeping[i]->bodies, i);
+    map_.relabel(state_.sleeping[i]->joints, i, 0);
+    map_.count_names(*state_.sleeping[i], 1);
   }
   for (const std::uint32_t slot : forgotten_) {
     if (map_.location(slot).set == Location::kNone) proxies_.remove(slot);

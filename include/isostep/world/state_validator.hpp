@@ -33,17 +33,17 @@ template <class S> class StateValidator {
     if (const char* rule = shapes()) return rule;
     if (const char* rule = bodies(*state_.fixed, kFixed)) return rule;
     if (const char* rule = bodies(state_.awake, kAwake)) return rule;
-    for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) {
-      if (const char* rule = bodies(state_.frozen[i]->bodies, i)) return rule;
-      if (state_.frozen[i]->bodies.states.empty()) return "a frozen island is empty";
+    for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
+      if (const char* rule = bodies(state_.sleeping[i]->bodies, i)) return rule;
+      if (state_.sleeping[i]->bodies.states.empty()) return "a sleeping island has no bodies";
     }
     for (std::uint32_t slot = 0; slot < set_of_body_.size(); ++slot) {
       if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != kNowhere))
         return "a body's slot is taken but has no body";
     }
     if (const char* rule = links(state_.contacts, state_.joints, kAwake)) return rule;
-    for (std::uint32_t i = 0; i < state_.frozen.size(); ++i) {
-      if (const char* rule = links(state_.frozen[i]->contacts, state_.frozen[i]->joints, i)) return rule;
+    for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
+      if (const char* rule = links(state_.sleeping[i]->contacts, state_.sleeping[i]->joints, i)) return rule;
     }
     for (std::uint32_t slot = 0; slot < joint_met_.size(); ++slot) {
       if (state_.joint_slots.is_taken(slot) != (joint_met_[slot] != 0))
@@ -178,7 +178,7 @@ template <class S> class StateValidator {
     const std::uint32_t set = set_of_body_[slot];
     const BodySet<S>& bodies = set == kFixed   ? *state_.fixed
                                : set == kAwake ? state_.awake
-                                               : state_.frozen[set]->bodies;
+                                               : state_.sleeping[set]->bodies;
     std::size_t low = 0, high = bodies.states.size();
     while (high - low > 1) {
       const std::size_t middle = (low + high) / 2;
@@ -293,7 +293,7 @@ template <class S> class StateValidator {
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kFixed, kAwake or a frozen island
+  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kFixed, kAwake or a sleeping island
   std::vector<BodyType> type_of_body_;      // by slot
   std::vector<std::uint8_t> joint_met_;     // by slot
 };

@@ -213,7 +213,7 @@ template <class S> class World final {
     ~Snapshot();
     Snapshot(Snapshot&& other) noexcept;
     Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds for itself [bytes]. Not counted: frozen islands, fixed bodies, shapes and tables of slots,
+    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, fixed bodies, shapes and tables of slots,
     /// which it shares with the world and other snapshots until they change.
     std::size_t bytes() const;
 

@@ -250,7 +250,7 @@ template <class S> WorldCounts World<S>::counts() const {
   counts.awake = static_cast<std::uint32_t>(state.awake.states.size());
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   for (const Contact<S>& contact : state.contacts) counts.points += contact.count;
-  for (const auto& island : state.frozen) {
+  for (const auto& island : state.sleeping) {
     counts.asleep += static_cast<std::uint32_t>(island->bodies.states.size());
     counts.contacts += static_cast<std::uint32_t>(island->contacts.size());
     for (const Contact<S>& contact : island->contacts) counts.points += contact.count;

@@ -80,7 +80,7 @@ class Owners {
   std::string of_world(std::string_view path, const Item& item) const {
     const std::string& name = item.array;
     if (name == "islands") return of_island(path);
-    if (name == "frozen") return of_frozen(path);
+    if (name == "sleeping") return of_sleeping(path);
     if (is_any(name, std::array{"bodies", "fixed", "frames", "forces", "fell_asleep", "woke", "untold_woke"}))
       return by_field("body", item, ".slot");
     if (is_any(name, std::array{"properties", "accelerations", "start_poses", "start_slots", "solver_start",
@@ -131,7 +131,7 @@ class Owners {
     if (kind != "blocks") return {};
     return named("body", body_of_row(value(item->text() + ".a")), body_of_row(value(item->text() + ".b")));
   }
-  std::string of_frozen(std::string_view path) const {
+  std::string of_sleeping(std::string_view path) const {
     const std::optional<Item> item = item_of(path, 1);
     if (!item) return {};
     const std::size_t dot = item->array.rfind('.');

@@ -40,7 +40,7 @@ inline bool is_read_only(const std::string& path) {
   const auto begins = [&](const char* name) { return path.rfind(name, 0) == 0; };
   const bool length = path.size() > 6 && path.compare(path.size() - 6, 6, ".count") == 0;
   const bool slots = path.find("_slots") != std::string::npos && !begins("start_slots");
-  return length || slots || path == "settings.solver" || begins("frozen[") || begins("particles");
+  return length || slots || path == "settings.solver" || begins("sleeping[") || begins("particles");
 }
 
 struct Found {

@@ -73,7 +73,7 @@ TYPED_TEST(BodyMaps, joints_lie_ascending_and_one_can_be_erased) {
 
 TYPED_TEST(BodyMaps, an_island_counts_the_bodies_that_it_names_as_often_as_it_does) {
   for (const BodyId id : this->ids) this->insert(id, BodyType::dynamic);
-  FrozenIsland<TypeParam> island;
+  SleepingIsland<TypeParam> island;
   island.contacts.resize(1);
   island.contacts[0].key = {0, 2, 0, 0};
   island.joints.properties.resize(1);

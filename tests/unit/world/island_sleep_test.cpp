@@ -41,10 +41,10 @@ TYPED_TEST(IslandSleeps, bodies_at_rest_fall_asleep_after_half_a_second_in_islan
   const WorldState<TypeParam>& state = this->rooms.state;
   EXPECT_TRUE(state.awake.states.empty());
   EXPECT_TRUE(state.contacts.empty());
-  ASSERT_EQ(state.frozen.size(), 2u);
-  EXPECT_EQ(state.frozen[0]->bodies.states.size(), 2u);
-  EXPECT_EQ(state.frozen[0]->contacts.size(), 1u);
-  EXPECT_EQ(state.frozen[1]->bodies.states.size(), 1u);
+  ASSERT_EQ(state.sleeping.size(), 2u);
+  EXPECT_EQ(state.sleeping[0]->bodies.states.size(), 2u);
+  EXPECT_EQ(state.sleeping[0]->contacts.size(), 1u);
+  EXPECT_EQ(state.sleeping[1]->bodies.states.size(), 1u);
   EXPECT_EQ(this->rooms.map.names(this->balls[0].slot), 1u);
 }
 

@@ -36,7 +36,7 @@ TYPED_TEST(IslandWakes, an_island_wakes_whole_and_in_canonical_order) {
   this->expect_awake({2, 5});
   this->rooms.wake.wake(this->boxes[0].slot);
   this->expect_awake({0, 2, 3, 5});
-  EXPECT_EQ(this->rooms.state.frozen.size(), 1u);
+  EXPECT_EQ(this->rooms.state.sleeping.size(), 1u);
   EXPECT_EQ(this->rooms.state.contacts.size(), 4u);
   for (std::size_t i = 1; i < 4; ++i)
     EXPECT_LT(this->rooms.state.contacts[i - 1].key, this->rooms.state.contacts[i].key);

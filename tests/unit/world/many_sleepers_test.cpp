@@ -25,7 +25,7 @@ template <class S> class ManySleepers : public ::testing::Test {
     for (int i = 0; i < 60; ++i) world.step();
   }
   static D3 place(int i) { return {1.0 * (i % kAcross), 0.25, 1.0 * (i / kAcross)}; }
-  std::size_t islands() const { return world.state().frozen.size(); }
+  std::size_t islands() const { return world.state().sleeping.size(); }
 
   World<S> world;
   ShapeId ball;
@@ -66,23 +66,23 @@ template <class S> void expect_equal(World<S>& a, World<S>& b) {
 TYPED_TEST(ManySleepers, a_snapshot_shares_every_page_and_later_changes_part_with_those_they_touch) {
   World<TypeParam>& w = this->world;
   ASSERT_EQ(this->islands(), static_cast<std::size_t>(kBalls));
-  const auto frozen = w.state().frozen;
+  const auto sleeping = w.state().sleeping;
   const SlotMap slots = w.state().body_slots;
   const auto shared = [](const auto& a, const auto& b) {
     std::size_t count = 0;
     for (std::size_t p = 0; p < a.pages(); ++p) count += a.shares_page(p, b) ? 1u : 0u;
     return count;
   };
-  ASSERT_EQ(frozen.pages(), 4u);
+  ASSERT_EQ(sleeping.pages(), 4u);
   ASSERT_EQ(slots.entries().pages(), 2u);
   for (int i = 0; i < 10; ++i) w.step();
-  EXPECT_EQ(shared(frozen, w.state().frozen), 4u);
+  EXPECT_EQ(shared(sleeping, w.state().sleeping), 4u);
   ASSERT_TRUE(w.wake(this->balls[300]));
-  EXPECT_EQ(shared(frozen, w.state().frozen), 2u) << "its own page, and that of the last, which took its place";
+  EXPECT_EQ(shared(sleeping, w.state().sleeping), 2u) << "its own page, and that of the last, which took its place";
   EXPECT_EQ(shared(slots.entries(), w.state().body_slots.entries()), 2u);
   ASSERT_TRUE(w.destroy(this->balls[3]));
   EXPECT_EQ(shared(slots.entries(), w.state().body_slots.entries()), 1u);
-  ASSERT_EQ(frozen.size(), static_cast<std::size_t>(kBalls)) << "the copy is as it was";
+  ASSERT_EQ(sleeping.size(), static_cast<std::size_t>(kBalls)) << "the copy is as it was";
 }
 
 TYPED_TEST(ManySleepers, new_gravity_wakes_all_as_waking_the_last_island_again_and_again_does) {
@@ -93,9 +93,9 @@ TYPED_TEST(ManySleepers, new_gravity_wakes_all_as_waking_the_last_island_again_a
   w.step();
   one_by_one.step();
   ASSERT_TRUE(w.set_gravity(gravity));
-  while (!one_by_one.state().frozen.empty()) {
-    const auto& frozen = one_by_one.state().frozen;
-    const std::uint32_t slot = frozen[frozen.size() - 1]->bodies.states[0].slot;
+  while (!one_by_one.state().sleeping.empty()) {
+    const auto& sleeping = one_by_one.state().sleeping;
+    const std::uint32_t slot = sleeping[sleeping.size() - 1]->bodies.states[0].slot;
     ASSERT_TRUE(one_by_one.wake(one_by_one.state().body_slots.template id_of<BodyId>(slot)));
   }
   ASSERT_TRUE(one_by_one.set_gravity(gravity));

@@ -42,7 +42,7 @@ template <class S> class WorldQuestions : public ::testing::Test {
         if (set->states[i].slot == id.slot) return set->properties[i];
       }
     }
-    for (const auto& island : world.state().frozen) {
+    for (const auto& island : world.state().sleeping) {
       for (std::size_t i = 0; i < island->bodies.states.size(); ++i) {
         if (island->bodies.states[i].slot == id.slot) return island->bodies.properties[i];
       }

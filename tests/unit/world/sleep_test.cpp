@@ -1,4 +1,4 @@
-// Sleep: islands freeze whole, cost nothing, and wake when anything that held them changes.
+// Sleep: islands fall asleep whole, cost nothing, and wake when anything that held them changes.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TYPED_TEST(WorldSleep, an_island_falls_asleep_whole_after_half_a_second_of_rest)
   ASSERT_TRUE(settle(w, 120));
   EXPECT_GE(w.tick(), 30u);
   EXPECT_EQ(w.counts().asleep, 6u);
-  EXPECT_EQ(w.state().frozen.size(), 2u);
+  EXPECT_EQ(w.state().sleeping.size(), 2u);
   EXPECT_EQ(w.state().contacts.size(), 0u);
   EXPECT_EQ(w.counts().contacts, 6u);
   EXPECT_EQ(w.velocity(this->left[2]), Vec3<TypeParam>::zero());
@@ -91,12 +91,12 @@ TYPED_TEST(WorldSleep, sleepers_keep_their_bits) {
   using S = TypeParam;
   World<S>& w = this->world;
   ASSERT_TRUE(settle(w));
-  const FrozenIsland<S>* const island = w.state().frozen[0].get();
+  const SleepingIsland<S>* const island = w.state().sleeping[0].get();
   const std::uint64_t island_hash = island->hash;
   const Pose<S> pose = w.pose(this->left[2]);
   const std::uint64_t before = w.hash();
   run(w, 100);
-  EXPECT_EQ(w.state().frozen[0].get(), island) << "an island that nothing woke was built anew";
+  EXPECT_EQ(w.state().sleeping[0].get(), island) << "an island that nothing woke was built anew";
   EXPECT_EQ(island->hash, island_hash);
   EXPECT_EQ(w.pose(this->left[2]).position, pose.position);
   EXPECT_EQ(w.pose(this->left[2]).orientation, pose.orientation);
@@ -112,12 +112,12 @@ TYPED_TEST(WorldSleep, a_snapshot_shares_sleepers_and_costs_the_same_for_any_num
   for (int i = 0; i < 100; ++i) many.create(moving<S>(b, {0.5 * i, 0, 0}));
   ASSERT_TRUE(settle(few));
   ASSERT_TRUE(settle(many));
-  ASSERT_EQ(many.state().frozen.size(), 1u);
+  ASSERT_EQ(many.state().sleeping.size(), 1u);
   typename World<S>::Snapshot one, hundred;
   few.save(one);
   many.save(hundred);
   EXPECT_EQ(hundred.bytes(), one.bytes());
-  EXPECT_EQ(many.state().frozen[0].use_count(), 1) << "world and snapshot share the page that names the island";
+  EXPECT_EQ(many.state().sleeping[0].use_count(), 1) << "world and snapshot share the page that names the island";
 }
 
 TYPED_TEST(WorldSleep, a_step_has_nothing_to_solve_when_all_sleep) {
@@ -336,8 +336,8 @@ TYPED_TEST(WorldSleep, joined_bodies_sleep_and_wake_together) {
     previous = chain.back();
   }
   ASSERT_TRUE(settle(w));
-  EXPECT_EQ(w.state().frozen.size(), 1u);
-  EXPECT_EQ(w.state().frozen[0]->joints.states.size(), 5u);
+  EXPECT_EQ(w.state().sleeping.size(), 1u);
+  EXPECT_EQ(w.state().sleeping[0]->joints.states.size(), 5u);
   EXPECT_EQ(w.counts().joints, 5u);
   EXPECT_LT(to_double(w.joint_error(w.joints()[2])), 0.01);
   ASSERT_TRUE(w.destroy(w.joints()[4]));

@@ -30,7 +30,7 @@ template <class S> struct BodyFrame {
   std::uint32_t row;  // of SolverBodies: 0 unless awake
   PartKind kind;      // of the only part, if plain
   bool plain;         // one part, not moved
-  bool sensor, frozen;
+  bool sensor, asleep;
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("half", self.half);
@@ -43,7 +43,7 @@ template <class S> struct BodyFrame {
     visit("kind", self.kind);
     visit("plain", self.plain);
     visit("sensor", self.sensor);
-    visit("frozen", self.frozen);
+    visit("asleep", self.asleep);
   }
 };
 
