@@ -32,13 +32,13 @@ template <class S> class ParticleSoftStep {
  private:
   void warm_start();
   void solve(bool biased);
-  void solve_normal(Row& row, const Softness<S>& softness, bool biased);
-  void solve_friction(Row& row);
-  void push_apart(Row& row);
-  void note_work(Row& row, V before, V after);
-  V most_bounce(const Row& row, V speed, V wanted) const;
+  ISO_INLINE void solve_normal(Row& row, const Softness<S>& softness, bool biased);
+  ISO_INLINE void solve_friction(Row& row);
+  ISO_INLINE void push_apart(Row& row);
+  ISO_INLINE void note_work(Row& row, V before, V after);
+  ISO_INLINE V most_bounce(const Row& row, V speed, V wanted) const;
   void note_meetings();
-  V meeting_speed(const Row& row, V there) const;
+  ISO_INLINE V meeting_speed(const Row& row, V there) const;
 
   /// A touch is not: of its two sides the other is somebody else's to move, so its velocity has to.
   static ISO_INLINE bool is_shifted(const Row& row) {

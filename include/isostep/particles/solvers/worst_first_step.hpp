@@ -44,7 +44,7 @@ template <class S> class WorstFirstStep {
   void place_rows();
   void resolve_rows();
   void pay_for_ways();
-  bool is_touching(const Row& row) const;
+  ISO_INLINE bool is_touching(const Row& row) const;
   void spend(std::uint64_t looks);
 
   // Time division.

@@ -33,7 +33,7 @@ template <class S> class ParticleContacts {
   void add_scenery(std::uint32_t slot, std::size_t& old);
   void add_contact(std::uint32_t a, std::uint32_t b, S radius, const ParticleMaterial<S>& material, std::size_t& old);
   void add_touches();
-  bool is_old(const ParticleContact<S>& contact, std::size_t& old) const;
+  ISO_INLINE bool is_old(const ParticleContact<S>& contact, std::size_t& old) const;
   void store_contacts(bool keeps_impulses);
   void store_touches();
   void tell_contact(const ParticleContact<S>& contact, const Row& row);

@@ -19,7 +19,7 @@ template <class S> class ParticleFinish {
  private:
   using V = Velocity<S>;
 
-  void finish(std::uint32_t slot);
+  ISO_INLINE void finish(std::uint32_t slot);
   void hold_at_edge(std::uint32_t slot, Vec3<S> position);
   void forget_broken_impulses();
 

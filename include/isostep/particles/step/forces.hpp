@@ -32,7 +32,7 @@ template <class S> class ParticleForces {
   void add(const ParticleForce<S>& force);
   void add(const Cohesion<S>& cohesion, std::uint32_t i, std::uint32_t k);
   void add_cohesions();
-  void push(std::uint32_t slot, InverseMass<S> inverse_mass, Vec3<U> direction, S force);
+  ISO_INLINE void push(std::uint32_t slot, InverseMass<S> inverse_mass, Vec3<U> direction, S force);
   void note_cut(std::uint32_t slot);
 
   ParticleState<S>& state_;

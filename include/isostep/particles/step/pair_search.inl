@@ -21,10 +21,11 @@ template <class S> void PairSearch<S>::begin_step() {
   pulls_.clear();
   if (state_.springs.all().empty() || !may_meet()) return;
   pulls_.assign(state_.material.size(), S(0));
+  const Axes<S>& position = state_.position;
   const S rate = S(state_.settings.hz);
   for (const Spring<S>& spring : state_.springs.all()) {
     if (!spring.a) continue;
-    const Vec3<S> d = state_.position[spring.a.slot] - (spring.b ? state_.position[spring.b.slot] : spring.anchor);
+    const Vec3<S> d = position[spring.a.slot] - (spring.b ? position[spring.b.slot] : spring.anchor);
     const S extension = abs(length(d) - spring.rest_length);
     const auto pull = [&](std::uint32_t slot) {
       const S part = saturate_to<S>(product(spring.stiffness, state_.inverse_mass[slot])) / rate / rate;

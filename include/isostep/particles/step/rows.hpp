@@ -48,9 +48,9 @@ template <class S> class ParticleRows {
   template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
 
  private:
-  void look_at_link(Row& row) const;
-  void look_at_contact(Row& row) const;
-  void look_at_touch(Row& row) const;
+  ISO_INLINE void look_at_link(Row& row) const;
+  ISO_INLINE void look_at_contact(Row& row) const;
+  ISO_INLINE void look_at_touch(Row& row) const;
 
   const ParticleState<S>& state_;
   const ParticleStep<S>& step_;

@@ -35,8 +35,8 @@ template <class S> class StiffSprings {
 
  private:
   void count_holds(const std::vector<ParticleConstraint<S>>& rows);
-  void swing(const Spring<S>& spring, const OscillatorStep<S>& motion);
-  void move_end(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
+  ISO_INLINE void swing(const Spring<S>& spring, const OscillatorStep<S>& motion);
+  ISO_INLINE void move_end(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
 
   ParticleState<S>& state_;
   ParticleStep<S>& step_;

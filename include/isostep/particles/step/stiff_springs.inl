@@ -28,8 +28,9 @@ template <class S> void StiffSprings<S>::prepare(const std::vector<ParticleConst
   slots_.clear();
   oscillators_.clear();
   const std::vector<Spring<S>>& springs = state_.springs.all();
-  for (std::uint32_t slot = 0; slot < springs.size(); ++slot) {
-    if (springs[slot].a && springs[slot].type == SpringType::stiff) slots_.push_back(slot);
+  for (const Spring<S>& spring : springs) {
+    if (spring.type == SpringType::stiff && spring.a)
+      slots_.push_back(static_cast<std::uint32_t>(&spring - springs.data()));
   }
   if (slots_.empty()) return;
   count_holds(rows);
