@@ -125,8 +125,7 @@ template <class S> void Match<S>::shove(int player) {
   for (const BodyId body : found_) {
     if (body == puck(player) || MatchRules<S>::kShoved < max_abs(world.velocity(body))) continue;
     const Vec3<S> apart = world.center_of_mass(body) - from;
-    const Direction<S> away = direction_of(apart.x, apart.y, apart.z);
-    const Vec3<Unit<S>> direction = {away.x, away.y, away.z};
+    const Vec3<Unit<S>> direction = normalise(apart);
     const S mass = world.mass(body);
     const Vec3<S> up = {S(0), mass * MatchRules<S>::kShoveUp, S(0)};
     world.apply_impulse(body, direction * (mass * MatchRules<S>::kShove) + up);

@@ -43,8 +43,9 @@ struct FaultReport {
            std::string_view(a.expected) == b.expected;
   }
 };
-/// Is told of every call that is refused, as it is: where a game writes its log or stops its debugger. On the thread
-/// that calls; it changes nothing of the world.
+
+/// A callback for every refused call, on the calling thread: a game writes its log there or stops its debugger. It
+/// must not change the world.
 struct FaultHandler {
   void (*refused)(void* user, const FaultReport& report) = nullptr;
   void* user = nullptr;

@@ -14,6 +14,8 @@
 namespace isostep {
 
 inline constexpr std::uint32_t kMaxBlobBytes = 1u << 28;  // of one blob in a file
+/// In the first word of a portable form, beside what names the world: blobs stand at its end.
+inline constexpr std::uint32_t kPortableBlobsBit = 0x40000000u;
 
 /// Where those find a blob who read a state or a recording that names it.
 enum class BlobHome : std::uint8_t {
@@ -48,6 +50,11 @@ class Blob {
   BlobHome home_;
   std::vector<std::uint8_t> bytes_;
 };
+
+/// Whether a blob is carried, and its content if so; null is not carried.
+void write_carried(Writer& writer, const BlobRef& blob);
+/// Null: it is not carried, or the reader has failed.
+BlobRef read_carried(Reader& reader, const ContentId& id);
 
 /// The game's blobs by their names: called while a state is read or a command executed, returns null for a name that it
 /// does not know.

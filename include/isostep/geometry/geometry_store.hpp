@@ -37,6 +37,9 @@ class GeometryStore {
   ISO_INLINE const BlobRef& content(std::uint32_t place) const { return contents_[place]; }
   /// kNone: the store does not have it.
   std::uint32_t find(const ContentId& id) const;
+  /// The blob of that name: the store's own, so that one content stands in memory once and an asset stays one; else
+  /// the one that is carried; else the assets'. Null: none of them has it.
+  BlobRef find(const BlobMention& mention, const AssetSource& assets) const;
 
   /// One use more of a blob, whose place it returns.
   std::uint32_t take(const BlobRef& blob);

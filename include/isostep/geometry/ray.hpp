@@ -25,15 +25,10 @@ template <class S> struct LocalRay {
 
   static ISO_INLINE LocalRay of(const Transform<S>& shape, Vec3<S> origin, Vec3<S> translation) {
     const Vec3<S> local = transposed_times(shape.rotation, translation);
-    const Direction<S> d = direction_of(local.x, local.y, local.z);
-    return {to_local(shape, origin), local, {d.x, d.y, d.z}, d.length};
+    const Heading<S> heading = heading_of(local);
+    return {to_local(shape, origin), local, heading.direction, heading.length};
   }
 };
-
-template <class S> ISO_INLINE Vec3<Unit<S>> unit_of(Vec3<S> v) {
-  const Direction<S> d = direction_of(v.x, v.y, v.z);
-  return {d.x, d.y, d.z};
-}
 
 /// Distance to the sphere |p| = r from m outside it along u, if the ray comes nearer at all.
 /// Symbols: b = distance to the point closest to the centre, p = that point. r^2 - p^2 is taken as (r - |p|) (r + |p|),
@@ -53,7 +48,7 @@ template <class S> ISO_INLINE LocalHit<S> cast_sphere(const LocalRay<S>& ray, Ve
   if (dot_sum(m, m) <= product(r, r)) return inside_hit<S>();
   S distance;
   if (!enter_sphere(m, ray.direction, r, distance) || distance > ray.length) return no_hit<S>();
-  return {LocalHit<S>::entered, distance / ray.length, unit_of(m + ray.direction * distance)};
+  return {LocalHit<S>::entered, distance / ray.length, normalise(m + ray.direction * distance)};
 }
 
 }  // namespace isostep::detail

@@ -66,12 +66,6 @@ ISO_INLINE constexpr bool is_bounded(ShapeType type) {
   return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kBounded; });
 }
 
-/// Whether it names a blob. Such a shape's file has `ShapeFault fault_of(const Blob&) const`, which also says whether
-/// its other fields are what the blob makes them.
-ISO_INLINE constexpr bool has_blob(ShapeType type) {
-  return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kHasBlob; });
-}
-
 /// As stored.
 #define ISO_PRIMITIVE_OF(name, Shape) \
   template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Shape<S>& shape) { return shape.primitive(); }

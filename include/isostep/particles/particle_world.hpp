@@ -93,8 +93,8 @@ template <class S> class ParticleWorld final {
   /// Of the first call that was refused since the world was made or told to forget: refusals come in chains.
   const FaultReport& first_fault() const;
   void forget_faults();
-  /// Told of every refused call from now on, as it is refused.
-  void tell_faults_to(const FaultHandler& handler);
+  /// A callback for every refused call from now on; one without a function ends that.
+  void set_fault_handler(const FaultHandler& handler);
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);

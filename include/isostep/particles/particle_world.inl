@@ -95,8 +95,8 @@ template <class S> bool ParticleWorld<S>::touch(const ParticleTouch<S>& touch) {
 template <class S> const FaultReport& ParticleWorld<S>::fault() const { return engine_->journal_.fault(); }
 template <class S> const FaultReport& ParticleWorld<S>::first_fault() const { return engine_->journal_.first_fault(); }
 template <class S> void ParticleWorld<S>::forget_faults() { engine_->journal_.forget_faults(); }
-template <class S> void ParticleWorld<S>::tell_faults_to(const FaultHandler& handler) {
-  engine_->journal_.tell_faults_to(handler);
+template <class S> void ParticleWorld<S>::set_fault_handler(const FaultHandler& handler) {
+  engine_->journal_.set_fault_handler(handler);
 }
 template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* tape) {
   engine_->journal_.record_to(tape);

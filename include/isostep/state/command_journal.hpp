@@ -73,7 +73,7 @@ class CommandJournal {
   ISO_INLINE const FaultReport& fault() const { return fault_; }
   /// Of the first one since `forget_faults`.
   ISO_INLINE const FaultReport& first_fault() const { return first_fault_; }
-  ISO_INLINE void tell_faults_to(const FaultHandler& handler) { handler_ = handler; }
+  ISO_INLINE void set_fault_handler(const FaultHandler& handler) { handler_ = handler; }
   ISO_INLINE void clear_fault() { fault_ = {}; }
   ISO_INLINE void forget_faults() { fault_ = first_fault_ = {}; }
 

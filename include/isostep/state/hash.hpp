@@ -17,7 +17,7 @@ inline constexpr char kHashName[] = "xxh3-64";
 /// XXH3-64 with seed 0. The answer depends on the bytes alone, not on the instruction set.
 std::uint64_t hash_bytes(const void* bytes, std::size_t size);
 
-/// Names content by what it is: XXH3-128, in which no two different contents are ever met by chance.
+/// The name of content: its XXH3-128. Two different contents never share one by chance.
 struct ContentId {
   std::uint64_t low = 0, high = 0;
 

@@ -158,7 +158,7 @@ template <class Visitor> class StateLeaves {
     if constexpr (Visitor::kEdits) arrays(visit_, value.change());
     else arrays(visit_, *value);
   }
-  template <class Store> void store(const char*, const Store& value) const { visit_("blobs", value->names()); }
+  template <class Store> void store(const char* name, const Store& value) const { visit_(name, value->names()); }
   template <class List> void islands(const char* name, const List& list) const {
     visit_.each(name, list.size(), [&](const Visitor& of_island, std::size_t i) {
       const auto& island = *list[i];

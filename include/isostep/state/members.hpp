@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "isostep/core/paged_array.hpp"
@@ -145,8 +146,8 @@ struct ReadNoStore {
 /// `read_store`: of a store that may be changed, when its turn comes.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
-  ISO_INLINE explicit StateReader(Reader& reader, const ReadStore& read_store = {})
-      : reader_(reader), read_store_(read_store) {}
+  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {})
+      : reader_(reader), read_store_(std::move(read_store)) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
   ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
@@ -174,7 +175,7 @@ template <class ReadStore = ReadNoStore> class StateReader {
 
  private:
   Reader& reader_;
-  const ReadStore& read_store_;
+  ReadStore read_store_;
 };
 
 }  // namespace isostep::detail

@@ -19,6 +19,8 @@ inline constexpr std::uint16_t kReplayMinor = 0;
 inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
 /// The high bit and both line ends, so that a transfer as text shows at once.
 inline constexpr std::uint8_t kReplayMagic[8] = {0x89, 'I', 'S', 'O', '\r', '\n', 0x1a, '\n'};
+/// Whether a file begins as a replay does; the rest of it may be wrong.
+bool has_replay_magic(Bytes file);
 inline constexpr std::uint32_t kReplayBlockFrames = 60;
 
 /// A chunk's type is four letters; as a little-endian u32 they stand in the file in reading order.

@@ -56,23 +56,20 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   render_poses_.forget();
 }
 
-namespace detail {
-/// In the first word of a portable world, beside the scalar's id: blobs stand at its end.
-inline constexpr std::uint32_t kBlobsBit = 0x40000000u;
-}  // namespace detail
+namespace detail {}  // namespace detail
 
 template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
-  writer.write(ScalarTraits<S>::kId | (state_.geometry->empty() ? 0 : detail::kBlobsBit));
+  writer.write(ScalarTraits<S>::kId | (state_.geometry->empty() ? 0 : kPortableBlobsBit));
   WorldState<S>::members(detail::StateWriter(writer), state_);
 }
 
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S> next;
   const auto kind = reader.read<std::uint32_t>();
-  if ((kind & ~detail::kBlobsBit) != ScalarTraits<S>::kId && reader.ok())
+  if ((kind & ~kPortableBlobsBit) != ScalarTraits<S>::kId && reader.ok())
     reader.fail(ErrorCode::incompatible, "not written by a rigid world of this scalar");
   const auto read_store = [&](GeometryStore& store) {
-    if ((kind & detail::kBlobsBit) != 0) store.read(reader, *state_.geometry, assets_);
+    if ((kind & kPortableBlobsBit) != 0) store.read(reader, *state_.geometry, assets_);
   };
   WorldState<S>::members(detail::StateReader(reader, read_store), next);
   if (reader.ok()) {

@@ -68,11 +68,11 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   solver.colour_constraints(context);
   after(Stage::colour_constraints);
   solver.prepare(context);
-  if (watched) after(Stage::prepare);
+  after(Stage::prepare);
   solver.solve_substeps(context);
-  if (watched) after(Stage::solve_substeps);
+  after(Stage::solve_substeps);
   solver.apply_restitution(context);
-  if (watched) after(Stage::restitution);
+  after(Stage::restitution);
   solver.store_impulses(context);
   report_.unsolved = solver.unsolved();
   after(Stage::store_impulses);

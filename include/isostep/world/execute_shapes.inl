@@ -37,12 +37,8 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
 template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs) {
   const GeometryStore& known = *state_.geometry;
   for (std::size_t i = 0; i < blobs.size(); ++i) {
-    const BlobMention& mention = command.blobs[i];
-    const std::uint32_t there = known.find(mention.id);
-    blobs[i] = there != GeometryStore::kNone ? known.content(there)
-               : mention.content != nullptr  ? mention.content
-                                             : assets_(mention.id);
-    if (blobs[i] == nullptr || !(blobs[i]->id() == mention.id))
+    blobs[i] = known.find(command.blobs[i], assets_);
+    if (blobs[i] == nullptr)
       return journal_.refuse({Fault::bad_shape, "", "blobs", "content, or a name that the world or its assets know"});
   }
   if (known.names().size() + blobs.size() > kMaxBlobs)

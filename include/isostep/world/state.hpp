@@ -145,7 +145,7 @@ template <class S> struct WorldState {
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
     visit.islands("sleeping", self.sleeping);
-    visit.store("geometry", self.geometry);
+    visit.store("blobs", self.geometry);
   }
 };
 

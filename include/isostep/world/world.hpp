@@ -156,8 +156,8 @@ template <class S> class World final {
   /// was refused has no id.
   const FaultReport& first_fault() const;
   void forget_faults();
-  /// Told of every refused call from now on, as it is refused.
-  void tell_faults_to(const FaultHandler& handler);
+  /// A callback for every refused call from now on; one without a function ends that.
+  void set_fault_handler(const FaultHandler& handler);
   /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* tape);

@@ -181,8 +181,8 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
 
 template <class S> const FaultReport& World<S>::fault() const { return engine_->journal_.fault(); }
 template <class S> const FaultReport& World<S>::first_fault() const { return engine_->journal_.first_fault(); }
-template <class S> void World<S>::tell_faults_to(const FaultHandler& handler) {
-  engine_->journal_.tell_faults_to(handler);
+template <class S> void World<S>::set_fault_handler(const FaultHandler& handler) {
+  engine_->journal_.set_fault_handler(handler);
 }
 template <class S> void World<S>::forget_faults() { engine_->journal_.forget_faults(); }
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->journal_.record_to(tape); }

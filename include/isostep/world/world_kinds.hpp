@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "isostep/core/scalars.hpp"
+#include "isostep/geometry/blob.hpp"
 #include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/recorder.hpp"
@@ -92,8 +93,9 @@ template <class Visit> ISO_INLINE std::string_view with_world(const RecordedWorl
       world.kind, [&](std::string_view, std::uint32_t id) ISO_INLINE_LAMBDA { return id == world.scalar_id; }, visit);
 }
 
-/// visit(WorldTag<W>{}) for the world whose portable form begins with that number; false when there is none.
-template <class Visit> ISO_INLINE bool with_portable_world(std::uint32_t id, Visit&& visit) {
+/// visit(WorldTag<W>{}) for the world whose portable form begins with that word; false when there is none.
+template <class Visit> ISO_INLINE bool with_portable_world(std::uint32_t word, Visit&& visit) {
+  const std::uint32_t id = word & ~kPortableBlobsBit;
   return any_world([&](auto tag) ISO_INLINE_LAMBDA {
     if (id != WorldTraits<typename decltype(tag)::Type>::kPortableId) return false;
     visit(tag);

@@ -38,16 +38,24 @@ BlobRef Blob::read(Reader& reader, const ContentId& id) {
   return make(type, {bytes.begin(), bytes.end()});
 }
 
-void BlobMention::write(Writer& writer) const {
-  const bool carried = content != nullptr && content->home() == BlobHome::carried;
-  writer.write(id);
+void write_carried(Writer& writer, const BlobRef& blob) {
+  const bool carried = blob != nullptr && blob->home() == BlobHome::carried;
   writer.write(carried);
-  if (carried) content->write(writer);
+  if (carried) blob->write(writer);
+}
+
+BlobRef read_carried(Reader& reader, const ContentId& id) {
+  return reader.read<bool>() ? Blob::read(reader, id) : nullptr;
+}
+
+void BlobMention::write(Writer& writer) const {
+  writer.write(id);
+  write_carried(writer, content);
 }
 
 void BlobMention::read(Reader& reader) {
   reader.read(id);
-  content = reader.read<bool>() ? Blob::read(reader, id) : nullptr;
+  content = read_carried(reader, id);
 }
 
 }  // namespace isostep

@@ -11,6 +11,12 @@ std::uint32_t GeometryStore::find(const ContentId& id) const {
   return kNone;
 }
 
+BlobRef GeometryStore::find(const BlobMention& mention, const AssetSource& assets) const {
+  const std::uint32_t place = find(mention.id);
+  BlobRef blob = place != kNone ? contents_[place] : mention.content != nullptr ? mention.content : assets(mention.id);
+  return blob != nullptr && blob->id() == mention.id ? blob : nullptr;
+}
+
 std::uint32_t GeometryStore::take(const BlobRef& blob) {
   const std::uint32_t known = find(blob->id());
   if (known != kNone) {
@@ -42,10 +48,7 @@ void GeometryStore::write(Writer& writer) const {
   writer.write_array(names_);
   for (std::uint32_t place = 0; place < names_.size(); ++place) {
     if (!is_taken(place)) continue;
-    const BlobRef& blob = contents_[place];
-    const bool carried = blob->home() == BlobHome::carried;
-    writer.write(carried);
-    if (carried) blob->write(writer);
+    write_carried(writer, contents_[place]);
   }
 }
 
@@ -55,13 +58,10 @@ void GeometryStore::read(Reader& reader, const GeometryStore& known, const Asset
   for (std::uint32_t place = 0; place < names_.size() && reader.ok(); ++place) {
     if (!is_taken(place)) continue;
     const ContentId id = names_[place].id;
-    const std::uint32_t there = known.find(id);
-    BlobRef& blob = contents_[place];
-    if (reader.read<bool>()) blob = Blob::read(reader, id);
-    // One content stands in memory once, and what is an asset here stays one.
-    if (there != kNone) blob = known.content(there);
-    else if (blob == nullptr && reader.ok()) blob = assets(id);
-    if (reader.ok() && (blob == nullptr || !(blob->id() == id)))
+    const BlobRef carried = read_carried(reader, id);
+    if (!reader.ok()) return;
+    contents_[place] = known.find(BlobMention{id, carried}, assets);
+    if (contents_[place] == nullptr)
       reader.fail(ErrorCode::incompatible, "it names a blob that neither it nor the game's assets have");
   }
 }

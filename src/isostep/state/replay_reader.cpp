@@ -25,6 +25,10 @@ bool is_type(std::uint32_t type) {
 
 }  // namespace
 
+bool has_replay_magic(Bytes file) {
+  return file.size() >= sizeof kReplayMagic && std::memcmp(file.data(), kReplayMagic, sizeof kReplayMagic) == 0;
+}
+
 ReplayReader::ReplayReader(Bytes file)
     : file_(file),
       status_(ReplayStatus::complete),

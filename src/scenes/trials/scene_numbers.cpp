@@ -3,20 +3,19 @@
 #include "scene_numbers.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace isostep::scenes {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 static_assert(kShapeTypes == 4, "a judge knows each shape by itself: see volume_of() and gyration_of()");
 
 double volume_of(const ScenePart& part) {
   const Vec3<double> half = value(part.half_extents);
   const double r = value(part.radius);
-  const double ball = 4.0 / 3.0 * kPi * r * r * r;
+  const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
   if (part.type == ShapeType::box) return 8 * half.x * half.y * half.z;
-  return part.type == ShapeType::capsule ? ball + 2 * value(part.half_height) * kPi * r * r : ball;
+  return part.type == ShapeType::capsule ? ball + 2 * value(part.half_height) * std::numbers::pi * r * r : ball;
 }
 double volume_of(const SceneBody& body) {
   double volume = 0;

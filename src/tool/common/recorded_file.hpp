@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,7 @@ struct Input {
   ReplayReader replay;  // of the bytes; says what is wrong with those that are no replay
 
   explicit Input(const std::string& p) : path(p), bytes(read_file(p)), replay(bytes) {}
-  bool is_replay() const {
-    return bytes.size() >= sizeof kReplayMagic && std::memcmp(bytes.data(), kReplayMagic, sizeof kReplayMagic) == 0;
-  }
+  bool is_replay() const { return has_replay_magic(bytes); }
 };
 
 /// With the exit status of `verify` for such a file.

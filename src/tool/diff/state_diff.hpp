@@ -11,6 +11,7 @@
 
 #include "isostep/state/diff.hpp"
 #include "isostep/world/state.hpp"
+#include "path_item.hpp"
 
 namespace isostep::tool {
 
@@ -194,11 +195,7 @@ template <class State> void diff_states(const State& a, const State& b, DiffRepo
 
 /// Whom an index of an awake array belongs to: "body slot 17", "body slots 3 and 9"; empty for other paths.
 template <class S> std::string owner_of(const WorldState<S>& state, std::string_view path) {
-  const std::size_t open = path.find('['), close = path.find(']');
-  if (open == std::string_view::npos || close == std::string_view::npos) return {};
-  const std::string_view name = path.substr(0, open);
-  std::size_t index = 0;
-  for (const char c : path.substr(open + 1, close - open - 1)) index = 10 * index + static_cast<std::size_t>(c - '0');
+  const auto [name, index] = first_item(path);
   if ((name == "bodies" || name == "properties") && index < state.awake.states.size()) {
     return "body slot " + std::to_string(state.awake.states[index].slot);
   }

@@ -3,13 +3,12 @@
 #include "body_facts.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "scenes/shape_keys.hpp"
 
 namespace isostep::tool::lab {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Mat3<double> axes_of(const scenes::Rotation& q) {
   return to_matrix(normalise(Quat<double>{value_of(q[0]), value_of(q[1]), value_of(q[2]), value_of(q[3])}));
@@ -64,7 +63,7 @@ BodyFacts facts_of(const scenes::SceneBody& body) {
   }
   const double mass = value_of(body.mass);
   facts.mass = mass > 0 ? mass : value_of(body.density) * facts.volume;
-  facts.radius = std::cbrt(facts.volume * 3 / (4 * kPi));
+  facts.radius = std::cbrt(facts.volume * 3 / (4 * std::numbers::pi));
   facts.centre = facts.volume > 0 ? moment * (1 / facts.volume) : origin;
   facts.spin = value_of(body.angular_velocity);
   facts.velocity = value_of(body.velocity);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "watch.hpp"
 
-#include <cstring>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
@@ -29,9 +29,9 @@ bool asks_for_a_run(const RunOptions& options) {
 bool is_recording(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  char bytes[sizeof kReplayMagic] = {};
-  std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
-  return std::memcmp(bytes, kReplayMagic, sizeof bytes) == 0;
+  std::uint8_t bytes[sizeof kReplayMagic] = {};
+  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(bytes), sizeof bytes);
+  return has_replay_magic(bytes);
 }
 
 int watch(const RunOptions& options) {

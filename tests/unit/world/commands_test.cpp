@@ -1,77 +1,13 @@
-// Every command of a world: what an accepted one does, and that a refused one names its fault and changes nothing.
+// The commands of bodies and all commands alike: what an accepted one does, and that a refused one names its fault and
+// changes nothing.
 // SPDX-License-Identifier: MIT
-
-#include <limits>
-
-#include "unit/world/worlds.hpp"
+#include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
 namespace {
 
-/// A world in full swing: things awake, asleep, joined, pressed together and watched, so that what a refused command
-/// touched would show in the hash.
-template <class S> class WorldCommands : public ::testing::Test {
- protected:
-  WorldCommands() : world(settings<S>()) {
-    ground = add_ground(world);
-    box = add_box(world, 0.5, 0.5, 0.5);
-    ball = add_ball(world, 0.5);
-    spare = add_ball(world, 0.25);
-    sleeper = world.create(moving<S>(box, {0, 0.5, 0}));
-    BodyDefinition<S> platform = still<S>(box, {6, 3, 0});
-    platform.type = BodyType::kinematic;
-    kinematic = world.create(platform);
-    BodyDefinition<S> sensor = still<S>(box, {3, 0.5, 0});
-    sensor.sensor = true;
-    watcher = world.create(sensor);
-    for (int i = 0; i < 80; ++i) world.step();
-    flier = world.create(moving<S>(ball, {3, 1, 0}));
-    other = world.create(moving<S>(ball, {-8, 3, 0}));
-    joint = world.create(world.joint_at(JointType::distance, {}, other, {vec<S>(-8, 5, 0), Quat<Unit<S>>::identity()}));
-    gone = world.create(moving<S>(box, {0, 20, 0}));
-    gone_shape = add_box(world, 1, 1, 1);
-    gone_joint = world.create(world.joint_at(JointType::ball, {}, gone, {vec<S>(0, 20, 0), Quat<Unit<S>>::identity()}));
-    world.destroy(gone_joint);
-    world.destroy(gone);
-    world.remove_shape(gone_shape);
-    for (int i = 0; i < 3; ++i) world.step();
-    EXPECT_FALSE(world.is_awake(sleeper));
-    EXPECT_TRUE(world.is_awake(flier));
-  }
-
-  template <class Command> void expect_refused(Fault fault, Command&& command, int line = __builtin_LINE()) {
-    SCOPED_TRACE(line);
-    const std::uint64_t before = world.hash();
-    std::vector<std::uint8_t> tape;
-    world.record_to(&tape);
-    EXPECT_FALSE(static_cast<bool>(command()));
-    world.record_to(nullptr);
-    EXPECT_EQ(world.fault(), fault) << describe(world.fault());
-    EXPECT_EQ(world.hash(), before) << "a refused command changed something: " << fault_text(fault);
-    EXPECT_TRUE(tape.empty());
-  }
-  template <class Change> void expect_bad_definition(Fault fault, Change&& change, int line = __builtin_LINE()) {
-    SCOPED_TRACE(line);
-    BodyDefinition<S> d = moving<S>(ball, {2, 9, 0});
-    change(d);
-    expect_refused(fault, [&] { return world.create(d); });
-  }
-
-  World<S> world;
-  ShapeId box, ball, spare, gone_shape;
-  BodyId ground, sleeper, kinematic, watcher, flier, other, gone;
-  JointId joint, gone_joint;
-};
+template <class S> class WorldCommands : public CommandedWorld<S> {};
 TYPED_TEST_SUITE(WorldCommands, AllScalars);
-
-template <class S> S not_a_number() {
-  if constexpr (!kIsFixed<S>) return std::numeric_limits<S>::quiet_NaN();
-  return S(0);
-}
-template <class S> S endless() {
-  if constexpr (!kIsFixed<S>) return -std::numeric_limits<S>::infinity();
-  return S(0);
-}
 
 TYPED_TEST(WorldCommands, a_new_world_is_empty_and_without_fault) {
   using S = TypeParam;
@@ -105,70 +41,6 @@ TYPED_TEST(WorldCommands, every_fault_has_a_text_of_its_own) {
     for (const std::string& known : texts) EXPECT_NE(known, text);
     texts.push_back(text);
   }
-}
-
-TYPED_TEST(WorldCommands, adding_a_shape_counts_one_more_and_removing_it_one_less) {
-  using S = TypeParam;
-  World<S>& w = this->world;
-  const std::uint32_t before = w.counts().shapes;
-  const ShapeId id = w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)});
-  ASSERT_TRUE(id);
-  EXPECT_TRUE(w.contains(id));
-  EXPECT_EQ(w.counts().shapes, before + 1);
-  EXPECT_TRUE(w.remove_shape(id));
-  EXPECT_FALSE(w.contains(id));
-  EXPECT_EQ(w.counts().shapes, before);
-}
-
-TYPED_TEST(WorldCommands, bad_shapes_are_refused) {
-  using S = TypeParam;
-  World<S>& w = this->world;
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(Sphere<S>{S(0)}); });
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(Sphere<S>{S(-1)}); });
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(Box<S>{vec<S>(1, 0, 1)}); });
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(Box<S>{{S(1), S(1), Limits<S>::extent() + S(1)}}); });
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(Capsule<S>{S(1), S(0)}); });
-  this->expect_refused(Fault::bad_shape, [&] {
-    return w.add_shape(HalfSpace<S>{{Unit<S>(0.5), Unit<S>(0.5), Unit<S>(0)}, S(0)});
-  });
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(std::span<const Child<S>>{}); });
-  Child<S> far_off = {primitive_of(Sphere<S>{S(1)}), Pose<S>::identity()};
-  far_off.pose.position.x = Limits<S>::extent();
-  this->expect_refused(Fault::bad_shape, [&] { return w.add_shape(std::span<const Child<S>>(&far_off, 1)); });
-  if constexpr (!kIsFixed<S>) {
-    this->expect_refused(Fault::not_finite, [&] { return w.add_shape(Sphere<S>{not_a_number<S>()}); });
-    this->expect_refused(Fault::not_finite, [&] { return w.add_shape(Box<S>{{S(1), endless<S>(), S(1)}}); });
-  }
-}
-
-TYPED_TEST(WorldCommands, a_shape_that_a_body_names_stays_whether_the_body_moves_sleeps_or_stands) {
-  World<TypeParam>& w = this->world;
-  this->expect_refused(Fault::shape_in_use, [&] { return w.remove_shape(this->ball); });
-  this->expect_refused(Fault::shape_in_use, [&] { return w.remove_shape(this->box); });
-  EXPECT_TRUE(w.destroy(this->kinematic));
-  EXPECT_TRUE(w.destroy(this->watcher));
-  this->expect_refused(Fault::shape_in_use, [&] { return w.remove_shape(this->box); });
-  EXPECT_TRUE(w.destroy(this->sleeper));
-  EXPECT_TRUE(w.remove_shape(this->box));
-  this->expect_refused(Fault::stale_id, [&] { return w.remove_shape(this->box); });
-}
-
-TYPED_TEST(WorldCommands, removing_a_shape_leaves_the_others_their_parts) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  const ShapeId first = add_ball(w, 0.5), second = add_box(w, 0.25, 0.5, 1), third = add_ball(w, 2);
-  EXPECT_TRUE(w.remove_shape(first));
-  const ShapeId fourth = w.add_shape(Capsule<S>{S(1), S(2)});
-  EXPECT_EQ(fourth.slot, first.slot);
-  EXPECT_NE(fourth.generation, first.generation);
-  EXPECT_TRUE(w.create(still<S>(second, {0, 0, 0})));
-  EXPECT_TRUE(w.create(still<S>(third, {10, 0, 0})));
-  EXPECT_TRUE(w.create(still<S>(fourth, {20, 0, 0})));
-  const auto height = [&](double x) { return to_double(w.cast_ray(vec<S>(x, 8, 0), vec<S>(0, -16, 0))->point.y); };
-  const double slack = 64 * grain<S>(16);
-  EXPECT_NEAR(height(0), 0.5, slack);
-  EXPECT_NEAR(height(10), 2, slack);
-  EXPECT_NEAR(height(20), 3, slack);
 }
 
 TYPED_TEST(WorldCommands, a_created_body_is_as_defined) {
@@ -278,19 +150,6 @@ TYPED_TEST(WorldCommands, a_slot_used_again_gets_a_new_generation) {
   EXPECT_FALSE(w.contains(this->gone));
 }
 
-TYPED_TEST(WorldCommands, forces_and_impulses_on_what_no_force_moves_are_refused) {
-  using S = TypeParam;
-  World<S>& w = this->world;
-  const Vec3<S> v = vec<S>(0, 1, 0);
-  for (const BodyId id : {this->ground, this->watcher, this->kinematic}) {
-    this->expect_refused(Fault::not_dynamic, [&] { return w.apply_force(id, v); });
-    this->expect_refused(Fault::not_dynamic, [&] { return w.apply_impulse(id, v); });
-  }
-  this->expect_refused(Fault::not_dynamic, [&] { return w.set_velocity(this->ground, v, v); });
-  this->expect_refused(Fault::not_dynamic, [&] { return w.set_motion(this->ground, S(1), S(0), S(0), 0); });
-  this->expect_refused(Fault::not_dynamic, [&] { return w.wake(this->ground); });
-}
-
 TYPED_TEST(WorldCommands, arguments_out_of_range_are_refused) {
   using S = TypeParam;
   World<S>& w = this->world;
@@ -349,41 +208,6 @@ TYPED_TEST(WorldCommands, numbers_that_are_not_finite_are_refused) {
   }
 }
 
-TYPED_TEST(WorldCommands, bad_joints_are_refused) {
-  using S = TypeParam;
-  World<S>& w = this->world;
-  const auto expect_bad = [&](Fault fault, auto&& change) {
-    JointProperties<S> j = w.joint_at(JointType::hinge, this->flier, this->sleeper, Pose<S>::identity());
-    change(j);
-    this->expect_refused(fault, [&] { return w.create(j); });
-  };
-  expect_bad(Fault::bad_argument, [](auto& j) { j.type = static_cast<JointType>(4); });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.flags = 1u << 5; });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.lower = S(1); });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.motor_torque = S(-1); });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.flags = joint_flag::kSpring; });
-  expect_bad(Fault::bad_argument, [](auto& j) {
-    j.flags = joint_flag::kSpring;
-    j.spring_frequency = S(1000);
-  });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.frame_a.orientation.w = Unit<S>(0.25); });
-  expect_bad(Fault::bad_argument, [](auto& j) {
-    j.type = JointType::distance;
-    j.lower = S(-1);
-  });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.body_b = j.body_a; });
-  expect_bad(Fault::stale_id, [](auto& j) { j.body_b = 12345; });
-  expect_bad(Fault::out_of_range, [](auto& j) { j.frame_a.position.x = Limits<S>::position() + S(1); });
-  expect_bad(Fault::not_dynamic, [&](auto& j) {
-    j.body_a = this->ground.slot;
-    j.body_b = this->kinematic.slot;
-  });
-  expect_bad(Fault::not_dynamic, [](auto& j) { j.body_a = j.body_b = kNoBody; });
-  JointProperties<S> j = *w.joint(this->joint);
-  j.type = JointType::ball;
-  this->expect_refused(Fault::bad_argument, [&] { return w.set_joint(this->joint, j); });
-}
-
 TYPED_TEST(WorldCommands, a_teleport_moves_a_body_and_keeps_its_velocity) {
   using S = TypeParam;
   World<S>& w = this->world;
@@ -395,84 +219,12 @@ TYPED_TEST(WorldCommands, a_teleport_moves_a_body_and_keeps_its_velocity) {
   EXPECT_EQ(w.angular_velocity(this->flier), vec<S>(4, 5, 6));
 }
 
-TYPED_TEST(WorldCommands, an_impulse_changes_velocity_by_itself_over_mass) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.25, 1), {0, 0, 0});
-  d.mass = S(4);
-  const BodyId id = w.create(d);
-  ASSERT_TRUE(w.apply_impulse(id, vec<S>(8, 0, -2)));
-  EXPECT_EQ(w.velocity(id), vec<S>(2, 0, -0.5));
-  EXPECT_EQ(w.angular_velocity(id), Vec3<S>::zero());
-  // Off centre: w = I^-1 (r x J), I_y = m (x^2 + z^2) / 3 with half extents x = 1/2, z = 1.
-  ASSERT_TRUE(w.apply_impulse_at(id, vec<S>(0, 0, 2), vec<S>(0.5, 0, 0)));
-  expect_near(real(w.angular_velocity(id)), {0, -0.5 * 2 / (4 * 1.25 / 3), 0}, 32 * grain<S>());
-  expect_near(real(w.velocity(id)), {2, 0, 0}, 4 * grain<S>());
-}
-
-TYPED_TEST(WorldCommands, a_force_acts_over_one_step_alone_and_forces_add_up) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0, 64, 4));
-  BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 0, 0});
-  d.mass = S(2);
-  const BodyId id = w.create(d);
-  ASSERT_TRUE(w.apply_force(id, vec<S>(64, 0, 0)));
-  ASSERT_TRUE(w.apply_force(id, vec<S>(64, 0, 32), vec<S>(0, 2, 0)));
-  EXPECT_EQ(w.velocity(id), Vec3<S>::zero());
-  w.step();
-  // I = 2/5 m r^2 = 1/5.
-  expect_near(real(w.velocity(id)), {1, 0, 0.25}, 8 * grain<S>());
-  expect_near(real(w.angular_velocity(id)), {0, 2 / 0.2 / 64, 0}, 8 * grain<S>());
-  const Vec3<S> kept = w.velocity(id);
-  w.step();
-  EXPECT_EQ(w.velocity(id), kept);
-}
-
-TYPED_TEST(WorldCommands, impulses_one_after_another_never_turn_a_velocity_round) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 0, 0});
-  d.mass = S(1);
-  const BodyId id = w.create(d);
-  const S most = Limits<S>::speed();
-  for (int i = 0; i < 5; ++i) {
-    ASSERT_TRUE(w.apply_impulse(id, {most, S(0), S(0)}));
-    EXPECT_GT(to_double(w.velocity(id).x), 0) << "after impulse " << i;
-  }
-  w.step();
-  EXPECT_GT(to_double(w.velocity(id).x), 0);
-  EXPECT_LE(w.velocity(id).x, most);
-}
-
-TYPED_TEST(WorldCommands, a_force_too_large_for_the_scalar_still_pushes_its_own_way) {
-  using S = TypeParam;
-  for (const double force : {1000.0, 4000.0, 7000.0, 12000.0, 30000.0}) {
-    World<S> w(settings<S>(0));
-    BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 0, 0});
-    d.mass = num<S>(0.5);
-    const BodyId id = w.create(d);
-    ASSERT_TRUE(w.apply_force(id, vec<S>(force, 0, 0)));
-    w.step();
-    EXPECT_GT(to_double(w.velocity(id).x), 0) << force << " N";
-    EXPECT_GT(to_double(w.center_of_mass(id).x), 0) << force << " N";
-  }
-}
-
 TYPED_TEST(WorldCommands, user_data_stays_what_it_was_set_to) {
   World<TypeParam>& w = this->world;
   for (const BodyId id : {this->ground, this->sleeper, this->kinematic, this->flier}) {
     ASSERT_TRUE(w.set_user_data(id, 0xfedcba9876543210u));
     EXPECT_EQ(w.user_data(id), 0xfedcba9876543210u);
   }
-}
-
-TYPED_TEST(WorldCommands, gravity_set_anew_is_what_bodies_fall_by) {
-  using S = TypeParam;
-  World<S> w(settings<S>(-10, 64, 4));
-  const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
-  ASSERT_TRUE(w.set_gravity(vec<S>(0, 0, 16)));
-  run(w, 64);
-  expect_near(real(w.velocity(id)), {0, 0, 16}, 1024 * speed_grain<S>(16));
 }
 
 TYPED_TEST(WorldCommands, destroying_a_body_takes_its_joints_and_contacts_along) {
@@ -497,22 +249,6 @@ TYPED_TEST(WorldCommands, the_lists_of_bodies_and_joints_ascend_by_slot) {
   for (const BodyId id : bodies) EXPECT_TRUE(w.contains(id));
   ASSERT_EQ(w.joints().size(), 1u);
   EXPECT_EQ(w.joints()[0], this->joint);
-}
-
-TYPED_TEST(WorldCommands, a_joint_set_anew_keeps_its_bodies_and_frames) {
-  using S = TypeParam;
-  World<S>& w = this->world;
-  JointProperties<S> j = *w.joint(this->joint);
-  const JointProperties<S> old = j;
-  j.body_a = this->sleeper.slot;
-  j.frame_b.position = vec<S>(1, 1, 1);
-  j.upper = S(3);
-  j.user_data = 7;
-  ASSERT_TRUE(w.set_joint(this->joint, j));
-  EXPECT_EQ(w.joint(this->joint)->body_a, old.body_a);
-  EXPECT_EQ(w.joint(this->joint)->frame_b.position, old.frame_b.position);
-  EXPECT_EQ(w.joint(this->joint)->upper, S(3));
-  EXPECT_EQ(w.joint(this->joint)->user_data, 7u);
 }
 
 }  // namespace

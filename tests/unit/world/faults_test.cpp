@@ -54,10 +54,10 @@ TYPED_TEST(WorldFaults, a_handler_is_told_of_each_refusal_and_of_nothing_else) {
   using S = TypeParam;
   World<S>& w = this->world;
   std::vector<std::string> told;
-  w.tell_faults_to({[](void* user, const FaultReport& report) {
-                      static_cast<std::vector<std::string>*>(user)->push_back(describe(report));
-                    },
-                    &told});
+  w.set_fault_handler({[](void* user, const FaultReport& report) {
+                         static_cast<std::vector<std::string>*>(user)->push_back(describe(report));
+                       },
+                       &told});
   w.apply_impulse(this->a, vec<S>(1, 0, 0));
   w.step();
   EXPECT_TRUE(told.empty());
@@ -70,7 +70,7 @@ TYPED_TEST(WorldFaults, a_handler_is_told_of_each_refusal_and_of_nothing_else) {
   w.destroy(this->b);
   w.destroy(this->b);
   EXPECT_EQ(told.size(), 3u);
-  w.tell_faults_to({});
+  w.set_fault_handler({});
   w.destroy(this->b);
   EXPECT_EQ(told.size(), 3u);
 }

@@ -13,8 +13,7 @@ bool ray_cast(const Primitive<S>& primitive, const Transform<S>& transform, Vec3
       visit_shape(primitive, [&](const auto& shape) { return shape.cast(transform, origin, translation); });
   if (found.kind == detail::LocalHit<S>::missed || found.fraction > max_fraction) return false;
   hit.fraction = found.fraction;
-  hit.normal =
-      found.kind == detail::LocalHit<S>::inside ? -detail::unit_of(translation) : transform.rotation * found.normal;
+  hit.normal = found.kind == detail::LocalHit<S>::inside ? -normalise(translation) : transform.rotation * found.normal;
   return true;
 }
 

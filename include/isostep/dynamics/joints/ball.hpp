@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/point_joint.hpp"
 
 namespace isostep {
 
@@ -41,15 +41,12 @@ template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S
 }  // namespace detail
 
 /// Origins coincide. kLimit: lower..upper of the twist about z; kCone: of the angle between the z axes.
-template <class S> struct BallJoint {
+template <class S> struct BallJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::ball;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kCone;
   static constexpr const char* kFlagNames = "of a ball joint kLimit, kCone, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
-  static constexpr bool kPoint = true;
   static constexpr bool kDrivesAlone = true;
-
-  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
@@ -66,11 +63,6 @@ template <class S> struct BallJoint {
     const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
     detail::linearise_twist(f, za, zb, joint);
     detail::linearise_swing(za, zb, joint);
-  }
-
-  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
-  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
-    return distance(a.position, b.position);
   }
 };
 

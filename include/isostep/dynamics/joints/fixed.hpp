@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/point_joint.hpp"
 
 namespace isostep {
 
 /// Frames coincide.
-template <class S> struct FixedJoint {
+template <class S> struct FixedJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::fixed;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;
   static constexpr const char* kFlagNames = "of a fixed joint kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
-  static constexpr bool kPoint = true;
   static constexpr bool kDrivesAlone = false;
-
-  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;
@@ -32,11 +29,6 @@ template <class S> struct FixedJoint {
     for (int i = 0; i < 3; ++i) block.rows[i] = detail::angular_row<S>(a.column(i), joint.radius);
     block.error = {detail::bounded_error(twice * q.x, h), detail::bounded_error(twice * q.y, h),
                    detail::bounded_error(twice * q.z, h)};
-  }
-
-  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
-  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
-    return distance(a.position, b.position);
   }
 };
 

@@ -2,21 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/point_joint.hpp"
 
 namespace isostep {
 
 /// Origins and z axes coincide. kLimit, kMotor and kSpring: of the angle about z.
-template <class S> struct HingeJoint {
+template <class S> struct HingeJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::hinge;
   static constexpr std::uint32_t kFlags =
       joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kMotor | joint_flag::kSpring;
   static constexpr const char* kFlagNames = "of a hinge kLimit, kMotor, kSpring, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
-  static constexpr bool kPoint = true;
   static constexpr bool kDrivesAlone = false;
-
-  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     const std::uint32_t flags = joint.properties.flags;
@@ -42,11 +39,6 @@ template <class S> struct HingeJoint {
     if (joint.drive_count == 0) return;
     joint.drives[0].row = detail::angular_row<S>(a.column(2), joint.drives[0].radius);
     detail::set_angle(joint.drives[0], joint.properties, detail::twist_angle<S>(detail::relative_rotation(f)));
-  }
-
-  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
-  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
-    return distance(a.position, b.position);
   }
 };
 

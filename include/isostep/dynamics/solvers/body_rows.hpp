@@ -26,7 +26,7 @@ template <class S> class BodyRows {
   /// Velocities back into context.states, after integration at that rate.
   void store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const;
 
-  /// See solver_input.hpp.
+  /// See rigid_solver.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
   ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }

@@ -35,7 +35,7 @@ template <class S> ISO_INLINE LocalHit<S> cast_capsule(const LocalRay<S>& ray, S
     S distance;
     if (!enter_sphere(flat, w, r, distance) || distance > across.length) return no_hit<S>();
     y = o.y + ray.translation.y * divide_to<U>(distance, across.length);
-    if (abs(y) <= h) return {LocalHit<S>::entered, distance / across.length, unit_of(flat + w * distance)};
+    if (abs(y) <= h) return {LocalHit<S>::entered, distance / across.length, normalise(flat + w * distance)};
   }
   return cast_sphere(ray, Vec3<S>{S(0), y > S(0) ? h : -h, S(0)}, r);
 }

@@ -30,8 +30,7 @@ template <class S = Literal> struct HalfSpace {
   }
   ISO_INLINE HalfSpace normalised() const {
     if (detail::is_unit(normal.x, normal.y, normal.z, Unit<S>(0))) return *this;
-    const auto direction = direction_of(normal.x, normal.y, normal.z);
-    return {{direction.x, direction.y, direction.z}, offset};
+    return {normalise(normal), offset};
   }
   /// The cube of twice the position limit, which holds every body with its extent; where it faces along a world axis
   /// exactly, as floors do, its surface bounds it too and bodies far above it make no pair.

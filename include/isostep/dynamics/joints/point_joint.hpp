@@ -1,0 +1,22 @@
+// What joints have in common that hold the origins of their frames together: their first block is the point.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_frames.hpp"
+
+namespace isostep::detail {
+
+/// The base of such a kind, which has the other members of `JointOf` (joint_kinds.hpp).
+template <class S> struct PointJoint {
+  static constexpr bool kPoint = true;
+
+  /// Any setting is valid that is valid for all kinds.
+  static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
+  static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
+    return distance(a.position, b.position);
+  }
+};
+
+}  // namespace isostep::detail
