@@ -22,7 +22,7 @@ template <class S, class Visit> void each_body(const WorldState<S>& state, Visit
   const auto each = [&](const BodySet<S>& set) {
     for (std::size_t i = 0; i < set.states.size(); ++i) visit(set.states[i], set.properties[i]);
   };
-  each(*state.fixed);
+  each(*state.static_bodies);
   each(state.awake);
   for (const auto& island : state.sleeping) each(island->bodies);
 }

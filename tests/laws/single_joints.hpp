@@ -29,7 +29,7 @@ inline constexpr const char* kJointKindNames[kJointKinds] = {"hinge, spring",
                                                              "hinge, free"};
 
 /// What holds the joint's other end.
-enum class Hold { world, fixed, kinematic, heavy };
+enum class Hold { world, static_body, kinematic, heavy };
 
 inline constexpr double kFall = 10;  // [m/s^2] gravity
 
@@ -193,7 +193,7 @@ template <class S> class JointWatch {
     const std::string what = words.str();
     if (what.empty()) return f;
     std::ostringstream line;
-    constexpr const char* kHolds[] = {"", " on a fixed body", " on a kinematic body", " on a heavy body"};
+    constexpr const char* kHolds[] = {"", " on a static body", " on a kinematic body", " on a heavy body"};
     line << "\n  " << kJointKindNames[static_cast<int>(j_.kind)] << kHolds[static_cast<int>(j_.hold)] << ", seed "
          << seed << ", arm " << length(j_.arm) << " m, " << (j_.box ? "box " : "ball ") << j_.half.x << ", "
          << kSolverNames[static_cast<int>(trial_.solver)] << " with " << trial_.substeps << ": " << what;
@@ -305,7 +305,7 @@ template <class S> class JointTrials {
   BodyId add_hold(const SingleJoint& j, D3 at) {
     if (j.hold == Hold::world) return {};
     BodyDefinition<S> d = definition(add_ball(world_, 0.5), at + D3{0.25, 0.25, 0});
-    if (j.hold == Hold::fixed) d.type = BodyType::static_;
+    if (j.hold == Hold::static_body) d.type = BodyType::static_;
     if (j.hold == Hold::kinematic) d.type = BodyType::kinematic;
     d.mass = num<S>(50 * j.mass);
     d.gravity_scale = S(0);

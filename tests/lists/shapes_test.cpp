@@ -41,7 +41,7 @@ TEST_F(ShapeList, a_member_that_its_file_lacks_is_named) {
   add_file();
   edit("include/isostep/geometry/shapes/probe.hpp", "closest(const Transform<S>& t", "nearest(const Transform<S>& t");
   EXPECT_THAT(errors_of("isostep/geometry/shape.hpp"),
-              AllOf(HasSubstr("a shape's file lacks a member"), HasSubstr("closest_point")));
+              AllOf(HasSubstr("a shape's file lacks a member"), HasSubstr("shape.closest")));
 }
 
 TEST_F(ShapeList, pairs_that_are_missing_do_not_compile) {

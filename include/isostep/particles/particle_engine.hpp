@@ -18,6 +18,8 @@ namespace isostep {
 template <class S> class ParticleEngine {
  public:
   explicit ParticleEngine(const ParticleSettings<S>& settings);
+  ParticleEngine(const ParticleEngine&) = delete;  // its members refer to each other
+  ParticleEngine& operator=(const ParticleEngine&) = delete;
 
   ParticleReport step(const ParticleStageObserver& observer);
   StageView view(std::uint32_t stage);

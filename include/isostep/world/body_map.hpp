@@ -14,7 +14,7 @@ namespace isostep {
 /// The array that holds a body or joint, and its place there.
 struct Location {
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  static constexpr std::uint32_t kFixed = 0xfffffffeu;
+  static constexpr std::uint32_t kStatic = 0xfffffffeu;
   static constexpr std::uint32_t kAwake = 0xfffffffdu;
   std::uint32_t set = kNone;  // one of the above, or an index into WorldState::sleeping
   std::uint32_t index = 0;
@@ -57,7 +57,7 @@ template <class S> class BodyMap {
   Pose<S> centre_pose_at(std::uint32_t slot) const;
 
   // Changes. `set` is the array's name in a Location.
-  /// Puts a body among the fixed or the awake ones, and a joint among the awake ones.
+  /// Puts a body among the static or the awake ones, and a joint among the awake ones.
   void insert(const BodyState<S>& state, const BodyProperties<S>& body);
   void insert(const JointState<S>& state, const JointProperties<S>& joint);
   /// Of an awake joint.

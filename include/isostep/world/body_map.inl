@@ -19,12 +19,12 @@ template <class S> std::uint32_t BodyMap<S>::row_of(std::uint32_t slot) const {
 
 template <class S> const BodyState<S>& BodyMap<S>::state_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.states[at.index];
-  if (at.set == Location::kFixed) return state_.fixed->states[at.index];
+  if (at.set == Location::kStatic) return state_.static_bodies->states[at.index];
   return state_.sleeping[at.set]->bodies.states[at.index];
 }
 template <class S> const BodyProperties<S>& BodyMap<S>::properties_at(Location at) const {
   if (at.set == Location::kAwake) return state_.awake.properties[at.index];
-  if (at.set == Location::kFixed) return state_.fixed->properties[at.index];
+  if (at.set == Location::kStatic) return state_.static_bodies->properties[at.index];
   return state_.sleeping[at.set]->bodies.properties[at.index];
 }
 template <class S> const BodyState<S>* BodyMap<S>::state_of(BodyId body) const {
@@ -43,7 +43,8 @@ template <class S> const JointProperties<S>* BodyMap<S>::properties_of(JointId j
 }
 template <class S> BodyProperties<S>& BodyMap<S>::change_properties(std::uint32_t slot) {
   const Location at = locations_[slot];
-  return at.set == Location::kAwake ? state_.awake.properties[at.index] : state_.fixed.change().properties[at.index];
+  return at.set == Location::kAwake ? state_.awake.properties[at.index]
+                                    : state_.static_bodies.change().properties[at.index];
 }
 
 template <class S> std::span<const Child<S>> BodyMap<S>::children_of(std::uint32_t shape_slot) const {
@@ -81,13 +82,13 @@ template <class Set> ISO_INLINE std::ptrdiff_t place_of_slot(const Set& set, std
 }  // namespace detail
 
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
-  const bool fixed = body.type == BodyType::static_;
-  BodySet<S>& set = fixed ? state_.fixed.change() : state_.awake;
+  const bool is_static = body.type == BodyType::static_;
+  BodySet<S>& set = is_static ? state_.static_bodies.change() : state_.awake;
   const std::ptrdiff_t at = detail::place_of_slot(set, state.slot);
   set.states.insert(set.states.begin() + at, state);
   set.properties.insert(set.properties.begin() + at, body);
   make_room();
-  relabel(set, fixed ? Location::kFixed : Location::kAwake, static_cast<std::size_t>(at));
+  relabel(set, is_static ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
 }
 template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
   const std::ptrdiff_t at = detail::place_of_slot(state_.joints, state.slot);

@@ -15,7 +15,7 @@ namespace isostep {
 
 /// Bodies in one place have pairs by the square of their number; a budget keeps a step's time and memory in bounds.
 /// Method:  All pairs, if they are no more than the budget. Else, in this order and as far as it lasts: pairs with what
-///          is fixed, driven or asleep, so that nothing falls through a floor; pairs of moving bodies that have
+///          is static, kinematic or asleep, so that nothing falls through a floor; pairs of moving bodies that have
 ///          contacts already; new ones. What is first to be too much is shared: each moving body gets as many partners
 ///          as there is budget a body, those that stand behind it, nearest first, in the walk of a tree.
 /// Order:   that tree is built anew from the bodies in order of their slots, so it is a function of the state, and with

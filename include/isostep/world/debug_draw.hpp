@@ -22,9 +22,9 @@ struct DrawnBody {
 
   BodyId body;
   BodyType type;
-  bool awake;            // fixed bodies never are
+  bool awake;            // static bodies never are
   bool sensor;           // reports overlaps, is not solved
-  std::uint32_t island;  // of those asleep, as DrawnIsland counts them; kNoIsland: awake or fixed
+  std::uint32_t island;  // of those asleep, as DrawnIsland counts them; kNoIsland: awake or static
   std::uint64_t user_data;
   DrawnPose pose;     // of the body's origin
   float velocity[3];  // [m/s] of the centre of mass
@@ -162,7 +162,7 @@ class DebugDraw {
 };
 
 /// Tells `to` what the state holds, whatever led there: after a step, a command or a load alike; sleepers too. Changes
-/// and allocates nothing. Bodies: the fixed, the awake, then island by island, each ascending by slot.
+/// and allocates nothing. Bodies: the static, the awake, then island by island, each ascending by slot.
 /// Contacts are those that the last step left. Impulses are state, geometry is not: where the points are and how deep
 /// is found anew from the poses of now, so it is what the next step begins with, not what the last one solved. A
 /// contact whose parts have moved apart since is not told; a point with no namesake among the remembered has no force.

@@ -21,7 +21,7 @@ template <class S> class BodySketch {
   ISO_INLINE void draw_all() const {
     const bool any = options_.bodies || options_.masses || options_.boxes;
     if (any) {
-      draw_set(*state_.fixed, false, DrawnBody::kNoIsland);
+      draw_set(*state_.static_bodies, false, DrawnBody::kNoIsland);
       draw_set(state_.awake, true, DrawnBody::kNoIsland);
       for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) draw_set(state_.sleeping[i]->bodies, false, i);
     }

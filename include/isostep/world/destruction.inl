@@ -59,14 +59,14 @@ template <class S> void Destruction<S>::erase_what_names_them() {
 }
 
 template <class S> void Destruction<S>::erase_records() {
-  std::uint32_t first_awake = Location::kNone, first_fixed = Location::kNone;
+  std::uint32_t first_awake = Location::kNone, first_static = Location::kNone;
   for (const std::uint32_t slot : marked_) {
     const Location at = map_.location(slot);
-    std::uint32_t& first = at.set == Location::kFixed ? first_fixed : first_awake;
+    std::uint32_t& first = at.set == Location::kStatic ? first_static : first_awake;
     first = min(first, at.index);
   }
   if (first_awake != Location::kNone) erase_records(state_.awake, Location::kAwake, first_awake);
-  if (first_fixed != Location::kNone) erase_records(state_.fixed.change(), Location::kFixed, first_fixed);
+  if (first_static != Location::kNone) erase_records(state_.static_bodies.change(), Location::kStatic, first_static);
 }
 template <class S> void Destruction<S>::erase_records(BodySet<S>& set, std::uint32_t name, std::size_t first) {
   std::size_t kept = first;

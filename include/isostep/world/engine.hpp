@@ -43,6 +43,8 @@ namespace isostep {
 template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);
+  WorldEngine(const WorldEngine&) = delete;  // its members refer to each other
+  WorldEngine& operator=(const WorldEngine&) = delete;
 
   // engine_step.inl
   StepReport step(const StageObserver& observer);

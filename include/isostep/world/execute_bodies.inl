@@ -139,10 +139,10 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
   return count;
 }
 
-/// Whether a body's motion is to be changed at all: not that of a fixed one.
+/// Whether a body's motion is to be changed at all: not that of a static one.
 template <class S> bool CommandExecutor<S>::may_change(BodyId body) {
   if (!known(body)) return false;
-  const bool moves = map_.location(body.slot).set != Location::kFixed;
+  const bool moves = map_.location(body.slot).set != Location::kStatic;
   return moves || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
 }
 template <class S> bool CommandExecutor<S>::execute(const WakeBody& command) {
@@ -162,9 +162,9 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   if (!journal_.accept(detail::fault_of_place(centre, "position"))) return false;
   wake_.wake_touching(slot);
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
-  if (at.set != Location::kFixed) wake_.wake_for_change(slot);
+  if (at.set != Location::kStatic) wake_.wake_for_change(slot);
   const Location now = map_.location(slot);
-  BodySet<S>& set = now.set == Location::kFixed ? state_.fixed.change() : state_.awake;
+  BodySet<S>& set = now.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
   BodyState<S>& state = set.states[now.index];
   const BodyProperties<S>& body = set.properties[now.index];
   state.orientation = orientation;

@@ -38,7 +38,7 @@ template <class S> class IslandWake {
   void wake_held_by(std::uint32_t slot);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);
-  /// The awake state of a body that is about to be changed. Not of a fixed one.
+  /// The awake state of a body that is about to be changed. Not of a static one.
   BodyState<S>& wake_for_change(std::uint32_t slot);
   /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
   void reset_clock(std::uint32_t slot);

@@ -66,7 +66,6 @@ template <class S> class NarrowPhase {
   PartPairs<S> part_pairs_;
   std::span<const std::uint64_t> pairs_;  // for one update
   const PairKernels<S>* kernels_ = nullptr;
-  std::uint32_t cut_compounds_ = 0;
   std::vector<std::uint8_t> point_counts_;  // by place in a group
   std::vector<Manifold<S>> manifolds_;      // by place, where the count is not zero
   std::size_t placed_ = 0;                  // contacts of this step so far

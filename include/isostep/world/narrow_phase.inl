@@ -63,12 +63,13 @@ std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const
   else update_alone();
   state_.contacts.resize(placed_);
   geometry_.resize(placed_);
-  return cut_compounds_;
+  pairs_ = {};
+  return part_pairs_.cut_compounds();
 }
 
 template <class S> void NarrowPhase<S>::update_alone() {
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) part_pairs_.frame_awake_body(i);
-  cut_compounds_ = part_pairs_.gather(pairs_);
+  part_pairs_.gather(pairs_);
   point_counts_.resize(PartGroup::kMost);
   manifolds_.resize(PartGroup::kMost);
   std::size_t old_cursor = 0;
@@ -98,7 +99,7 @@ template <class S> void NarrowPhase<S>::run_piece(void* data, std::uint32_t stag
   switch (stage) {
     case 0: return each(phase.state_.awake.states.size(), [&](std::size_t i) { part_pairs.frame_awake_body(i); });
     case 1:
-      phase.cut_compounds_ = part_pairs.gather(phase.pairs_);
+      part_pairs.gather(phase.pairs_);
       phase.point_counts_.resize(part_pairs.groups() * PartGroup::kMost);
       phase.manifolds_.resize(part_pairs.groups() * PartGroup::kMost);
       return;

@@ -35,6 +35,8 @@ template <class S> class PartPairs {
   void frame_awake_body(std::size_t index);
   /// Returns how many pairs of compounds lack parts, because the budget is used up.
   std::uint32_t gather(std::span<const std::uint64_t> pairs);
+  /// The same, of the last `gather`.
+  ISO_INLINE std::uint32_t cut_compounds() const { return cut_compounds_; }
 
   /// Of awake bodies in their order, then of those that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }

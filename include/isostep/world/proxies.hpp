@@ -24,8 +24,6 @@ template <class S> class Proxies {
   void remove(std::uint32_t slot);
   /// `contacts` of the last step: of pairs beyond `budget` they decide which are looked at.
   void update(std::span<const Contact<S>> contacts, std::size_t budget);
-  /// One past the largest slot met.
-  std::size_t slots() const { return proxies_.size(); }
   bool present(std::uint32_t slot) const { return slot < proxies_.size() && proxies_[slot].present; }
 
   ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }

@@ -25,7 +25,10 @@ template <class S> class RenderPoses {
   /// A body that a command puts somewhere is drawn there, and not on the way from where its slot was before.
   void start_here(const BodyState<S>& state);
   /// The state was replaced: bodies are drawn where they are.
-  ISO_INLINE void forget() { start_slots_.clear(); }
+  ISO_INLINE void forget() {
+    start_poses_.clear();
+    start_slots_.clear();
+  }
 
   /// `alpha` of 0: as the last step began; of 1: now.
   const std::vector<RenderPose>& fill(float alpha);

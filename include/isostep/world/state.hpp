@@ -112,7 +112,7 @@ template <class S> struct WorldState {
   Shared<std::vector<ShapeRecord>> shapes;  // by slot
   Shared<std::vector<Child<S>>> children;   // the shapes' pool
   Shared<GeometryStore> geometry;           // what they name
-  Shared<BodySet<S>> fixed;
+  Shared<BodySet<S>> static_bodies;
   BodySet<S> awake;
   std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
@@ -130,9 +130,9 @@ template <class S> struct WorldState {
     visit("joint_slots", self.joint_slots);
     visit.shared(self.shapes, [](auto&& of, auto& shapes) ISO_INLINE_LAMBDA { of("shapes", shapes); });
     visit.shared(self.children, [](auto&& of, auto& children) ISO_INLINE_LAMBDA { of("children", children); });
-    visit.shared(self.fixed, [](auto&& of, auto& bodies) ISO_INLINE_LAMBDA {
-      of("fixed", bodies.states);
-      of("fixed_properties", bodies.properties);
+    visit.shared(self.static_bodies, [](auto&& of, auto& bodies) ISO_INLINE_LAMBDA {
+      of("static_bodies", bodies.states);
+      of("static_properties", bodies.properties);
     });
     visit("bodies", self.awake.states);
     visit("properties", self.awake.properties);

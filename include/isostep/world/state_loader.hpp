@@ -14,7 +14,7 @@ namespace isostep {
 /// Output:  that state; the body map and the broad phase renewed where it differs.
 /// Keeps:   nothing from call to call but memory.
 /// Cost:    time for what is awake in either state, for the islands that only one of them has at their place, and for
-///          what is fixed if that differs.
+///          the static bodies if they differ.
 template <class S> class StateLoader {
  public:
   ISO_INLINE StateLoader(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
@@ -23,9 +23,9 @@ template <class S> class StateLoader {
   void load(const WorldState<S>& from);
 
  private:
-  void forget_places(bool other_fixed);
+  void forget_places(bool other_static);
   void forget(const BodySet<S>& bodies, const JointSet<S>& joints);
-  void renew_places(bool other_fixed);
+  void renew_places(bool other_static);
   void place(const BodySet<S>& bodies, std::uint32_t set);
 
   WorldState<S>& state_;

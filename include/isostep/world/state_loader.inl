@@ -18,16 +18,16 @@ template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
   other_islands_.clear();
   state_.sleeping.each_difference(from.sleeping,
                                   [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
-  const bool other_fixed = !state_.fixed.is_same(from.fixed);
-  forget_places(other_fixed);
+  const bool other_static = !state_.static_bodies.is_same(from.static_bodies);
+  forget_places(other_static);
   state_ = from;
-  renew_places(other_fixed);
+  renew_places(other_static);
 }
 
-/// Of everything but the islands, and the fixed bodies, that stay.
-template <class S> void StateLoader<S>::forget_places(bool other_fixed) {
+/// Of everything but the islands, and the static bodies, that stay.
+template <class S> void StateLoader<S>::forget_places(bool other_static) {
   forgotten_.clear();
-  if (other_fixed) forget(*state_.fixed, {});
+  if (other_static) forget(*state_.static_bodies, {});
   forget(state_.awake, state_.joints);
   for (const std::uint32_t i : other_islands_) {
     if (i >= state_.sleeping.size()) continue;
@@ -44,9 +44,9 @@ template <class S> void StateLoader<S>::forget(const BodySet<S>& bodies, const J
 }
 
 /// Of the same in the new state; the broad phase changes only where a body differs from what it knew.
-template <class S> void StateLoader<S>::renew_places(bool other_fixed) {
+template <class S> void StateLoader<S>::renew_places(bool other_static) {
   map_.make_room();
-  if (other_fixed) place(*state_.fixed, Location::kFixed);
+  if (other_static) place(*state_.static_bodies, Location::kStatic);
   place(state_.awake, Location::kAwake);
   map_.relabel(state_.joints, Location::kAwake, 0);
   for (const std::uint32_t i : other_islands_) {

@@ -31,7 +31,7 @@ template <class S> class StateValidator {
       if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
     }
     if (const char* rule = shapes()) return rule;
-    if (const char* rule = bodies(*state_.fixed, kFixed)) return rule;
+    if (const char* rule = bodies(*state_.static_bodies, kStatic)) return rule;
     if (const char* rule = bodies(state_.awake, kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = bodies(state_.sleeping[i]->bodies, i)) return rule;
@@ -53,7 +53,7 @@ template <class S> class StateValidator {
   }
 
  private:
-  static constexpr std::uint32_t kNowhere = 0xffffffffu, kFixed = 0xfffffffeu, kAwake = 0xfffffffdu;
+  static constexpr std::uint32_t kNowhere = 0xffffffffu, kStatic = 0xfffffffeu, kAwake = 0xfffffffdu;
 
   static bool lie_in(const SlotMap& slots, std::uint32_t space) {
     bool all = true;
@@ -130,7 +130,7 @@ template <class S> class StateValidator {
     constexpr std::uint32_t kKnown =
         body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
-    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == kFixed) ||
+    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == kStatic) ||
         (name < kAwake && !dynamic_body)) {
       return "a body's type does not fit its set";
     }
@@ -176,7 +176,7 @@ template <class S> class StateValidator {
 
   std::uint32_t parts_of_body(std::uint32_t slot) const {
     const std::uint32_t set = set_of_body_[slot];
-    const BodySet<S>& bodies = set == kFixed   ? *state_.fixed
+    const BodySet<S>& bodies = set == kStatic  ? *state_.static_bodies
                                : set == kAwake ? state_.awake
                                                : state_.sleeping[set]->bodies;
     std::size_t low = 0, high = bodies.states.size();
@@ -293,7 +293,7 @@ template <class S> class StateValidator {
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kFixed, kAwake or a sleeping island
+  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kStatic, kAwake or a sleeping island
   std::vector<BodyType> type_of_body_;      // by slot
   std::vector<std::uint8_t> joint_met_;     // by slot
 };

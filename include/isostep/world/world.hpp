@@ -65,7 +65,7 @@ struct RenderPose {
 
 /// Counts of the moment, for reports.
 struct WorldCounts {
-  std::uint32_t bodies, fixed, awake, asleep, contacts, points, joints, shapes;
+  std::uint32_t bodies, static_bodies, awake, asleep, contacts, points, joints, shapes;
 };
 
 /// A rigid-body world over any scalar.
@@ -213,7 +213,7 @@ template <class S> class World final {
     ~Snapshot();
     Snapshot(Snapshot&& other) noexcept;
     Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, fixed bodies, shapes and tables of slots,
+    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, static bodies, shapes and tables of slots,
     /// which it shares with the world and other snapshots until they change.
     std::size_t bytes() const;
 

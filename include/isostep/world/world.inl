@@ -246,7 +246,7 @@ template <class S> std::vector<JointId> World<S>::joints() const {
 template <class S> WorldCounts World<S>::counts() const {
   const WorldState<S>& state = engine_->state_;
   WorldCounts counts = {};
-  counts.fixed = static_cast<std::uint32_t>(state.fixed->states.size());
+  counts.static_bodies = static_cast<std::uint32_t>(state.static_bodies->states.size());
   counts.awake = static_cast<std::uint32_t>(state.awake.states.size());
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   for (const Contact<S>& contact : state.contacts) counts.points += contact.count;
@@ -257,7 +257,7 @@ template <class S> WorldCounts World<S>::counts() const {
     counts.joints += static_cast<std::uint32_t>(island->joints.states.size());
   }
   counts.joints += static_cast<std::uint32_t>(state.joints.states.size());
-  counts.bodies = counts.fixed + counts.awake + counts.asleep;
+  counts.bodies = counts.static_bodies + counts.awake + counts.asleep;
   for (std::uint32_t i = 0; i < state.shape_slots.entries().size(); ++i)
     counts.shapes += state.shape_slots.is_taken(i) ? 1u : 0u;
   return counts;

@@ -81,12 +81,12 @@ class Owners {
     const std::string& name = item.array;
     if (name == "islands") return of_island(path);
     if (name == "sleeping") return of_sleeping(path);
-    if (is_any(name, std::array{"bodies", "fixed", "frames", "forces", "fell_asleep", "woke", "untold_woke"}))
+    if (is_any(name, std::array{"bodies", "static_bodies", "frames", "forces", "fell_asleep", "woke", "untold_woke"}))
       return by_field("body", item, ".slot");
     if (is_any(name, std::array{"properties", "accelerations", "start_poses", "start_slots", "solver_start",
                                 "solver_inertia"}))
       return named("body", body_at(item.index));
-    if (name == "fixed_properties") return by_field("body", {"fixed", item.index}, ".slot");
+    if (name == "static_properties") return by_field("body", {"static_bodies", item.index}, ".slot");
     if (name == "materials") return named("body", body_of_frame(item.index));
     if (name == "locations") return named("body", item.index);
     if (is_any(name, std::array{"solver_velocity", "solver_displacement", "solver_mass"}))

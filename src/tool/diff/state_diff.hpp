@@ -84,7 +84,7 @@ class RowKeys {
 
   const std::vector<RowKey>* find(const std::string& name) const {
     constexpr std::pair<const char*, const char*> kProperties[] = {
-        {"properties", "bodies"}, {"fixed_properties", "fixed"}, {"joint_properties", "joints"}};
+        {"properties", "bodies"}, {"static_properties", "static_bodies"}, {"joint_properties", "joints"}};
     for (const auto& [properties, states] : kProperties) {
       if (name == properties) return find(states);
     }

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPointRoom = 2'000'000;  // [bytes] of all runs' contact points
-constexpr const char* kTypeNames[] = {"fixed", "kinematic", "dynamic"};
+constexpr const char* kTypeNames[] = {"static", "kinematic", "dynamic"};
 
 /// To the fifth digit: what is drawn needs no more.
 double short_of(float x) {

@@ -160,7 +160,7 @@ class Player {
       const head = kHere('heads').children[i], now = run.frames[frame];
       let here = 0, asleep = 0;
       for (let actor = 0; actor < run.actors.length; ++actor) {
-        if (run.state(frame, actor) === kGone || run.actors[actor].type === 'fixed') continue;
+        if (run.state(frame, actor) === kGone || run.actors[actor].type === 'static') continue;
         ++here;
         asleep += run.state(frame, actor) === kAsleep ? 1 : 0;
       }

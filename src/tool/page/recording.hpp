@@ -63,7 +63,7 @@ struct Moved {
 enum class Change : std::uint32_t { gone, awake, asleep };
 struct Changed {
   std::uint32_t actor;
-  Change to;  // fixed bodies count as awake
+  Change to;  // static bodies count as awake
 };
 struct ContactPoint {
   std::array<float, 3> at;            // [m]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 const kColours = [0x4f86c6, 0xe0925b, 0x6bab7f, 0xc9697b, 0x8d7cc0, 0xd4b04c, 0x5aa9b0, 0xa9815e];
-const kFixedColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4;
+const kStaticColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4;
 // [m] How far a body reaches from its origin, less half-spaces.
 function reachOf(actor) {
   const reach = (part) =>
@@ -178,7 +178,7 @@ class View {
     this.walls.push({part, edges});
   }
 
-  // Half-spaces of fixed bodies, planes and lines of particles.
+  // Half-spaces of static bodies, planes and lines of particles.
   addScenery() {
     this.run.actors.forEach((actor, index) => {
       for (const part of actor.parts || []) {
@@ -220,7 +220,7 @@ class View {
   }
   addLine(from, to, radius) {
     const mesh =
-        new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16), new THREE.MeshStandardMaterial({color: kFixedColour}));
+        new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16), new THREE.MeshStandardMaterial({color: kStaticColour}));
     mesh.matrixAutoUpdate = false;
     rodMatrix(mesh.matrix, from, to, Math.max(radius, 0.003 * this.extent.size));
     mesh.castShadow = true;
@@ -281,7 +281,7 @@ class View {
     const {type} = this.run.actors[actor];
     const colour = new THREE.Color(
         parted                   ? kPartedColour :
-            type === 'fixed'     ? kFixedColour :
+            type === 'static'     ? kStaticColour :
             type === 'kinematic' ? kKinematicColour :
                                    kColours[actor % kColours.length]);
     if (look === 2) colour.lerp(new THREE.Color(kAsleepColour), 0.72);

@@ -52,7 +52,7 @@ void strike_everything(const tool::Input& input, const std::map<std::string, Arr
 const std::map<std::string, std::string> kRigidOwners = {
     {"bodies", "body slot "},
     {"properties", "body slot "},
-    {"fixed", "body slot "},
+    {"static_bodies", "body slot "},
     {"fixed_properties", "body slot "},
     {"contacts", "body slots "},
     {"joints", "joint slot "},

@@ -36,7 +36,7 @@ TYPED_TEST(BodyMaps, bodies_lie_ascending_by_slot_in_whatever_order_they_come) {
   this->insert(this->ids[1], BodyType::static_);
   this->insert(this->ids[0], BodyType::kinematic);
   this->expect_at(this->ids[0], Location::kAwake, 0);
-  this->expect_at(this->ids[1], Location::kFixed, 0);
+  this->expect_at(this->ids[1], Location::kStatic, 0);
   this->expect_at(this->ids[2], Location::kAwake, 1);
   EXPECT_EQ(this->map.row_of(2), 2u);
   EXPECT_EQ(this->map.row_of(1), 0u) << "nothing moves it";

@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace {
 
-/// Slot 0 is fixed; slots 1 and 2 have rows 1 and 2 and 2 kg each.
+/// Slot 0 is static; slots 1 and 2 have rows 1 and 2 and 2 kg each.
 template <class S> class ContactEventsOf : public ::testing::Test {
  protected:
   ContactEventsOf() : rooms(made()) {}

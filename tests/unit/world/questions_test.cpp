@@ -36,7 +36,7 @@ template <class S> class WorldQuestions : public ::testing::Test {
     }
   }
   const BodyProperties<S>& properties(BodyId id) const {
-    const BodySet<S>* sets[] = {&*world.state().fixed, &world.state().awake};
+    const BodySet<S>* sets[] = {&*world.state().static_bodies, &world.state().awake};
     for (const BodySet<S>* set : sets) {
       for (std::size_t i = 0; i < set->states.size(); ++i) {
         if (set->states[i].slot == id.slot) return set->properties[i];
@@ -48,7 +48,7 @@ template <class S> class WorldQuestions : public ::testing::Test {
       }
     }
     ADD_FAILURE() << "a body in no set";
-    return world.state().fixed->properties[0];
+    return world.state().static_bodies->properties[0];
   }
 
   World<S> world;

@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace {
 
-/// Slot 0 is a fixed sensor, the others are awake balls.
+/// Slot 0 is a static sensor, the others are awake balls.
 template <class S> class Overlaps : public ::testing::Test {
  protected:
   Overlaps() : rooms(made()) {}

@@ -26,7 +26,7 @@ TYPED_TEST_SUITE(StateLoaders, RoomScalars);
 TYPED_TEST(StateLoaders, every_body_is_found_where_it_lies) {
   using S = TypeParam;
   Rooms<S> rooms(this->world);
-  EXPECT_EQ(rooms.map.location(this->ground.slot).set, Location::kFixed);
+  EXPECT_EQ(rooms.map.location(this->ground.slot).set, Location::kStatic);
   EXPECT_EQ(rooms.map.location(this->asleep.slot).set, 0u);
   EXPECT_EQ(rooms.map.location(this->awake.slot).set, Location::kAwake);
   EXPECT_EQ(rooms.map.names(this->ground.slot), 1u) << "by the sleeper's contact";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/math/softness.hpp"
 #include "isostep/particles/step/integration.hpp"
 #include "isostep/particles/step/rows.hpp"

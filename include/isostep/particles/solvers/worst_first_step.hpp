@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/solvers/worst_first.hpp"
 #include "isostep/particles/step/integration.hpp"
 #include "isostep/particles/step/rows.hpp"
@@ -13,7 +14,7 @@ namespace isostep {
 
 /// Looks at rows that one step may take [1] where settings name none: a fifth of a second, and 2048 a particle, of
 /// which a pile takes 1200 in four sub-steps.
-ISO_INLINE constexpr std::uint64_t most_looks(std::uint32_t asked, std::uint64_t particles) {
+ISO_INLINE constexpr std::uint64_t iteration_budget(std::uint32_t asked, std::uint64_t particles) {
   return asked != 0 ? asked : (std::uint64_t{1} << 22) + 2048 * particles;
 }
 

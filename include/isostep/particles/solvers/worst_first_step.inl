@@ -14,7 +14,7 @@ WorstFirstStep<S>::WorstFirstStep(ParticleState<S>& state, ParticleStep<S>& step
     : state_(state), step_(step), rows_(rows), integration_(integration) {}
 
 template <class S> void WorstFirstStep<S>::begin_step() {
-  looks_left_ = most_looks(state_.settings.looks, state_.material.size());
+  looks_left_ = iteration_budget(state_.settings.looks, state_.material.size());
 }
 
 template <class S> void WorstFirstStep<S>::solve_substep() {
@@ -79,7 +79,7 @@ template <class S> ISO_INLINE bool WorstFirstStep<S>::is_touching(const Row& row
   return row.kind == ConstraintKind::contact && row.separation <= tolerance;
 }
 template <class S> void WorstFirstStep<S>::resolve_rows() {
-  std::vector<Row>& rows = rows_.all();
+  const std::span<Row> rows = rows_.all();
   const std::uint32_t asked = state_.settings.iterations;
   const bool arrives = integration_.arrives();
   ResolverTerms<S> terms = {arrives ? step_.rate + step_.rate : step_.rate, !arrives, std::nullopt, looks_left_};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/step/pair_search.hpp"
 #include "isostep/particles/step/rows.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/step/free_flight.hpp"
 
 namespace isostep {

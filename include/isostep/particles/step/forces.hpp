@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/core/bitset.hpp"
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/step/free_flight.hpp"
 #include "isostep/particles/step/pair_search.hpp"
 #include "isostep/particles/step/springs.hpp"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/flight.hpp"
 #include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"

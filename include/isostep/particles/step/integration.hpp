@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/implicit_springs.hpp"
 #include "isostep/particles/step/forces.hpp"
 #include "isostep/particles/step/free_flight.hpp"

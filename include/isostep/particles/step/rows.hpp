@@ -30,12 +30,10 @@ template <class S> class ParticleRows {
   ISO_INLINE void end_contacts() { first_touch_ = static_cast<std::uint32_t>(rows_.size()); }
 
   ISO_INLINE bool empty() const { return rows_.empty(); }
-  ISO_INLINE std::vector<Row>& all() { return rows_; }
+  ISO_INLINE std::span<Row> all() { return rows_; }
   ISO_INLINE std::span<Row> links() { return {rows_.data(), first_contact_}; }
   ISO_INLINE std::span<Row> contacts() { return {rows_.data() + first_contact_, rows_.data() + first_touch_}; }
   ISO_INLINE std::span<Row> touches() { return {rows_.data() + first_touch_, rows_.data() + rows_.size()}; }
-  ISO_INLINE std::uint32_t first_contact() const { return first_contact_; }
-  ISO_INLINE std::uint32_t first_touch() const { return first_touch_; }
 
   /// Normals and separations where particles are now: a passing particle must not meet the plane through where
   /// something was.

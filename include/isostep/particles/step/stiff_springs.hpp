@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/step/rows.hpp"
@@ -25,7 +26,7 @@ template <class S> class StiffSprings {
   StiffSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
   /// Once a step: how each moves, by whether constraints or other stiff springs hold its ends too.
-  void prepare(const std::vector<ParticleConstraint<S>>& rows);
+  void prepare(std::span<const ParticleConstraint<S>> rows);
   /// After the integration of a sub-step: velocities and displacements of all ends.
   void swing();
   /// Adds them as forces, which they otherwise are not.
@@ -34,7 +35,7 @@ template <class S> class StiffSprings {
   template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
 
  private:
-  void count_holds(const std::vector<ParticleConstraint<S>>& rows);
+  void count_holds(std::span<const ParticleConstraint<S>> rows);
   ISO_INLINE void swing(const Spring<S>& spring, const OscillatorStep<S>& motion);
   ISO_INLINE void move_end(std::uint32_t slot, Vec3<V> way, Vec3<V> change);
 

@@ -11,7 +11,7 @@ template <class S>
 StiffSprings<S>::StiffSprings(ParticleState<S>& state, ParticleStep<S>& step) : state_(state), step_(step) {}
 
 /// What holds each particle besides forces: stiff springs and constraints.
-template <class S> void StiffSprings<S>::count_holds(const std::vector<ParticleConstraint<S>>& rows) {
+template <class S> void StiffSprings<S>::count_holds(std::span<const ParticleConstraint<S>> rows) {
   holds_.assign(state_.material.size(), 0);
   const auto hold = [this](std::uint32_t slot) { holds_[slot] = min(holds_[slot] + 1u, 2u); };
   for (const std::uint32_t slot : slots_) {
@@ -24,7 +24,7 @@ template <class S> void StiffSprings<S>::count_holds(const std::vector<ParticleC
     if (row.b != kNoParticle) hold(row.b);
   }
 }
-template <class S> void StiffSprings<S>::prepare(const std::vector<ParticleConstraint<S>>& rows) {
+template <class S> void StiffSprings<S>::prepare(std::span<const ParticleConstraint<S>> rows) {
   slots_.clear();
   oscillators_.clear();
   const std::vector<Spring<S>>& springs = state_.springs.all();
