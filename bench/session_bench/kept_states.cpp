@@ -70,7 +70,7 @@ template <class S> void measure_saves(World<S>& world, Row& row) {
   row.warm_us = 1e3 * median_milliseconds(kRuns, save_one, save_one);
 }
 
-/// All that the observer does in a frame: the tape, a hash and a save.
+/// All that the observer does in a frame: the command log, a hash and a save.
 template <class S> void measure_history(World<S>& world, Row& row) {
   return_freed_memory();
   const double before = resident_megabytes();

@@ -5,8 +5,8 @@
 #include "diagnostics/fault_drill.hpp"
 #include "isostep/core/number_text.hpp"
 #include "isostep/core/simd_choice.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/state/tape.hpp"
 #include "isostep/world/world_kinds.hpp"
 
 namespace isostep {
@@ -58,11 +58,11 @@ template <class W> struct Watched {
   }
 };
 
-template <class W> Result<void> play_frame(W& world, Bytes tape, Watch& watch) {
-  if (!watch.watches()) return world.step_recorded(tape);
+template <class W> Result<void> play_frame(W& world, Bytes commands, Watch& watch) {
+  if (!watch.watches()) return world.step_recorded(commands);
   Watched<W> step = {watch, 0};
-  const Result<void> played = play_tape<typename W::Command>(
-      tape, [&](const typename W::Command& command) { return world.apply(command); },
+  const Result<void> played = play_commands<typename W::Command>(
+      commands, [&](const typename W::Command& command) { return world.apply(command); },
       [&] {
         ++step.number;
         step.play(world);

@@ -85,21 +85,21 @@ TYPED_TEST(ParticleRollback, the_portable_form_rebuilt_in_a_new_world_continues_
   }
 }
 
-TYPED_TEST(ParticleRollback, a_recorded_tape_replays_to_equal_hashes) {
+TYPED_TEST(ParticleRollback, a_command_log_replays_to_equal_hashes) {
   using S = TypeParam;
   for (const std::uint32_t way : {1u, 9u, 12u}) {
     ParticleWorld<S> w(settings_of_way<S>(way)), replayed(settings_of_way<S>(way));
-    std::vector<std::uint8_t> tape;
-    w.record_to(&tape);
-    EXPECT_TRUE(w.records_to(&tape));
+    std::vector<std::uint8_t> log;
+    w.record_to(&log);
+    EXPECT_TRUE(w.records_to(&log));
     build_particle_mess(w);
     std::size_t recorded = 0;
     for (std::uint64_t frame = 0; frame < 100; ++frame) {
       const std::uint64_t hash = play(w, frame);
-      ASSERT_TRUE(replayed.step_recorded(tape).ok()) << frame;
+      ASSERT_TRUE(replayed.step_recorded(log).ok()) << frame;
       ASSERT_EQ(replayed.hash(), hash) << "way " << way << " frame " << frame;
-      recorded += tape.size();
-      tape.clear();
+      recorded += log.size();
+      log.clear();
     }
     EXPECT_GT(recorded, 10000u);
     EXPECT_GT(w.counts().contacts, 0u);
@@ -151,12 +151,12 @@ TYPED_TEST(ParticleRollback, snapshots_that_were_moved_from_or_never_saved_to_ho
   EXPECT_EQ(w.hash(), hash);
 }
 
-TYPED_TEST(ParticleRollback, loading_empties_events_and_keeps_lanes_and_tape) {
+TYPED_TEST(ParticleRollback, loading_empties_events_and_keeps_lanes_and_command_log) {
   using S = TypeParam;
   ParticleWorld<S> w(settings_of_way<S>(1));
   build_particle_mess(w);
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   ASSERT_TRUE(w.use_simd(Simd::scalar));
   typename ParticleWorld<S>::Snapshot snapshot;
   w.save(snapshot);
@@ -169,9 +169,9 @@ TYPED_TEST(ParticleRollback, loading_empties_events_and_keeps_lanes_and_tape) {
   EXPECT_TRUE(w.events().contact_begin.empty() && w.events().expired.empty() && w.events().yielded.empty() &&
               w.events().touch_impulses.empty());
   EXPECT_STREQ(w.simd_name(), "scalar");
-  const std::size_t before = tape.size();
+  const std::size_t before = log.size();
   EXPECT_TRUE(w.set_gravity(vec<S>(0, -9, 0)));
-  EXPECT_GT(tape.size(), before);
+  EXPECT_GT(log.size(), before);
 }
 
 TYPED_TEST(ParticleRollback, a_trace_names_every_stage_of_a_step_and_is_the_same_again) {

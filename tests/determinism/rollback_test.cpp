@@ -89,20 +89,20 @@ TYPED_TEST(Rollback, the_portable_form_rebuilt_in_a_new_world_continues_equal) {
   EXPECT_EQ(this->play_on(rebuilt, 280, 100), this->play_on(w, 280, 100));
 }
 
-TYPED_TEST(Rollback, a_recorded_tape_replays_to_equal_hashes) {
+TYPED_TEST(Rollback, a_command_log_replays_to_equal_hashes) {
   using S = TypeParam;
   World<S> w(settings<S>(-10, 60, 4)), replayed(settings<S>(-10, 60, 4));
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   build_mess(w);
   std::size_t recorded = 0;
   for (std::uint64_t frame = 0; frame < 330; ++frame) {
     if (frame / 60 % 5 != 4) hail(w, frame);
     w.step();
-    ASSERT_TRUE(replayed.step_recorded(tape).ok()) << frame;
+    ASSERT_TRUE(replayed.step_recorded(log).ok()) << frame;
     ASSERT_EQ(replayed.hash(), w.hash()) << frame;
-    recorded += tape.size();
-    tape.clear();
+    recorded += log.size();
+    log.clear();
   }
   EXPECT_GT(recorded, 10000u);
   EXPECT_GT(w.counts().contacts, 20u);
@@ -172,12 +172,12 @@ TYPED_TEST(Rollback, saving_on_either_side_of_falling_asleep_and_waking_changes_
   }
 }
 
-TYPED_TEST(Rollback, loading_empties_events_and_keeps_lanes_and_tape) {
+TYPED_TEST(Rollback, loading_empties_events_and_keeps_lanes_and_command_log) {
   using S = TypeParam;
   World<S> w(settings<S>(-10, 60, 4));
   build_mess(w);
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   ASSERT_TRUE(w.use_simd(Simd::scalar));
   typename World<S>::Snapshot snapshot;
   w.save(snapshot);
@@ -185,9 +185,9 @@ TYPED_TEST(Rollback, loading_empties_events_and_keeps_lanes_and_tape) {
   w.load(snapshot);
   EXPECT_TRUE(w.events().contact_begin.empty() && w.events().woke.empty() && w.events().sensor_begin.empty());
   EXPECT_STREQ(w.simd_name(), "scalar");
-  const std::size_t before = tape.size();
+  const std::size_t before = log.size();
   EXPECT_TRUE(w.set_gravity(vec<S>(0, -9, 0)));
-  EXPECT_GT(tape.size(), before);
+  EXPECT_GT(log.size(), before);
 }
 
 }  // namespace

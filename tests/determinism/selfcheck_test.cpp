@@ -183,7 +183,7 @@ TEST(Selfcheck, NamesTheScalarAndTheFrameOfAHashThatIsAnother) {
 }
 
 TEST(Selfcheck, FindsOneBitOfACommandInTheFrameThatItActsIn) {
-  constexpr std::uint64_t kPush = 12;  // of the medley's script: an impulse, whose x is 9 bytes into the tape
+  constexpr std::uint64_t kPush = 12;  // of the medley's script: an impulse, whose x is 9 bytes into the command log
   const Altered set("medley", "float");
   const SelfcheckResult result =
       set.with(rewritten(set.original(), kSameHeader, [&](std::uint64_t frame, Buffer& input, std::uint64_t&) {

@@ -40,7 +40,7 @@ template <class S> class SolverScene {
     add_chain(w, ball, box);
   }
 
-  /// Commands of a frame, for a tape to hold.
+  /// Commands of a frame, for a command log to hold.
   void play(World<S>& w, std::uint64_t frame) const {
     const BodyId id = bodies_[frame * 5 % bodies_.size()];
     if (frame % 6 == 0) w.apply_impulse(id, vec<S>(0.25, 0.125, -0.125), vec<S>(0, 0.03125, 0));

@@ -1,5 +1,5 @@
 // libFuzzer target: any bytes as a replay, as they are and with every checksum made right, so that what lies behind the
-// checksums is reached too; and as a tape of a world and the facts of a bundle.
+// checksums is reached too; and as a command log of a world and the facts of a bundle.
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude tests/fuzz/replay_fuzz.cpp
@@ -47,12 +47,12 @@ void check_facts(Bytes payload, std::uint64_t frames) {
   require(isostep::detail::same_bytes(again, payload));
 }
 
-template <class S> void check_tape(Bytes tape) {
+template <class S> void check_command_log(Bytes log) {
   std::uint32_t commands = 0, steps = 0;
-  const Result<void> played = play_tape<Command<S>>(
-      tape, [&](const Command<S>&) { return ++commands != 1000; }, [&] { ++steps; });
-  require(steps <= kFrameStepCap && commands <= 1000 && commands + steps <= tape.size());
-  if (played) require(tape.empty() == (commands + steps == 0));
+  const Result<void> played = play_commands<Command<S>>(
+      log, [&](const Command<S>&) { return ++commands != 1000; }, [&] { ++steps; });
+  require(steps <= kFrameStepCap && commands <= 1000 && commands + steps <= log.size());
+  if (played) require(log.empty() == (commands + steps == 0));
 }
 
 /// Everything the reader hands out must lie inside the file; its memory was checked by the sanitizer on the way.
@@ -97,11 +97,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   seal(file);
   check(file);
 
-  // The other readers of strange bytes: a header alone, a tape, facts of as many frames as they say, state of the toy's
-  // own.
+  // The other readers of strange bytes: a header alone, a command log, facts of as many frames as they say, state of
+  // the toy's own.
   (void)read_replay_header({data, size}).ok();
-  check_tape<float>({data, size});
-  check_tape<Q32_32>({data, size});
+  check_command_log<float>({data, size});
+  check_command_log<Q32_32>({data, size});
   check_facts({data, size}, size < 12 ? 0 : load_le<std::uint32_t>(data + 8));
   toy::Game game;
   Reader reader({data, size});

@@ -141,13 +141,13 @@ template <class S> void use_state(World<S>& world) {
   }
   WorldRecorder<S> commands(world, sink_to(file));
   keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.keyframe()), keep(commands.finish());
-  std::vector<std::uint8_t> tape;
-  Writer tape_writer(tape);
+  std::vector<std::uint8_t> log;
+  Writer log_writer(log);
   using Few = std::variant<SetPose<S>, AddShape<S>>;  // names of the whole list fill pages
-  write_command<Few>(tape_writer, SetPose<S>{BodyId{}, Pose<S>::identity()});
-  write_command<Few>(tape_writer, AddShape<S>{});
-  keep(play_tape<Few>(
-           tape, [&](const Few&) { return true; }, [&] { world.step(); })
+  write_command<Few>(log_writer, SetPose<S>{BodyId{}, Pose<S>::identity()});
+  write_command<Few>(log_writer, AddShape<S>{});
+  keep(play_commands<Few>(
+           log, [&](const Few&) { return true; }, [&] { world.step(); })
            .ok());
 }
 

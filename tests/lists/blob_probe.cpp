@@ -1,5 +1,5 @@
-// A program of the tests: a shape with a blob in worlds, snapshots, portable states and tapes, in a copy of the headers
-// that has it in its list. Its worlds are compiled here and take no step.
+// A program of the tests: a shape with a blob in worlds, snapshots, portable states and command logs, in a copy of the
+// headers that has it in its list. Its worlds are compiled here and take no step.
 // SPDX-License-Identifier: MIT
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
@@ -44,9 +44,9 @@ bool read(World<float>& world, const Buffer& bytes) {
   Reader reader(bytes);
   return world.read_portable(reader).ok();
 }
-bool play(World<float>& world, const Buffer& tape) {
-  return play_tape<Command<float>>(
-             tape, [&](const Command<float>& c) { return world.apply(c); }, [] {})
+bool play(World<float>& world, const Buffer& log) {
+  return play_commands<Command<float>>(
+             log, [&](const Command<float>& c) { return world.apply(c); }, [] {})
       .ok();
 }
 AssetSource source_of(BlobRef& asset) {
@@ -117,16 +117,16 @@ void refusals() {
 /// Carried once, or brought by the game.
 void files() {
   World<float> world;
-  Buffer tape;
-  world.record_to(&tape);
+  Buffer log;
+  world.record_to(&log);
   const BlobRef carried = Probe<float>::bake(500, 250, 125);
   BlobRef asset = Probe<float>::bake(125, 250, 500, BlobHome::asset);
   add(world, carried);
-  const std::size_t once = tape.size();
+  const std::size_t once = log.size();
   add(world, carried);
-  check(tape.size() - once < once - 12, "the second mention has no content");
+  check(log.size() - once < once - 12, "the second mention has no content");
   World<float> played;
-  check(play(played, tape) && played.hash() == world.hash(), "a tape that carries its blobs");
+  check(play(played, log) && played.hash() == world.hash(), "a command log that carries its blobs");
   World<float> loaded;
   check(read(loaded, portable(world)) && loaded.hash() == world.hash(), "a state that carries its blobs");
   check(portable(loaded) == portable(world), "and is written alike");
@@ -145,9 +145,9 @@ void files() {
 
   add(world, asset);
   World<float> without, with;
-  check(!play(without, tape) && !read(loaded, portable(world)), "an asset that nobody brings");
+  check(!play(without, log) && !read(loaded, portable(world)), "an asset that nobody brings");
   with.use_assets(source_of(asset));
-  check(play(with, tape) && with.hash() == world.hash(), "a tape whose asset the game brings");
+  check(play(with, log) && with.hash() == world.hash(), "a command log whose asset the game brings");
   loaded.use_assets(source_of(asset));
   check(read(loaded, portable(world)) && loaded.hash() == world.hash(), "a state whose asset the game brings");
   check(loaded.state().geometry->content(1) == asset, "its content is the game's");

@@ -1,5 +1,5 @@
-// A program of the tests: the probe command, called and played from a tape, in a copy of the headers that has it in its
-// list. Its world is compiled here and takes no step.
+// A program of the tests: the probe command, called and played from a command log, in a copy of the headers that has
+// it in its list. Its world is compiled here and takes no step.
 // SPDX-License-Identifier: MIT
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
@@ -21,12 +21,12 @@ using namespace isostep;
 
 int main() {
   World<float> world, other;
-  std::vector<std::uint8_t> tape;
-  world.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  world.record_to(&log);
   const bool taken = world.apply(Probe{3}), again = world.apply(Probe{2});
   const FaultReport& fault = world.fault();
-  const Result<void> played = play_tape<Command<float>>(
-      tape, [&](const Command<float>& command) { return other.apply(command); }, [] {});
+  const Result<void> played = play_commands<Command<float>>(
+      log, [&](const Command<float>& command) { return other.apply(command); }, [] {});
   std::printf("taken %d again %d %s.%s bytes %d number %d played %d tick %d\n", taken, again, fault.command,
-              fault.field, static_cast<int>(tape.size()), tape[0], played.ok(), static_cast<int>(other.tick()));
+              fault.field, static_cast<int>(log.size()), log[0], played.ok(), static_cast<int>(other.tick()));
 }

@@ -114,33 +114,33 @@ TYPED_TEST(ParticleReplay, loading_a_snapshot_ends_a_recording) {
   EXPECT_FALSE(recorder.end_frame().ok());
 }
 
-TYPED_TEST(ParticleReplay, tapes_that_no_world_wrote_are_refused) {
+TYPED_TEST(ParticleReplay, command_logs_that_no_world_wrote_are_refused) {
   using S = TypeParam;
   ParticleWorld<S> w;
   const ParticleId id = w.create(particle_at<S>({0, 1, 0}));
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   w.apply_force(id, vec<S>(1, 2, 3));
   w.add(spring_of<S>(id, {}, 4));
   w.step();
   w.record_to(nullptr);
-  ASSERT_EQ(tape.back(), kStepMarker);
-  for (std::size_t length = 1; length + 1 < tape.size(); ++length) {
+  ASSERT_EQ(log.back(), kStepMarker);
+  for (std::size_t length = 1; length + 1 < log.size(); ++length) {
     ParticleWorld<S> other;
     other.create(particle_at<S>({0, 1, 0}));
-    const bool whole = other.step_recorded(Bytes(tape).first(length)).ok();
-    // Between two commands a tape may end.
+    const bool whole = other.step_recorded(Bytes(log).first(length)).ok();
+    // Between two commands a log may end.
     EXPECT_EQ(whole, length == 1 + sizeof(ParticleId) + 3 * sizeof(S)) << length;
   }
-  tape[0] = 200;
-  EXPECT_FALSE(w.step_recorded(tape).ok()) << "no command has this number";
-  tape.assign(kFrameStepCap + 1, kStepMarker);
-  EXPECT_FALSE(w.step_recorded(tape).ok()) << "more steps than a frame may have";
+  log[0] = 200;
+  EXPECT_FALSE(w.step_recorded(log).ok()) << "no command has this number";
+  log.assign(kFrameStepCap + 1, kStepMarker);
+  EXPECT_FALSE(w.step_recorded(log).ok()) << "more steps than a frame may have";
   ParticleWorld<S> empty;
-  tape.clear();
-  Writer writer(tape);
+  log.clear();
+  Writer writer(log);
   write_command<ParticleCommand<S>>(writer, DestroyParticle{id});
-  EXPECT_FALSE(empty.step_recorded(tape).ok()) << "a command that the world refuses";
+  EXPECT_FALSE(empty.step_recorded(log).ok()) << "a command that the world refuses";
 }
 
 }  // namespace

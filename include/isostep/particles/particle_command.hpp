@@ -8,7 +8,7 @@
 #include "isostep/particles/link.hpp"
 #include "isostep/particles/spring.hpp"
 #include "isostep/particles/touch.hpp"
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 
 namespace isostep {
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "isostep/particles/particle_engine.inl"
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 
 namespace isostep {
 
@@ -98,11 +98,11 @@ template <class S> void ParticleWorld<S>::forget_faults() { engine_->journal_.fo
 template <class S> void ParticleWorld<S>::set_fault_handler(const FaultHandler& handler) {
   engine_->journal_.set_fault_handler(handler);
 }
-template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* tape) {
-  engine_->journal_.record_to(tape);
+template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* log) {
+  engine_->journal_.record_to(log);
 }
-template <class S> bool ParticleWorld<S>::records_to(const std::vector<std::uint8_t>* tape) const {
-  return engine_->journal_.records_to(tape);
+template <class S> bool ParticleWorld<S>::records_to(const std::vector<std::uint8_t>* log) const {
+  return engine_->journal_.records_to(log);
 }
 template <class S> void ParticleWorld<S>::trace_to(std::vector<std::uint64_t>* hashes) {
   engine_->journal_.trace_to(hashes);
@@ -194,7 +194,7 @@ template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) 
   return engine_->read_portable(reader);
 }
 template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
-  return play_tape<ParticleCommand<S>>(
+  return play_commands<ParticleCommand<S>>(
       input, [&](const ParticleCommand<S>& command) { return apply(command); }, [&] { step(); });
 }
 template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }

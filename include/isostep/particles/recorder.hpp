@@ -1,5 +1,4 @@
-// ParticleRecorder: a recording of a particle world's commands; and what such a world says of itself in a replay's
-// header.
+// ParticleRecorder: the CommandRecorder of a particle world; and what such a world says of itself in a replay's header.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +8,7 @@
 
 #include "isostep/core/version.hpp"
 #include "isostep/particles/particle_world.hpp"
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 
 namespace isostep {
 
@@ -45,6 +44,6 @@ ISO_INLINE ReplayIdentity identity_of_world(const ParticleSettings<S>& settings,
   return identity;
 }
 
-template <class S> using ParticleRecorder = TapeRecorder<ParticleWorld<S>>;
+template <class S> using ParticleRecorder = CommandRecorder<ParticleWorld<S>>;
 
 }  // namespace isostep

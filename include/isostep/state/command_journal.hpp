@@ -1,5 +1,5 @@
-// CommandJournal: how calls enter a world, and what is kept of them: a tape of what was accepted, a trace of hashes of
-// the state, and the faults of what was refused.
+// CommandJournal: how calls enter a world, and what is kept of them: a command log of what was accepted, a trace of
+// hashes of the state, and the faults of what was refused. It is inside a world; a CommandRecorder is beside one.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@
 #include "isostep/core/fault.hpp"
 #include "isostep/core/one_at_a_time.hpp"
 #include "isostep/scalar/environment.hpp"
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 
 namespace isostep {
 
@@ -77,19 +77,19 @@ class CommandJournal {
   ISO_INLINE void clear_fault() { fault_ = {}; }
   ISO_INLINE void forget_faults() { fault_ = first_fault_ = {}; }
 
-  // The tape: see play_tape.
+  // The command log: see play_commands.
   /// Null: to nothing.
-  ISO_INLINE void record_to(std::vector<std::uint8_t>* tape) { tape_ = tape; }
-  ISO_INLINE bool records_to(const std::vector<std::uint8_t>* tape) const { return tape_ == tape; }
+  ISO_INLINE void record_to(std::vector<std::uint8_t>* log) { log_ = log; }
+  ISO_INLINE bool records_to(const std::vector<std::uint8_t>* log) const { return log_ == log; }
   template <class Command, class C> ISO_INLINE void record(const C& command) {
-    if (tape_ == nullptr) return;
-    Writer writer(*tape_);
+    if (log_ == nullptr) return;
+    Writer writer(*log_);
     write_command<Command>(writer, command);
   }
   ISO_INLINE void record_step() {
-    if (tape_ != nullptr) tape_->push_back(kStepMarker);
+    if (log_ != nullptr) log_->push_back(kStepMarker);
   }
-  /// The state was replaced by one to which the tape does not lead.
+  /// The state was replaced by one to which the command log does not lead.
   ISO_INLINE void note_load() {
     ++loads_;
     clear_fault();
@@ -108,7 +108,7 @@ class CommandJournal {
   FaultReport fault_, first_fault_;
   FaultHandler handler_;
   OneAtATime one_at_a_time_;
-  std::vector<std::uint8_t>* tape_ = nullptr;
+  std::vector<std::uint8_t>* log_ = nullptr;
   std::vector<std::uint64_t>* trace_ = nullptr;
   std::uint64_t loads_ = 0;
 };

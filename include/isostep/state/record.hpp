@@ -1,4 +1,4 @@
-// Recorder: a ReplayWriter that takes states from the simulation itself.
+// Recorder: a ReplayWriter that takes states from the simulation itself, and inputs, of any kind, from the caller.
 // SPDX-License-Identifier: MIT
 #pragma once
 

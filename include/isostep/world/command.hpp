@@ -10,7 +10,7 @@
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/world/definitions.hpp"
 
 namespace isostep {

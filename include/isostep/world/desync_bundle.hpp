@@ -98,7 +98,7 @@ ISO_INLINE Result<void> write_bundle(ReplaySink sink, const FrameHistory<S>& his
     if (kept.changed_before) facts.changed_before.push_back(frame);
     if (history.settings().stages) facts.steps.push_back(static_cast<std::uint32_t>(kept.stages.size()) / kTraceHashes);
     facts.stages.insert(facts.stages.end(), kept.stages.begin(), kept.stages.end());
-    result = recorder.frame(kept.tape, kept.hash);
+    result = recorder.frame(kept.commands, kept.hash);
     if (!result || static_cast<std::uint32_t>(frame - first) >= settings.states) continue;
     scratch.load(kept.state);
     result = recorder.keyframe(scratch);

@@ -20,17 +20,17 @@ struct HistorySettings {
 
 /// Observes `drive` for SessionRecorder and write_bundle. The world is the one that the game steps, at most
 /// kFrameStepCap times a frame; it must outlive this and record to nothing else meanwhile. Nothing is allocated once
-/// the kept tapes and snapshots have grown.
+/// the kept command logs and snapshots have grown.
 template <class S> class FrameHistory {
  public:
   struct Kept {
-    Frame frame = kNoFrame;      // kNoFrame: nothing is kept here
-    bool confirmed = false;      // `root` is known, and nothing here will change
+    Frame frame = kNoFrame;       // kNoFrame: nothing is kept here
+    bool confirmed = false;       // `root` is known, and nothing here will change
     bool changed_before = false;  // since the frame before, by what no rollback repeats; known where stages are kept
-    const char* flaw = nullptr;  // why the tape does not lead from the state before to the state after; null: it does
+    const char* flaw = nullptr;  // why the commands do not lead from the state before to the state after; null: it does
     std::uint64_t hash = 0;      // of the world after the frame
     std::uint64_t root = 0;      // of the whole game after it, as the session compares
-    std::vector<std::uint8_t> tape;
+    std::vector<std::uint8_t> commands;
     std::vector<std::uint64_t> stages;  // kTraceHashes a step, or none
     typename World<S>::Snapshot state;  // after it, if states are kept
   };
@@ -48,21 +48,21 @@ template <class S> class FrameHistory {
     kept.frame = frame;
     const Kept* const previous = settings_.stages ? find(frame - 1) : nullptr;
     kept.changed_before = previous != nullptr && previous->hash != world_.hash();
-    kept.tape.clear();
+    kept.commands.clear();
     kept.stages.clear();
     if (first_ == kNoFrame) {
       first_ = frame;
       if (settings_.states) world_.save(start_);
     }
-    tape_ = &kept.tape;
-    began_ = TapeStart<World<S>>(world_);
-    world_.record_to(tape_);
+    commands_ = &kept.commands;
+    began_ = CommandLogStart<World<S>>(world_);
+    world_.record_to(commands_);
     if (settings_.stages) world_.trace_to(&kept.stages);
   }
   ISO_INLINE void after_step(Frame frame) {
     Kept& kept = at(frame);
-    if (kept.frame != frame || tape_ != &kept.tape) return;
-    kept.flaw = began_.flaw(world_, kept.tape);
+    if (kept.frame != frame || commands_ != &kept.commands) return;
+    kept.flaw = began_.flaw(world_, kept.commands);
     kept.hash = world_.hash();
     if (settings_.states) world_.save(kept.state);
     let_go();
@@ -106,10 +106,10 @@ template <class S> class FrameHistory {
  private:
   ISO_INLINE Kept& at(Frame frame) { return ring_[static_cast<std::size_t>(frame) % ring_.size()]; }
   ISO_INLINE void let_go() {
-    if (tape_ == nullptr) return;
-    if (world_.records_to(tape_)) world_.record_to(nullptr);
+    if (commands_ == nullptr) return;
+    if (world_.records_to(commands_)) world_.record_to(nullptr);
     if (settings_.stages) world_.trace_to(nullptr);
-    tape_ = nullptr;
+    commands_ = nullptr;
   }
 
   World<S>& world_;
@@ -117,9 +117,9 @@ template <class S> class FrameHistory {
   std::vector<Kept> ring_;  // by frame, modulo its length
   Frame first_ = kNoFrame;  // that was ever stepped
   Frame confirmed_ = kNoFrame;
-  typename World<S>::Snapshot start_;          // before it
-  std::vector<std::uint8_t>* tape_ = nullptr;  // of the frame being stepped
-  TapeStart<World<S>> began_;                         // it
+  typename World<S>::Snapshot start_;              // before it
+  std::vector<std::uint8_t>* commands_ = nullptr;  // of the frame being stepped
+  CommandLogStart<World<S>> began_;                // it
 };
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// WorldRecorder: a recording of a rigid world's commands; and what such a world says of itself in a replay's header.
+// WorldRecorder: the CommandRecorder of a rigid world; and what such a world says of itself in a replay's header.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/core/version.hpp"
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
@@ -43,6 +43,6 @@ template <class S> ISO_INLINE ReplayIdentity identity_of_world(const Settings<S>
 
 /// A game that rolls back is recorded by SessionRecorder (session_recorder.hpp), which waits until frames are
 /// confirmed.
-template <class S> using WorldRecorder = TapeRecorder<World<S>>;
+template <class S> using WorldRecorder = CommandRecorder<World<S>>;
 
 }  // namespace isostep

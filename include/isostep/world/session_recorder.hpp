@@ -33,7 +33,7 @@ template <class S> class SessionRecorder {
     if (frame != next_) return fail("frames were not confirmed one after the other");
     if (kept == nullptr) return fail("the history is too short: a frame left it before it was confirmed");
     if (kept->flaw != nullptr) return fail(kept->flaw);
-    keep(recorder_.frame(kept->tape, kept->hash));
+    keep(recorder_.frame(kept->commands, kept->hash));
     if (result_) ++next_;
   }
   ISO_INLINE void restarted(Frame) {

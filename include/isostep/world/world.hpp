@@ -158,10 +158,10 @@ template <class S> class World final {
   void forget_faults();
   /// A callback for every refused call from now on; one without a function ends that.
   void set_fault_handler(const FaultHandler& handler);
-  /// From now on every accepted command and every step is appended to `tape` (null: to nothing). The caller clears it
+  /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it
   /// every frame. Loading keeps it.
-  void record_to(std::vector<std::uint8_t>* tape);
-  bool records_to(const std::vector<std::uint8_t>* tape) const;
+  void record_to(std::vector<std::uint8_t>* log);
+  bool records_to(const std::vector<std::uint8_t>* log) const;
   /// From now on every step appends the state's hash as it begins and after each stage, kTraceHashes in all (null: to
   /// nothing). What desyncs are narrowed down with; costs a hash a stage.
   void trace_to(std::vector<std::uint64_t>* hashes);

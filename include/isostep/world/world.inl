@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "isostep/dynamics/carriers.inl"
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/body_map.inl"
 #include "isostep/world/contact_events.inl"
@@ -185,11 +185,11 @@ template <class S> void World<S>::set_fault_handler(const FaultHandler& handler)
   engine_->journal_.set_fault_handler(handler);
 }
 template <class S> void World<S>::forget_faults() { engine_->journal_.forget_faults(); }
-template <class S> void World<S>::record_to(std::vector<std::uint8_t>* tape) { engine_->journal_.record_to(tape); }
+template <class S> void World<S>::record_to(std::vector<std::uint8_t>* log) { engine_->journal_.record_to(log); }
 template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->journal_.trace_to(hashes); }
 template <class S> std::uint64_t World<S>::loads() const { return engine_->journal_.loads(); }
-template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* tape) const {
-  return engine_->journal_.records_to(tape);
+template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* log) const {
+  return engine_->journal_.records_to(log);
 }
 
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
@@ -345,7 +345,7 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
 }
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
-  return play_tape<Command>(
+  return play_commands<Command>(
       input, [&](const Command& command) { return apply(command); }, [&] { step(); });
 }
 

@@ -20,7 +20,7 @@
 
 namespace isostep {
 
-/// What a TapedWorld does not say of itself.
+/// What a RecordableWorld does not say of itself.
 template <class W> struct WorldTraits;
 
 template <class S> struct WorldTraits<World<S>> {

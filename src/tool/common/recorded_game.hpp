@@ -7,13 +7,13 @@
 
 #include "files.hpp"
 #include "game_options.hpp"
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 
 namespace isostep::tool {
 
 template <class Game> struct RecordedGame {
   std::optional<Game> game;
-  std::optional<TapeRecorder<typename Game::World>> recorder;  // goes before the world that it listens to
+  std::optional<CommandRecorder<typename Game::World>> recorder;  // goes before the world that it listens to
 
   /// `sink`: to memory.
   RecordedGame(const typename Game::Scene& scene, const GameOptions& options, const ReplaySink& sink) {

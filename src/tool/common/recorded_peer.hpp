@@ -46,7 +46,7 @@ template <class W> class RecordedPeer {
   Frame first() const { return first_; }
   Frame end() const { return first_ + static_cast<Frame>(replay_.frame_count()); }
 
-  Bytes tape(Frame frame) const { return at(frame).input; }
+  Bytes commands(Frame frame) const { return at(frame).input; }
   std::uint64_t hash_after(Frame frame) const { return at(frame).hash; }
   std::uint64_t hash_before(Frame frame) const {
     return frame == first_ ? replay_.state_hash() : hash_after(frame - 1);
@@ -72,7 +72,7 @@ template <class W> class RecordedPeer {
   /// and the peer's own state is stored, that one.
   W start() const { return decode(replay_.state()); }
   void play(W& world, Frame frame) const {
-    const Result<void> stepped = world.step_recorded(tape(frame));
+    const Result<void> stepped = world.step_recorded(commands(frame));
     if (!stepped) refuse(path_, VerifyOutcome::corrupt, stepped.error());
     if (world.hash() == hash_after(frame)) return;
     for (const ReplayKeyframe& key : replay_.keyframes()) {
@@ -93,7 +93,7 @@ template <class W> class RecordedPeer {
     W world = decode(replay_.state());
     for (Frame f = first_; f < frame; ++f) {
       stop_if_interrupted();
-      if (!world.step_recorded(tape(f))) return std::nullopt;
+      if (!world.step_recorded(commands(f))) return std::nullopt;
     }
     if (world.hash() != hash_before(frame)) return std::nullopt;
     return world;

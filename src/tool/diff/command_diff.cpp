@@ -48,7 +48,7 @@ template <class W> int report_frame(Player<W>& a, Player<W>& b, std::uint64_t fr
   PlayedFrame<W> of_a = a.play_again(frame), of_b = b.play_again(frame);
   const StagePlace place = place_of<W>(of_a.trace(), of_b.trace());
   std::printf("frame %llu, %s\n", static_cast<unsigned long long>(frame), place.text().c_str());
-  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("%s", kTapesDiffer);
+  if (!isostep::detail::same_bytes(a.frame(frame).input, b.frame(frame).input)) std::printf("%s", kCommandsDiffer);
   print_differences(of_a.state_at(place), of_b.state_at(place));
   return exit_status::kDifferent;
 }

@@ -72,19 +72,19 @@ std::optional<StagePlace> traced_place(const RecordedPeer<W>& a, const RecordedP
 }
 
 /// `stray`: which of the peers had its world changed between the frame before and this one, or null.
-inline void print_place(Frame frame, const std::optional<StagePlace>& place, bool same_tapes, const char* stray) {
+inline void print_place(Frame frame, const std::optional<StagePlace>& place, bool same_commands, const char* stray) {
   if (place) {
     std::printf("frame %d, %s\n", frame, place->text().c_str());
   } else {
     std::printf("within frame %d (trace was off)\n", frame);
   }
-  if (!same_tapes) std::printf("%s", kTapesDiffer);
+  if (!same_commands) std::printf("%s", kCommandsDiffer);
   if (stray != nullptr) {
     std::printf(
         "  the world of %s was changed between frames %d and %d: a command outside its frame, which no rollback "
         "repeats\n",
         stray, frame - 1, frame);
-  } else if (same_tapes && place && place->is_outside_steps()) {
+  } else if (same_commands && place && place->is_outside_steps()) {
     std::printf("  the commands of this frame agree: something else changed a state outside its steps\n");
   }
 }
@@ -93,22 +93,22 @@ inline void print_place(Frame frame, const std::optional<StagePlace>& place, boo
 template <class W> std::optional<PlayedFrame<W>> play_again(const RecordedPeer<W>& peer, Frame frame) {
   std::optional<W> world = peer.state_before(frame);
   if (!world) return std::nullopt;
-  PlayedFrame<W> played(std::move(*world), peer.tape(frame));
+  PlayedFrame<W> played(std::move(*world), peer.commands(frame));
   if (!played.playable() || played.hash() != peer.hash_after(frame)) return std::nullopt;
   return played;
 }
 
 template <class W> void report_bundles(const RecordedPeer<W>& a, const RecordedPeer<W>& b, Frame frame) {
   std::optional<PlayedFrame<W>> again_a = play_again(a, frame), again_b = play_again(b, frame);
-  const bool same_tapes = isostep::detail::same_bytes(a.tape(frame), b.tape(frame));
+  const bool same_commands = isostep::detail::same_bytes(a.commands(frame), b.commands(frame));
   const bool of_a = a.changed_before(frame), of_b = b.changed_before(frame);
   const char* const stray = of_a && of_b ? "both" : of_a ? "A" : of_b ? "B" : nullptr;
   if (again_a && again_b) {
     const StagePlace place = place_of<W>(again_a->trace(), again_b->trace());
-    print_place(frame, place, same_tapes, stray);
+    print_place(frame, place, same_commands, stray);
     print_differences(again_a->state_at(place), again_b->state_at(place));
   } else {
-    print_place(frame, traced_place(a, b, frame), same_tapes, stray);
+    print_place(frame, traced_place(a, b, frame), same_commands, stray);
     print_states(a, b, frame + 1);
   }
   std::printf("played again here, the frame comes out %s\n", verdict(again_a.has_value(), again_b.has_value()));

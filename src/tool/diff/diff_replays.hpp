@@ -9,7 +9,7 @@
 
 namespace isostep::tool {
 
-inline constexpr char kTapesDiffer[] = "  the commands or steps of this frame differ\n";
+inline constexpr char kCommandsDiffer[] = "  the commands or steps of this frame differ\n";
 
 /// False after a line on stdout that says what differs.
 bool are_comparable(const RecordedWorld& a, const RecordedWorld& b);

@@ -56,9 +56,9 @@ int report(const Input& input_a, const StageSide& a, const Points& trace_a, cons
   const std::vector<const char*>& stages = (of_a.stages().empty() ? of_b : of_a).stages();
   const StagePlace place(of_a.hashes(), of_b.hashes(), stages);
   std::printf("frame %llu, %s\n", static_cast<unsigned long long>(frame), place.text().c_str());
-  const bool same_tapes =
+  const bool same_commands =
       isostep::detail::same_bytes(input_a.replay.frame(frame).input, input_b.replay.frame(frame).input);
-  if (!same_tapes) std::printf("%s", kTapesDiffer);
+  if (!same_commands) std::printf("%s", kCommandsDiffer);
   const std::size_t stage = place.index % place.hashes;
   const StagePoint at = {frame, static_cast<std::uint32_t>(place.index / place.hashes) + 1,
                          stage == 0 ? kCommandsStage : stages[stage - 1]};

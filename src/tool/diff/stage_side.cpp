@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "isostep/core/number_text.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/state/tape.hpp"
 #include "isostep/world/world_kinds.hpp"
 #include "tool/common/tool.hpp"
 

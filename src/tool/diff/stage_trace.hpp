@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/world/world_kinds.hpp"
 
 namespace isostep::tool {
@@ -54,10 +54,10 @@ template <class W> StagePlace place_of(Trace a, Trace b) { return {a, b, WorldTr
 template <class W> class PlayedFrame {
  public:
   /// From `world` on.
-  PlayedFrame(W&& world, Bytes tape) : world_(std::move(world)), tape_(tape) {
+  PlayedFrame(W&& world, Bytes commands) : world_(std::move(world)), commands_(commands) {
     world_.save(before_);
     world_.trace_to(&trace_);
-    playable_ = world_.step_recorded(tape_).ok();
+    playable_ = world_.step_recorded(commands_).ok();
     world_.trace_to(nullptr);
     hash_ = world_.hash();
   }
@@ -77,8 +77,8 @@ template <class W> class PlayedFrame {
       if (w.left-- == 0) w.state = w.world.state();
     };
     world_.load(before_);
-    static_cast<void>(play_tape<typename W::Command>(
-        tape_, [&](const typename W::Command& command) { return world_.apply(command); },
+    static_cast<void>(play_commands<typename W::Command>(
+        commands_, [&](const typename W::Command& command) { return world_.apply(command); },
         [&] {
           look(&watch, 0);  // before the first stage
           world_.step({look, &watch});
@@ -89,7 +89,7 @@ template <class W> class PlayedFrame {
  private:
   W world_;
   typename W::Snapshot before_;
-  Bytes tape_;
+  Bytes commands_;
   std::vector<std::uint64_t> trace_;
   bool playable_ = false;
   std::uint64_t hash_ = 0;

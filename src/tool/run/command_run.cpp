@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 #include "isostep/world/world_kinds.hpp"
 #include "particle_watch.hpp"
 #include "run_watch.hpp"
@@ -146,7 +146,7 @@ template <class Game> class Run {
   const Scene& scene_;
   std::optional<Game> game_;
   std::optional<ReplayFile> file_;
-  std::optional<TapeRecorder<World>> recorder_;
+  std::optional<CommandRecorder<World>> recorder_;
   std::optional<Watch> watch_;
   std::vector<double> ms_;
   std::vector<std::uint64_t> hashes_;

@@ -43,13 +43,13 @@ template <class S> class ParticleCommands : public ::testing::Test {
   template <class Command> void expect_refused(Fault fault, Command&& command, int line = __builtin_LINE()) {
     SCOPED_TRACE(line);
     const std::uint64_t before = world.hash();
-    std::vector<std::uint8_t> tape;
-    world.record_to(&tape);
+    std::vector<std::uint8_t> log;
+    world.record_to(&log);
     EXPECT_FALSE(static_cast<bool>(command()));
     world.record_to(nullptr);
     EXPECT_EQ(world.fault(), fault) << describe(world.fault());
     EXPECT_EQ(world.hash(), before) << "a refused command changed something: " << fault_text(fault);
-    EXPECT_TRUE(tape.empty());
+    EXPECT_TRUE(log.empty());
   }
   template <class Record, class Change>
   void expect_bad(Fault fault, Record record, Change&& change, int line = __builtin_LINE()) {

@@ -114,20 +114,20 @@ TYPED_TEST(ParticleScenes, SavedAndLoadedMidwayGoOnAlike) {
   }
 }
 
-TYPED_TEST(ParticleScenes, ATapeOfTheirCommandsAndStepsIsThemAgain) {
+TYPED_TEST(ParticleScenes, ALogOfTheirCommandsAndStepsIsThemAgain) {
   for (const ParticleScene& scene : particle_scenes()) {
     const ParticleScript<TypeParam> script = script_of<TypeParam>(scene.id);
     ParticleWorld<TypeParam> world(script.settings), again(script.settings);
-    std::vector<std::uint8_t> tape;
-    world.record_to(&tape);
+    std::vector<std::uint8_t> log;
+    world.record_to(&log);
     script.build(world);
     for (int i = 0; i < (scene.id == ParticleSceneId::springs ? 260 : 40); ++i) {
       if (script.before_step != nullptr) script.before_step(world);
       world.step();
       if (script.after_step != nullptr) script.after_step(world);
-      ASSERT_TRUE(again.step_recorded(tape)) << scene.name << ' ' << i;
+      ASSERT_TRUE(again.step_recorded(log)) << scene.name << ' ' << i;
       ASSERT_EQ(again.hash(), world.hash()) << scene.name << ' ' << i;
-      tape.clear();
+      log.clear();
     }
   }
 }

@@ -46,30 +46,30 @@ using Bytes8 = std::vector<std::uint8_t>;
 
 TEST(CommandJournal, AnAcceptedCommandReturnsWhatItMadeAndIsRecorded) {
   Counter counter;
-  Bytes8 tape;
-  counter.journal.record_to(&tape);
-  EXPECT_TRUE(counter.journal.records_to(&tape));
+  Bytes8 log;
+  counter.journal.record_to(&log);
+  EXPECT_TRUE(counter.journal.records_to(&log));
   EXPECT_EQ(counter.journal.run("add", counter, Add{5}), 5u);
   counter.journal.record_step();
   EXPECT_TRUE(counter.journal.run("take", counter, Take{}));
-  EXPECT_EQ(tape, (Bytes8{1, 5, 0, 0, 0, kStepMarker, 0}));
+  EXPECT_EQ(log, (Bytes8{1, 5, 0, 0, 0, kStepMarker, 0}));
   counter.journal.record_to(nullptr);
   EXPECT_EQ(counter.journal.run("add", counter, Add{5}), 9u);
   counter.journal.record_step();
-  EXPECT_EQ(tape.size(), 7u);
+  EXPECT_EQ(log.size(), 7u);
 }
 
 TEST(CommandJournal, ARefusedCommandReturnsNothingAndIsNamedButNotRecorded) {
   Counter counter;
-  Bytes8 tape;
-  counter.journal.record_to(&tape);
+  Bytes8 log;
+  counter.journal.record_to(&log);
   EXPECT_EQ(counter.journal.run("add", counter, Add{0}), 0u);
   const FaultReport& fault = counter.journal.fault();
   EXPECT_EQ(fault, Fault::out_of_range);
   EXPECT_STREQ(fault.command, "add");
   EXPECT_STREQ(fault.field, "number");
   EXPECT_STREQ(fault.expected, "1 or more");
-  EXPECT_TRUE(tape.empty());
+  EXPECT_TRUE(log.empty());
 }
 
 TEST(CommandJournal, CommandsClearTheLastFaultAndTheFirstStaysUntilItIsForgotten) {
@@ -96,8 +96,8 @@ TEST(CommandJournal, OtherCallsLeaveTheFaultWhereTheyAreAccepted) {
 
 TEST(CommandJournal, ACallInsideAnotherIsRefused) {
   Counter counter;
-  Bytes8 tape;
-  counter.journal.record_to(&tape);
+  Bytes8 log;
+  counter.journal.record_to(&log);
   {
     const CommandJournal::Call step(counter.journal, "step");
     EXPECT_TRUE(step.allowed());
@@ -109,7 +109,7 @@ TEST(CommandJournal, ACallInsideAnotherIsRefused) {
     EXPECT_STREQ(counter.journal.fault().command, "load");
   }
   EXPECT_EQ(counter.sum, 0u);
-  EXPECT_TRUE(tape.empty());
+  EXPECT_TRUE(log.empty());
   EXPECT_EQ(counter.journal.run("add", counter, Add{5}), 5u);
 }
 

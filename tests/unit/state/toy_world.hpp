@@ -1,4 +1,4 @@
-// A toy world with a closed list of commands, for the tests of tapes and of what records them.
+// A toy world with a closed list of commands, for the tests of command logs and of what records them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "isostep/state/command_journal.hpp"
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 #include "recording.hpp"
 
 namespace toy {
@@ -70,8 +70,8 @@ class ToyWorld {
   const State& state() const { return state_; }
   std::uint64_t tick() const { return state_.tick; }
   std::uint64_t loads() const { return journal_->loads(); }
-  void record_to(Buffer* tape) { journal_->record_to(tape); }
-  bool records_to(const Buffer* tape) const { return journal_->records_to(tape); }
+  void record_to(Buffer* log) { journal_->record_to(log); }
+  bool records_to(const Buffer* log) const { return journal_->records_to(log); }
   void trace_to(std::vector<std::uint64_t>* hashes) { journal_->trace_to(hashes); }
 
   bool apply(const Command& command) {
@@ -103,9 +103,9 @@ class ToyWorld {
     if (reader.ok()) load(state);
     return reader.result("toy world");
   }
-  Result<void> step_recorded(Bytes tape) {
-    return play_tape<Command>(
-        tape, [&](const Command& command) { return apply(command); }, [&] { step(); });
+  Result<void> step_recorded(Bytes commands) {
+    return play_commands<Command>(
+        commands, [&](const Command& command) { return apply(command); }, [&] { step(); });
   }
 
  private:
@@ -122,6 +122,6 @@ class ToyWorld {
   State state_;
   std::unique_ptr<CommandJournal> journal_ = std::make_unique<CommandJournal>();  // so that the world can be moved
 };
-static_assert(TapedWorld<ToyWorld> && !TapedWorld<Game>);
+static_assert(RecordableWorld<ToyWorld> && !RecordableWorld<Game>);
 
 }  // namespace toy

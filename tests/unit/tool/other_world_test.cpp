@@ -36,21 +36,21 @@ using toy::Push;
 using toy::ToyCommand;
 using toy::ToyWorld;
 
-Buffer tape_of(std::uint32_t before, std::uint32_t between) {
-  Buffer tape;
-  Writer writer(tape);
+Buffer log_of(std::uint32_t before, std::uint32_t between) {
+  Buffer log;
+  Writer writer(log);
   write_command<ToyCommand>(writer, Push{before, 0});
-  tape.push_back(kStepMarker);
+  log.push_back(kStepMarker);
   write_command<ToyCommand>(writer, Push{between, 0});
-  tape.push_back(kStepMarker);
-  return tape;
+  log.push_back(kStepMarker);
+  return log;
 }
 
 /// Five frames; in the last two the first push is `other`.
 Buffer recording(std::uint32_t other) {
   ToyWorld world;
   Buffer file;
-  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  CommandRecorder<ToyWorld> recorder(world, sink_to(file));
   EXPECT_TRUE(recorder.begin("toys").ok());
   for (int frame = 0; frame < 5; ++frame) {
     world.apply(Push{frame < 3 ? 1 : other, 0});
@@ -74,8 +74,8 @@ class OtherWorld : public OwnFolder {
 };
 
 TEST_F(OtherWorld, IsPlayedStageByStageWithStagesOfItsOwn) {
-  const Buffer tape_a = tape_of(5, 7), tape_b = tape_of(5, 8);
-  PlayedFrame<ToyWorld> a(ToyWorld{}, tape_a), b(ToyWorld{}, tape_b);
+  const Buffer log_a = log_of(5, 7), log_b = log_of(5, 8);
+  PlayedFrame<ToyWorld> a(ToyWorld{}, log_a), b(ToyWorld{}, log_b);
   ASSERT_TRUE(a.playable() && b.playable());
   ASSERT_EQ(a.trace().size(), 6u);
   const StagePlace place = place_of<ToyWorld>(a.trace(), b.trace());

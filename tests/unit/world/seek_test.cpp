@@ -20,9 +20,9 @@ template <class S> struct Counting {
   std::uint64_t hash() const { return world.hash(); }
   void write_portable(Writer& writer) const { world.write_portable(writer); }
   Result<void> read_portable(Reader& reader) { return world.read_portable(reader); }
-  Result<void> step_recorded(Bytes tape) {
+  Result<void> step_recorded(Bytes commands) {
     ++steps;
-    return world.step_recorded(tape);
+    return world.step_recorded(commands);
   }
 };
 
@@ -34,14 +34,14 @@ template <class S> class Seeking : public ::testing::Test {
     Recorder<World<S>> recorder(sink_to(file));
     bool ok =
         recorder.begin(arena.world, make_replay_header(identity_of_world(arena.world.settings(), "a")).value()).ok();
-    std::vector<std::uint8_t> tape;
+    std::vector<std::uint8_t> log;
     World<S> lie;
-    arena.world.record_to(&tape);
+    arena.world.record_to(&log);
     for (Frame frame = 0; frame < kFrames; ++frame) {
-      tape.clear();
+      log.clear();
       play_frame(arena, frame, input_of(frame));
       hashes.push_back(arena.world.hash());
-      ok = recorder.frame(tape, hashes.back()).ok() && ok;
+      ok = recorder.frame(log, hashes.back()).ok() && ok;
       if (frame % 100 == 99) ok = recorder.keyframe(lie).ok() && ok;
     }
     EXPECT_TRUE(recorder.finish().ok() && ok);
@@ -113,18 +113,18 @@ TYPED_TEST(Seeking, frames_past_the_end_are_refused_and_nothing_moves) {
 
 TYPED_TEST(Seeking, a_frame_that_cannot_be_applied_stops_before_itself) {
   Arena<TypeParam> arena;
-  std::vector<std::uint8_t> bad, tape;
+  std::vector<std::uint8_t> bad, log;
   Recorder<World<TypeParam>> recorder(sink_to(bad));
   const auto header = make_replay_header(identity_of_world(arena.world.settings(), "a")).value();
   ASSERT_TRUE(recorder.begin(arena.world, header).ok());
-  arena.world.record_to(&tape);
+  arena.world.record_to(&log);
   std::vector<std::uint64_t> roots;
   for (Frame frame = 0; frame < 30; ++frame) {
-    tape.clear();
+    log.clear();
     play_frame(arena, frame, input_of(frame));
     roots.push_back(arena.world.hash());
-    if (frame == 22) tape.push_back(200);  // the number of no command
-    ASSERT_TRUE(recorder.frame(tape, roots.back()).ok());
+    if (frame == 22) log.push_back(200);  // the number of no command
+    ASSERT_TRUE(recorder.frame(log, roots.back()).ok());
   }
   ASSERT_TRUE(recorder.finish().ok());
   const ReplayReader replay(bad);
@@ -138,13 +138,13 @@ TYPED_TEST(Seeking, a_frame_that_cannot_be_applied_stops_before_itself) {
 
 TYPED_TEST(Seeking, a_recorded_hash_that_does_not_come_out_is_told) {
   Arena<TypeParam> arena;
-  std::vector<std::uint8_t> bad, tape;
+  std::vector<std::uint8_t> bad, log;
   Recorder<World<TypeParam>> recorder(sink_to(bad));
   ASSERT_TRUE(
       recorder.begin(arena.world, make_replay_header(identity_of_world(arena.world.settings(), "a")).value()).ok());
-  arena.world.record_to(&tape);
+  arena.world.record_to(&log);
   play_frame(arena, 0, 1);
-  ASSERT_TRUE(recorder.frame(tape, arena.world.hash() ^ 1).ok());
+  ASSERT_TRUE(recorder.frame(log, arena.world.hash() ^ 1).ok());
   ASSERT_TRUE(recorder.finish().ok());
   const ReplayReader replay(bad);
   ReplaySeeker<World<TypeParam>> seeker(replay, this->sim.world);

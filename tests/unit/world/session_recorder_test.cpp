@@ -154,13 +154,13 @@ TYPED_TEST(SessionRecording, says_when_the_game_loads_its_world_inside_a_step) {
   EXPECT_FALSE(this->recorder.finish().ok());
 }
 
-TYPED_TEST(SessionRecording, leaves_the_tape_alone_between_frames) {
+TYPED_TEST(SessionRecording, leaves_the_command_log_alone_between_frames) {
   play_session(this->arena, 0, 6, this->both);
-  std::vector<std::uint8_t> tape;
+  std::vector<std::uint8_t> log;
   EXPECT_TRUE(this->arena.world.records_to(nullptr));
-  this->arena.world.record_to(&tape);
+  this->arena.world.record_to(&log);
   play_frame(this->arena, 6, 0);
-  EXPECT_FALSE(tape.empty());
+  EXPECT_FALSE(log.empty());
 }
 
 template <class S> class Bundles : public ::testing::Test {

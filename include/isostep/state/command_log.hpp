@@ -1,5 +1,5 @@
-// A frame as bytes: commands, each its number in its world's closed list and its content, and where among them the
-// world stepped.
+// The command log, a frame as bytes: commands, each its number in its world's closed list and its content, and where
+// among them the world stepped. CommandJournal appends to it, CommandRecorder writes it to a replay.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// Stands in a tape where the world stepped; no command has this number.
+/// Stands in a command log where the world stepped; no command has this number.
 inline constexpr std::uint8_t kStepMarker = 0xff;
 
 /// Steps in one frame, at most: a marker is one byte, so a frame's bytes alone could keep whoever plays them for hours.
@@ -88,14 +88,14 @@ template <class Variant> ISO_INLINE std::optional<Variant> read_command(Reader& 
   return command;
 }
 
-/// A frame's tape from front to back: `apply(command)` says whether it was accepted. What comes before an error was
-/// done.
+/// A frame's command log from front to back: `apply(command)` says whether it was accepted. What comes before an error
+/// was done.
 template <class Variant, class Apply, class Step>
-ISO_INLINE Result<void> play_tape(Bytes tape, Apply&& apply, Step&& step) {
-  Reader reader(tape);
+ISO_INLINE Result<void> play_commands(Bytes log, Apply&& apply, Step&& step) {
+  Reader reader(log);
   std::uint32_t steps = 0;
   while (reader.remaining() > 0) {
-    if (tape[reader.offset()] != kStepMarker) {
+    if (log[reader.offset()] != kStepMarker) {
       const std::optional<Variant> command = read_command<Variant>(reader);
       if (command && !apply(*command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
     } else if (steps++ == kFrameStepCap) {

@@ -1,4 +1,5 @@
-// TapeRecorder: records every command that a world accepts, so that the stock tool replays any game without its code.
+// CommandRecorder: records every command that a world accepts, so that the stock tool replays any game without its
+// code. It takes the command logs that the world's CommandJournal fills, and writes them to a replay.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,10 +9,10 @@
 #include <vector>
 
 #include "isostep/core/short_text.hpp"
+#include "isostep/state/command_log.hpp"
 #include "isostep/state/concepts.hpp"
 #include "isostep/state/frame.hpp"
 #include "isostep/state/record.hpp"
-#include "isostep/state/tape.hpp"
 
 namespace isostep {
 
@@ -29,27 +30,27 @@ ISO_INLINE Result<ReplayHeader> header_of_world(const Settings& settings, std::s
   return header;
 }
 
-/// A world whose mutators and steps append themselves to the tape that it was given, as `play_tape` reads it:
-/// write_command for what it accepts, kStepMarker for a step.
+/// A world whose mutators and steps append themselves to the command log that it was given, as `play_commands` reads
+/// it: write_command for what it accepts, kStepMarker for a step.
 template <class W>
-concept TapedWorld = ReplayableSimulation<W> && requires(W& world, const W& same, std::vector<std::uint8_t>* tape) {
+concept RecordableWorld = ReplayableSimulation<W> && requires(W& world, const W& same, std::vector<std::uint8_t>* log) {
   typename W::Command;
-  world.record_to(tape);
-  { same.records_to(tape) } -> std::same_as<bool>;
+  world.record_to(log);
+  { same.records_to(log) } -> std::same_as<bool>;
   { same.tick() } -> std::convertible_to<std::uint64_t>;   // steps taken
   { same.loads() } -> std::convertible_to<std::uint64_t>;  // how often its state was replaced
   { identity_of_world(same.settings(), std::string_view{}) } -> std::same_as<ReplayIdentity>;
 };
 
-/// Where a frame's tape began.
-template <TapedWorld W> struct TapeStart {
+/// Where a frame's command log began.
+template <RecordableWorld W> struct CommandLogStart {
   std::uint64_t loads = 0, tick = 0;
 
-  TapeStart() = default;
-  ISO_INLINE explicit TapeStart(const W& world) : loads(world.loads()), tick(world.tick()) {}
-  /// Why the tape does not lead from the state then to the state now; null: it does.
-  ISO_INLINE const char* flaw(const W& world, const std::vector<std::uint8_t>& tape) const {
-    if (!world.records_to(&tape) || world.loads() != loads) {
+  CommandLogStart() = default;
+  ISO_INLINE explicit CommandLogStart(const W& world) : loads(world.loads()), tick(world.tick()) {}
+  /// Why the command log does not lead from the state then to the state now; null: it does.
+  ISO_INLINE const char* flaw(const W& world, const std::vector<std::uint8_t>& log) const {
+    if (!world.records_to(&log) || world.loads() != loads) {
       return "the world was loaded or replaced while it was recorded";
     }
     return world.tick() - tick > kFrameStepCap ? kTooManySteps : nullptr;
@@ -60,25 +61,25 @@ template <TapedWorld W> struct TapeStart {
 /// without a step is a pause; one has at most kFrameStepCap. The world must outlive it and records to nothing else
 /// meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there. Without `finish` the file is
 /// truncated, its whole blocks still play.
-template <TapedWorld W> class TapeRecorder {
+template <RecordableWorld W> class CommandRecorder {
  public:
-  ISO_INLINE TapeRecorder(W& world, ReplaySink sink) : world_(world), recorder_(sink) {}
-  ISO_INLINE ~TapeRecorder() { world_.record_to(nullptr); }
-  TapeRecorder(const TapeRecorder&) = delete;
-  TapeRecorder& operator=(const TapeRecorder&) = delete;
+  ISO_INLINE CommandRecorder(W& world, ReplaySink sink) : world_(world), recorder_(sink) {}
+  ISO_INLINE ~CommandRecorder() { world_.record_to(nullptr); }
+  CommandRecorder(const CommandRecorder&) = delete;
+  CommandRecorder& operator=(const CommandRecorder&) = delete;
 
   /// The world as it is now, whatever it holds, is the recording's first state, before the game's frame `first`.
   ISO_INLINE Result<void> begin(std::string_view scene, Frame first = 0) {
     const Result<ReplayHeader> header = header_of_world(world_.settings(), scene, first);
     if (!header) return header.error();
     start_frame();
-    world_.record_to(&tape_);
+    world_.record_to(&log_);
     return recorder_.begin(world_, header.value());
   }
   /// `hash` is the world's now: callers that have it need not compute it twice.
   ISO_INLINE Result<void> end_frame(std::uint64_t hash) {
-    if (const char* flaw = start_.flaw(world_, tape_)) return Error{ErrorCode::invalid, flaw, "recorder"};
-    const Result<void> result = recorder_.frame(tape_, hash);
+    if (const char* flaw = start_.flaw(world_, log_)) return Error{ErrorCode::invalid, flaw, "recorder"};
+    const Result<void> result = recorder_.frame(log_, hash);
     start_frame();
     return result;
   }
@@ -86,8 +87,8 @@ template <TapedWorld W> class TapeRecorder {
   /// After `end_frame`, with nothing told to the world since: whoever verifies the recording compares this state byte
   /// for byte with its own.
   ISO_INLINE Result<void> keyframe() {
-    const char* flaw = start_.flaw(world_, tape_);
-    if (flaw == nullptr && !tape_.empty()) flaw = "a keyframe stands between two frames";
+    const char* flaw = start_.flaw(world_, log_);
+    if (flaw == nullptr && !log_.empty()) flaw = "a keyframe stands between two frames";
     if (flaw != nullptr) return Error{ErrorCode::invalid, flaw, "recorder"};
     return recorder_.keyframe(world_);
   }
@@ -95,14 +96,14 @@ template <TapedWorld W> class TapeRecorder {
 
  private:
   ISO_INLINE void start_frame() {
-    tape_.clear();
-    start_ = TapeStart<W>(world_);
+    log_.clear();
+    start_ = CommandLogStart<W>(world_);
   }
 
   W& world_;
   Recorder<W> recorder_;
-  std::vector<std::uint8_t> tape_;
-  TapeStart<W> start_;
+  std::vector<std::uint8_t> log_;
+  CommandLogStart<W> start_;
 };
 
 }  // namespace isostep

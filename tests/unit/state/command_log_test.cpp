@@ -1,12 +1,13 @@
-// Tapes over a toy's own list of commands: their bytes, playing them, and the recorder of any world that writes them.
+// Command logs over a toy's own list of commands: their bytes, playing them, and the recorder of any world that writes
+// them.
 // SPDX-License-Identifier: MIT
-#include "isostep/state/tape.hpp"
+#include "isostep/state/command_log.hpp"
 
 #include <gtest/gtest.h>
 
 #include <variant>
 
-#include "isostep/state/tape_recorder.hpp"
+#include "isostep/state/command_recorder.hpp"
 #include "toy_world.hpp"
 
 namespace {
@@ -14,15 +15,15 @@ namespace {
 using namespace isostep;
 using namespace toy;
 
-/// What playing a tape was told, and how far it came.
+/// What playing a command log was told, and how far it came.
 struct Heard {
   std::vector<ToyCommand> commands;
   std::vector<std::size_t> steps;  // after so many commands
   Result<void> result;
 
-  explicit Heard(Bytes tape, std::size_t accepted = 1000)
-      : result(play_tape<ToyCommand>(
-            tape,
+  explicit Heard(Bytes log, std::size_t accepted = 1000)
+      : result(play_commands<ToyCommand>(
+            log,
             [&](const ToyCommand& command) {
               commands.push_back(command);
               return commands.size() <= accepted;
@@ -30,32 +31,32 @@ struct Heard {
             [&] { steps.push_back(commands.size()); })) {}
 };
 
-TEST(Tape, ACommandIsItsPlaceInTheListAndItsFields) {
-  Buffer tape;
-  Writer writer(tape);
+TEST(CommandLog, ACommandIsItsPlaceInTheListAndItsFields) {
+  Buffer log;
+  Writer writer(log);
   write_command<ToyCommand>(writer, Clear{});
-  EXPECT_EQ(tape, (Buffer{1}));
+  EXPECT_EQ(log, (Buffer{1}));
   write_command<ToyCommand>(writer, Push{0x01020304, Q32_32(1.5)});
-  EXPECT_EQ(tape, (Buffer{1, 0, 4, 3, 2, 1, 0, 0, 0, 0x80, 1, 0, 0, 0}));
+  EXPECT_EQ(log, (Buffer{1, 0, 4, 3, 2, 1, 0, 0, 0, 0x80, 1, 0, 0, 0}));
 }
 
-TEST(Tape, ACommandOfVaryingLengthWritesItself) {
-  Buffer tape;
-  Writer writer(tape);
+TEST(CommandLog, ACommandOfVaryingLengthWritesItself) {
+  Buffer log;
+  Writer writer(log);
   write_command<ToyCommand>(writer, Fill{{7, 0x0102}});
-  EXPECT_EQ(tape, (Buffer{2, 2, 0, 0, 0, 7, 0, 2, 1}));
+  EXPECT_EQ(log, (Buffer{2, 2, 0, 0, 0, 7, 0, 2, 1}));
 }
 
-TEST(Tape, IsPlayedFromFrontToBackWithTheStepsInTheirPlaces) {
-  Buffer tape;
-  Writer writer(tape);
-  tape.push_back(kStepMarker);
+TEST(CommandLog, IsPlayedFromFrontToBackWithTheStepsInTheirPlaces) {
+  Buffer log;
+  Writer writer(log);
+  log.push_back(kStepMarker);
   write_command<ToyCommand>(writer, Push{3, Q32_32(-0.25)});
   write_command<ToyCommand>(writer, Fill{{5, 6, 7}});
-  tape.push_back(kStepMarker);
-  tape.push_back(kStepMarker);
+  log.push_back(kStepMarker);
+  log.push_back(kStepMarker);
   write_command<ToyCommand>(writer, Clear{});
-  const Heard heard{tape};
+  const Heard heard{log};
   ASSERT_TRUE(heard.result.ok());
   EXPECT_EQ(heard.steps, (std::vector<std::size_t>{0, 2, 2}));
   ASSERT_EQ(heard.commands.size(), 3u);
@@ -66,7 +67,7 @@ TEST(Tape, IsPlayedFromFrontToBackWithTheStepsInTheirPlaces) {
   EXPECT_TRUE(Heard{Bytes{}}.result.ok());
 }
 
-TEST(Tape, ANumberThatNoCommandHasIsInvalid) {
+TEST(CommandLog, ANumberThatNoCommandHasIsInvalid) {
   for (const std::uint8_t number : {3, 4, 0x7f, 0xfe}) {
     const Heard heard{Buffer{1, number, 1}};
     ASSERT_FALSE(heard.result.ok());
@@ -75,7 +76,7 @@ TEST(Tape, ANumberThatNoCommandHasIsInvalid) {
   }
 }
 
-TEST(Tape, ACommandThatIsCutOffIsNotCarriedOut) {
+TEST(CommandLog, ACommandThatIsCutOffIsNotCarriedOut) {
   Buffer whole;
   Writer writer(whole);
   write_command<ToyCommand>(writer, Push{1, 2});
@@ -88,26 +89,26 @@ TEST(Tape, ACommandThatIsCutOffIsNotCarriedOut) {
   }
 }
 
-TEST(Tape, ACountAboveTheCommandsOwnCapIsRefused) {
-  Buffer tape;
-  Writer writer(tape);
+TEST(CommandLog, ACountAboveTheCommandsOwnCapIsRefused) {
+  Buffer log;
+  Writer writer(log);
   write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap, 9)});
-  EXPECT_TRUE(Heard{tape}.result.ok());
-  tape.clear();
+  EXPECT_TRUE(Heard{log}.result.ok());
+  log.clear();
   write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap + 1, 9)});
-  const Heard heard{tape};
+  const Heard heard{log};
   EXPECT_FALSE(heard.result.ok());
   EXPECT_TRUE(heard.commands.empty());
 }
 
-TEST(Tape, EndsAtACommandThatIsRefused) {
+TEST(CommandLog, EndsAtACommandThatIsRefused) {
   const Heard heard(Buffer{1, kStepMarker, 1, kStepMarker, 1}, 1);
   EXPECT_EQ(heard.result.error().code, ErrorCode::corrupt);
   EXPECT_EQ(heard.commands.size(), 2u);
   EXPECT_EQ(heard.steps, (std::vector<std::size_t>{1}));
 }
 
-TEST(Tape, MayHaveSoManyStepsAndNotOneMore) {
+TEST(CommandLog, MayHaveSoManyStepsAndNotOneMore) {
   EXPECT_TRUE(Heard{Buffer(kFrameStepCap, kStepMarker)}.result.ok());
   const Heard heard{Buffer(kFrameStepCap + 1, kStepMarker)};
   EXPECT_EQ(heard.result.error().code, ErrorCode::limit);
@@ -117,11 +118,11 @@ TEST(Tape, MayHaveSoManyStepsAndNotOneMore) {
 
 // The recorder, over a world that is none of ours.
 
-TEST(TapeRecorder, WhatItWritesIsPlayedAndVerified) {
+TEST(CommandRecorder, WhatItWritesIsPlayedAndVerified) {
   ToyWorld world;
   world.apply(Push{1, 2});
   Buffer file;
-  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  CommandRecorder<ToyWorld> recorder(world, sink_to(file));
   ASSERT_TRUE(recorder.begin("a toy").ok());
   for (std::uint32_t frame = 0; frame < 100; ++frame) {
     world.apply(Push{frame, Q32_32(0.5)});
@@ -142,10 +143,10 @@ TEST(TapeRecorder, WhatItWritesIsPlayedAndVerified) {
   EXPECT_EQ(again.tick(), world.tick());
 }
 
-TEST(TapeRecorder, AKeyframeIsTheStateAfterTheLastFrame) {
+TEST(CommandRecorder, AKeyframeIsTheStateAfterTheLastFrame) {
   ToyWorld world;
   Buffer file;
-  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  CommandRecorder<ToyWorld> recorder(world, sink_to(file));
   ASSERT_TRUE(recorder.begin("a toy").ok());
   for (std::uint32_t frame = 0; frame < 5; ++frame) {
     world.apply(Push{frame, Q32_32(0.5)});
@@ -165,25 +166,25 @@ TEST(TapeRecorder, AKeyframeIsTheStateAfterTheLastFrame) {
   EXPECT_EQ(verify(replay, again, SameHeader{here}).outcome, VerifyOutcome::verified);
 
   Buffer other;
-  TapeRecorder<ToyWorld> early(world, sink_to(other));
+  CommandRecorder<ToyWorld> early(world, sink_to(other));
   ASSERT_TRUE(early.begin("a toy").ok());
   world.apply(Push{1, 1});
   EXPECT_FALSE(early.keyframe().ok()) << "in the middle of a frame";
 }
 
-TEST(TapeRecorder, TheGamesFirstFrameIsInTheHeader) {
+TEST(CommandRecorder, TheGamesFirstFrameIsInTheHeader) {
   ToyWorld world;
   Buffer file;
-  TapeRecorder<ToyWorld> recorder(world, sink_to(file));
+  CommandRecorder<ToyWorld> recorder(world, sink_to(file));
   ASSERT_TRUE(recorder.begin("a toy", 120).ok() && recorder.finish().ok());
   EXPECT_EQ(ReplayReader(file).header().number(kFirstFrameKey).value(), 120u);
   EXPECT_FALSE(ReplayReader(file).header().find(kFirstFrameKey)->required);
 }
 
-TEST(TapeRecorder, EndsWhereTheWorldWasLoadedOrSteppedTooOften) {
+TEST(CommandRecorder, EndsWhereTheWorldWasLoadedOrSteppedTooOften) {
   ToyWorld loaded, hasty, silent;
   Buffer files[3];
-  TapeRecorder<ToyWorld> of_loaded(loaded, sink_to(files[0])), of_hasty(hasty, sink_to(files[1])),
+  CommandRecorder<ToyWorld> of_loaded(loaded, sink_to(files[0])), of_hasty(hasty, sink_to(files[1])),
       of_silent(silent, sink_to(files[2]));
   ASSERT_TRUE(of_loaded.begin("a").ok() && of_hasty.begin("b").ok() && of_silent.begin("c").ok());
   Buffer bytes;

@@ -1,4 +1,4 @@
-// Commands as data: what a tape holds, how it plays, and where a recording of it ends.
+// Commands as data: what a command log holds, how it plays, and where a recording of it ends.
 // SPDX-License-Identifier: MIT
 
 #include "determinism/mess.hpp"
@@ -8,10 +8,10 @@
 namespace isostep::test {
 namespace {
 
-template <class S> class WorldTapes : public ::testing::Test {};
-TYPED_TEST_SUITE(WorldTapes, AllScalars);
+template <class S> class CommandLogs : public ::testing::Test {};
+TYPED_TEST_SUITE(CommandLogs, AllScalars);
 
-TYPED_TEST(WorldTapes, commands_given_as_data_do_what_the_calls_do) {
+TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   using S = TypeParam;
   World<S> called(settings<S>()), told(settings<S>());
   const auto both = [&](const Command<S>& command, auto&& call) {
@@ -61,7 +61,7 @@ TYPED_TEST(WorldTapes, commands_given_as_data_do_what_the_calls_do) {
   static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
 }
 
-TYPED_TEST(WorldTapes, a_command_returns_what_it_made) {
+TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {
   using S = TypeParam;
   World<S> w(settings<S>());
   const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
@@ -76,7 +76,7 @@ TYPED_TEST(WorldTapes, a_command_returns_what_it_made) {
   EXPECT_STREQ(w.fault().command, "create_body");
 }
 
-TYPED_TEST(WorldTapes, a_recording_ends_where_the_world_is_loaded) {
+TYPED_TEST(CommandLogs, a_recording_ends_where_the_world_is_loaded) {
   using S = TypeParam;
   World<S> w;
   add_ground(w);
@@ -92,32 +92,32 @@ TYPED_TEST(WorldTapes, a_recording_ends_where_the_world_is_loaded) {
   EXPECT_FALSE(recorder.end_frame().ok());
 }
 
-TYPED_TEST(WorldTapes, a_tape_that_is_damaged_is_refused) {
+TYPED_TEST(CommandLogs, a_log_that_is_damaged_is_refused) {
   using S = TypeParam;
   World<S> w(settings<S>());
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   const ShapeId ball = add_ball(w, 0.5);
   const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
   w.destroy(id);
   w.step();
-  for (const std::size_t cut : {std::size_t{1}, tape.size() / 2, tape.size() - 2}) {
+  for (const std::size_t cut : {std::size_t{1}, log.size() / 2, log.size() - 2}) {
     World<S> other(settings<S>());
-    EXPECT_FALSE(other.step_recorded({tape.data(), cut}).ok()) << cut;
+    EXPECT_FALSE(other.step_recorded({log.data(), cut}).ok()) << cut;
     EXPECT_EQ(other.tick(), 0u);
   }
   World<S> other(settings<S>());
   const std::uint8_t unknown[] = {200};
   EXPECT_FALSE(other.step_recorded(unknown).ok());
-  EXPECT_TRUE(other.step_recorded(tape).ok());
-  EXPECT_FALSE(other.step_recorded({tape.data() + tape.size() - 10, 10}).ok()) << "the body is gone: a refused command";
+  EXPECT_TRUE(other.step_recorded(log).ok());
+  EXPECT_FALSE(other.step_recorded({log.data() + log.size() - 10, 10}).ok()) << "the body is gone: a refused command";
 }
 
-TYPED_TEST(WorldTapes, a_tape_is_numbers_of_commands_their_fields_and_markers) {
+TYPED_TEST(CommandLogs, a_log_is_numbers_of_commands_their_fields_and_markers) {
   using S = TypeParam;
   World<S> w(settings<S>());
-  std::vector<std::uint8_t> tape, expected;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log, expected;
+  w.record_to(&log);
   const Child<S> parts[] = {{primitive_of(Sphere<S>{S(0.5)}), Pose<S>::identity()},
                             {primitive_of(Box<S>{{S(1), S(2), S(3)}}), Pose<S>::identity()}};
   const ShapeId shape = w.add_shape(parts);
@@ -134,37 +134,37 @@ TYPED_TEST(WorldTapes, a_tape_is_numbers_of_commands_their_fields_and_markers) {
   writer.write(std::uint8_t{1});
   writer.write(shape.slot);
   writer.write(shape.generation);
-  EXPECT_EQ(tape, expected);
+  EXPECT_EQ(log, expected);
 }
 
-TYPED_TEST(WorldTapes, a_tape_keeps_the_place_of_the_step_among_the_commands) {
+TYPED_TEST(CommandLogs, a_log_keeps_the_place_of_the_step_among_the_commands) {
   using S = TypeParam;
   World<S> w(settings<S>()), other(settings<S>());
-  std::vector<std::uint8_t> tape;
-  w.record_to(&tape);
+  std::vector<std::uint8_t> log;
+  w.record_to(&log);
   const ShapeId ball = add_ball(w, 0.5);
   const BodyId a = w.create(moving<S>(ball, {0, 5, 0}));
   w.step();
   w.set_velocity(a, vec<S>(0, 3, 0), vec<S>(0, 0, 0));
   w.create(moving<S>(ball, {4, 5, 0}));
-  ASSERT_TRUE(other.step_recorded(tape).ok());
+  ASSERT_TRUE(other.step_recorded(log).ok());
   EXPECT_EQ(other.hash(), w.hash());
   EXPECT_EQ(to_double(other.velocity(a).y), 3);
   EXPECT_EQ(other.tick(), 1u);
 }
 
-TYPED_TEST(WorldTapes, a_tape_plays_any_number_of_steps_up_to_the_cap) {
+TYPED_TEST(CommandLogs, a_log_plays_any_number_of_steps_up_to_the_cap) {
   using S = TypeParam;
   for (const std::uint32_t steps : {0u, 1u, 2u, kFrameStepCap, kFrameStepCap + 1}) {
     World<S> w(settings<S>()), other(settings<S>());
-    std::vector<std::uint8_t> tape;
-    w.record_to(&tape);
+    std::vector<std::uint8_t> log;
+    w.record_to(&log);
     const BodyId ball = w.create(moving<S>(add_ball(w, 0.5), {0, 5, 0}));
     for (std::uint32_t i = 0; i < steps; ++i) {
       w.step();
       w.apply_impulse(ball, vec<S>(0.5, 0, 0));
     }
-    const Result<void> played = other.step_recorded(tape);
+    const Result<void> played = other.step_recorded(log);
     EXPECT_EQ(other.tick(), std::min(steps, kFrameStepCap));
     if (steps <= kFrameStepCap) {
       EXPECT_TRUE(played.ok()) << steps;
@@ -180,7 +180,7 @@ TYPED_TEST(WorldTapes, a_tape_plays_any_number_of_steps_up_to_the_cap) {
   EXPECT_EQ(still.hash(), before);
 }
 
-TYPED_TEST(WorldTapes, a_recording_takes_pauses_and_several_steps_and_verifies) {
+TYPED_TEST(CommandLogs, a_recording_takes_pauses_and_several_steps_and_verifies) {
   using S = TypeParam;
   World<S> w;
   std::vector<std::uint8_t> file;
@@ -201,7 +201,7 @@ TYPED_TEST(WorldTapes, a_recording_takes_pauses_and_several_steps_and_verifies) 
   EXPECT_EQ(again.tick(), 3u + kFrameStepCap);
 }
 
-TYPED_TEST(WorldTapes, a_recording_ends_before_a_frame_of_more_steps_than_the_cap) {
+TYPED_TEST(CommandLogs, a_recording_ends_before_a_frame_of_more_steps_than_the_cap) {
   using S = TypeParam;
   World<S> w;
   std::vector<std::uint8_t> file;
