@@ -48,11 +48,11 @@ struct Machine {
   Game game;
   iso::Session<Game> session;
   SimulatedNetwork::Port port;
-  std::uint64_t roots[300] = {};  // of the final frames
+  std::uint64_t hashes[300] = {};  // of the final frames
 
   Machine(const iso::SessionConfig& config, SimulatedNetwork::Port its_port) : session(config), port(its_port) {}
-  void confirmed(iso::Frame frame, std::uint64_t root) {  // drive() tells this
-    if (frame < 300) roots[frame] = root;
+  void confirmed(iso::Frame frame, std::uint64_t hash) {  // drive() tells this
+    if (frame < 300) hashes[frame] = hash;
   }
   // README: begin
   void turn(int player, iso::Time now) {
@@ -82,7 +82,7 @@ int main() {
     client.turn(1, now);
   }
   int equal = 0;
-  for (int frame = 0; frame < 300; ++frame) equal += host.roots[frame] == client.roots[frame] ? 1 : 0;
+  for (int frame = 0; frame < 300; ++frame) equal += host.hashes[frame] == client.hashes[frame] ? 1 : 0;
   std::printf("%d of 300 frames equal; %llu frames were stepped again\n", equal,
               static_cast<unsigned long long>(host.session.stats().steps - 300));
   return equal == 300 && host.session.stats().steps > 320 ? 0 : 1;

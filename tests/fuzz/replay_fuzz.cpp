@@ -40,7 +40,7 @@ void seal(Buffer& file) {
 void check_facts(Bytes payload, std::uint64_t frames) {
   const Result<BundleFacts> facts = read_facts(payload, frames);
   if (!facts) return;
-  require(facts.value().roots.size() == frames);
+  require(facts.value().game_hashes.size() == frames);
   Buffer again;
   Writer writer(again);
   write_facts(writer, facts.value());

@@ -60,7 +60,7 @@ void parse(Bytes bytes) {
   if (const Result<Packet> packet = read_packet(bytes)) {
     const PacketHeader& header = packet.value().header;
     require(header.frame >= 0 && header.frame <= kLastFrame && packet.value().slice_count <= kMaxPlayers);
-    require(header.root.frame >= kNoFrame && header.root.frame <= kLastFrame);
+    require(header.report.frame >= kNoFrame && header.report.frame <= kLastFrame);
     for (const Frame ack : header.ack) require(ack >= 0 && ack <= kLastFrame);
     for (std::uint8_t i = 0; i < packet.value().slice_count; ++i) {
       const InputSlice& slice = packet.value().slices[i];
@@ -107,7 +107,7 @@ SessionConfig small_config(std::uint8_t options) {
 struct Side {
   explicit Side(const SessionConfig& config) : session(config) {}
 
-  void confirmed(Frame frame, std::uint64_t root) { roots[frame] = root; }
+  void confirmed(Frame frame, std::uint64_t hash) { hashes[frame] = hash; }
   void turn(Time now, const std::function<void(const Outgoing&)>& send) {
     for (int p = 0; p < session.config().players; ++p) {
       if (session.wants_input(p)) session.add_local_input(p, hostile::bot(p, session.current()));
@@ -129,7 +129,7 @@ struct Side {
   }
   Session<Game> session;
   Game game;
-  std::map<Frame, std::uint64_t> roots;
+  std::map<Frame, std::uint64_t> hashes;
   std::uint32_t named = 0;  // whose states differed: a bit each, 256: the host's
 };
 
@@ -142,7 +142,7 @@ Buffer any_datagram(Script& script, std::uint16_t match, Frame now, std::uint8_t
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(script.word());
   header.started = (flags & 2) == 0;
   header.frame = script.frame(now);
-  if ((flags & 4) != 0) header.root = {script.frame(now), script.byte()};
+  if ((flags & 4) != 0) header.report = {script.frame(now), script.byte()};
   if ((flags & 8) != 0) {
     header.reporter = script.byte() % 8;
     header.passed_on = {script.frame(now), script.byte()};
@@ -272,9 +272,9 @@ void attack_host(Script& script) {
     settled = host.session.confirmed();
   }
   // The honest never differ, and neither is told so of the other.
-  for (const auto& [frame, root] : client.roots) {
-    const auto there = host.roots.find(frame);
-    if (there != host.roots.end()) require(there->second == root);
+  for (const auto& [frame, hash] : client.hashes) {
+    const auto there = host.hashes.find(frame);
+    if (there != host.hashes.end()) require(there->second == hash);
   }
   require((client.named & 257u) == 0);
   require(client.session.portable().capacity() < 200000 && host.session.portable().capacity() < 200000);
@@ -319,7 +319,7 @@ void attack_client(Script& script) {
         welcome.start = {client.session.confirmed(), script.byte()};
         if (here == 0) welcome.start = {0, Game{}.hash()};
         if (op >= 128) welcome.start.frame = script.frame(here);
-        welcome.root = script.byte() % 2 == 0 ? Game{}.hash() : 1;
+        welcome.hash = script.byte() % 2 == 0 ? Game{}.hash() : 1;
         welcome.opens = script.byte() % 2 == 0 ? kNoFrame : script.frame(here);
         if (op >= 160) welcome.snapshot_size = script.byte() < 128 ? 2 * script.byte() : script.word();
         if (op >= 240) {

@@ -30,7 +30,7 @@ inline SessionConfig three_players() {
   return config;
 }
 
-/// Same roots at all honest machines as in one process that plays the same inputs.
+/// Same hashes at all honest machines as in one process that plays the same inputs.
 inline void expect_honest(Match& match, Frame at_least) {
   const std::vector<std::uint64_t> straight = match.straight(match.host().end());
   for (std::size_t i = 0; i < match.size(); ++i) {
@@ -38,7 +38,7 @@ inline void expect_honest(Match& match, Frame at_least) {
     EXPECT_TRUE(peer.in_order) << "machine " << i;
     EXPECT_GE(peer.end(), at_least) << "machine " << i;
     for (Frame f = peer.first; f < peer.end() && f < match.host().end(); ++f) {
-      ASSERT_EQ(peer.roots[static_cast<std::size_t>(f - peer.first)], straight[static_cast<std::size_t>(f)])
+      ASSERT_EQ(peer.hashes[static_cast<std::size_t>(f - peer.first)], straight[static_cast<std::size_t>(f)])
           << "machine " << i << ", frame " << f;
     }
   }

@@ -45,7 +45,7 @@ struct Victim {
             .player = 1,
             .token = 1,
             .start = {0, Game{}.hash()},
-            .root = Game{}.hash(),
+            .hash = Game{}.hash(),
             .snapshot_size = 0,
             .opens = 0};
   }
@@ -64,8 +64,8 @@ struct Victim {
 };
 
 TEST(HostileHost, AWelcomeToAStateThatWeDoNotHaveIsRefused) {
-  for (const RootReport start :
-       {RootReport{1, Game{}.hash()}, RootReport{0, 5}, RootReport{100000, 5}, RootReport{kLastFrame, 1}}) {
+  for (const HashReport start :
+       {HashReport{1, Game{}.hash()}, HashReport{0, 5}, HashReport{100000, 5}, HashReport{kLastFrame, 1}}) {
     Victim victim;
     Welcome welcome = Victim::first_welcome();
     welcome.start = start;
@@ -122,7 +122,7 @@ TEST(HostileHost, PiecesOutOfOrderOverlappingOrTooManyAreRefused) {
   EXPECT_EQ(victim.session.current(), 50);
 }
 
-TEST(HostileHost, AStateThatIsNotTheOneWhoseRootWasNamedIsRefused) {
+TEST(HostileHost, AStateThatIsNotTheOneWhoseHashWasNamedIsRefused) {
   Victim victim;
   Game other;
   Buffer state;
@@ -130,7 +130,7 @@ TEST(HostileHost, AStateThatIsNotTheOneWhoseRootWasNamedIsRefused) {
   other.write_portable(writer);
   Welcome welcome = Victim::first_welcome();
   welcome.start = {50, 3};
-  welcome.root = other.hash() ^ 1;
+  welcome.hash = other.hash() ^ 1;
   welcome.opens = kNoFrame;
   welcome.snapshot_size = static_cast<std::uint32_t>(state.size());
   victim.hear_welcome(welcome);
@@ -153,7 +153,7 @@ TEST(HostileHost, AStateThatIsNotTheOneWhoseRootWasNamedIsRefused) {
   ASSERT_TRUE(hello.has_value());
   EXPECT_EQ(hello->have.frame, 0);
   EXPECT_EQ(hello->have.chain, 0u);
-  welcome.root = other.hash();
+  welcome.hash = other.hash();
   victim.hear_welcome(welcome);
   for (std::size_t at = 0; at < state.size(); at += 10000) {
     victim.hear_piece(static_cast<std::uint32_t>(at),
@@ -256,7 +256,7 @@ TEST(HostileHost, AnythingAtAllInAnyOrderBreaksNothing) {
           header.match = 9;
           header.started = random.next() % 2 == 0;
           header.frame = frame();
-          header.root = {random.next() % 2 == 0 ? kNoFrame : frame(), random.next() % 5};
+          header.report = {random.next() % 2 == 0 ? kNoFrame : frame(), random.next() % 5};
           header.ack_mask = static_cast<std::uint8_t>(random.next());
           for (Frame& ack : header.ack) ack = frame();
           for (std::int8_t& slack : header.slack) slack = static_cast<std::int8_t>(random.next());

@@ -114,17 +114,17 @@ TEST(HostileWords, ALiarAboutItsStatesIsNamedAndNobodyElse) {
   std::sort(all.begin(), all.end());
   EXPECT_EQ(all, (std::vector<int>{1, 2, 0xff}));
   for (std::size_t f = 0; f < 600; ++f) {
-    ASSERT_EQ(first.roots[f], match.host().roots[f]);
-    ASSERT_EQ(second.roots[f], match.host().roots[f]);
+    ASSERT_EQ(first.hashes[f], match.host().hashes[f]);
+    ASSERT_EQ(second.hashes[f], match.host().hashes[f]);
   }
 }
 
-TEST(HostileWords, RootsOfTheFutureAreNotComparedAndHideNothing) {
+TEST(HostileWords, HashesOfTheFutureAreNotComparedAndHideNothing) {
   SeatedRogue scene;
   scene.play(2 * kSecond, [&] {
     for (const Frame ahead : {30, 1000, 100000000}) {
       scene.rogue.say(Channel::datagram, scene.packet([&](PacketHeader& header) {
-        header.root = {header.frame + ahead, 0x1234};
+        header.report = {header.frame + ahead, 0x1234};
       }));
     }
   });
@@ -133,7 +133,7 @@ TEST(HostileWords, RootsOfTheFutureAreNotComparedAndHideNothing) {
   // One about the present is still heard.
   scene.play(kSecond, [&] {
     scene.rogue.say(Channel::datagram, scene.packet([&](PacketHeader& header) {
-      header.root = {header.frame - 20, 0x1234};
+      header.report = {header.frame - 20, 0x1234};
     }));
   });
   for (const Peer* peer : std::initializer_list<const Peer*>{&scene.match.host(), scene.honest}) {

@@ -72,10 +72,10 @@ TEST(Caller, AClockThatStepsBackChangesNothing) {
 struct Diary {
   const Session<Toy>& session;
   std::vector<ToyInput> inputs;
-  std::vector<std::uint64_t> roots;
-  void confirmed(Frame frame, std::uint64_t root) {
+  std::vector<std::uint64_t> hashes;
+  void confirmed(Frame frame, std::uint64_t hash) {
     inputs.push_back(session.input(frame, 0));
-    roots.push_back(root);
+    hashes.push_back(hash);
   }
 };
 
@@ -87,7 +87,7 @@ TEST(Caller, DroppedRequestsAreToldAndMadeGood) {
   Diary diary{session, {}, {}};
   int misuses = 0;
   bool dropped = false;
-  for (Time now = 0; now < 5 * kSecond && diary.roots.size() < 100; now += 5000) {
+  for (Time now = 0; now < 5 * kSecond && diary.hashes.size() < 100; now += 5000) {
     session.add_local_input(0, toy_input(3, 0, session.current()));
     if (session.current() % 30 == 7 && session.wait(now) == 0) {
       dropped = !session.advance(now).empty() || dropped;  // and nothing of it is done
@@ -98,12 +98,12 @@ TEST(Caller, DroppedRequestsAreToldAndMadeGood) {
   }
   EXPECT_TRUE(dropped);
   EXPECT_GE(misuses, 1);
-  ASSERT_GE(diary.roots.size(), 100u) << "the match goes on";
+  ASSERT_GE(diary.hashes.size(), 100u) << "the match goes on";
   Toy straight;
-  for (std::size_t frame = 0; frame < diary.roots.size(); ++frame) {
+  for (std::size_t frame = 0; frame < diary.hashes.size(); ++frame) {
     const InputStatus status = InputStatus::confirmed;
     straight.step({{&diary.inputs[frame], 1}, {&status, 1}});
-    ASSERT_EQ(straight.hash(), diary.roots[frame]) << frame;
+    ASSERT_EQ(straight.hash(), diary.hashes[frame]) << frame;
   }
 }
 

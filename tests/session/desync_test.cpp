@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A client cannot tell two peers two different inputs: it has one connection, and what the host accepted from it is
-// what the host passes on to all. A host can; it is found out because clients compare each other's roots.
+// what the host passes on to all. A host can; it is found out because clients compare each other's hashes.
 #include <gtest/gtest.h>
 
 #include "scenes/match.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Kind = SessionEvent::Kind;
 constexpr Frame kFault = 300;
-/// [frames] between the last state known to be equal and the one known to differ: a machine's root is passed on with
+/// [frames] between the last state known to be equal and the one known to differ: a machine's hash is passed on with
 /// every datagram that is its turn, of which the line loses some.
 constexpr Frame kDetectionWindow = 16;
 
@@ -50,14 +50,14 @@ TEST_P(Desync, OfOneBitOnOneMachineIsToldByEveryOtherOnceAndByTheRightName) {
     ASSERT_TRUE(match.run_to(kFault + 300, 120 * kSecond));
     const int name = culprit == 0 ? 0xff : match.machine(culprit).seat;
     const std::size_t reference = culprit == 0 ? 1 : 0;
-    const std::vector<std::uint64_t>& right = match.machine(reference).roots;
+    const std::vector<std::uint64_t>& right = match.machine(reference).hashes;
     for (std::size_t i = 0; i < match.size(); ++i) {
       SCOPED_TRACE(i);
       const Machine<Toy>& machine = match.machine(i);
       EXPECT_TRUE(machine.in_order);
       if (i == culprit) {  // it sees that all the others differ from it
         EXPECT_EQ(machine.count(Kind::desync), players - 1);
-        for (std::size_t f = kFault; f < kFault + 300; ++f) ASSERT_NE(machine.roots[f], right[f]);
+        for (std::size_t f = kFault; f < kFault + 300; ++f) ASSERT_NE(machine.hashes[f], right[f]);
         continue;
       }
       ASSERT_EQ(machine.count(Kind::desync), 1);
@@ -68,7 +68,7 @@ TEST_P(Desync, OfOneBitOnOneMachineIsToldByEveryOtherOnceAndByTheRightName) {
       EXPECT_GT(event.frame, kFault);
       EXPECT_LE(event.frame - event.agreed, kDetectionWindow * (mode == SessionMode::lockstep ? 2 : 1));
       EXPECT_NE(event.ours, event.theirs);
-      for (std::size_t f = 0; f < kFault + 300; ++f) ASSERT_EQ(machine.roots[f], right[f]) << f;
+      for (std::size_t f = 0; f < kFault + 300; ++f) ASSERT_EQ(machine.hashes[f], right[f]) << f;
       EXPECT_EQ(machine.session.phase(), SessionPhase::playing);
     }
   }
@@ -86,8 +86,8 @@ TEST(Desync, ThatHealsIsSeenAllTheSame) {
     if (frame == kFault + 2) game.state.absences[7] = right;
   };
   ASSERT_TRUE(match.run_to(kFault + 200, 60 * kSecond));
-  EXPECT_EQ(match.host().roots[kFault + 100], match.machine(1).roots[kFault + 100]) << "healed";
-  EXPECT_NE(match.host().roots[kFault], match.machine(1).roots[kFault]);
+  EXPECT_EQ(match.host().hashes[kFault + 100], match.machine(1).hashes[kFault + 100]) << "healed";
+  EXPECT_NE(match.host().hashes[kFault], match.machine(1).hashes[kFault]);
   for (const std::size_t i : {0u, 2u}) {
     ASSERT_EQ(match.machine(i).count(Kind::desync), 1);
     EXPECT_EQ(match.machine(i).last(Kind::desync).player, match.machine(1).seat);
@@ -143,7 +143,7 @@ TEST(Desync, OfAHostThatTellsTwoPeersTwoThingsIsFound) {
     };
     ASSERT_TRUE(match.run_to(kFault + 200, 60 * kSecond));
     EXPECT_GT(lies, 0);
-    EXPECT_NE(match.machine(1).roots[kFault], match.machine(2).roots[kFault]);
+    EXPECT_NE(match.machine(1).hashes[kFault], match.machine(2).hashes[kFault]);
     const SessionEvent seen = match.machine(2).last(Kind::desync);
     EXPECT_EQ(seen.player, match.machine(1).seat) << "the other client's states are not ours";
     EXPECT_LE(seen.agreed, kFault);

@@ -150,7 +150,7 @@ TEST(TamperedSnapshot, IsRefusedWhicheverByteChangedOnTheWay) {
     ASSERT_TRUE(match.run(20 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::bad_snapshot); }));
     EXPECT_TRUE(done);
     EXPECT_EQ(joiner.session.phase(), SessionPhase::refused);
-    EXPECT_EQ(joiner.roots.size(), 0u) << "it confirmed a state that nobody vouches for";
+    EXPECT_EQ(joiner.hashes.size(), 0u) << "it confirmed a state that nobody vouches for";
     // The others are not concerned.
     match.run(5 * kSecond, [] { return false; });
     EXPECT_FALSE(match.host().heard(SessionEvent::Kind::joined, 2));
@@ -179,7 +179,7 @@ TEST(TamperedSnapshot, OfAWorldIsRefused) {
     };
     EXPECT_TRUE(match.run(20 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::bad_snapshot); }));
     EXPECT_TRUE(done);
-    EXPECT_EQ(joiner.roots.size(), 0u);
+    EXPECT_EQ(joiner.hashes.size(), 0u);
   }
 }
 
@@ -202,7 +202,7 @@ TEST(TamperedSnapshot, IsRefusedWhenTheHostCapturesAnotherStateThanItPlays) {
   match.host().game->lies = true;
   Machine<TwoFaced>& joiner = match.add(profile("lan"));
   ASSERT_TRUE(match.run(20 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::bad_snapshot); }));
-  EXPECT_EQ(joiner.roots.size(), 0u);
+  EXPECT_EQ(joiner.hashes.size(), 0u);
 }
 
 // A host and its snapshot agree with each other; a third machine does not agree with them.
@@ -219,7 +219,7 @@ TEST(LateJoin, IsNotAdmittedWhileThePeersDisagree) {
   Machine<Toy>& joiner = match.add(profile("lan"));
   match.run(30 * kSecond, [] { return false; });
   EXPECT_EQ(joiner.restarts, 1);
-  EXPECT_GT(joiner.roots.size(), 1000u) << "it sees the match";
+  EXPECT_GT(joiner.hashes.size(), 1000u) << "it sees the match";
   EXPECT_FALSE(joiner.heard(SessionEvent::Kind::joined, 2)) << "but has no part in it";
   EXPECT_NE(joiner.session.phase(), SessionPhase::playing);
   EXPECT_EQ(joiner.last(SessionEvent::Kind::desync).player, 1);
@@ -232,7 +232,7 @@ void expect_a_second_machine_is_asked(bool asked_early) {
   VirtualMatch<Toy> match = toy_match(config_of(3, kShortHistory));
   start_without_last(match, 3, 400, profile("lan"));
   Machine<Toy>& joiner = match.add(profile("lan"));
-  // What the host passes on of player 1's roots does not arrive.
+  // What the host passes on of player 1's hashes does not arrive.
   bool passes_on = false;
   joiner.middle = [&](Channel channel, std::vector<std::uint8_t>& bytes) {
     if (channel != Channel::datagram || passes_on) return;

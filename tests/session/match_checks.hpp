@@ -10,7 +10,7 @@
 
 namespace isostep::test {
 
-/// Frames of `machine` whose root is not that of the straight run, or whose inputs are not the host's.
+/// Frames of `machine` whose hash is not that of the straight run, or whose inputs are not the host's.
 template <class Game>
 std::size_t differences(const Machine<Game>& machine, const Machine<Game>& host,
                         const std::vector<std::uint64_t>& straight) {
@@ -18,7 +18,7 @@ std::size_t differences(const Machine<Game>& machine, const Machine<Game>& host,
   for (Frame frame = machine.first; frame < machine.end(); ++frame) {
     const auto f = static_cast<std::size_t>(frame);
     if (f >= straight.size() || frame >= host.end()) break;
-    bool same = machine.roots[static_cast<std::size_t>(frame - machine.first)] == straight[f];
+    bool same = machine.hashes[static_cast<std::size_t>(frame - machine.first)] == straight[f];
     for (std::size_t p = 0; p < machine.at(frame).size(); ++p) {
       const auto &ours = machine.at(frame)[p], &theirs = host.at(frame)[p];
       same = same && ours.absent == theirs.absent && ours.input == theirs.input;
@@ -47,7 +47,7 @@ template <class Game> void expect_one_history(VirtualMatch<Game>& match, bool ma
     SCOPED_TRACE(i == 0 ? "host" : "client " + std::to_string(i));
     const Machine<Game>& machine = match.machine(i);
     expect_sound_machine(machine, may_drop);
-    EXPECT_GT(machine.roots.size(), 0u);
+    EXPECT_GT(machine.hashes.size(), 0u);
     EXPECT_EQ(differences(machine, match.host(), straight), 0u);
   }
   EXPECT_EQ(match.network().oversized(), 0u);

@@ -154,27 +154,27 @@ TEST(Soak, OfAnHourNeedsNoMoreMemoryThanItsFirstMinutesAndStaysOneHistory) {
       [](int player, Frame frame) { return toy_input(23, player, frame); });
   for (int p = 1; p < 3; ++p) match.add(profile("wifi")).returns = true;
 
-  struct Root {
+  struct Confirmed {
     Frame frame = kNoFrame;
-    std::uint64_t root = 0;
+    std::uint64_t hash = 0;
   };
-  std::vector<Root> hosts(1 << 12), clients[3];
-  for (std::vector<Root>& ring : clients) ring.resize(hosts.size());
+  std::vector<Confirmed> hosts(1 << 12), clients[3];
+  for (std::vector<Confirmed>& ring : clients) ring.resize(hosts.size());
   Toy straight(100);
   std::uint64_t wrong = 0, compared[3] = {};
   const auto compare = [&](std::size_t i, Frame frame) {
     const auto at = static_cast<std::size_t>(frame) % hosts.size();
     if (hosts[at].frame != frame || clients[i][at].frame != frame) return;
-    wrong += hosts[at].root != clients[i][at].root ? 1 : 0;
+    wrong += hosts[at].hash != clients[i][at].hash ? 1 : 0;
     ++compared[i];
   };
   for (std::size_t i = 0; i < 3; ++i) {
     Machine<Toy>& machine = match.machine(i);
     machine.keeps = false;
     machine.slow = 4000;
-    machine.was_confirmed = [&, i](Frame frame, std::uint64_t root) {
+    machine.was_confirmed = [&, i](Frame frame, std::uint64_t hash) {
       const auto at = static_cast<std::size_t>(frame) % hosts.size();
-      (i == 0 ? hosts : clients[i])[at] = {frame, root};
+      (i == 0 ? hosts : clients[i])[at] = {frame, hash};
       for (std::size_t k = 1; k < 3; ++k) {
         if (i == 0 || i == k) compare(k, frame);
       }
@@ -186,7 +186,7 @@ TEST(Soak, OfAnHourNeedsNoMoreMemoryThanItsFirstMinutesAndStaysOneHistory) {
         statuses[p] = match.host().session.status(frame, p);
       }
       straight.step({values, statuses});
-      wrong += straight.hash() != root ? 1 : 0;
+      wrong += straight.hash() != hash ? 1 : 0;
     };
   }
 

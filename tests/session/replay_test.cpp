@@ -13,7 +13,7 @@ namespace {
 constexpr Frame kFrames = 600;
 
 template <class Game> struct Played {
-  std::vector<std::uint64_t> roots;
+  std::vector<std::uint64_t> hashes;
   std::vector<SessionEvent> events;
   SessionPhase phase = SessionPhase::waiting;
   bool heard(SessionEvent::Kind kind) const {
@@ -22,8 +22,8 @@ template <class Game> struct Played {
     }
     return false;
   }
-  void confirmed(Frame frame, std::uint64_t root) {
-    if (frame == static_cast<Frame>(roots.size())) roots.push_back(root);
+  void confirmed(Frame frame, std::uint64_t hash) {
+    if (frame == static_cast<Frame>(hashes.size())) hashes.push_back(hash);
   }
 };
 template <class Game> Played<Game> play(const SessionConfig& recorded, Bytes file, Game game) {
@@ -45,7 +45,7 @@ template <class S> struct RecordedMatch {
   scenes::MatchSettings settings = {.players = 3, .pile = 8, .substeps = 2};
   SessionConfig config;
   std::vector<std::uint8_t> files[2];
-  std::vector<std::uint64_t> roots;
+  std::vector<std::uint64_t> hashes;
   std::uint64_t rollbacks = 0;
   bool someone_left = false;
 
@@ -62,15 +62,15 @@ template <class S> struct RecordedMatch {
       Machine<Game>& machine = match.machine(i);
       recorders.push_back(std::make_unique<MatchRecorder<Game>>(machine.session, sink_to(files[i])));
       EXPECT_TRUE(recorders[i]->begin(*machine.game).ok());
-      machine.was_confirmed = [recorder = recorders[i].get()](Frame frame, std::uint64_t root) {
-        if (frame < kFrames) recorder->confirmed(frame, root);
+      machine.was_confirmed = [recorder = recorders[i].get()](Frame frame, std::uint64_t hash) {
+        if (frame < kFrames) recorder->confirmed(frame, hash);
       };
     }
     EXPECT_TRUE(match.run_to(200, 60 * kSecond));
     match.network().cut(match.machine(2).endpoint);
     EXPECT_TRUE(match.run_to(kFrames, 60 * kSecond));
     for (const auto& recorder : recorders) EXPECT_TRUE(recorder->finish().ok());
-    roots.assign(match.host().roots.begin(), match.host().roots.begin() + kFrames);
+    hashes.assign(match.host().hashes.begin(), match.host().hashes.begin() + kFrames);
     someone_left = match.host().heard(SessionEvent::Kind::left);
     for (const std::uint64_t count : match.host().session.stats().rollbacks) rollbacks += count;
   }
@@ -80,7 +80,7 @@ template <class S> class MatchReplay : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 TYPED_TEST_SUITE(MatchReplay, Scalars);
 
-TYPED_TEST(MatchReplay, GivesTheRootsOfTheMatchWhoeverRecordedIt) {
+TYPED_TEST(MatchReplay, GivesTheHashesOfTheMatchWhoeverRecordedIt) {
   using Game = scenes::Match<TypeParam>;
   const RecordedMatch<TypeParam> match;
   EXPECT_GT(match.rollbacks, 0u);
@@ -90,7 +90,7 @@ TYPED_TEST(MatchReplay, GivesTheRootsOfTheMatchWhoeverRecordedIt) {
     const Played<Game> played = play(match.config, file, Game(match.settings));
     EXPECT_TRUE(played.events.empty());
     EXPECT_EQ(played.phase, SessionPhase::over);
-    EXPECT_EQ(played.roots, match.roots);
+    EXPECT_EQ(played.hashes, match.hashes);
   }
 }
 
@@ -106,7 +106,7 @@ TEST(MatchReplayRefuses, OrStopsWhereTheFileIsDamaged) {
     const Played<Game> played = play(match.config, file, Game(match.settings));
     EXPECT_EQ(played.phase, SessionPhase::over);
     EXPECT_TRUE(played.heard(SessionEvent::Kind::refused) || played.heard(SessionEvent::Kind::desync));
-    for (std::size_t f = 0; f < played.roots.size(); ++f) ASSERT_EQ(played.roots[f], match.roots[f]);
+    for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], match.hashes[f]);
   }
 }
 
@@ -119,8 +119,8 @@ TEST(MatchReplayRefuses, AFileThatEndsEarlyAfterItsWholeBlocks) {
     const Played<Game> played = play(match.config, beginning, Game(match.settings));
     EXPECT_TRUE(played.heard(SessionEvent::Kind::refused));
     EXPECT_EQ(played.phase, SessionPhase::over);
-    EXPECT_LE(played.roots.size(), match.roots.size());
-    for (std::size_t f = 0; f < played.roots.size(); ++f) ASSERT_EQ(played.roots[f], match.roots[f]);
+    EXPECT_LE(played.hashes.size(), match.hashes.size());
+    for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], match.hashes[f]);
   }
 }
 
@@ -132,7 +132,7 @@ TEST(MatchReplayRefuses, AnotherGameByTheFieldThatDiffers) {
   Played<Game> played = play(config, match.files[0], Game(match.settings));
   ASSERT_EQ(played.events.size(), 1u);
   EXPECT_EQ(played.events[0].field.key.view(), "scene");
-  EXPECT_TRUE(played.roots.empty());
+  EXPECT_TRUE(played.hashes.empty());
   config = match.config;
   config.players = 4;
   played = play(config, match.files[0], Game({.players = 4, .pile = 8, .substeps = 2}));

@@ -63,7 +63,7 @@ TEST_P(Sounds, PlayOncePerHappeningAndPeer) {
       ear.log.after_step(frame);
     };
     machine.went_back = [&ear](Frame frame) { ear.log.rolled_back(frame); };
-    machine.was_confirmed = [&ear](Frame frame, std::uint64_t root) { ear.log.confirmed(frame, root); };
+    machine.was_confirmed = [&ear](Frame frame, std::uint64_t hash) { ear.log.confirmed(frame, hash); };
     machine.after_turn = [&ear] { ear.listen(); };
   }
   ASSERT_TRUE(match.run_to(kFrames, 120 * kSecond));

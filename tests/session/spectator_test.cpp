@@ -108,7 +108,7 @@ TEST(Spectators, LeaveThePlayersAsTheyWouldBeAlone) {
       EXPECT_EQ(without.rollbacks[depth], with.rollbacks[depth]) << depth;
     }
   }
-  EXPECT_EQ(alone.match->host().roots, watched.match->host().roots);
+  EXPECT_EQ(alone.match->host().hashes, watched.match->host().hashes);
   EXPECT_GT(alone.match->host().session.stats().steps, 1200u) << "there were rollbacks to disturb";
 }
 

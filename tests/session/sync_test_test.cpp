@@ -30,11 +30,11 @@ struct Watcher {
     int made_first = 0, made_last = 0;
   };
   std::map<Frame, Seen> frames;
-  std::vector<std::uint64_t> roots;
+  std::vector<std::uint64_t> hashes;
   int rollbacks = 0;
 
   void rolled_back(Frame) { ++rollbacks; }
-  void confirmed(Frame, std::uint64_t root) { roots.push_back(root); }
+  void confirmed(Frame, std::uint64_t hash) { hashes.push_back(hash); }
   template <class Game> void stepped(const Game& game, Frame frame) {
     int made = 0;
     for (const scenes::MatchEvent& event : game.events()) {
@@ -49,7 +49,7 @@ template <class Game> struct Observer {
   Watcher& watcher;
   Game& game;
   void rolled_back(Frame frame) { watcher.rolled_back(frame); }
-  void confirmed(Frame frame, std::uint64_t root) { watcher.confirmed(frame, root); }
+  void confirmed(Frame frame, std::uint64_t hash) { watcher.confirmed(frame, hash); }
   void after_step(Frame frame) { watcher.stepped(game, frame); }
 };
 
@@ -92,14 +92,14 @@ TYPED_TEST(SyncTest, AgreesAtEveryDepthWhereBodiesTouchAreMadeAndDestroyed) {
     // Nothing is left behind by frames that were stepped again: the states are those of a game that never went back.
     Game alone(settings);
     int made = 0;
-    for (Frame frame = 0; frame < static_cast<Frame>(watcher.roots.size()); ++frame) {
+    for (Frame frame = 0; frame < static_cast<Frame>(watcher.hashes.size()); ++frame) {
       const scenes::MatchInput values[] = {bot(0, frame), bot(1, frame), bot(2, frame)};
       const InputStatus statuses[3] = {};
       alone.step({values, statuses});
       made += static_cast<int>(alone.events().size());
-      ASSERT_EQ(watcher.roots[static_cast<std::size_t>(frame)], alone.hash()) << frame;
+      ASSERT_EQ(watcher.hashes[static_cast<std::size_t>(frame)], alone.hash()) << frame;
     }
-    EXPECT_EQ(watcher.roots.size(), static_cast<std::size_t>(kFrames - depth));
+    EXPECT_EQ(watcher.hashes.size(), static_cast<std::size_t>(kFrames - depth));
     EXPECT_GT(made, 0);
   }
   EXPECT_GT(remade, 16) << "no body was made or destroyed in a frame that was guessed wrong";

@@ -72,10 +72,10 @@ class Toy {
   std::uint64_t hash() const {
     std::uint8_t packed[kPackedSize<ToyState>];
     pack(packed, state);
-    HashCombiner root;
-    root.add(hash_bytes(packed, sizeof packed));
-    if (!ballast_.empty()) root.add(hash_bytes(ballast_.data(), ballast_.size() * sizeof ballast_[0]));
-    return root.value();
+    HashCombiner combiner;
+    combiner.add(hash_bytes(packed, sizeof packed));
+    if (!ballast_.empty()) combiner.add(hash_bytes(ballast_.data(), ballast_.size() * sizeof ballast_[0]));
+    return combiner.value();
   }
   void write_portable(Writer& writer) const {
     writer.write(state);

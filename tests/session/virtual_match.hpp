@@ -37,12 +37,12 @@ template <class Game> struct Machine {
   void rolled_back(Frame frame) {
     if (went_back) went_back(frame);
   }
-  void confirmed(Frame frame, std::uint64_t root) {
-    if (was_confirmed) was_confirmed(frame, root);
+  void confirmed(Frame frame, std::uint64_t hash) {
+    if (was_confirmed) was_confirmed(frame, hash);
     if (!keeps) return;
-    if (roots.empty()) first = frame;
-    in_order = in_order && frame == first + static_cast<Frame>(roots.size());
-    roots.push_back(root);
+    if (hashes.empty()) first = frame;
+    in_order = in_order && frame == first + static_cast<Frame>(hashes.size());
+    hashes.push_back(hash);
     inputs.emplace_back();
     for (int p = 0; p < session.config().players; ++p) {
       inputs.back().push_back({session.status(frame, p) == InputStatus::disconnected, session.input(frame, p)});
@@ -50,8 +50,8 @@ template <class Game> struct Machine {
   }
   void restarted(Frame frame) {
     ++restarts;
-    if (!roots.empty() && frame > first + static_cast<Frame>(roots.size())) {
-      roots.clear();
+    if (!hashes.empty() && frame > first + static_cast<Frame>(hashes.size())) {
+      hashes.clear();
       inputs.clear();
     }
   }
@@ -108,8 +108,8 @@ template <class Game> struct Machine {
   bool played(Frame frame, int player) const {
     return frame >= first && frame < end() && !at(frame)[static_cast<std::size_t>(player)].absent;
   }
-  /// One past the last frame whose root is known.
-  Frame end() const { return first + static_cast<Frame>(roots.size()); }
+  /// One past the last frame whose hash is known.
+  Frame end() const { return first + static_cast<Frame>(hashes.size()); }
 
   struct Said {
     bool absent;
@@ -141,7 +141,7 @@ template <class Game> struct Machine {
   Time next_turn = 0;
   std::vector<SessionEvent> events;
   Frame first = 0;
-  std::vector<std::uint64_t> roots;       // after frames first, first + 1, ...
+  std::vector<std::uint64_t> hashes;      // after frames first, first + 1, ...
   std::vector<std::vector<Said>> inputs;  // of the same frames
   bool in_order = true;
   int restarts = 0;
@@ -206,10 +206,10 @@ template <class Game> class VirtualMatch {
     });
   }
 
-  /// The same inputs, played straight through by one process: the roots that all peers must have.
+  /// The same inputs, played straight through by one process: the hashes that all peers must have.
   std::vector<std::uint64_t> straight(Frame frames) {
     std::unique_ptr<Game> game = maker_();
-    std::vector<std::uint64_t> roots;
+    std::vector<std::uint64_t> hashes;
     for (Frame frame = 0; frame < frames; ++frame) {
       std::vector<typename Game::Input> values;
       std::vector<InputStatus> statuses;
@@ -218,9 +218,9 @@ template <class Game> class VirtualMatch {
         statuses.push_back(said.absent ? InputStatus::disconnected : InputStatus::confirmed);
       }
       game->step({values, statuses});
-      roots.push_back(game->hash());
+      hashes.push_back(game->hash());
     }
-    return roots;
+    return hashes;
   }
 
  private:

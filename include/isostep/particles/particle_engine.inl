@@ -107,9 +107,9 @@ template <class S> StageView ParticleEngine<S>::view(std::uint32_t stage) {
 // ---- the state
 
 template <class S> std::uint64_t ParticleEngine<S>::hash() const {
-  detail::StateHasher root;
-  ParticleState<S>::members(root, state_);
-  return root.value();
+  detail::StateHasher hasher;
+  ParticleState<S>::members(hasher, state_);
+  return hasher.value();
 }
 
 template <class S> void ParticleEngine<S>::load(const ParticleState<S>& from) {

@@ -29,7 +29,7 @@ class ClientCore : public PeerCore {
   bool hurries(Time now) const override;
   void before_steps(Time now) override;
   void observe_delay() override;
-  void root_known(Frame state, std::uint64_t root) override;
+  void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
   void lose();
@@ -40,7 +40,7 @@ class ClientCore : public PeerCore {
   void take_inputs(const InputSlice& slice, Time now);
   /// The host went on without us from this frame.
   void cut_out(Frame frame);
-  void begin_at(const RootReport& start);
+  void begin_at(const HashReport& start);
   void open(Frame first);
   void lean(Time now);
   /// Do the host's machine and enough others have the states that we have?

@@ -49,7 +49,7 @@ struct SessionEvent {
     refused,       // field, theirs, ours: which field differs; the host tells it too
     lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
-    bad_snapshot,  // the state that arrived is not what the host's root says, or was refused: error
+    bad_snapshot,  // the state that arrived does not have the host's hash, or was refused: error
     misuse,        // requests of the last advance were not carried out
     unhashed       // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
   };
@@ -58,7 +58,7 @@ struct SessionEvent {
   Frame frame = kNoFrame;
   Frame agreed = kNoFrame;
   std::uint32_t players = 0;
-  std::uint64_t ours = 0, theirs = 0;  // desync: chains
+  std::uint64_t ours = 0, theirs = 0;  // desync: hash chains
   Refusal field{};
 };
 
@@ -99,7 +99,7 @@ class SessionCore {
   /// What to do now; all of it, in order, before the next call. Valid until then.
   std::span<const SessionAction> advance(Time now);
   /// The hash of a state that was to be saved.
-  void saved(Frame state, std::uint64_t root);
+  void saved(Frame state, std::uint64_t hash);
   /// [us] until `advance` has something to do, as far as is known now.
   virtual Time wait(Time now) const = 0;
 
@@ -122,7 +122,7 @@ class SessionCore {
 
   struct Confirmed {
     Frame frame;
-    std::uint64_t root;  // of the state after it
+    std::uint64_t hash;  // of the state after it
   };
   /// Frames whose inputs are final and that were stepped with them: each once, ascending.
   std::optional<Confirmed> poll_confirmed();
@@ -143,8 +143,8 @@ class SessionCore {
   virtual void plan(Time now) = 0;
   /// Requests were not carried out: states that were to be saved are missing.
   virtual void misused() {}
-  /// A state's root is known.
-  virtual void root_known(Frame state, std::uint64_t root) = 0;
+  /// A state's hash is known.
+  virtual void hash_known(Frame state, std::uint64_t hash) = 0;
 
   void act(RequestKind kind, Frame frame, bool as_confirmed = false) {
     actions_.push_back({kind, frame, as_confirmed});
@@ -152,8 +152,8 @@ class SessionCore {
     if (kind == RequestKind::step) ++stats_.steps;
   }
   void tell(const SessionEvent& event);
-  /// Frame `state - 1` is final, and `state` has this root.
-  void confirm(Frame state, std::uint64_t root);
+  /// Frame `state - 1` is final, and `state` has this hash.
+  void confirm(Frame state, std::uint64_t hash);
   int players() const { return config_.players; }
 
   SessionConfig config_;

@@ -49,8 +49,8 @@ class HostCore : public PeerCore {
     std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
     std::uint32_t sent = 0, arrived = 0, size = 0;  // [bytes] of the snapshot
     Refusal refusal{};
-    RootReport root;
-    std::size_t next_reporter = 0;  // whose root it hears of next
+    HashReport report;
+    std::size_t next_reporter = 0;  // whose report it hears of next
   };
 
   void begin(Time now);
@@ -94,8 +94,8 @@ class HostCore : public PeerCore {
   bool told_blocked_ = false;
 
   // The one snapshot that is being sent; whoever needs another waits until nobody needs this one.
-  RootReport snapshot_;
-  std::uint64_t snapshot_root_ = 0;
+  HashReport snapshot_;
+  std::uint64_t snapshot_hash_ = 0;
   std::size_t next_guest_ = 0;
 };
 

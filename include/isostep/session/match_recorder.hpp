@@ -1,4 +1,4 @@
-// MatchRecorder: records a session's confirmed inputs and roots, for SessionMode::replay and for archives.
+// MatchRecorder: records a session's confirmed inputs and state hashes, for SessionMode::replay and for archives.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,7 +21,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// The first error of all so far.
   const Result<void>& result() const { return result_; }
 
-  void confirmed(Frame frame, std::uint64_t root) {
+  void confirmed(Frame frame, std::uint64_t hash) {
     using Codec = InputCodec<typename Game::Input>;
     const int players = session_.config().players;
     InputEntry entries[kMaxPlayers];
@@ -32,7 +32,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
       entries[p] = {absent, Bytes(bytes[p], size)};
     }
     write_match_frame(std::span<const InputEntry>(entries, static_cast<std::size_t>(players)), frame_);
-    static_cast<void>(keep(recorder_.frame(frame_, root)));
+    static_cast<void>(keep(recorder_.frame(frame_, hash)));
   }
   /// A match joined late has no beginning here.
   void restarted(Frame) {

@@ -16,7 +16,7 @@ enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progr
 struct Hello {
   bool spectator = false;
   std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
-  RootReport have;
+  HashReport have;
   ReplayHeader identity;
 };
 
@@ -27,8 +27,8 @@ struct Welcome {
   std::uint8_t host_players = 0;  // the first of them play on the host
   std::uint8_t player = 0xff;     // 0xff: a spectator
   std::uint64_t token = 0;
-  RootReport start;
-  std::uint64_t root = 0;           // of the state `start.frame`
+  HashReport start;
+  std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
   Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
 };

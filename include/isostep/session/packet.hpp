@@ -1,4 +1,4 @@
-// The datagram of a session: acknowledgements, the newest root, and every input that the other side may lack.
+// The datagram of a session: acknowledgements, the newest hash chain, and every input that the other side may lack.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,9 +14,9 @@ inline constexpr std::uint16_t kSessionProtocol = 1;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
-/// A state's place in a player's history: `chain` combines the roots of all states up to `frame`, so a divergence that
+/// A state's place in a player's history: `chain` is the hash chain of all states up to `frame`, so a divergence that
 /// heals is still seen.
-struct RootReport {
+struct HashReport {
   Frame frame = kNoFrame;
   std::uint64_t chain = 0;
 };
@@ -28,9 +28,9 @@ struct PacketHeader {
   bool has_echo = false;
   bool started = false;          // the match runs
   Frame frame = 0;               // the sender's next to step
-  RootReport root;               // the sender's newest confirmed
-  std::uint8_t reporter = 0xff;  // the player whose root is passed on; 0xff: none
-  RootReport passed_on;
+  HashReport report;             // the sender's newest confirmed
+  std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none
+  HashReport passed_on;
   std::uint8_t ack_mask = 0;            // players of whom the sender says what it has
   Frame ack[kMaxPlayers] = {};          // first missing
   std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed

@@ -1,12 +1,12 @@
-// PeerCore: what host and client share: prediction and rollback, local inputs, datagrams, and comparing roots.
+// PeerCore: what host and client share: prediction and rollback, local inputs, datagrams, and comparing state hashes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/session/core.hpp"
 #include "isostep/session/frame_clock.hpp"
+#include "isostep/session/hash_log.hpp"
 #include "isostep/session/input_delay.hpp"
 #include "isostep/session/peer_link.hpp"
-#include "isostep/session/root_log.hpp"
 
 namespace isostep {
 
@@ -39,7 +39,7 @@ class PeerCore : public SessionCore {
   virtual void unblocked(Time) {}
 
   void plan(Time now) override;
-  void root_known(Frame state, std::uint64_t root) override;
+  void hash_known(Frame state, std::uint64_t hash) override;
 
   /// First frame of which some input is missing.
   Frame known_end() const;
@@ -57,22 +57,22 @@ class PeerCore : public SessionCore {
 
   /// What one machine says of its states.
   struct View {
-    RootReport pending;
+    HashReport pending;
     Frame agreed = kNoFrame;
     bool differs = false;
   };
-  void hear_root(std::size_t reporter, const RootReport& report);
+  void take_hash(std::size_t reporter, const HashReport& report);
   static constexpr std::size_t kHostMachine = kMaxPlayers;  // reporter, beside the players
 
   std::vector<InputStream> streams_;
-  RootLog roots_;
+  HashLog hashes_;
   FrameClock clock_;
   InputDelay delay_;
   RecentLeast slack_[kMaxPlayers];
   View views_[kMaxPlayers + 1];
   std::vector<std::uint8_t> message_;
   bool is_present_[kMaxPlayers] = {};  // in the newest final frame
-  bool has_start_ = false;             // the first state's root is known
+  bool has_start_ = false;             // the first state's hash is known
   bool is_blocked_ = false;
 
  private:

@@ -1,4 +1,4 @@
-// ReplayCore: plays the inputs of a recorded match, and holds every root against the recorded one.
+// ReplayCore: plays the inputs of a recorded match, and holds every state hash against the recorded one.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,7 +26,7 @@ class ReplayCore : public SessionCore {
 
  protected:
   void plan(Time now) override;
-  void root_known(Frame state, std::uint64_t root) override;
+  void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
   bool read_frame(Frame frame);

@@ -96,7 +96,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     return requests_;
   }
   /// After a `save`: the hash of that state.
-  void saved(Frame state, std::uint64_t root) { core_->saved(state, root); }
+  void saved(Frame state, std::uint64_t hash) { core_->saved(state, hash); }
   /// After a `restore`.
   void restored(bool ok) { core_->restored(ok); }
   /// After a `probe` that found one.
@@ -186,13 +186,13 @@ template <class Game> bool read_whole(Game& game, const std::vector<std::uint8_t
 template <class Game, class Predictor> void probe(Session<Game, Predictor>& session, Game& game, Frame frame) {
   std::vector<std::uint8_t>& bytes = session.portable();
   write_whole(game, bytes);
-  const std::uint64_t root = game.hash();
+  const std::uint64_t hash = game.hash();
   for (std::uint64_t i = 0; i < kProbes && !bytes.empty(); ++i) {
     // Multiples of the golden ratio fill the range evenly.
     const std::uint64_t place = ((static_cast<std::uint64_t>(frame) * kProbes + i) * 0x9e3779b97f4a7c15u) >> 32;
     const auto at = static_cast<std::size_t>(place * bytes.size() >> 32);
     bytes[at] ^= 1u;
-    const bool unseen = read_whole(game, bytes) && game.hash() == root;
+    const bool unseen = read_whole(game, bytes) && game.hash() == hash;
     bytes[at] ^= 1u;
     if (!unseen) continue;
     std::vector<std::uint8_t> kept;
@@ -208,7 +208,7 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
 ///   rolled_back(f)                  the state is again that before frame f
 ///   restarted(f)                    the state is one that arrived from elsewhere, before frame f
-///   confirmed(f, root)              frame f is final: once each, ascending, after restarted(f) from there; root is
+///   confirmed(f, hash)              frame f is final: once each, ascending, after restarted(f) from there; hash is
 ///                                   that of the state after it
 /// Returns how many frames were stepped, those again included.
 template <class Game, class Predictor, class Observer = NoObserver>
@@ -257,7 +257,7 @@ int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& ob
     }
   }
   while (const std::optional<SessionCore::Confirmed> confirmed = session.poll_confirmed()) {
-    detail::confirmed(observer, confirmed->frame, confirmed->root);
+    detail::confirmed(observer, confirmed->frame, confirmed->hash);
   }
   return steps;
 }

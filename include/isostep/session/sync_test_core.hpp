@@ -9,7 +9,7 @@ namespace isostep {
 
 /// Every input is known to the session `window` frames late, so the frames in between are first stepped on guesses, as
 /// in a match; then the newest `window` frames are stepped once more with the same inputs, and must give the same
-/// roots, although all inputs are now shown as confirmed. A difference means that something shapes the future and is
+/// hashes, although all inputs are now shown as confirmed. A difference means that something shapes the future and is
 /// not saved, or is no function of state and inputs, or that the game looks at which inputs are guesses. And of games
 /// that can be written down some bytes of every new state are changed: the hash must be another one.
 class SyncTestCore : public SessionCore {
@@ -23,21 +23,21 @@ class SyncTestCore : public SessionCore {
 
  protected:
   void plan(Time now) override;
-  void root_known(Frame state, std::uint64_t root) override;
+  void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
   void step_from(Frame frame, Frame end, bool as_confirmed);
 
-  struct Root {
+  struct StateHash {
     Frame state = kNoFrame;
-    std::uint64_t root = 0;
+    std::uint64_t hash = 0;
   };
-  Root& root_of(Frame state) { return roots_[static_cast<std::size_t>(state) % roots_.size()]; }
+  StateHash& hash_of(Frame state) { return hashes_[static_cast<std::size_t>(state) % hashes_.size()]; }
 
   FrameClock clock_;
   std::vector<InputStream> said_;   // what the players did
   std::vector<InputStream> known_;  // what the session has been told, late
-  std::vector<Root> roots_;
+  std::vector<StateHash> hashes_;
   Frame settled_ = 0, limit_ = 0;
   bool asked_start_ = false, differs_ = false, unhashed_ = false;
 };

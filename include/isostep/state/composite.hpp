@@ -92,10 +92,10 @@ struct Composite {
     return detail::load_part(world, from.world) && detail::load_part(user, from.user);
   }
   ISO_INLINE std::uint64_t hash() const {
-    HashCombiner root;
-    root.add(detail::hash_part(world));
-    root.add(detail::hash_part(user));
-    return root.value();
+    HashCombiner combiner;
+    combiner.add(detail::hash_part(world));
+    combiner.add(detail::hash_part(user));
+    return combiner.value();
   }
 
   ISO_INLINE void write_portable(Writer& writer) const {

@@ -1,4 +1,4 @@
-// The state hash: XXH3-64 over canonical bytes, and the root that is built of many of them.
+// The state hash: XXH3-64 over canonical bytes, and what makes one hash of many.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -44,21 +44,21 @@ class HashStream {
   alignas(64) std::uint8_t state_[576];  // an XXH3_state_t, whose header stays out of ours
 };
 
-/// A root: the words that are added, in the order in which they are added. Not a sum and not an exclusive or, so two
-/// subsystems that trade their hashes, or two equal ones, do not cancel.
+/// One hash of all words that are added, in the order in which they are added. Not a sum and not an exclusive or, so
+/// two subsystems that trade their hashes, or two equal ones, do not cancel.
 class HashCombiner {
  public:
-  ISO_INLINE HashCombiner() : root_(0) {}
+  ISO_INLINE HashCombiner() : hash_(0) {}
   ISO_INLINE void add(std::uint64_t word) {
     std::uint8_t link[16];
-    store_le(link, root_);
+    store_le(link, hash_);
     store_le(link + 8, word);
-    root_ = hash_bytes(link, sizeof link);
+    hash_ = hash_bytes(link, sizeof link);
   }
-  ISO_INLINE std::uint64_t value() const { return root_; }
+  ISO_INLINE std::uint64_t value() const { return hash_; }
 
  private:
-  std::uint64_t root_;
+  std::uint64_t hash_;
 };
 
 /// The hash of n records by their fields: right on every machine, for records with or without padding.

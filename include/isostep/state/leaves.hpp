@@ -46,7 +46,7 @@ class StageView {
 
   /// Of the state's hash and every leaf of the scratch; where there is none, the state's.
   std::uint64_t hash() const;
-  /// The state's leaves in the order in which the root hash takes them, then the scratch's.
+  /// The state's leaves in the order in which the state hash takes them, then the scratch's.
   void visit(const LeafSink& sink) const;
 
  private:

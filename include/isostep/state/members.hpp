@@ -29,62 +29,62 @@ namespace isostep::detail {
 
 /// Of an immutable object with `sections`.
 template <class Island> ISO_INLINE std::uint64_t hash_sections(const Island& island) {
-  HashCombiner root;
+  HashCombiner combiner;
   Island::sections([&](const char*, const auto& array)
-                       ISO_INLINE_LAMBDA { root.add(hash_records(array.data(), array.size())); },
+                       ISO_INLINE_LAMBDA { combiner.add(hash_records(array.data(), array.size())); },
                    island);
-  return root.value();
+  return combiner.value();
 }
 
-/// The root hash. Islands bring their own hashes; every full page of them that another follows is one word, for they
+/// The state hash. Islands bring their own hashes; every full page of them that another follows is one word, for they
 /// rarely change.
 class StateHasher {
  public:
-  ISO_INLINE std::uint64_t value() const { return root_.value(); }
+  ISO_INLINE std::uint64_t value() const { return combiner_.value(); }
 
-  ISO_INLINE void operator()(const char*, std::uint64_t number) { root_.add(number); }
-  ISO_INLINE void operator()(const char*, const SlotMap& slots) { root_.add(hash_slots(slots)); }
+  ISO_INLINE void operator()(const char*, std::uint64_t number) { combiner_.add(number); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slots) { combiner_.add(hash_slots(slots)); }
   template <HasFields Record> ISO_INLINE void operator()(const char*, const Record& record) {
-    root_.add(hash_records_by_fields(&record, 1));
+    combiner_.add(hash_records_by_fields(&record, 1));
   }
   template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
-    root_.add(hash_records(records.data(), records.size()));
+    combiner_.add(hash_records(records.data(), records.size()));
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
-    root_.add(hash_slots(registry.slots()));
-    root_.add(registry.remembered().get(
+    combiner_.add(hash_slots(registry.slots()));
+    combiner_.add(registry.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records_by_fields(registry.all().data(), registry.all().size()); }));
   }
   template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>& value, const Arrays& arrays) {
     int which = 0;
     const auto add = [&](const char*, const auto& records) ISO_INLINE_LAMBDA {
-      root_.add(value.remembered(which++).get(
+      combiner_.add(value.remembered(which++).get(
           [&]() ISO_INLINE_LAMBDA { return hash_records(records.data(), records.size()); }));
     };
     arrays(add, *value);
   }
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
-    const auto add_page = [&](HashCombiner& root, std::size_t p) ISO_INLINE_LAMBDA {
-      for (std::size_t i = 0; i < list.page_size(p); ++i) root.add(list.page(p)[i]->hash);
+    const auto add_page = [&](HashCombiner& combiner, std::size_t p) ISO_INLINE_LAMBDA {
+      for (std::size_t i = 0; i < list.page_size(p); ++i) combiner.add(list.page(p)[i]->hash);
     };
     if (list.empty()) return;
     for (std::size_t p = 0; p + 1 < list.pages(); ++p) {
-      root_.add(list.remembered(p).get([&]() ISO_INLINE_LAMBDA {
+      combiner_.add(list.remembered(p).get([&]() ISO_INLINE_LAMBDA {
         HashCombiner page;
         add_page(page, p);
         return page.value();
       }));
     }
-    add_page(root_, list.pages() - 1);
+    add_page(combiner_, list.pages() - 1);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     if (value->empty()) return;
-    root_.add(value.remembered().get(
+    combiner_.add(value.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records(value->names().data(), value->names().size()); }));
   }
 
  private:
-  HashCombiner root_;
+  HashCombiner combiner_;
 };
 
 /// [bytes] What a copy of a state has for itself: not what it shares until one of the copies changes it.

@@ -63,9 +63,9 @@ class ReplayWriter {
   ReplayWriter(const ReplayWriter&) = delete;
   ReplayWriter& operator=(const ReplayWriter&) = delete;
 
-  /// `state` is the portable form of the state before the first frame and `hash` its root.
+  /// `state` is the portable form of the state before the first frame and `hash` its hash.
   Result<void> begin(const ReplayHeader& header, Bytes state, std::uint64_t hash);
-  /// The next frame: its input, and the root after it was stepped.
+  /// The next frame: its input, and the state's hash after it was stepped.
   Result<void> frame(Bytes input, std::uint64_t hash);
   /// The state after the last frame, for seeking. Ends the block.
   Result<void> keyframe(Bytes state, std::uint64_t hash);

@@ -17,16 +17,16 @@ inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file
 ISO_INLINE std::uint64_t hash_slots(const SlotMap& slots) {
   return slots.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
     const SlotMap::Entries& entries = slots.entries();
-    HashCombiner root;
-    root.add(slots.first_free());
+    HashCombiner combiner;
+    combiner.add(slots.first_free());
     if (entries.pages() <= 1) {
-      root.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
-      return root.value();
+      combiner.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
+      return combiner.value();
     }
     HashStream stream;
     for (std::size_t p = 0; p < entries.pages(); ++p) update_records(stream, entries.page(p), entries.page_size(p));
-    root.add(stream.value());
-    return root.value();
+    combiner.add(stream.value());
+    return combiner.value();
   });
 }
 ISO_INLINE void write_slots(Writer& writer, const SlotMap& slots) {

@@ -18,18 +18,18 @@ inline constexpr std::uint32_t kPeer = replay_chunk_type('p', 'E', 'E', 'R');
 
 /// What a replay has no place for.
 struct BundleFacts {
-  std::uint32_t player = 0;           // whose bundle it is; 0xff: the host's machine
-  Frame agreed = kNoFrame;            // the last state that all had alike; kNoFrame: not known
-  std::vector<std::uint64_t> roots;   // of the whole game after each frame
-  std::vector<std::uint32_t> steps;   // that were traced in each frame; none: trace was off
-  std::vector<std::uint64_t> stages;  // kTraceHashes for each of them
-  std::vector<Frame> changed_before;  // before whose step, after the frame before, something changed the world
+  std::uint32_t player = 0;                // whose bundle it is; 0xff: the host's machine
+  Frame agreed = kNoFrame;                 // the last state that all had alike; kNoFrame: not known
+  std::vector<std::uint64_t> game_hashes;  // of the whole game after each frame
+  std::vector<std::uint32_t> steps;        // that were traced in each frame; none: trace was off
+  std::vector<std::uint64_t> stages;       // kTraceHashes for each of them
+  std::vector<Frame> changed_before;       // before whose step, after the frame before, something changed the world
 };
 
 ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
   writer.write(facts.player);
   writer.write(facts.agreed);
-  writer.write_array(facts.roots);
+  writer.write_array(facts.game_hashes);
   writer.write_array(facts.steps);
   writer.write_array(facts.stages);
   if (!facts.changed_before.empty()) writer.write_array(facts.changed_before);
@@ -41,7 +41,7 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
   Reader reader(payload);
   reader.read(facts.player);
   reader.read(facts.agreed);
-  reader.read_array(facts.roots, kReplayUnknownCap / 8);
+  reader.read_array(facts.game_hashes, kReplayUnknownCap / 8);
   reader.read_array(facts.steps, kReplayUnknownCap / 4);
   reader.read_array(facts.stages, kReplayUnknownCap / 8);
   if (reader.remaining() != 0) {
@@ -53,8 +53,8 @@ ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
   for (const std::uint32_t n : facts.steps) steps += n;
   const bool in_range = facts.agreed >= kNoFrame && facts.agreed <= kLastFrame;
   if (!in_range) reader.fail(ErrorCode::invalid, "the agreed state is out of range");
-  if (facts.roots.size() != frames || (!facts.steps.empty() && facts.steps.size() != frames)) {
-    reader.fail(ErrorCode::corrupt, "not as many roots or step counts as frames");
+  if (facts.game_hashes.size() != frames || (!facts.steps.empty() && facts.steps.size() != frames)) {
+    reader.fail(ErrorCode::corrupt, "not as many hashes or step counts as frames");
   }
   if (facts.stages.size() != steps * trace_hashes) {
     reader.fail(ErrorCode::corrupt, "not as many stage hashes as the steps have");
@@ -94,7 +94,7 @@ ISO_INLINE Result<void> write_bundle(ReplaySink sink, const FrameHistory<S>& his
   BundleFacts facts{settings.player, settings.agreed, {}, {}, {}, {}};
   for (Frame frame = first; frame < end && result; ++frame) {
     const typename FrameHistory<S>::Kept& kept = *history.find(frame);
-    facts.roots.push_back(kept.root);
+    facts.game_hashes.push_back(kept.game_hash);
     if (kept.changed_before) facts.changed_before.push_back(frame);
     if (history.settings().stages) facts.steps.push_back(static_cast<std::uint32_t>(kept.stages.size()) / kTraceHashes);
     facts.stages.insert(facts.stages.end(), kept.stages.begin(), kept.stages.end());

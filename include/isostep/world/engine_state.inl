@@ -43,9 +43,9 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
 }
 
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
-  detail::StateHasher root;
-  WorldState<S>::members(root, state_);
-  return root.value();
+  detail::StateHasher hasher;
+  WorldState<S>::members(hasher, state_);
+  return hasher.value();
 }
 
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {

@@ -25,11 +25,11 @@ template <class S> class FrameHistory {
  public:
   struct Kept {
     Frame frame = kNoFrame;       // kNoFrame: nothing is kept here
-    bool confirmed = false;       // `root` is known, and nothing here will change
+    bool confirmed = false;       // `game_hash` is known, and nothing here will change
     bool changed_before = false;  // since the frame before, by what no rollback repeats; known where stages are kept
     const char* flaw = nullptr;  // why the commands do not lead from the state before to the state after; null: it does
     std::uint64_t hash = 0;      // of the world after the frame
-    std::uint64_t root = 0;      // of the whole game after it, as the session compares
+    std::uint64_t game_hash = 0;  // of the whole game after it, as the session compares
     std::vector<std::uint8_t> commands;
     std::vector<std::uint64_t> stages;  // kTraceHashes a step, or none
     typename World<S>::Snapshot state;  // after it, if states are kept
@@ -73,11 +73,11 @@ template <class S> class FrameHistory {
       if (kept.frame >= frame && !kept.confirmed) kept.frame = kNoFrame;
     }
   }
-  ISO_INLINE void confirmed(Frame frame, std::uint64_t root) {
+  ISO_INLINE void confirmed(Frame frame, std::uint64_t hash) {
     Kept& kept = at(frame);
     if (kept.frame != frame) return;
     kept.confirmed = true;
-    kept.root = root;
+    kept.game_hash = hash;
     confirmed_ = frame;
   }
   /// Another past: nothing of before is kept.

@@ -26,8 +26,8 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
     host_frame_at_ = now;
     if (runs_) lean(now);
   }
-  hear_root(kHostMachine, header.root);
-  if (header.reporter < players() && header.reporter != player_) hear_root(header.reporter, header.passed_on);
+  take_hash(kHostMachine, header.report);
+  if (header.reporter < players() && header.reporter != player_) take_hash(header.reporter, header.passed_on);
   for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(packet.slices[i], now);
   if (header.started && !runs_) {
     runs_ = true;
@@ -147,7 +147,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     Hello hello;
     hello.spectator = config_.mode == SessionMode::spectator;
     hello.token = token_;
-    hello.have = is_spoiled_ ? RootReport{0, 0} : roots_.settled();
+    hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
     hello.identity = config_.identity;
     write_hello(hello, message_);
     return message();

@@ -103,7 +103,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
 
 void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
-  const RootReport have = roots_.settled();
+  const HashReport have = hashes_.settled();
   const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;
   const bool fits = welcome.players == players() && welcome.snapshot_size <= config_.snapshot_cap &&
                     (welcome.player != 0xff) == (config_.mode != SessionMode::spectator);
@@ -143,21 +143,21 @@ void ClientCore::restored(bool ok) {
   fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
 }
 
-void ClientCore::root_known(Frame state, std::uint64_t root) {
+void ClientCore::hash_known(Frame state, std::uint64_t hash) {
   if (is_restoring_ && has_start_ && state == welcome_.start.frame) {
-    if (root != welcome_.root) {
+    if (hash != welcome_.hash) {
       restored(false);
       return;
     }
     is_restoring_ = is_spoiled_ = false;
-    roots_.restart(welcome_.start, root);
+    hashes_.restart(welcome_.start, hash);
     confirmed_state_ = state;
     return;
   }
-  if (!is_spoiled_) PeerCore::root_known(state, root);
+  if (!is_spoiled_) PeerCore::hash_known(state, hash);
 }
 
-void ClientCore::begin_at(const RootReport& start) {
+void ClientCore::begin_at(const HashReport& start) {
   const Frame frame = start.frame;
   if (is_restoring_) {
     act(RequestKind::restore, frame);

@@ -29,9 +29,9 @@ std::span<const SessionAction> SessionCore::advance(Time now) {
   return actions_;
 }
 
-void SessionCore::saved(Frame state, std::uint64_t root) {
+void SessionCore::saved(Frame state, std::uint64_t hash) {
   if (unsaved_ > 0) --unsaved_;
-  root_known(state, root);
+  hash_known(state, hash);
 }
 
 void SessionCore::tell(const SessionEvent& event) {
@@ -44,11 +44,11 @@ std::optional<SessionEvent> SessionCore::poll_event() {
   return events_.pop();
 }
 
-void SessionCore::confirm(Frame state, std::uint64_t root) {
+void SessionCore::confirm(Frame state, std::uint64_t hash) {
   confirmed_state_ = state;
   if (state <= told_state_) return;  // a snapshot may lie before what was told
   told_state_ = state;
-  confirmed_.push({state - 1, root});
+  confirmed_.push({state - 1, hash});
 }
 
 std::optional<SessionCore::Confirmed> SessionCore::poll_confirmed() {

@@ -90,9 +90,9 @@ void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
   guest.frame = packet.header.frame;
   take_acks(guest, packet.header);
   // Nobody has final states that we have not: all inputs pass through us.
-  if (packet.header.root.frame <= known_end()) {
-    if (packet.header.root.frame > guest.root.frame) guest.root = packet.header.root;
-    if (guest.player >= 0) hear_root(static_cast<std::size_t>(guest.player), packet.header.root);
+  if (packet.header.report.frame <= known_end()) {
+    if (packet.header.report.frame > guest.report.frame) guest.report = packet.header.report;
+    if (guest.player >= 0) take_hash(static_cast<std::size_t>(guest.player), packet.header.report);
   } else {
     ++stats_.refused;
   }

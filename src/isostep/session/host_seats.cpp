@@ -31,10 +31,10 @@ bool HostCore::is_refused(Guest& guest, const Hello& hello) {
     refuse(guest, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
     return true;
   }
-  const bool is_start = hello.have.frame == 0 && roots_.has_chain(0);
-  if (!started_ && (!is_start || hello.have.chain != roots_.chain(0))) {
+  const bool is_start = hello.have.frame == 0 && hashes_.has_chain(0);
+  if (!started_ && (!is_start || hello.have.chain != hashes_.chain(0))) {
     ShortText<kReplayValueCap> theirs, ours;
-    refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(roots_.chain(0)).view());
+    refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(hashes_.chain(0)).view());
     return true;
   }
   if (!hello.spectator && find_seat(hello) < 0) {
@@ -79,8 +79,8 @@ void HostCore::greet(Guest& guest, Bytes message) {
   guest.must_welcome = true;
   const Frame have = hello.have.frame;
   // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
-  const bool is_ahead = started_ && have > roots_.settled().frame && have <= known_end();
-  bool has_inputs = is_ahead || (roots_.has_chain(have) && roots_.chain(have) == hello.have.chain);
+  const bool is_ahead = started_ && have > hashes_.settled().frame && have <= known_end();
+  bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == hello.have.chain);
   for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
   if (has_inputs) {
     go_live(guest, have);

@@ -17,12 +17,12 @@ void HostCore::serve_snapshots() {
   }
   if (!wanted) return;
   // One of this second serves everybody: who comes again and again costs no more than that.
-  const RootReport now = roots_.settled();
+  const HashReport now = hashes_.settled();
   if (snapshot_.frame == kNoFrame || now.frame - snapshot_.frame > bounded(config_.hz)) {
     if (in_use) return;
     // A state that is final: the present one may rest on guesses.
     snapshot_ = now;
-    snapshot_root_ = roots_.root(now.frame);
+    snapshot_hash_ = hashes_.hash(now.frame);
     act(RequestKind::capture, now.frame);
   }
   for (Guest& guest : guests_) {
@@ -76,8 +76,8 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest) {
     welcome.host_players = static_cast<std::uint8_t>(config_.local_players);
     welcome.player = guest.player < 0 ? 0xff : static_cast<std::uint8_t>(guest.player);
     welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
-    welcome.start = sending ? snapshot_ : RootReport{guest.start, guest.start_chain};
-    welcome.root = sending ? snapshot_root_ : 0;  // it has that state
+    welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};
+    welcome.hash = sending ? snapshot_hash_ : 0;  // it has that state
     guest.size = welcome.snapshot_size = sending ? static_cast<std::uint32_t>(portable_.size()) : 0;
     welcome.opens = guest.opens;
     write_welcome(welcome, message_);
@@ -123,9 +123,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   for (std::size_t i = 0; i < guests_.size(); ++i) {
     guest.next_reporter = (guest.next_reporter + 1) % guests_.size();
     const Guest& other = guests_[guest.next_reporter];
-    if (&other == &guest || other.player < 0 || other.root.frame == kNoFrame) continue;
+    if (&other == &guest || other.player < 0 || other.report.frame == kNoFrame) continue;
     header.reporter = static_cast<std::uint8_t>(other.player);
-    header.passed_on = other.root;
+    header.passed_on = other.report;
     break;
   }
   return Outgoing{guest.peer, Channel::datagram, compose(guest, header, now)};

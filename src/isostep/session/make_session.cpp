@@ -24,7 +24,7 @@ class RefusedCore : public SessionCore {
 
  protected:
   void plan(Time) override {}
-  void root_known(Frame, std::uint64_t) override {}
+  void hash_known(Frame, std::uint64_t) override {}
 };
 
 }  // namespace

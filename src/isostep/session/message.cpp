@@ -18,16 +18,16 @@ Writer begin(std::vector<std::uint8_t>& out, MessageKind kind) {
 }
 Reader after_kind(Bytes message) { return Reader(message.subspan(message.empty() ? 0 : 1)); }
 
-void write_root(Writer& writer, const RootReport& root) {
-  writer.write(root.frame);
-  writer.write(root.chain);
+void write_report(Writer& writer, const HashReport& report) {
+  writer.write(report.frame);
+  writer.write(report.chain);
 }
-RootReport read_root(Reader& reader) {
-  RootReport root;
-  reader.read(root.frame);
-  reader.read(root.chain);
-  if (root.frame < 0 || root.frame > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
-  return root;
+HashReport read_report(Reader& reader) {
+  HashReport report;
+  reader.read(report.frame);
+  reader.read(report.chain);
+  if (report.frame < 0 || report.frame > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
+  return report;
 }
 template <class T> Result<T> finish(Reader& reader, const char* what, const T& value) {
   reader.expect_end();
@@ -46,7 +46,7 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(kSessionProtocol);
   writer.write(hello.spectator);
   writer.write(hello.token);
-  write_root(writer, hello.have);
+  write_report(writer, hello.have);
   writer.write_bytes(identity);
 }
 
@@ -59,7 +59,7 @@ Result<Hello> read_hello(Bytes message) {
   if (protocol != kSessionProtocol) return Error{ErrorCode::incompatible, "another session protocol", "protocol"};
   reader.read(hello.spectator);
   reader.read(hello.token);
-  hello.have = read_root(reader);
+  hello.have = read_report(reader);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
   const Result<Hello> whole = finish(reader, "hello", hello);
   if (!whole) return whole;
@@ -76,8 +76,8 @@ void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
   writer.write(welcome.host_players);
   writer.write(welcome.player);
   writer.write(welcome.token);
-  write_root(writer, welcome.start);
-  writer.write(welcome.root);
+  write_report(writer, welcome.start);
+  writer.write(welcome.hash);
   writer.write(welcome.snapshot_size);
   writer.write(welcome.opens);
 }
@@ -90,8 +90,8 @@ Result<Welcome> read_welcome(Bytes message) {
   reader.read(welcome.host_players);
   reader.read(welcome.player);
   reader.read(welcome.token);
-  welcome.start = read_root(reader);
-  reader.read(welcome.root);
+  welcome.start = read_report(reader);
+  reader.read(welcome.hash);
   reader.read(welcome.snapshot_size);
   reader.read(welcome.opens);
   if (welcome.players < 1 || welcome.players > kMaxPlayers || welcome.host_players > welcome.players ||

@@ -1,7 +1,7 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u16 | time u16 | flags u8 | [echo u16] | frame varint | [root: frame difference, chain u64]
+// Layout: kind u8 | match u16 | time u16 | flags u8 | [echo u16] | frame varint | [report: frame difference, chain u64]
 //         | [passed on: player u8, frame difference, chain u64] | ack mask u8 | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
@@ -16,25 +16,25 @@ namespace isostep {
 namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
-constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasRoot = 4, kPassesOn = 8, kKnownFlags = 15;
+constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kKnownFlags = 15;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
 
 bool is_frame(Frame frame) { return frame >= 0 && frame <= kLastFrame; }
 
-void write_root(WireWriter& writer, Frame base, const RootReport& root) {
-  writer.difference(root.frame - base);
-  writer.fixed(root.chain);
+void write_report(WireWriter& writer, Frame base, const HashReport& report) {
+  writer.difference(report.frame - base);
+  writer.fixed(report.chain);
 }
-RootReport read_root(WireReader& reader, Frame base) {
-  RootReport root;
+HashReport read_report(WireReader& reader, Frame base) {
+  HashReport report;
   const std::int32_t difference = reader.difference();
   const std::int64_t frame = std::int64_t{base} + difference;
-  root.chain = reader.fixed<std::uint64_t>();
+  report.chain = reader.fixed<std::uint64_t>();
   if (frame < 0 || frame > kLastFrame) reader.fail();
-  root.frame = reader.failed() ? kNoFrame : static_cast<Frame>(frame);
-  return root;
+  report.frame = reader.failed() ? kNoFrame : static_cast<Frame>(frame);
+  return report;
 }
 Frame read_frame_near(WireReader& reader, Frame base) {
   const std::int64_t frame = std::int64_t{base} + reader.difference();
@@ -75,18 +75,18 @@ void write_input(WireWriter& writer, Bytes previous, Bytes input) {
 PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
     : buffer_(buffer), size_(0), frame_(header.frame) {
   WireWriter writer(buffer, kDatagramCap);
-  const bool has_root = header.root.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
+  const bool has_report = header.report.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
   writer.byte(kKind);
   writer.fixed(header.match);
   writer.fixed(header.time);
   writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
-                                        (has_root ? kHasRoot : 0) | (passes_on ? kPassesOn : 0)));
+                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0)));
   if (header.has_echo) writer.fixed(header.echo);
   writer.number(static_cast<std::uint32_t>(header.frame));
-  if (has_root) write_root(writer, header.frame, header.root);
+  if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
     writer.byte(header.reporter);
-    write_root(writer, header.frame, header.passed_on);
+    write_report(writer, header.frame, header.passed_on);
   }
   writer.byte(header.ack_mask);
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
@@ -157,11 +157,11 @@ Result<Packet> read_packet(Bytes bytes) {
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");
   header.frame = static_cast<Frame>(frame);
-  if ((flags & kHasRoot) != 0) header.root = read_root(reader, header.frame);
+  if ((flags & kHasReport) != 0) header.report = read_report(reader, header.frame);
   if ((flags & kPassesOn) != 0) {
     header.reporter = reader.byte();
-    header.passed_on = read_root(reader, header.frame);
-    if (header.reporter >= kMaxPlayers) return refuse("passes on the root of no player");
+    header.passed_on = read_report(reader, header.frame);
+    if (header.reporter >= kMaxPlayers) return refuse("passes on the hash of no player");
   }
   header.ack_mask = reader.byte();
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {

@@ -24,7 +24,7 @@ InputDelay::Settings delay_settings(const SessionConfig& config) {
 PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
     : SessionCore(config, rules),
       streams_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
-      roots_(config.history),
+      hashes_(config.history),
       clock_(config.hz),
       delay_(delay_settings(config)) {
   message_.reserve(kReliableCap);
@@ -64,7 +64,7 @@ Frame PeerCore::final_limit() const {
 }
 
 bool PeerCore::may_step() const {
-  if (current() >= kLastFrame || current() - roots_.settled().frame >= config_.kept - 2) return false;
+  if (current() >= kLastFrame || current() - hashes_.settled().frame >= config_.kept - 2) return false;
   return current() < known_end() + window();
 }
 
@@ -78,7 +78,7 @@ void PeerCore::plan(Time now) {
   before_steps(now);
   if (!running()) return;
   Frame wrong = timeline_.first_wrong(streams_);
-  if (is_misused_ && roots_.settled().frame < wrong) wrong = roots_.settled().frame;
+  if (is_misused_ && hashes_.settled().frame < wrong) wrong = hashes_.settled().frame;
   is_misused_ = false;
   if (wrong < current()) roll_back(wrong);
   // By the clock and not by frames: a match that waits at every one of them is what a longer delay is for.
@@ -117,7 +117,7 @@ void PeerCore::roll_back(Frame to) {
   const auto depth = static_cast<std::size_t>(end - to);
   ++stats_.rollbacks[depth < 64 ? depth : 64];
   timeline_.step_again(to, streams_);
-  roots_.forget_from(to + 1);
+  hashes_.forget_from(to + 1);
   act(RequestKind::load, to);
   for (Frame frame = to; frame < end; ++frame) {
     act(RequestKind::step, frame);
@@ -133,7 +133,7 @@ void PeerCore::misused() {
 void PeerCore::go_back(Frame state) {
   if (current() != state) act(RequestKind::load, state);
   timeline_.restart(state);
-  roots_.forget_from(state + 1);
+  hashes_.forget_from(state + 1);
 }
 
 void PeerCore::sample_local_inputs() {
@@ -154,21 +154,21 @@ void PeerCore::sample_local_inputs() {
   }
 }
 
-void PeerCore::root_known(Frame state, std::uint64_t root) {
+void PeerCore::hash_known(Frame state, std::uint64_t hash) {
   if (!has_start_) {
     has_start_ = true;
-    roots_.restart({state, root}, root);
+    hashes_.restart({state, hash}, hash);
     confirmed_state_ = state;
     return;
   }
-  roots_.report(state, root);
+  hashes_.report(state, hash);
   settle();
 }
 
 void PeerCore::settle() {
-  while (roots_.settle_next(limit_)) {
-    const Frame state = roots_.settled().frame;
-    confirm(state, roots_.root(state));
+  while (hashes_.settle_next(limit_)) {
+    const Frame state = hashes_.settled().frame;
+    confirm(state, hashes_.hash(state));
     tell_who_plays(state - 1);
   }
 }
@@ -187,18 +187,18 @@ void PeerCore::tell_who_plays(Frame frame) {
   }
 }
 
-void PeerCore::hear_root(std::size_t reporter, const RootReport& report) {
+void PeerCore::take_hash(std::size_t reporter, const HashReport& report) {
   View& view = views_[reporter];
   if (view.pending.frame == kNoFrame && report.frame > view.agreed) view.pending = report;
 }
 
 void PeerCore::compare(std::size_t reporter) {
   View& view = views_[reporter];
-  const RootReport report = view.pending;
-  if (report.frame == kNoFrame || report.frame > roots_.settled().frame) return;
+  const HashReport report = view.pending;
+  if (report.frame == kNoFrame || report.frame > hashes_.settled().frame) return;
   view.pending.frame = kNoFrame;
-  if (!roots_.has_chain(report.frame) || view.differs) return;
-  if (roots_.chain(report.frame) == report.chain) {
+  if (!hashes_.has_chain(report.frame) || view.differs) return;
+  if (hashes_.chain(report.frame) == report.chain) {
     view.agreed = report.frame;
     return;
   }
@@ -207,7 +207,7 @@ void PeerCore::compare(std::size_t reporter) {
   event.player = reporter < kMaxPlayers ? static_cast<std::uint8_t>(reporter) : 0xff;
   event.frame = report.frame;
   event.agreed = view.agreed;
-  event.ours = roots_.chain(report.frame);
+  event.ours = hashes_.chain(report.frame);
   event.theirs = report.chain;
   tell(event);
 }
@@ -262,7 +262,7 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
   header.has_echo = link.has_clock;
   header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);
   header.frame = current();
-  header.root = roots_.settled();
+  header.report = hashes_.settled();
   PacketWriter writer(header, buffer_);
   const bool continues = link.continues_burst(now);
   link.burst = continues ? link.burst + 1 : 1;

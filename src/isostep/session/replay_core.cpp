@@ -100,19 +100,19 @@ void ReplayCore::restored(bool ok) {
   if (!ok) refuse("file", "a first state that is none of this game", "its portable form");
 }
 
-void ReplayCore::root_known(Frame state, std::uint64_t root) {
+void ReplayCore::hash_known(Frame state, std::uint64_t hash) {
   const std::uint64_t recorded =
       state == 0 ? file_.state_hash() : file_.frame(static_cast<std::uint64_t>(state - 1)).hash;
-  if (root != recorded) {
+  if (hash != recorded) {
     SessionEvent event{.kind = SessionEvent::Kind::desync};
     event.frame = state;
     event.agreed = confirmed_state_;
-    event.ours = root;
+    event.ours = hash;
     event.theirs = recorded;
     tell(event);
     phase_ = SessionPhase::over;
   }
-  if (state > 0) confirm(state, root);
+  if (state > 0) confirm(state, hash);
   confirmed_state_ = state;
 }
 

@@ -9,7 +9,7 @@ SyncTestCore::SyncTestCore(const SessionConfig& config, const InputRules& rules)
       clock_(config.hz),
       said_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
       known_(said_),
-      roots_(static_cast<std::size_t>(config.kept)) {}
+      hashes_(static_cast<std::size_t>(config.kept)) {}
 
 bool SyncTestCore::add_local_input(int player, Bytes input) {
   if (!wants_input(player) || !rules_.valid(input)) return false;
@@ -50,7 +50,7 @@ void SyncTestCore::plan(Time now) {
   if (wrong < frame) {
     ++stats_.rollbacks[frame - wrong < 64 ? frame - wrong : 64];
     timeline_.step_again(wrong, known_);
-    for (Frame state = wrong + 1; state <= frame; ++state) root_of(state).state = kNoFrame;
+    for (Frame state = wrong + 1; state <= frame; ++state) hash_of(state).state = kNoFrame;
     step_from(wrong, frame, false);
   }
   timeline_.step(known_);
@@ -71,20 +71,20 @@ void SyncTestCore::unhashed(Frame state, std::size_t byte) {
   tell(event);
 }
 
-void SyncTestCore::root_known(Frame state, std::uint64_t root) {
-  Root& known = root_of(state);
-  if (known.state == state && known.root != root && !differs_) {
+void SyncTestCore::hash_known(Frame state, std::uint64_t hash) {
+  StateHash& known = hash_of(state);
+  if (known.state == state && known.hash != hash && !differs_) {
     differs_ = true;  // what follows from it need not be told
     SessionEvent event{.kind = SessionEvent::Kind::desync};
     event.frame = state;
     event.agreed = state - 1;
-    event.ours = root;
-    event.theirs = known.root;
+    event.ours = hash;
+    event.theirs = known.hash;
     tell(event);
   }
-  known = {state, root};
-  if (state != current()) return;  // the last of this call's roots
-  for (; settled_ < limit_; ++settled_) confirm(settled_ + 1, root_of(settled_ + 1).root);
+  known = {state, hash};
+  if (state != current()) return;  // the last of this call's hashes
+  for (; settled_ < limit_; ++settled_) confirm(settled_ + 1, hash_of(settled_ + 1).hash);
 }
 
 }  // namespace isostep

@@ -40,17 +40,16 @@ StageView::StageView(const LeafSource& source, std::uint32_t stage) : source_(so
 
 std::uint64_t StageView::hash() const {
   LeafHash scratch;
-  const LeafSink sink = {[](void* user, const PathPart&, LeafFormat, std::uint64_t bits) {
-                           static_cast<LeafHash*>(user)->add(bits);
-                         },
-                         &scratch};
+  const LeafSink sink = {
+      [](void* user, const PathPart&, LeafFormat, std::uint64_t bits) { static_cast<LeafHash*>(user)->add(bits); },
+      &scratch};
   source_.walk(source_.engine, LeafPart::scratch, stage_, sink);
   const std::uint64_t state = source_.state_hash(source_.engine);
   if (!scratch.any()) return state;
-  HashCombiner root;
-  root.add(state);
-  root.add(scratch.value());
-  return root.value();
+  HashCombiner combiner;
+  combiner.add(state);
+  combiner.add(scratch.value());
+  return combiner.value();
 }
 
 void StageView::visit(const LeafSink& sink) const {

@@ -51,9 +51,9 @@ template <class W> class RecordedPeer {
   std::uint64_t hash_before(Frame frame) const {
     return frame == first_ ? replay_.state_hash() : hash_after(frame - 1);
   }
-  std::optional<std::uint64_t> root_after(Frame frame) const {
+  std::optional<std::uint64_t> game_hash_after(Frame frame) const {
     if (!facts_) return std::nullopt;
-    return facts_->roots[index(frame)];
+    return facts_->game_hashes[index(frame)];
   }
   /// Whether something changed the world between the frame before and this one; false where it was not traced.
   bool changed_before(Frame frame) const {

@@ -135,10 +135,10 @@ template <class W> int diff_bundles(const Input& input_a, const Input& input_b) 
       report_bundles(a, b, frame);
       return exit_status::kDifferent;
     }
-    const auto root_a = a.root_after(frame), root_b = b.root_after(frame);
-    if (root_a && root_b && *root_a != *root_b) {
-      std::printf("frame %d: the worlds agree, what the games keep beside them differs (roots %s and %s)\n", frame,
-                  hex(*root_a).c_str(), hex(*root_b).c_str());
+    const auto hash_a = a.game_hash_after(frame), hash_b = b.game_hash_after(frame);
+    if (hash_a && hash_b && *hash_a != *hash_b) {
+      std::printf("frame %d: the worlds agree, what the games keep beside them differs (hashes %s and %s)\n", frame,
+                  hex(*hash_a).c_str(), hex(*hash_b).c_str());
       return exit_status::kDifferent;
     }
   }

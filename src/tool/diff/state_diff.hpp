@@ -186,7 +186,7 @@ class StateDiffer {
 };
 }  // namespace detail
 
-/// All differences of two states of one kind of world, in the order in which the root hash takes them; rows by whose
+/// All differences of two states of one kind of world, in the order in which the state hash takes them; rows by whose
 /// they are, for others may be awake in each.
 template <class State> void diff_states(const State& a, const State& b, DiffReport& report) {
   const auto walk = [](auto& visit, const State& state) { State::members(visit, state); };

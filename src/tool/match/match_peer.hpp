@@ -95,12 +95,12 @@ template <class S> class MatchPeer {
     first_ = frame;
     hashes_.clear();
   }
-  void confirmed(Frame frame, std::uint64_t root) {
+  void confirmed(Frame frame, std::uint64_t hash) {
     if (frame >= options_.frames) return;  // alike on all peers: the match ends here
-    sounds_.confirmed(frame, root);
-    history_.confirmed(frame, root);
-    if (recorder_) recorder_->confirmed(frame, root);
-    hashes_.push_back(root);
+    sounds_.confirmed(frame, hash);
+    history_.confirmed(frame, hash);
+    if (recorder_) recorder_->confirmed(frame, hash);
+    hashes_.push_back(hash);
     if (hashes_.size() == 1) say("frame " + std::to_string(frame) + " is final, the first one here");
   }
 

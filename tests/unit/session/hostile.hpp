@@ -106,7 +106,7 @@ struct Rogue {
   Frame opens = kNoFrame;
   std::size_t pieces = 0;
   Frame host_frame = 0;
-  RootReport host_root;
+  HashReport host_report;
 
   Rogue(Match& match, const transport::NetworkProfile& profile)
       : network(&match.network()), id(network->add_client(profile)), port(network->port(id)) {
@@ -120,7 +120,7 @@ struct Rogue {
       if (arrival->channel == Channel::datagram) {
         const Result<Packet> packet = read_packet(arrival->bytes);
         if (packet) host_frame = packet.value().header.frame;
-        if (packet) host_root = packet.value().header.root;
+        if (packet) host_report = packet.value().header.report;
         continue;
       }
       const Result<MessageKind> kind = message_kind(arrival->bytes);

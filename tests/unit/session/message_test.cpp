@@ -28,7 +28,7 @@ Welcome welcome() {
           .player = 3,
           .token = 7,
           .start = {kLastFrame, 9},
-          .root = 10,
+          .hash = 10,
           .snapshot_size = 0xffffffffu,
           .opens = 77};
 }
@@ -54,7 +54,7 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(there.token, 7u);
   EXPECT_EQ(there.start.frame, kLastFrame);
   EXPECT_EQ(there.start.chain, 9u);
-  EXPECT_EQ(there.root, 10u);
+  EXPECT_EQ(there.hash, 10u);
   EXPECT_EQ(there.snapshot_size, 0xffffffffu);
   EXPECT_EQ(there.opens, 77);
 

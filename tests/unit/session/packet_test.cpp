@@ -28,7 +28,7 @@ PacketHeader any_header(Pcg32& random) {
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
   header.started = random.next() % 2 == 0;
   header.frame = any_frame(random);
-  if (random.next() % 2 == 0) header.root = {any_frame(random), std::uint64_t{random.next()} << 32 | random.next()};
+  if (random.next() % 2 == 0) header.report = {any_frame(random), std::uint64_t{random.next()} << 32 | random.next()};
   if (random.next() % 2 == 0) {
     header.reporter = static_cast<std::uint8_t>(random.next() % kMaxPlayers);
     header.passed_on = {any_frame(random), random.next()};
@@ -46,7 +46,7 @@ PacketHeader largest_header() {
   PacketHeader header;
   header.has_echo = header.started = true;
   header.frame = kLastFrame;
-  header.root = header.passed_on = {0, ~std::uint64_t{0}};
+  header.report = header.passed_on = {0, ~std::uint64_t{0}};
   header.reporter = 7;
   header.ack_mask = 0xff;
   return header;
@@ -74,8 +74,8 @@ void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.echo, b.echo);
   ASSERT_EQ(a.started, b.started);
   ASSERT_EQ(a.frame, b.frame);
-  ASSERT_EQ(a.root.frame, b.root.frame);
-  ASSERT_EQ(a.root.chain, b.root.chain);
+  ASSERT_EQ(a.report.frame, b.report.frame);
+  ASSERT_EQ(a.report.chain, b.report.chain);
   ASSERT_EQ(a.reporter, b.reporter);
   ASSERT_EQ(a.passed_on.chain, b.passed_on.chain);
   ASSERT_EQ(a.ack_mask, b.ack_mask);
@@ -242,19 +242,19 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_FALSE(reads(buffer, head(buffer, 0, 0xffffffffu)));
   for (unsigned flag = 16; flag < 256; flag *= 2)
     EXPECT_FALSE(reads(buffer, head(buffer, static_cast<std::uint8_t>(flag))));
-  const auto root_at = [&](std::int32_t difference) {
+  const auto report_at = [&](std::int32_t difference) {
     WireWriter writer = head(buffer, 4);
     writer.difference(difference);
     writer.fixed(std::uint64_t{1});
     writer.byte(0);
     return reads(buffer, writer);
   };
-  EXPECT_TRUE(root_at(-7));
-  EXPECT_FALSE(root_at(-8));
-  EXPECT_TRUE(root_at(kLastFrame - 7));
-  EXPECT_FALSE(root_at(kLastFrame - 6));
-  EXPECT_FALSE(root_at(INT32_MAX));
-  EXPECT_FALSE(root_at(INT32_MIN));
+  EXPECT_TRUE(report_at(-7));
+  EXPECT_FALSE(report_at(-8));
+  EXPECT_TRUE(report_at(kLastFrame - 7));
+  EXPECT_FALSE(report_at(kLastFrame - 6));
+  EXPECT_FALSE(report_at(INT32_MAX));
+  EXPECT_FALSE(report_at(INT32_MIN));
   const auto reporter = [&](std::uint8_t player) {
     WireWriter writer = head(buffer, 8);
     writer.byte(player);

@@ -100,16 +100,16 @@ TEST(Hash, PiecesHashAsTheWhole) {
 }
 
 TEST(HashCombiner, TellsOrderAndCountApart) {
-  const auto root = [](std::initializer_list<std::uint64_t> words) {
+  const auto combined = [](std::initializer_list<std::uint64_t> words) {
     HashCombiner combiner;
     for (const std::uint64_t word : words) combiner.add(word);
     return combiner.value();
   };
-  EXPECT_EQ(root({1, 2}), root({1, 2}));
-  EXPECT_NE(root({1, 2}), root({2, 1}));
-  EXPECT_NE(root({1, 1}), root({2, 2}));
-  EXPECT_NE(root({1}), root({1, 0}));
-  EXPECT_NE(root({}), root({0}));
+  EXPECT_EQ(combined({1, 2}), combined({1, 2}));
+  EXPECT_NE(combined({1, 2}), combined({2, 1}));
+  EXPECT_NE(combined({1, 1}), combined({2, 2}));
+  EXPECT_NE(combined({1}), combined({1, 0}));
+  EXPECT_NE(combined({}), combined({0}));
 }
 
 TEST(Crc32c, KnownAnswers) {

@@ -78,11 +78,11 @@ class Game {
     things_ = from.things;
   }
   std::uint64_t hash() const {
-    HashCombiner root;
-    root.add(random_);
-    root.add(frames_);
-    root.add(hash_records(things_.data(), things_.size()));
-    return root.value();
+    HashCombiner combiner;
+    combiner.add(random_);
+    combiner.add(frames_);
+    combiner.add(hash_records(things_.data(), things_.size()));
+    return combiner.value();
   }
   void write_portable(Writer& writer) const {
     writer.write(random_);

@@ -120,7 +120,7 @@ TEST_F(Desync, OfTheGameBesideItsWorldIsToldApart) {
   Peer<float> a, b;
   b.salt = 5;
   bundles(a, b);
-  expect_part(diff("a", "b", 1), "\nframe 37: the worlds agree, what the games keep beside them differs (roots ");
+  expect_part(diff("a", "b", 1), "\nframe 37: the worlds agree, what the games keep beside them differs (hashes ");
 }
 
 TEST_F(Desync, IsFoundBetweenABundleAndTheRecordingOfTheWholeMatch) {

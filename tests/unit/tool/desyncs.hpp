@@ -38,7 +38,7 @@ template <class S> struct Peer {
   std::function<void(Arena<S>&)> outside;  // between the frame before kFault and kFault
   std::function<void(Arena<S>&, Stage)> inside;
   int steps = 1, fault_step = 0;  // of kFault
-  std::uint64_t salt = 0;         // into the game's roots from kFault on
+  std::uint64_t salt = 0;         // into the game's hashes from kFault on
 
   Arena<S> arena;
   FrameHistory<S> history;
@@ -65,9 +65,9 @@ template <class S> struct Peer {
       });
       if (frame == kFault && at_end) at_end(arena);
       history.after_step(frame);
-      const std::uint64_t root = arena.world.hash() ^ (frame >= kFault ? salt : 0);
-      history.confirmed(frame, root);
-      recorder.confirmed(frame, root);
+      const std::uint64_t hash = arena.world.hash() ^ (frame >= kFault ? salt : 0);
+      history.confirmed(frame, hash);
+      recorder.confirmed(frame, hash);
     }
     EXPECT_EQ(recorder.finish().ok(), steps <= static_cast<int>(kFrameStepCap));
   }

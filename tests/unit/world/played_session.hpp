@@ -58,20 +58,20 @@ void play_session(Arena<S>& arena, Frame first, Frame end, Observers&... observe
     play_frame(arena, frame, input);
     (observers.after_step(frame), ...);
   };
-  std::vector<std::uint64_t> roots;
+  std::vector<std::uint64_t> hashes;
   for (Frame from = first; from < end; from += batch) {
     const Frame to = std::min(from + batch, end);
     arena.world.save(start);
     for (Frame frame = from; frame < to; ++frame) step(frame, input_of(frame) + 1);
     arena.world.load(start);
     (observers.rolled_back(from), ...);
-    roots.clear();
+    hashes.clear();
     for (Frame frame = from; frame < to; ++frame) {
       step(frame, input_of(frame));
-      roots.push_back(~arena.world.hash());
+      hashes.push_back(~arena.world.hash());
     }
     for (Frame frame = from; frame < to; ++frame) {
-      (observers.confirmed(frame, roots[static_cast<std::size_t>(frame - from)]), ...);
+      (observers.confirmed(frame, hashes[static_cast<std::size_t>(frame - from)]), ...);
     }
   }
 }

@@ -118,22 +118,22 @@ TYPED_TEST(Seeking, a_frame_that_cannot_be_applied_stops_before_itself) {
   const auto header = make_replay_header(identity_of_world(arena.world.settings(), "a")).value();
   ASSERT_TRUE(recorder.begin(arena.world, header).ok());
   arena.world.record_to(&log);
-  std::vector<std::uint64_t> roots;
+  std::vector<std::uint64_t> state_hashes;
   for (Frame frame = 0; frame < 30; ++frame) {
     log.clear();
     play_frame(arena, frame, input_of(frame));
-    roots.push_back(arena.world.hash());
+    state_hashes.push_back(arena.world.hash());
     if (frame == 22) log.push_back(200);  // the number of no command
-    ASSERT_TRUE(recorder.frame(log, roots.back()).ok());
+    ASSERT_TRUE(recorder.frame(log, state_hashes.back()).ok());
   }
   ASSERT_TRUE(recorder.finish().ok());
   const ReplayReader replay(bad);
   ReplaySeeker<World<TypeParam>> seeker(replay, this->sim.world, {.spacing = 10});
   EXPECT_FALSE(seeker.seek(29).ok());
   EXPECT_EQ(seeker.position(), 22u);
-  EXPECT_EQ(this->sim.hash(), roots[21]);
+  EXPECT_EQ(this->sim.hash(), state_hashes[21]);
   ASSERT_TRUE(seeker.seek(7).ok());
-  EXPECT_EQ(this->sim.hash(), roots[6]);
+  EXPECT_EQ(this->sim.hash(), state_hashes[6]);
 }
 
 TYPED_TEST(Seeking, a_recorded_hash_that_does_not_come_out_is_told) {

@@ -17,9 +17,9 @@ template <class S> struct Recording {
   void before_step(Frame frame) { history.before_step(frame), recorder.before_step(frame); }
   void after_step(Frame frame) { history.after_step(frame); }
   void rolled_back(Frame frame) { history.rolled_back(frame), recorder.rolled_back(frame); }
-  void confirmed(Frame frame, std::uint64_t root) {
-    history.confirmed(frame, root);
-    recorder.confirmed(frame, root);
+  void confirmed(Frame frame, std::uint64_t hash) {
+    history.confirmed(frame, hash);
+    recorder.confirmed(frame, hash);
   }
   void restarted(Frame frame) { history.restarted(frame), recorder.restarted(frame); }
 };
@@ -194,8 +194,8 @@ TYPED_TEST(Bundles, are_replays_of_the_frames_since_the_last_agreed_state) {
   EXPECT_EQ(this->first(replay), 50u);
   EXPECT_EQ(facts.player, 3u);
   EXPECT_EQ(facts.agreed, 50);
-  ASSERT_EQ(facts.roots.size(), 10u);
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(facts.roots[i], ~replay.frame(i).hash);
+  ASSERT_EQ(facts.game_hashes.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(facts.game_hashes[i], ~replay.frame(i).hash);
   EXPECT_EQ(facts.steps, (std::vector<std::uint32_t>{1, 1, 1, 0, 1, 1, 1, 1, 0, 1}));
   EXPECT_EQ(facts.stages.size(), 8u * kTraceHashes);
 }
@@ -279,7 +279,7 @@ TYPED_TEST(Bundles, refuse_facts_that_are_cut_short_or_followed_by_more) {
 
 TYPED_TEST(Bundles, refuse_facts_that_do_not_fit_their_frames) {
   BundleFacts facts;
-  facts.roots = {1, 2};
+  facts.game_hashes = {1, 2};
   const auto read = [&](std::uint64_t frames) {
     std::vector<std::uint8_t> bytes;
     Writer writer(bytes);
