@@ -6,20 +6,20 @@ namespace isostep {
 
 FaultDrill::FaultDrill(std::string_view path, std::uint32_t bit) : path_(path), bit_(bit) {}
 
-bool FaultDrill::strike(const StageView& view, EditLeaves edit) const {
+bool FaultDrill::strike(const StageView& view, EditFields edit) const {
   struct Search {
     const FaultDrill& drill;
     bool found = false;
   } search{*this};
-  const LeafEditor editor = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                               Search& s = *static_cast<Search*>(user);
-                               if (s.drill.bit_ >= 8 * format.size || path_text(path) != s.drill.path_) return bits;
-                               s.found = true;
-                               return bits ^ std::uint64_t{1} << s.drill.bit_;
-                             },
-                             &search};
-  for (const LeafPart part : {LeafPart::state, LeafPart::scratch}) {
-    edit(view.source_.engine, part, view.stage_, editor);
+  const FieldEditor editor = {[](void* user, const PathPart& path, FieldFormat format, std::uint64_t bits) {
+                                Search& s = *static_cast<Search*>(user);
+                                if (s.drill.bit_ >= 8 * format.size || path_text(path) != s.drill.path_) return bits;
+                                s.found = true;
+                                return bits ^ std::uint64_t{1} << s.drill.bit_;
+                              },
+                              &search};
+  for (const FieldGroup group : {FieldGroup::state, FieldGroup::scratch}) {
+    edit(view.source_.engine, group, view.stage_, editor);
   }
   return search.found;
 }

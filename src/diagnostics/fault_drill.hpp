@@ -1,4 +1,4 @@
-// A fault made on purpose: one bit of one leaf is turned after one stage.
+// A fault made on purpose: one bit of one field is turned after one stage.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "diagnostics/leaf_editor.hpp"
+#include "diagnostics/field_editor.hpp"
 
 namespace isostep {
 
@@ -14,9 +14,9 @@ namespace isostep {
 class FaultDrill {
  public:
   FaultDrill(std::string_view path, std::uint32_t bit);
-  /// False when no leaf has that path and bit, or none that may be written: what lies in an island asleep is not.
+  /// False when no field has that path and bit, or none that may be written: what lies in an island asleep is not.
   /// `edit`: of the engine that the view is of.
-  bool strike(const StageView& view, EditLeaves edit) const;
+  bool strike(const StageView& view, EditFields edit) const;
 
  private:
   std::string path_;

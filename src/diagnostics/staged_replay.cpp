@@ -15,10 +15,10 @@ namespace {
 /// What is done at a point: look(point's step and stage, what was left there).
 struct Watch {
   const StagedReplay& how;
-  const TraceSink* trace;  // or, for the leaves of one point:
+  const TraceSink* trace;  // or, for the fields of one point:
   const StagePoint* at;
-  const LeafSink* leaves;
-  EditLeaves edit = nullptr;  // of the world's engine
+  const FieldSink* fields;
+  EditFields edit = nullptr;  // of the world's engine
   std::uint64_t frame = 0;
   bool struck = false, visited = false;
 
@@ -35,7 +35,7 @@ struct Watch {
   void tell(std::uint32_t step, const char* stage, const StageView& view) {
     if (trace != nullptr) trace->stage(trace->user, {frame, step, stage, view.hash()});
     if (at == nullptr || !is_at(*at, step, stage)) return;
-    view.visit(*leaves);
+    view.visit(*fields);
     visited = true;
   }
   /// Others are played as ever.
@@ -53,7 +53,7 @@ template <class W> struct Watched {
     step.watch.look(step.number, WorldTraits<W>::kStages[static_cast<std::size_t>(stage)], left);
   }
   void play(W& world) {
-    watch.look(number, kCommandsStage, world.leaves());
+    watch.look(number, kCommandsStage, world.state_fields());
     world.step({&Watched::after, this});
   }
 };
@@ -67,13 +67,13 @@ template <class W> Result<void> play_frame(W& world, Bytes commands, Watch& watc
         ++step.number;
         step.play(world);
       });
-  if (played) watch.look(step.number + 1, kCommandsStage, world.leaves());
+  if (played) watch.look(step.number + 1, kCommandsStage, world.state_fields());
   return played;
 }
 
 template <class W> Result<void> play_as(const ReplayReader& replay, Watch& watch) {
   W world;
-  watch.edit = edit_leaves_of(WorldTag<W>{});
+  watch.edit = edit_fields_of(WorldTag<W>{});
   use_lanes(world, watch.how.simd);
   Reader reader(replay.state());
   const Result<void> read = world.read_portable(reader);
@@ -103,7 +103,7 @@ Result<void> end_of(const Watch& watch) {
   const StageFault* const fault = watch.how.fault;
   const bool reached = fault != nullptr && (watch.at == nullptr || fault->at.frame <= watch.at->frame);
   if (!reached || watch.struck) return {};
-  return Error{ErrorCode::invalid, "the fault strikes nothing: no such stage, or no such leaf that may be written",
+  return Error{ErrorCode::invalid, "the fault strikes nothing: no such stage, or no such field that may be written",
                std::string_view(fault->path)};
 }
 
@@ -137,7 +137,7 @@ Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, c
 }
 
 Result<void> visit_stage(const ReplayReader& replay, const StagedReplay& how, const StagePoint& at,
-                         const LeafSink& sink) {
+                         const FieldSink& sink) {
   Watch watch = {how, nullptr, &at, &sink};
   const Result<void> played = play(replay, watch);
   if (!played) return played;

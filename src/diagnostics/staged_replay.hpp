@@ -1,4 +1,4 @@
-// A recording played stage by stage, whatever its world: the hash of what every stage left, and the leaves behind one
+// A recording played stage by stage, whatever its world: the hash of what every stage left, and the fields behind one
 // of them. What two builds that part are compared by.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -9,7 +9,7 @@
 
 #include "isostep/core/result.hpp"
 #include "isostep/core/simd.hpp"
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 #include "isostep/state/verify.hpp"
 
 namespace isostep {
@@ -29,7 +29,7 @@ struct StagePoint {
 /// "12" or, of a frame with several steps, "12.2"; false for anything else.
 bool read_stage_step(std::string_view text, StagePoint& point);
 
-/// One bit of one leaf is turned right after the stage: a drill.
+/// One bit of one field is turned right after the stage: a drill.
 struct StageFault {
   StagePoint at;
   std::string path;
@@ -64,6 +64,6 @@ Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, c
 
 /// At one point; `invalid` when the recording has not got it.
 Result<void> visit_stage(const ReplayReader& replay, const StagedReplay& how, const StagePoint& at,
-                         const LeafSink& sink);
+                         const FieldSink& sink);
 
 }  // namespace isostep

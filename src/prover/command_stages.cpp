@@ -1,4 +1,4 @@
-// isostep_prover trace and leaves: what `isostep diff --stages` asks of a build that is not its own.
+// isostep_prover trace and fields: what `isostep diff --stages` asks of a build that is not its own.
 // SPDX-License-Identifier: MIT
 #include <string>
 
@@ -58,7 +58,7 @@ int command_trace(const Request& request) {
   return status == exit_status::kOk ? end_of(replay, request.frames) : status;
 }
 
-int command_leaves(const Request& request) {
+int command_fields(const Request& request) {
   std::vector<std::uint8_t> file;
   if (const int status = read_recording(request, file); status != exit_status::kOk) return status;
   StagePoint at;
@@ -66,10 +66,10 @@ int command_leaves(const Request& request) {
     return refuse(exit_status::kUsage, "FRAME[.STEP] is no number", request.operands[1]);
   }
   at.stage = request.operands[2];
-  const LeafSink sink = {[](void*, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                           print(leaf_line({path_text(path), format, bits}) + "\n");
-                         },
-                         nullptr};
+  const FieldSink sink = {[](void*, const PathPart& path, FieldFormat format, std::uint64_t bits) {
+                            print(field_line({path_text(path), format, bits}) + "\n");
+                          },
+                          nullptr};
   const ReplayReader replay(file);
   const Result<void> visited = visit_stage(replay, how(request), at, sink);
   if (!visited && visited.error().code == ErrorCode::invalid && at.frame >= replay.frame_count()) {

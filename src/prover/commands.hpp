@@ -23,7 +23,7 @@ int command_verify(const Request& request);
 int command_snapshot(const Request& request);
 int command_continue(const Request& request);
 int command_trace(const Request& request);
-int command_leaves(const Request& request);
+int command_fields(const Request& request);
 int command_selfcheck(const Request& request);
 
 inline constexpr std::size_t kAny = ~std::size_t{0};
@@ -33,7 +33,7 @@ inline constexpr Command kCommands[] = {
     {"snapshot", "FILE FRAME", 2, 2, command_snapshot},
     {"continue", "FILE FRAME", 2, 2, command_continue, true},
     {"trace", "FILE", 1, 1, command_trace, true, true},
-    {"leaves", "FILE FRAME[.STEP] STAGE", 3, 3, command_leaves, false, true},
+    {"fields", "FILE FRAME[.STEP] STAGE", 3, 3, command_fields, false, true},
     {"selfcheck", "", 0, 0, command_selfcheck},
 };
 

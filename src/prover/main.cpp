@@ -27,7 +27,7 @@ int run(const Request& request) {
     }
     if (request.frames != kAllFrames && !command.takes_frames)
       return refuse(exit_status::kUsage, "--frames is for verify, continue and trace");
-    if (request.fault && !command.takes_fault) return refuse(exit_status::kUsage, "--fault is for trace and leaves");
+    if (request.fault && !command.takes_fault) return refuse(exit_status::kUsage, "--fault is for trace and fields");
     return command.run(request);
   }
   return refuse_command(request);

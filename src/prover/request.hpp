@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnostics/staged_replay.hpp"
 #include "isostep/core/simd.hpp"
 #include "isostep/state/verify.hpp"
-#include "diagnostics/staged_replay.hpp"
 #include "programs/exit_status.hpp"
 
 namespace isostep::prover {
@@ -19,7 +19,7 @@ struct Request {
   std::vector<std::string_view> operands;
   Simd simd = Simd::best;
   std::uint64_t frames = kAllFrames;  // at most; one or more
-  std::optional<StageFault> fault;    // a drill of trace and leaves
+  std::optional<StageFault> fault;    // a drill of trace and fields
 };
 
 /// Options, "--name value", stand anywhere; the first other word is the command. 0, or the exit status after a line on

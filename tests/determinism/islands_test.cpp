@@ -11,7 +11,7 @@
 #include "determinism/mess.hpp"
 #include "determinism/solver_cases.hpp"
 #include "examples/thread_pool.hpp"
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 
 namespace isostep::test {
 namespace {
@@ -50,7 +50,7 @@ struct Seen {
 
   static void after(void* user, Stage stage, const StageView& view) {
     if (stage != Stage::solve_substeps) return;
-    view.visit({[](void* seen, const PathPart& path, LeafFormat, std::uint64_t bits) {
+    view.visit({[](void* seen, const PathPart& path, FieldFormat, std::uint64_t bits) {
                   if (path.name == nullptr || std::string_view(path.name) != "islands_left") return;
                   static_cast<Seen*>(seen)->left += bits;
                 },

@@ -221,7 +221,7 @@ TEST_F(Prover, SaysInOneLineWhatItDoesNotUnderstand) {
            "--fast verify x", "snapshot " + file, "snapshot " + file + " 1x", "continue - 3",
            "--frames 0 verify " + file, "--fault 1:prepare:tick:1 verify " + file,
            "snapshot " + file + " 3 --fault 1:prepare:tick:1", "--frames 3 about", "--frames 3 snapshot " + file + " 2",
-           "--frames 3 leaves " + file + " 1 prepare"}) {
+           "--frames 3 fields " + file + " 1 prepare"}) {
     const Answer answer = run(words);
     EXPECT_EQ(answer.status, 64) << words;
     EXPECT_EQ(answer.out, "") << words;
@@ -237,8 +237,8 @@ TEST_F(Prover, SaysThatARecordingIsShorterThanFrame) {
   EXPECT_EQ(answer.out, "");
   EXPECT_EQ(answer.err, "isostep_prover: the recording has 40 frames (" + file + ")\n");
   EXPECT_EQ(run("continue " + file + " 41", run("snapshot " + file + " 40").out).status, 3);
-  EXPECT_EQ(run("leaves " + file + " 40 prepare").status, 3);
-  EXPECT_EQ(run("leaves " + file + " 39 preparation").status, 64);
+  EXPECT_EQ(run("fields " + file + " 40 prepare").status, 3);
+  EXPECT_EQ(run("fields " + file + " 39 preparation").status, 64);
 }
 
 TEST_F(Prover, TellsWhatItIs) {

@@ -111,7 +111,7 @@ TYPED_TEST(DesyncOfAWorld, ByTheLastBitOfOneSpeedIsFound) {
     Vec3<TypeParam> velocity = world.velocity(game.puck(0));
     // The last bit of a zero is a number that rounding flushes: the faster axis.
     const int axis = abs(velocity.x) < abs(velocity.z) ? 2 : 0;
-    velocity[axis] = leaf_from_bits<TypeParam>(leaf_bits(velocity[axis]) ^ 1u);
+    velocity[axis] = field_from_bits<TypeParam>(field_bits(velocity[axis]) ^ 1u);
     world.set_velocity(game.puck(0), velocity, world.angular_velocity(game.puck(0)));
   };
   ASSERT_TRUE(match.run_to(kFault + 120, 60 * kSecond));

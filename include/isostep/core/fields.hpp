@@ -25,7 +25,7 @@ concept HasFields = requires(T& value) {
 
 /// A number that is stored as it is: an integer, an enumeration, or a scalar (by its bits).
 template <class T>
-concept Leaf = std::integral<T> || std::is_enum_v<T> || Scalar<T>;
+concept FieldValue = std::integral<T> || std::is_enum_v<T> || Scalar<T>;
 
 namespace detail {
 template <class T> constexpr std::size_t packed_size();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/particles/bodies/instantiate.inl"
-#include "isostep/particles/engine_leaves.inl"
+#include "isostep/particles/engine_fields.inl"
 #include "isostep/particles/flight_kernel.inl"
 #include "isostep/particles/grid.inl"
 #include "isostep/particles/implicit_springs.inl"

@@ -11,7 +11,7 @@
 #include "isostep/particles/solvers/worst_first_step.hpp"
 #include "isostep/particles/step/contacts.hpp"
 #include "isostep/particles/step/finish.hpp"
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 
 namespace isostep {
 
@@ -24,9 +24,9 @@ template <class S> class ParticleEngine {
   ParticleReport step(const ParticleStageObserver& observer);
   StageView view(std::uint32_t stage);
 
-  // engine_leaves.inl
-  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink);
-  template <class Visit> void visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit);
+  // engine_fields.inl
+  static void walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink);
+  template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
   void load(const ParticleState<S>& from);
   std::uint64_t hash() const;

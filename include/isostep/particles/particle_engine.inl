@@ -101,7 +101,7 @@ template <class S> void ParticleEngine<S>::solve_substeps() {
 
 template <class S> StageView ParticleEngine<S>::view(std::uint32_t stage) {
   const auto hash = [](const void* engine) { return static_cast<const ParticleEngine*>(engine)->hash(); };
-  return {{this, hash, &ParticleEngine::walk_leaves}, stage};
+  return {{this, hash, &ParticleEngine::walk_fields}, stage};
 }
 
 // ---- the state

@@ -22,7 +22,7 @@ inline constexpr const char* kParticleStageNames[kParticleStages] = {
     "find_contacts",      "solve_substeps", "restitution",     "store_impulses",
     "finalise_particles", "yield_springs",  "expire_particles"};
 
-class StageView;  // state/leaves.hpp
+class StageView;  // state/fields.hpp
 
 /// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
 struct ParticleStageObserver {

@@ -143,8 +143,8 @@ template <class S> class ParticleWorld final {
 
   /// The arrays behind the world, for tools that compare, describe and measure: see particle_state.hpp.
   const ParticleState<S>& state() const;
-  /// The same leaf by leaf, by name: what an observer of stages is given, without what a stage leaves.
-  StageView leaves() const;
+  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
+  StageView state_fields() const;
 
  private:
   std::unique_ptr<ParticleEngine<S>> engine_;

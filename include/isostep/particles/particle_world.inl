@@ -198,7 +198,7 @@ template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
       input, [&](const ParticleCommand<S>& command) { return apply(command); }, [&] { step(); });
 }
 template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }
-template <class S> StageView ParticleWorld<S>::leaves() const { return engine_->view(kParticleStages); }
+template <class S> StageView ParticleWorld<S>::state_fields() const { return engine_->view(kParticleStages); }
 
 }  // namespace isostep
 

@@ -42,14 +42,14 @@ template <class Command, std::size_t N> struct CommandList {
 };
 
 namespace detail {
-/// What a leaf's bits mean.
-template <class T> constexpr std::uint32_t leaf_form() {
+/// What a field's bits mean.
+template <class T> constexpr std::uint32_t field_form() {
   if constexpr (std::is_same_v<T, bool>) return 1;
   else if constexpr (std::is_enum_v<T>) return 2;
   else if constexpr (std::is_integral_v<T>) return std::is_signed_v<T> ? 3 : 4;
   else return ScalarTraits<T>::kId;
 }
-template <class T> inline constexpr std::uint32_t kLeafForm = leaf_form<T>();
+template <class T> inline constexpr std::uint32_t kFieldForm = field_form<T>();
 /// Of names and widths in order: two builds whose inputs are laid out otherwise do not meet.
 struct SchemaVisitor {
   HashStream* stream;
@@ -67,7 +67,7 @@ struct SchemaVisitor {
       T::fields(*this, value);
     } else {
       std::uint8_t form[5] = {sizeof(T)};
-      store_le(form + 1, kLeafForm<T>);
+      store_le(form + 1, kFieldForm<T>);
       stream->update(form, sizeof form);
     }
   }

@@ -105,13 +105,13 @@ class Reader {
     } else if constexpr (HasFields<T>) {
       T::fields(*this, value);
     } else {
-      static_assert(Leaf<T>, "a stored member is a leaf, a struct with fields or an array of them");
-      LeafBits<T> bits = 0;
-      if (const std::uint8_t* at = take(sizeof(T))) bits = load_le<LeafBits<T>>(at);
+      static_assert(FieldValue<T>, "a stored member is a number, a struct with fields or an array of them");
+      FieldBits<T> bits = 0;
+      if (const std::uint8_t* at = take(sizeof(T))) bits = load_le<FieldBits<T>>(at);
       if constexpr (std::is_same_v<T, bool>) {
         if (bits > 1) bits = refuse_bool();
       }
-      value = leaf_from_bits<T>(bits);
+      value = field_from_bits<T>(bits);
     }
     return ok_;
   }

@@ -1,4 +1,4 @@
-// The first leaf at which two states differ, by name: "bodies[17].velocity.x".
+// The first field at which two states differ, by name: "bodies[17].velocity.x".
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -47,8 +47,8 @@ class DiffReport {
   std::uint64_t count() const;
   const std::vector<Difference>& kept() const;
 
-  /// Called when the bits of a leaf differ.
-  void add(const PathPart& path, LeafFormat format, std::uint64_t a, std::uint64_t b);
+  /// Called when the bits of a field differ.
+  void add(const PathPart& path, FieldFormat format, std::uint64_t a, std::uint64_t b);
 
  private:
   std::size_t keep_;
@@ -80,9 +80,9 @@ ISO_INLINE void diff_packed(const PathPart& path, const std::uint8_t*& a, const 
   } else if constexpr (HasFields<T>) {
     T::fields(DiffVisitor{&path, &a, &b, &report}, type);
   } else {
-    const std::uint64_t bits_a = load_le<LeafBits<T>>(a);
-    const std::uint64_t bits_b = load_le<LeafBits<T>>(b);
-    if (bits_a != bits_b) report.add(path, kLeafFormat<T>, bits_a, bits_b);
+    const std::uint64_t bits_a = load_le<FieldBits<T>>(a);
+    const std::uint64_t bits_b = load_le<FieldBits<T>>(b);
+    if (bits_a != bits_b) report.add(path, kFieldFormat<T>, bits_a, bits_b);
     a += sizeof(T);
     b += sizeof(T);
   }
@@ -110,7 +110,7 @@ ISO_INLINE void diff_records(const char* name, const T* a, std::size_t count_a, 
                              DiffReport& report) {
   const PathPart root{nullptr, name, 0};
   if (count_a != count_b) {
-    report.add(PathPart{&root, "count", 0}, kLeafFormat<std::uint64_t>, count_a, count_b);
+    report.add(PathPart{&root, "count", 0}, kFieldFormat<std::uint64_t>, count_a, count_b);
   }
   const std::size_t common = count_a < count_b ? count_a : count_b;
   for (std::size_t i = 0; i < common; ++i) diff_value(PathPart{&root, nullptr, i}, a[i], b[i], report);

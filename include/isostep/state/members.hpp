@@ -17,7 +17,7 @@
 #include "isostep/state/slots.hpp"
 
 // A state names what it consists of once, in `members(visit, self)`, and everything that reads a state whole visits it:
-// these here, the leaves (leaves.inl) and the differ of the tool. The order of the members is that of the hash and of
+// these here, the walk over fields (fields.inl) and the differ of the tool. Members have the order of the hash and of
 // the portable form. A member is told as one of
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) tells its vectors, two at most

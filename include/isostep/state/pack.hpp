@@ -15,25 +15,25 @@ namespace isostep {
 /// The length of T's canonical bytes.
 template <class T> inline constexpr std::size_t kPackedSize = detail::packed_size<T>();
 
-/// The unsigned integer that holds a leaf's bits.
+/// The unsigned integer that holds a field's bits.
 template <std::size_t Size> struct UnsignedOfSize;
 template <> struct UnsignedOfSize<1> { using Type = std::uint8_t; };
 template <> struct UnsignedOfSize<2> { using Type = std::uint16_t; };
 template <> struct UnsignedOfSize<4> { using Type = std::uint32_t; };
 template <> struct UnsignedOfSize<8> { using Type = std::uint64_t; };
-template <class T> using LeafBits = typename UnsignedOfSize<sizeof(T)>::Type;
+template <class T> using FieldBits = typename UnsignedOfSize<sizeof(T)>::Type;
 
-template <Leaf T> ISO_INLINE constexpr LeafBits<T> leaf_bits(T value) {
+template <FieldValue T> ISO_INLINE constexpr FieldBits<T> field_bits(T value) {
   if constexpr (std::is_enum_v<T>) {
-    return static_cast<LeafBits<T>>(static_cast<std::underlying_type_t<T>>(value));
+    return static_cast<FieldBits<T>>(static_cast<std::underlying_type_t<T>>(value));
   } else if constexpr (std::is_integral_v<T>) {
-    return static_cast<LeafBits<T>>(value);
+    return static_cast<FieldBits<T>>(value);
   } else {
     return to_bits(value);
   }
 }
 /// Any bits are a value, but for bool: there the caller has made sure of 0 or 1.
-template <Leaf T> ISO_INLINE constexpr T leaf_from_bits(LeafBits<T> bits) {
+template <FieldValue T> ISO_INLINE constexpr T field_from_bits(FieldBits<T> bits) {
   if constexpr (std::is_same_v<T, bool>) {
     return bits != 0;
   } else if constexpr (std::is_enum_v<T>) {
@@ -61,8 +61,8 @@ template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, con
   } else if constexpr (HasFields<T>) {
     T::fields(detail::PackVisitor{&at}, value);
   } else {
-    static_assert(Leaf<T>, "a stored member is a leaf, a struct with fields or an array of them");
-    store_le(at, leaf_bits(value));
+    static_assert(FieldValue<T>, "a stored member is a number, a struct with fields or an array of them");
+    store_le(at, field_bits(value));
     at += sizeof(T);
   }
   return at;

@@ -1,4 +1,4 @@
-// Any leaf as text for people: decimal, hexadecimal bits, and how far two of one type are apart.
+// Any field as text for people: decimal, hexadecimal bits, and how far two of one type are apart.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,37 +10,39 @@
 
 namespace isostep {
 
-enum class LeafKind : std::uint32_t { boolean, signed_integer, unsigned_integer, scalar };
+enum class FieldKind : std::uint32_t { boolean, signed_integer, unsigned_integer, scalar };
 
-/// What must be known of a leaf's type to read its bits.
-struct LeafFormat {
-  LeafKind kind;
+/// What must be known of a field's type to read its bits.
+struct FieldFormat {
+  FieldKind kind;
   std::uint32_t size;       // [bytes]
   std::uint32_t scalar_id;  // ScalarTraits::kId, or 0
 };
 
-template <Leaf T> constexpr LeafFormat leaf_format_of() {
+template <FieldValue T> constexpr FieldFormat field_format_of() {
   if constexpr (std::is_same_v<T, bool>) {
-    return {LeafKind::boolean, 1, 0};
+    return {FieldKind::boolean, 1, 0};
   } else if constexpr (std::is_enum_v<T>) {
-    return leaf_format_of<std::underlying_type_t<T>>();
+    return field_format_of<std::underlying_type_t<T>>();
   } else if constexpr (std::is_integral_v<T>) {
-    return {std::is_signed_v<T> ? LeafKind::signed_integer : LeafKind::unsigned_integer, sizeof(T), 0};
+    return {std::is_signed_v<T> ? FieldKind::signed_integer : FieldKind::unsigned_integer, sizeof(T), 0};
   } else {
-    return {LeafKind::scalar, sizeof(T), ScalarTraits<T>::kId};
+    return {FieldKind::scalar, sizeof(T), ScalarTraits<T>::kId};
   }
 }
-template <Leaf T> inline constexpr LeafFormat kLeafFormat = leaf_format_of<T>();
+template <FieldValue T> inline constexpr FieldFormat kFieldFormat = field_format_of<T>();
 
 /// Decimal; for scalars the shortest that reads back to the same bits.
-std::string value_text(LeafFormat format, std::uint64_t bits);
-template <Leaf T> ISO_INLINE std::string value_text(T value) { return value_text(kLeafFormat<T>, leaf_bits(value)); }
+std::string value_text(FieldFormat format, std::uint64_t bits);
+template <FieldValue T> ISO_INLINE std::string value_text(T value) {
+  return value_text(kFieldFormat<T>, field_bits(value));
+}
 
 /// "0x" and two digits a byte.
-std::string bits_text(LeafFormat format, std::uint64_t bits);
+std::string bits_text(FieldFormat format, std::uint64_t bits);
 
 /// Representable steps from one to the other: units in the last place for float and double (-0 and +0 are one step
 /// apart), least significant bits for fixed point, the difference for integers.
-std::uint64_t steps_between(LeafFormat format, std::uint64_t a, std::uint64_t b);
+std::uint64_t steps_between(FieldFormat format, std::uint64_t a, std::uint64_t b);
 
 }  // namespace isostep

@@ -6,7 +6,7 @@
 
 #include "isostep/dynamics/carriers.hpp"
 #include "isostep/state/command_journal.hpp"
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 #include "isostep/world/body_finisher.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/command_executor.hpp"
@@ -50,9 +50,9 @@ template <class S> class WorldEngine {
   StepReport step(const StageObserver& observer);
   StageView view(std::uint32_t stage);
 
-  // engine_leaves.inl
-  static void walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink);
-  template <class Visit> void visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit);
+  // engine_fields.inl
+  static void walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink);
+  template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
   // engine_state.inl
   void load(const WorldState<S>& from);
@@ -89,7 +89,7 @@ template <class S> class WorldEngine {
   void tell_untold();
   template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
 
-  // engine_leaves.inl
+  // engine_fields.inl
   template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
 };
 

@@ -41,7 +41,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
 
 template <class S> StageView WorldEngine<S>::view(std::uint32_t stage) {
   const auto hash = [](const void* engine) { return static_cast<const WorldEngine*>(engine)->hash(); };
-  return {{this, hash, &WorldEngine::walk_leaves}, stage};
+  return {{this, hash, &WorldEngine::walk_fields}, stage};
 }
 
 /// Until nothing that moves touches a sleeping island.

@@ -18,7 +18,7 @@
 #include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
 #include "isostep/world/debug_draw.inl"
-#include "isostep/world/engine_leaves.inl"
+#include "isostep/world/engine_fields.inl"
 #include "isostep/world/world.inl"
 
 /// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is

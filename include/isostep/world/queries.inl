@@ -81,7 +81,7 @@ struct BySlotOfHit {
 /// Fractions are not negative, so their bits ascend as they do; but for a zero that has a sign.
 struct ByFraction {
   template <class S> ISO_INLINE std::uint64_t operator()(const RayCastHit<S>& hit) const {
-    return hit.fraction == S(0) ? 0 : static_cast<std::uint64_t>(leaf_bits(hit.fraction));
+    return hit.fraction == S(0) ? 0 : static_cast<std::uint64_t>(field_bits(hit.fraction));
   }
 };
 }  // namespace detail

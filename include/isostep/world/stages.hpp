@@ -30,7 +30,7 @@ inline constexpr const char* kStageNames[kStages] = {
 /// Of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;
 
-class StageView;  // state/leaves.hpp
+class StageView;  // state/fields.hpp
 
 /// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
 struct StageObserver {

@@ -213,8 +213,8 @@ template <class S> class World final {
     ~Snapshot();
     Snapshot(Snapshot&& other) noexcept;
     Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, static bodies, shapes and tables of slots,
-    /// which it shares with the world and other snapshots until they change.
+    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, static bodies, shapes and tables of
+    /// slots, which it shares with the world and other snapshots until they change.
     std::size_t bytes() const;
 
    private:
@@ -233,8 +233,8 @@ template <class S> class World final {
 
   /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.
   const WorldState<S>& state() const;
-  /// The same leaf by leaf, by name: what an observer of stages is given, without what a stage leaves.
-  StageView leaves() const;
+  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
+  StageView state_fields() const;
 
  private:
   std::unique_ptr<WorldEngine<S>> engine_;

@@ -350,7 +350,7 @@ template <class S> Result<void> World<S>::step_recorded(Bytes input) {
 }
 
 template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }
-template <class S> StageView World<S>::leaves() const { return engine_->view(kStages); }
+template <class S> StageView World<S>::state_fields() const { return engine_->view(kStages); }
 
 }  // namespace isostep
 

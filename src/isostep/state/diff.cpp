@@ -15,8 +15,8 @@ template <std::size_t N> void append_path(const PathPart& part, ShortText<N>& te
   text.append(part.name);
 }
 
-const char* unit_of(LeafFormat format) {
-  if (format.kind != LeafKind::scalar) return "";
+const char* unit_of(FieldFormat format) {
+  if (format.kind != FieldKind::scalar) return "";
   return format.scalar_id >> 16 == 1 ? "ulp" : "lsb";
 }
 
@@ -44,7 +44,7 @@ bool DiffReport::any() const { return count_ != 0; }
 std::uint64_t DiffReport::count() const { return count_; }
 const std::vector<Difference>& DiffReport::kept() const { return kept_; }
 
-void DiffReport::add(const PathPart& path, LeafFormat format, std::uint64_t a, std::uint64_t b) {
+void DiffReport::add(const PathPart& path, FieldFormat format, std::uint64_t a, std::uint64_t b) {
   ++count_;
   if (kept_.size() >= keep_) return;
   const std::string text_a = value_text(format, a);

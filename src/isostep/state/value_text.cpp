@@ -1,4 +1,4 @@
-// Leaves as text. For tools: nothing here is read back into a simulation.
+// Fields as text. For tools: nothing here is read back into a simulation.
 // SPDX-License-Identifier: MIT
 #include "isostep/state/value_text.hpp"
 
@@ -10,14 +10,14 @@
 namespace isostep {
 namespace {
 
-std::int64_t sign_extended(LeafFormat format, std::uint64_t bits) {
+std::int64_t sign_extended(FieldFormat format, std::uint64_t bits) {
   const unsigned shift = 64 - 8 * format.size;
   return static_cast<std::int64_t>(bits << shift) >> shift;
 }
 
-bool is_floating(LeafFormat format) { return format.kind == LeafKind::scalar && format.scalar_id >> 16 == 1; }
+bool is_floating(FieldFormat format) { return format.kind == FieldKind::scalar && format.scalar_id >> 16 == 1; }
 
-std::string scalar_text(LeafFormat format, std::uint64_t bits) {
+std::string scalar_text(FieldFormat format, std::uint64_t bits) {
   if (format.scalar_id == ScalarTraits<float>::kId) return to_text(from_bits<float>(static_cast<std::uint32_t>(bits)));
   if (format.scalar_id == ScalarTraits<double>::kId) return to_text(from_bits<double>(bits));
   // Any other is fixed point, a user's own format included: its fraction bits are all that must be known.
@@ -26,36 +26,36 @@ std::string scalar_text(LeafFormat format, std::uint64_t bits) {
 }
 
 /// Bits of a float or double as an integer that counts in the order of the values.
-std::uint64_t ordered(LeafFormat format, std::uint64_t bits) {
+std::uint64_t ordered(FieldFormat format, std::uint64_t bits) {
   const std::uint64_t sign = std::uint64_t{1} << (8 * format.size - 1);
   return (bits & sign) != 0 ? sign - 1 - (bits - sign) : bits + sign;
 }
 
 }  // namespace
 
-std::string value_text(LeafFormat format, std::uint64_t bits) {
+std::string value_text(FieldFormat format, std::uint64_t bits) {
   switch (format.kind) {
-    case LeafKind::boolean: return bits != 0 ? "true" : "false";
-    case LeafKind::signed_integer: return std::to_string(sign_extended(format, bits));
-    case LeafKind::unsigned_integer: return std::to_string(bits);
-    case LeafKind::scalar: break;
+    case FieldKind::boolean: return bits != 0 ? "true" : "false";
+    case FieldKind::signed_integer: return std::to_string(sign_extended(format, bits));
+    case FieldKind::unsigned_integer: return std::to_string(bits);
+    case FieldKind::scalar: break;
   }
   return scalar_text(format, bits);
 }
 
-std::string bits_text(LeafFormat format, std::uint64_t bits) {
+std::string bits_text(FieldFormat format, std::uint64_t bits) {
   char text[24];
   std::snprintf(text, sizeof text, "0x%0*" PRIx64, static_cast<int>(2 * format.size), bits);
   return text;
 }
 
-std::uint64_t steps_between(LeafFormat format, std::uint64_t a, std::uint64_t b) {
+std::uint64_t steps_between(FieldFormat format, std::uint64_t a, std::uint64_t b) {
   if (is_floating(format)) {
     a = ordered(format, a);
     b = ordered(format, b);
     return a < b ? b - a : a - b;
   }
-  if (format.kind == LeafKind::boolean || format.kind == LeafKind::unsigned_integer) return a < b ? b - a : a - b;
+  if (format.kind == FieldKind::boolean || format.kind == FieldKind::unsigned_integer) return a < b ? b - a : a - b;
   const std::int64_t signed_a = sign_extended(format, a);
   const std::int64_t signed_b = sign_extended(format, b);
   const auto wide_a = static_cast<std::uint64_t>(signed_a);

@@ -36,16 +36,16 @@ class FrameOf {
 };
 
 /// `parted`: at this point the hashes differ, not just what comes next.
-void print_leaves(const LeafList& a, const LeafList& b, bool parted) {
+void print_fields(const FieldList& a, const FieldList& b, bool parted) {
   DiffReport report(kShown);
-  const std::optional<std::string> missing = diff_leaves(a, b, report);
+  const std::optional<std::string> missing = diff_fields(a, b, report);
   print(report, a);
   if (missing) std::printf("  and lists are of different lengths: %s is in one of them\n", missing->c_str());
   if (parted && !report.any() && !missing) {
-    std::printf("  the hashes differ though none of %zu leaves does: they are not of these leaves\n", a.all().size());
+    std::printf("  the hashes differ though none of %zu fields does: they are not of these fields\n", a.all().size());
     return;
   }
-  std::printf("  %llu of %zu leaves differ\n", static_cast<unsigned long long>(report.count()), a.all().size());
+  std::printf("  %llu of %zu fields differ\n", static_cast<unsigned long long>(report.count()), a.all().size());
 }
 
 /// Where in a frame, and what differs there; from the first point at which the traces part.
@@ -62,7 +62,7 @@ int report(const Input& input_a, const StageSide& a, const Points& trace_a, cons
   const std::size_t stage = place.index % place.hashes;
   const StagePoint at = {frame, static_cast<std::uint32_t>(place.index / place.hashes) + 1,
                          stage == 0 ? kCommandsStage : stages[stage - 1]};
-  print_leaves(a.leaves(at), b.leaves(at), trace_a[first].at == trace_b[first].at);
+  print_fields(a.fields_at(at), b.fields_at(at), trace_a[first].at == trace_b[first].at);
   return exit_status::kDifferent;
 }
 

@@ -1,4 +1,4 @@
-// Whom the leaves of a particle world belong to.
+// Whom the fields of a particle world belong to.
 // SPDX-License-Identifier: MIT
 #pragma once
 

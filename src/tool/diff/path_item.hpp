@@ -1,4 +1,4 @@
-// The item of an array that the path of a leaf goes through.
+// The item of an array that the path of a field goes through.
 // SPDX-License-Identifier: MIT
 #pragma once
 

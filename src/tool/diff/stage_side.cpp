@@ -34,12 +34,12 @@ class Here : public StageSide {
     check(trace_stages(input_.replay, how_, sink));
     return points;
   }
-  LeafList leaves(const StagePoint& at) const override {
-    LeafList list;
-    const LeafSink sink = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                             static_cast<LeafList*>(user)->add({path_text(path), format, bits});
-                           },
-                           &list};
+  FieldList fields_at(const StagePoint& at) const override {
+    FieldList list;
+    const FieldSink sink = {[](void* user, const PathPart& path, FieldFormat format, std::uint64_t bits) {
+                              static_cast<FieldList*>(user)->add({path_text(path), format, bits});
+                            },
+                            &list};
     check(visit_stage(input_.replay, how_, at, sink));
     return list;
   }
@@ -150,13 +150,13 @@ class Elsewhere : public StageSide {
       throw ToolError(exit_status::kSoftware, prover_ + ": says nothing");
     return points;
   }
-  LeafList leaves(const StagePoint& at) const override {
-    LeafList list;
+  FieldList fields_at(const StagePoint& at) const override {
+    FieldList list;
     const std::string point = std::to_string(at.frame) + "." + std::to_string(at.step) + " " + quoted(at.stage);
-    each_line("leaves " + quoted(input_.path) + " " + point, [&](const std::string& line) {
-      NamedLeaf leaf;
-      if (!read_leaf_line(line, leaf)) throw not_understood(line);
-      list.add(std::move(leaf));
+    each_line("fields " + quoted(input_.path) + " " + point, [&](const std::string& line) {
+      NamedField field;
+      if (!read_field_line(line, field)) throw not_understood(line);
+      list.add(std::move(field));
     });
     return list;
   }

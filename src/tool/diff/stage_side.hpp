@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnostics/staged_replay.hpp"
-#include "leaf_list.hpp"
+#include "field_list.hpp"
 #include "tool/common/recorded_file.hpp"
 
 namespace isostep::tool {
@@ -22,7 +22,7 @@ class StageSide {
  public:
   virtual ~StageSide() = default;
   virtual std::vector<TracePoint> trace() const = 0;
-  virtual LeafList leaves(const StagePoint& at) const = 0;
+  virtual FieldList fields_at(const StagePoint& at) const = 0;
 };
 
 /// In this process.

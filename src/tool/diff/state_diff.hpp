@@ -42,7 +42,7 @@ template <class Array> class RowPairs {
 
   /// `report_lonely`: rows of one array alone are differences, too.
   void diff(const PathPart& path, const Array& a, const Array& b, bool report_lonely, DiffReport& report) const {
-    if (a.size() != b.size()) report.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
+    if (a.size() != b.size()) report.add(PathPart{&path, "count", 0}, kFieldFormat<std::uint64_t>, a.size(), b.size());
     std::size_t i = 0, j = 0;
     while (i < a.size() || j < b.size()) {
       const bool of_a = i < a.size() && (j == b.size() || key(a_, i) <= key(b_, j));
@@ -52,7 +52,7 @@ template <class Array> class RowPairs {
       } else if (report_lonely) {
         const std::string name = (of_a ? key(a_, i) : key(b_, j)).name();
         const PathPart row{&path, name.c_str(), 0};
-        report.add(PathPart{&row, "present", 0}, kLeafFormat<std::uint32_t>, of_a ? 1 : 0, of_b ? 1 : 0);
+        report.add(PathPart{&row, "present", 0}, kFieldFormat<std::uint32_t>, of_a ? 1 : 0, of_b ? 1 : 0);
       }
       i += of_a ? 1 : 0;
       j += of_b ? 1 : 0;
@@ -160,7 +160,7 @@ class StateDiffer {
  private:
   template <class T> const T& other(const T&) { return *static_cast<const T*>(others_.members[next_++]); }
   template <class List> void count(const PathPart& path, const List& a, const List& b) {
-    if (a.size() != b.size()) report_.add(PathPart{&path, "count", 0}, kLeafFormat<std::uint64_t>, a.size(), b.size());
+    if (a.size() != b.size()) report_.add(PathPart{&path, "count", 0}, kFieldFormat<std::uint64_t>, a.size(), b.size());
   }
   template <class Rows> void rows(const PathPart& path, const char* name, const Rows& a, const Rows& b) {
     RowPairs<Rows>(keys_a_.find(name), keys_b_.find(name)).diff(path, a, b, keys_a_.has(name), report_);

@@ -6,14 +6,14 @@
 
 #include <utility>
 
-#include "diagnostics/leaf_editing.inl"
+#include "diagnostics/field_editing.inl"
 #include "isostep/scalar/exact.hpp"
 #include "isostep/scalar/fixed.hpp"
 
 namespace isostep {
 namespace {
 
-/// A leaf of every way in which leaves are reached: bare, in an Exact, as a sum of products narrow and wide.
+/// A field of every way in which fields are reached: bare, in an Exact, as a sum of products narrow and wide.
 struct Numbers {
   std::uint32_t count = 5;
   float number = 1.5f;
@@ -33,41 +33,41 @@ struct Engine {
   Numbers own, shared;
 
   static std::uint64_t hash(const void*) { return 0; }
-  static void walk(void* engine, LeafPart part, std::uint32_t, const LeafSink& sink) {
-    visit_leaves(engine, part, LeafReading{sink});
+  static void walk(void* engine, FieldGroup group, std::uint32_t, const FieldSink& sink) {
+    visit_fields(engine, group, FieldReading{sink});
   }
-  static void edit(void* engine, LeafPart part, std::uint32_t, const LeafEditor& editor) {
-    visit_leaves(engine, part, LeafEditing{editor});
+  static void edit(void* engine, FieldGroup group, std::uint32_t, const FieldEditor& editor) {
+    visit_fields(engine, group, FieldEditing{editor});
   }
-  template <class Access> static void visit_leaves(void* engine, LeafPart part, const Access& access) {
-    if (part != LeafPart::state) return;
+  template <class Access> static void visit_fields(void* engine, FieldGroup group, const Access& access) {
+    if (group != FieldGroup::state) return;
     Engine& e = *static_cast<Engine*>(engine);
-    const LeafVisitor visit(nullptr, access);
+    const FieldVisitor visit(nullptr, access);
     visit("own", e.own);
     visit("shared", std::as_const(e.shared));
   }
   StageView view() { return StageView({this, &hash, &walk}, 0); }
 };
 
-std::vector<NamedLeaf> leaves_of(Engine& engine) {
-  std::vector<NamedLeaf> leaves;
-  const LeafSink sink = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                           static_cast<std::vector<NamedLeaf>*>(user)->push_back({path_text(path), format, bits});
-                         },
-                         &leaves};
+std::vector<NamedField> fields_of(Engine& engine) {
+  std::vector<NamedField> fields;
+  const FieldSink sink = {[](void* user, const PathPart& path, FieldFormat format, std::uint64_t bits) {
+                            static_cast<std::vector<NamedField>*>(user)->push_back({path_text(path), format, bits});
+                          },
+                          &fields};
   engine.view().visit(sink);
-  return leaves;
+  return fields;
 }
 
-TEST(Leaves, ADrillTurnsTheOneBitAndNoOther) {
+TEST(Fields, ADrillTurnsTheOneBitAndNoOther) {
   Engine engine;
-  const std::vector<NamedLeaf> before = leaves_of(engine);
+  const std::vector<NamedField> before = fields_of(engine);
   int struck = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].path.rfind("own.", 0) != 0) continue;
     ++struck;
     EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit)) << before[i].path;
-    const std::vector<NamedLeaf> after = leaves_of(engine);
+    const std::vector<NamedField> after = fields_of(engine);
     for (std::size_t j = 0; j < before.size(); ++j)
       EXPECT_EQ(after[j].bits, before[j].bits ^ (i == j ? 8u : 0u)) << before[i].path << " at " << before[j].path;
     EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit));  // back
@@ -75,18 +75,18 @@ TEST(Leaves, ADrillTurnsTheOneBitAndNoOther) {
   EXPECT_EQ(struck, 6) << "two words of the wide sum";
 }
 
-TEST(Leaves, ADrillOnWhatIsSharedStrikesNothing) {
+TEST(Fields, ADrillOnWhatIsSharedStrikesNothing) {
   Engine engine;
   int tried = 0;
-  for (const NamedLeaf& leaf : leaves_of(engine)) {
-    if (leaf.path.rfind("shared.", 0) != 0) continue;
+  for (const NamedField& field : fields_of(engine)) {
+    if (field.path.rfind("shared.", 0) != 0) continue;
     ++tried;
-    EXPECT_FALSE(FaultDrill(leaf.path, 3).strike(engine.view(), &Engine::edit)) << leaf.path;
+    EXPECT_FALSE(FaultDrill(field.path, 3).strike(engine.view(), &Engine::edit)) << field.path;
   }
   EXPECT_EQ(tried, 6);
 }
 
-TEST(Leaves, ADrillOnWhatIsNotThereStrikesNothing) {
+TEST(Fields, ADrillOnWhatIsNotThereStrikesNothing) {
   Engine engine;
   EXPECT_FALSE(FaultDrill("own.cuont", 3).strike(engine.view(), &Engine::edit));
   EXPECT_FALSE(FaultDrill("own.count", 32).strike(engine.view(), &Engine::edit));

@@ -61,7 +61,7 @@ TYPED_TEST(Archive, EveryCutIsAFailureThatSticks) {
   }
 }
 
-TEST(Writer, LaysOutLeavesLittleEndianByWidth) {
+TEST(Writer, LaysOutFieldsLittleEndianByWidth) {
   const toy::Padded padded{0x0807060504030201u, true, -2, 0x1234};
   Buffer bytes;
   Writer(bytes).write(padded);

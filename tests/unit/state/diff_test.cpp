@@ -31,7 +31,7 @@ TYPED_TEST(Diff, EqualRecordsHaveNone) {
   EXPECT_EQ(report.count(), 0u);
 }
 
-TYPED_TEST(Diff, OneStepOfOneLeafIsNamedAndMeasured) {
+TYPED_TEST(Diff, OneStepOfOneFieldIsNamedAndMeasured) {
   const auto a = things<TypeParam>();
   auto b = a;
   b[17].velocity.x = from_bits<TypeParam>(to_bits(a[17].velocity.x) + 1);
@@ -110,7 +110,7 @@ TEST(Diff, PaddingIsNoDifference) {
 }
 
 TEST(StepsBetween, CountsFloatsAcrossZero) {
-  constexpr LeafFormat format = kLeafFormat<float>;
+  constexpr FieldFormat format = kFieldFormat<float>;
   const float tiny = std::numeric_limits<float>::denorm_min();
   EXPECT_EQ(steps_between(format, to_bits(0.0f), to_bits(-0.0f)), 1u);
   EXPECT_EQ(steps_between(format, to_bits(tiny), to_bits(-tiny)), 3u);
@@ -119,14 +119,14 @@ TEST(StepsBetween, CountsFloatsAcrossZero) {
 }
 
 TEST(StepsBetween, SpansTheWholeRangeOfAFormat) {
-  EXPECT_EQ(steps_between(kLeafFormat<Q16_16>, to_bits(Q16_16::lowest()), to_bits(Q16_16::highest())), 0xffffffffu);
-  EXPECT_EQ(steps_between(kLeafFormat<Q32_32>, to_bits(Q32_32::highest()), to_bits(Q32_32::lowest())),
+  EXPECT_EQ(steps_between(kFieldFormat<Q16_16>, to_bits(Q16_16::lowest()), to_bits(Q16_16::highest())), 0xffffffffu);
+  EXPECT_EQ(steps_between(kFieldFormat<Q32_32>, to_bits(Q32_32::highest()), to_bits(Q32_32::lowest())),
             ~std::uint64_t{0});
-  EXPECT_EQ(steps_between(kLeafFormat<std::int8_t>, 0x80, 0x7f), 255u);
-  EXPECT_EQ(steps_between(kLeafFormat<std::uint8_t>, 0x80, 0x7f), 1u);
+  EXPECT_EQ(steps_between(kFieldFormat<std::int8_t>, 0x80, 0x7f), 255u);
+  EXPECT_EQ(steps_between(kFieldFormat<std::uint8_t>, 0x80, 0x7f), 1u);
 }
 
-TEST(ValueText, WritesEveryKindOfLeaf) {
+TEST(ValueText, WritesEveryKindOfField) {
   EXPECT_EQ(value_text(std::int8_t{-5}), "-5");
   EXPECT_EQ(value_text(~std::uint64_t{0}), "18446744073709551615");
   EXPECT_EQ(value_text(std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");

@@ -22,7 +22,7 @@ namespace isostep::test {
 
 inline constexpr Frame kFault = 37;
 
-template <class T> T with_bit_turned(T value) { return leaf_from_bits<T>(leaf_bits(value) ^ 1u); }
+template <class T> T with_bit_turned(T value) { return field_from_bits<T>(field_bits(value) ^ 1u); }
 
 /// The body above everything: its motion is its own.
 template <class S> BodyState<S>& far_body(Arena<S>& arena) {
@@ -106,9 +106,9 @@ inline void expect_part(const std::string& text, const std::string& part) {
 /// ".velocity.x: 1.5 | 1.5000001 (0x3fc00000 | 0x3fc00001), 1 ulp apart [body slot 2]"
 template <class T> std::string turned(const char* field, T value, BodyId body) {
   const T other = with_bit_turned(value);
-  constexpr LeafFormat format = kLeafFormat<T>;
+  constexpr FieldFormat format = kFieldFormat<T>;
   return std::string(field) + ": " + value_text(value) + " | " + value_text(other) + " (" +
-         bits_text(format, leaf_bits(value)) + " | " + bits_text(format, leaf_bits(other)) + "), 1 " +
+         bits_text(format, field_bits(value)) + " | " + bits_text(format, field_bits(other)) + "), 1 " +
          (kIsFixed<T> ? "lsb" : "ulp") + " apart [body slot " + std::to_string(body.slot) + "]\n";
 }
 

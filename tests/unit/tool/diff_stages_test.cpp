@@ -1,5 +1,5 @@
 // `isostep diff --stages`: whatever bit of whatever array is turned after whatever stage, it names the frame, the stage
-// and the leaf, in rigid worlds with every solver and in worlds of particles.
+// and the field, in rigid worlds with every solver and in worlds of particles.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Arrays = std::vector<std::string>;
 
-/// Arrays that are leaves of more than one: "prepared" stands for "prepared[].normals[]", too.
+/// Arrays that are fields of more than one: "prepared" stands for "prepared[].normals[]", too.
 bool is_part_of(const std::string& array, const std::string& name) {
   return array == name || (array.rfind(name, 0) == 0 && (array[name.size()] == '[' || array[name.size()] == '.'));
 }
@@ -43,7 +43,7 @@ void strike_everything(const tool::Input& input, const std::map<std::string, Arr
     }
     if (!wanted) continue;
     const auto owner = owners.find(array.substr(0, array.find('[')));
-    SCOPED_TRACE("stage " + stage + ", " + found.leaf.path);
+    SCOPED_TRACE("stage " + stage + ", " + found.field.path);
     expect_named(input, orderly, stage, found, owner == owners.end() ? "" : owner->second);
   }
   for (const auto& [stage, array] : missing) ADD_FAILURE() << "stage " << stage << " never left " << array;
@@ -203,7 +203,7 @@ TEST_F(Recorded, EveryArrayOfEveryStageOfParticlesIsNamedInFixedPoint) {
 TEST_F(Recorded, OwnersAreThoseOfTheWorld) {
   const std::vector<std::uint8_t> bytes = rigid_recording<float>(SolverName::soft_step, 10);
   const tool::Input input(file("a", bytes));
-  const tool::LeafList leaves = tool::played_here(input)->leaves({9, 1, "solve_substeps"});
+  const tool::FieldList fields = tool::played_here(input)->fields_at({9, 1, "solve_substeps"});
   const ReplayReader replay(input.bytes);
   World<float> w;
   Reader reader(replay.state());
@@ -214,20 +214,20 @@ TEST_F(Recorded, OwnersAreThoseOfTheWorld) {
   ASSERT_GT(contacts.size(), 8u);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const std::string slot = "body slot " + std::to_string(states[i].slot);
-    EXPECT_EQ(tool::owner_of(leaves, "bodies[" + std::to_string(i) + "].spin.z"), slot);
-    EXPECT_EQ(tool::owner_of(leaves, "solver_velocity[" + std::to_string(i + 1) + "].linear.x"), slot);
+    EXPECT_EQ(tool::owner_of(fields, "bodies[" + std::to_string(i) + "].spin.z"), slot);
+    EXPECT_EQ(tool::owner_of(fields, "solver_velocity[" + std::to_string(i + 1) + "].linear.x"), slot);
   }
-  EXPECT_EQ(tool::owner_of(leaves, "solver_velocity[0].linear.x"), "") << "what does not move";
+  EXPECT_EQ(tool::owner_of(fields, "solver_velocity[0].linear.x"), "") << "what does not move";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactKey key = contacts[i].key;
     const std::string slots = "body slots " + std::to_string(key.body_a) + " and " + std::to_string(key.body_b);
-    EXPECT_EQ(tool::owner_of(leaves, "prepared[" + std::to_string(i) + "].normals[0].impulse"), slots);
+    EXPECT_EQ(tool::owner_of(fields, "prepared[" + std::to_string(i) + "].normals[0].impulse"), slots);
   }
   const std::string joint = "joint slot " + std::to_string(w.state().joints.states[2].slot);
-  EXPECT_EQ(tool::owner_of(leaves, "joint_constraints[2].point_impulse.x"), joint);
+  EXPECT_EQ(tool::owner_of(fields, "joint_constraints[2].point_impulse.x"), joint);
 }
 
-/// What it says of one stage is not the hash of the leaves that it shows.
+/// What it says of one stage is not the hash of the fields that it shows.
 class OtherHash : public tool::StageSide {
  public:
   OtherHash(const OrderlySide& side, std::size_t point) : side_(side), point_(point) {}
@@ -236,13 +236,13 @@ class OtherHash : public tool::StageSide {
     points.at(point_).hash ^= 1;
     return points;
   }
-  tool::LeafList leaves(const StagePoint& at) const override { return side_.leaves(at); }
+  tool::FieldList fields_at(const StagePoint& at) const override { return side_.fields_at(at); }
 
  private:
   const OrderlySide& side_;
   std::size_t point_;
 };
-TEST_F(Recorded, AHashThatDiffersWhileNoLeafDoesIsSaidToBeThat) {
+TEST_F(Recorded, AHashThatDiffersWhileNoFieldDoesIsSaidToBeThat) {
   const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 6)));
   const OrderlySide orderly(input);
   const auto points = orderly.trace();
@@ -340,17 +340,17 @@ TEST_F(Recorded, DrillsThatStrikeNothingAreErrors) {
        {"", "1", "1:prepare", "1:prepare:tick", "x:prepare:tick:1", "1.0:prepare:tick:1", "1:prepare:tick:one"}) {
     EXPECT_FALSE(read_stage_fault(text, fault)) << text;
   }
-  EXPECT_THROW(tool::played_here(input)->leaves({1, 1, "repair"}), tool::ToolError);
+  EXPECT_THROW(tool::played_here(input)->fields_at({1, 1, "repair"}), tool::ToolError);
 }
 
 /// Of a path that another program made up.
-TEST(LeafOwners, NobodyOwnsWhatIsInNoArray) {
-  tool::LeafList leaves;
+TEST(FieldOwners, NobodyOwnsWhatIsInNoArray) {
+  tool::FieldList fields;
   for (const char* path : {"body_slots.first_free", "bodies[x].slot", "bodies[].slot", "bodies[7", "bodies[7].slot",
                            "bodies[99999999999999999999].slot"}) {
-    leaves.add({path, kLeafFormat<std::uint32_t>, 3});
+    fields.add({path, kFieldFormat<std::uint32_t>, 3});
     const bool body = std::string_view(path) == "bodies[7].slot";
-    EXPECT_EQ(tool::owner_of(leaves, path), body ? "body slot 3" : "") << path;
+    EXPECT_EQ(tool::owner_of(fields, path), body ? "body slot 3" : "") << path;
   }
 }
 

@@ -45,9 +45,9 @@ inline bool is_read_only(const std::string& path) {
 
 struct Found {
   std::uint64_t frame;
-  NamedLeaf leaf;
+  NamedField field;
 };
-/// Of every stage every array: where it first has a leaf, and the last one that it has then.
+/// Of every stage every array: where it first has a field, and the last one that it has then.
 using Survey = std::map<std::pair<std::string, std::string>, Found>;
 
 template <class W> class Surveyor {
@@ -60,7 +60,7 @@ template <class W> class Surveyor {
       const Result<void> played = play_commands<typename W::Command>(
           replay.frame(frame_).input, [&](const typename W::Command& command) { return world_.apply(command); },
           [&] {
-            look("commands", world_.leaves());
+            look("commands", world_.state_fields());
             world_.step({&Surveyor::after, this});
           });
       EXPECT_TRUE(played.ok());
@@ -74,16 +74,16 @@ template <class W> class Surveyor {
   }
   void look(const char* stage, const StageView& view) {
     stage_ = stage;
-    const LeafSink sink = {[](void* user, const PathPart& path, LeafFormat format, std::uint64_t bits) {
-                             static_cast<Surveyor*>(user)->take({path_text(path), format, bits});
-                           },
-                           this};
+    const FieldSink sink = {[](void* user, const PathPart& path, FieldFormat format, std::uint64_t bits) {
+                              static_cast<Surveyor*>(user)->take({path_text(path), format, bits});
+                            },
+                            this};
     view.visit(sink);
   }
-  void take(NamedLeaf leaf) {
-    if (is_read_only(leaf.path)) return;
-    const auto [place, fresh] = survey_.try_emplace({stage_, array_of(leaf.path)}, Found{frame_, leaf});
-    if (place->second.frame == frame_) place->second.leaf = std::move(leaf);
+  void take(NamedField field) {
+    if (is_read_only(field.path)) return;
+    const auto [place, fresh] = survey_.try_emplace({stage_, array_of(field.path)}, Found{frame_, field});
+    if (place->second.frame == frame_) place->second.field = std::move(field);
   }
 
   W world_;
@@ -97,7 +97,7 @@ class OrderlySide : public tool::StageSide {
  public:
   explicit OrderlySide(const tool::Input& input) : side_(tool::played_here(input)), trace_(side_->trace()) {}
   std::vector<tool::TracePoint> trace() const override { return trace_; }
-  tool::LeafList leaves(const StagePoint& at) const override { return side_->leaves(at); }
+  tool::FieldList fields_at(const StagePoint& at) const override { return side_->fields_at(at); }
 
  private:
   std::unique_ptr<tool::StageSide> side_;
@@ -105,16 +105,16 @@ class OrderlySide : public tool::StageSide {
 };
 
 /// A bit whose turning moves any value by a power of two of steps: not the sign's.
-inline std::uint32_t bit_of(const NamedLeaf& leaf) {
-  if (leaf.format.kind == LeafKind::boolean) return 0;
-  return static_cast<std::uint32_t>((leaf.bits ^ leaf.bits >> 17 ^ leaf.path.size()) % (8 * leaf.format.size - 1));
+inline std::uint32_t bit_of(const NamedField& field) {
+  if (field.format.kind == FieldKind::boolean) return 0;
+  return static_cast<std::uint32_t>((field.bits ^ field.bits >> 17 ^ field.path.size()) % (8 * field.format.size - 1));
 }
 /// "bodies[3].velocity.x: 1.5 | 1.25 (0x3fc00000 | 0x3fa00000), 2097152 ulp apart"
-inline std::string difference_of(const NamedLeaf& leaf, std::uint32_t bit) {
-  const std::uint64_t other = leaf.bits ^ std::uint64_t{1} << bit;
-  const char* unit = leaf.format.kind != LeafKind::scalar ? "" : leaf.format.scalar_id >> 16 == 1 ? " ulp" : " lsb";
-  return leaf.path + ": " + value_text(leaf.format, leaf.bits) + " | " + value_text(leaf.format, other) + " (" +
-         bits_text(leaf.format, leaf.bits) + " | " + bits_text(leaf.format, other) + "), " +
+inline std::string difference_of(const NamedField& field, std::uint32_t bit) {
+  const std::uint64_t other = field.bits ^ std::uint64_t{1} << bit;
+  const char* unit = field.format.kind != FieldKind::scalar ? "" : field.format.scalar_id >> 16 == 1 ? " ulp" : " lsb";
+  return field.path + ": " + value_text(field.format, field.bits) + " | " + value_text(field.format, other) + " (" +
+         bits_text(field.format, field.bits) + " | " + bits_text(field.format, other) + "), " +
          std::to_string(std::uint64_t{1} << bit) + unit + " apart";
 }
 
@@ -125,17 +125,17 @@ inline std::string said(const tool::Input& input, const tool::StageSide& a, cons
   return testing::internal::GetCapturedStdout();
 }
 
-/// Turns a bit of what the survey found, looks, turns it back: exactly this leaf must be named, after this stage.
+/// Turns a bit of what the survey found, looks, turns it back: exactly this field must be named, after this stage.
 /// `owner_kind`: how what stands in brackets begins; empty: there is none; "*": whatever there is.
 inline void expect_named(const tool::Input& input, const OrderlySide& orderly, const std::string& stage,
                          const Found& found, const std::string& owner_kind) {
-  const StageFault fault = {{found.frame, 1, stage}, found.leaf.path, bit_of(found.leaf), true};
+  const StageFault fault = {{found.frame, 1, stage}, found.field.path, bit_of(found.field), true};
   StagedReplay how;
   how.frames = found.frame + 1;
   how.fault = &fault;
   const std::string out = said(input, orderly, *tool::played_here(input, how), 1);
   const std::string expected =
-      "frame " + std::to_string(found.frame) + ", stage " + stage + "\n  " + difference_of(found.leaf, fault.bit);
+      "frame " + std::to_string(found.frame) + ", stage " + stage + "\n  " + difference_of(found.field, fault.bit);
   EXPECT_EQ(out.substr(0, expected.size()), expected);
   if (out.size() < expected.size()) return;
   const std::string rest = out.substr(expected.size());
@@ -143,7 +143,7 @@ inline void expect_named(const tool::Input& input, const OrderlySide& orderly, c
     EXPECT_EQ(rest.rfind(owner_kind.empty() ? "\n" : " [" + owner_kind, 0), 0u) << out;
   }
   EXPECT_NE(rest.find("\n  1 of "), std::string::npos) << out;
-  EXPECT_EQ(rest.find('\n', rest.find(" leaves differ")), rest.size() - 1) << out;
+  EXPECT_EQ(rest.find('\n', rest.find(" fields differ")), rest.size() - 1) << out;
 }
 
 }  // namespace isostep::test

@@ -1,36 +1,36 @@
-// `isostep diff --stages --prover-b`: the lines in which another program tells its leaves and traces; programs that
+// `isostep diff --stages --prover-b`: the lines in which another program tells its fields and traces; programs that
 // tell something else.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 #include "isostep/state/value_text.hpp"
 #include "unit/tool/staged_recordings.hpp"
 
 namespace isostep::test {
 namespace {
 
-TEST(LeafLines, ReadBackAsTheyWere) {
-  const NamedLeaf leaves[] = {{"a", kLeafFormat<bool>, 1},
-                              {"b[3].c", kLeafFormat<std::int32_t>, 0xfffffffeu},
-                              {"tick", kLeafFormat<std::uint64_t>, 77},
-                              {"x", kLeafFormat<float>, 0x3fc00000},
-                              {"y", kLeafFormat<double>, 0x3ff8000000000000},
-                              {"z", kLeafFormat<Q16_16>, 0xffff0000u},
-                              {"w", kLeafFormat<Unit<Q32_32>>, 3}};
-  for (const NamedLeaf& leaf : leaves) {
-    NamedLeaf read;
-    ASSERT_TRUE(read_leaf_line(leaf_line(leaf), read)) << leaf_line(leaf);
-    EXPECT_EQ(read.path, leaf.path);
-    EXPECT_EQ(read.bits, leaf.bits);
-    EXPECT_EQ(value_text(read.format, read.bits), value_text(leaf.format, leaf.bits));
+TEST(FieldLines, ReadBackAsTheyWere) {
+  const NamedField fields[] = {{"a", kFieldFormat<bool>, 1},
+                               {"b[3].c", kFieldFormat<std::int32_t>, 0xfffffffeu},
+                               {"tick", kFieldFormat<std::uint64_t>, 77},
+                               {"x", kFieldFormat<float>, 0x3fc00000},
+                               {"y", kFieldFormat<double>, 0x3ff8000000000000},
+                               {"z", kFieldFormat<Q16_16>, 0xffff0000u},
+                               {"w", kFieldFormat<Unit<Q32_32>>, 3}};
+  for (const NamedField& field : fields) {
+    NamedField read;
+    ASSERT_TRUE(read_field_line(field_line(field), read)) << field_line(field);
+    EXPECT_EQ(read.path, field.path);
+    EXPECT_EQ(read.bits, field.bits);
+    EXPECT_EQ(value_text(read.format, read.bits), value_text(field.format, field.bits));
   }
-  EXPECT_EQ(leaf_line(leaves[3]), "x\tf32.24\t0x3fc00000");
-  NamedLeaf read;
+  EXPECT_EQ(field_line(fields[3]), "x\tf32.24\t0x3fc00000");
+  NamedField read;
   for (const char* text :
        {"", "x", "x\tf32.24", "\tf32.24\t0x3fc00000", "x\tf32.24\t0x3fc0000", "x\tf33.24\t0x3fc00000",
         "x\tf32\t0x3fc00000", "x\tv32\t0x3fc00000", "x\tu32.1\t0x3fc00000", "x\tu32\t0x3fcG0000"}) {
-    EXPECT_FALSE(read_leaf_line(text, read)) << text;
+    EXPECT_FALSE(read_field_line(text, read)) << text;
   }
 }
 

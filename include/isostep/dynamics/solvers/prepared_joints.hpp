@@ -28,7 +28,7 @@ template <class S> class PreparedJoints {
   ISO_INLINE JointConstraint<S>& operator[](std::size_t i) { return joints_[i]; }
   ISO_INLINE std::span<JointConstraint<S>> all() { return joints_; }
 
-  /// Once solved, the impulses alone: solver_leaves.inl.
+  /// Once solved, the impulses alone: solver_fields.inl.
   template <class Visit> void visit_scratch(const Visit& visit, bool solved);
 
  private:

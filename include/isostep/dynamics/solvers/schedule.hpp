@@ -25,15 +25,16 @@ namespace detail {
 // Contacts are springs of an eighth of the sub-step rate. A quarter, all that one spring alone allows, leaves a wall of
 // 210 boxes trembling at 1e-3 J/kg, an eighth at 1e-9: springs that share a body stiffen one another and one pass over
 // them does not converge. Nor do they at a damping of 5.5: 2e-7. Softer ones sag: a stack of n boxes would sag
-// 4.5 n^2 / substeps^2 mm without kPenetrationBias, and one that would sag 100 buckles. The angle a sub-step is pi / 4 whatever
-// the rate, and so the coefficients are constants.
+// 4.5 n^2 / substeps^2 mm without kPenetrationBias, and one that would sag 100 buckles. The angle a sub-step is pi / 4
+// whatever the rate, and so the coefficients are constants.
 template <class S> inline constexpr S kContactAngle = S(0.785398163397448309616);  // [rad]
 template <class S> inline constexpr S kContactDamping = S(4.5);                    // [1] of critical
 
-// Sag lasts, trembling does not. So a step aims not at touching but higher, by kPenetrationBias of the overlap it begins with:
-// springs are stiffer by that against what outlasts a step, no stiffer within it. Rest is at 1 / (1 + kPenetrationBias) of the
-// sag. From step to step an error turns into -kPenetrationBias of itself at most: below 1 it dies out whatever the sub-steps. Deep
-// overlap comes of impacts, which need no more push; the bound also keeps what is added small in every format.
+// Sag lasts, trembling does not. So a step aims not at touching but higher, by kPenetrationBias of the overlap it
+// begins with: springs are stiffer by that against what outlasts a step, no stiffer within it. Rest is at
+// 1 / (1 + kPenetrationBias) of the sag. From step to step an error turns into -kPenetrationBias of itself at most:
+// below 1 it dies out whatever the sub-steps. Deep overlap comes of impacts, which need no more push; the bound also
+// keeps what is added small in every format.
 template <class S> inline constexpr S kPenetrationBias = S(0.5);           // [1]
 template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m]
 

@@ -1,12 +1,12 @@
-// WorldEngine: its state and what each stage leaves behind, leaf by leaf.
+// WorldEngine: its state and what each stage leaves behind, field by field.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>
 #include <utility>
 
-#include "isostep/dynamics/solvers/solver_leaves.inl"
-#include "isostep/state/leaves.inl"
+#include "isostep/dynamics/solvers/solver_fields.inl"
+#include "isostep/state/fields.inl"
 #include "isostep/world/engine.hpp"
 
 namespace isostep {
@@ -40,18 +40,18 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
 
 template <class S>
 template <class Visit>
-void WorldEngine<S>::visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit) {
-  if (part == LeafPart::scratch) {
+void WorldEngine<S>::visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit) {
+  if (group == FieldGroup::scratch) {
     if (stage < kStages) visit_scratch(visit, static_cast<Stage>(stage));
   } else {
-    WorldState<S>::members(StateLeaves(visit), state_);
+    WorldState<S>::members(StateFields(visit), state_);
   }
 }
 
 template <class S>
-void WorldEngine<S>::walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink) {
-  const LeafReading reading = {sink};
-  static_cast<WorldEngine*>(engine)->visit_leaves(part, stage, LeafVisitor(nullptr, reading));
+void WorldEngine<S>::walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink) {
+  const FieldReading reading = {sink};
+  static_cast<WorldEngine*>(engine)->visit_fields(group, stage, FieldVisitor(nullptr, reading));
 }
 
 }  // namespace isostep

@@ -1,8 +1,8 @@
-// Leaves as lines of text, for two programs that compare theirs.
+// Fields as lines of text, for two programs that compare theirs.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 
 namespace isostep {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 // follow the point (q) or make the mantissa (f): what ScalarTraits::kId says.
 constexpr char kLetters[] = {'b', 'i', 'u'};
 
-std::string format_text(LeafFormat format) {
+std::string format_text(FieldFormat format) {
   char text[32];
-  if (format.kind != LeafKind::scalar) {
+  if (format.kind != FieldKind::scalar) {
     std::snprintf(text, sizeof text, "%c%u", kLetters[static_cast<std::uint32_t>(format.kind)], 8u * format.size);
   } else {
     std::snprintf(text, sizeof text, "%c%u.%u", format.scalar_id >> 16 == 1 ? 'f' : 'q', 8u * format.size,
@@ -32,20 +32,20 @@ bool take_number(std::string_view& text, std::uint32_t& number) {
   return digits != 0;
 }
 
-bool read_format(std::string_view text, LeafFormat& format) {
+bool read_format(std::string_view text, FieldFormat& format) {
   if (text.empty()) return false;
   const char letter = text.front();
   text.remove_prefix(1);
   std::uint32_t bits = 0, part = 0;
   if (!take_number(text, bits) || (bits != 8 && bits != 16 && bits != 32 && bits != 64)) return false;
   for (std::uint32_t kind = 0; kind < sizeof kLetters; ++kind) {
-    format = {static_cast<LeafKind>(kind), bits / 8, 0};
+    format = {static_cast<FieldKind>(kind), bits / 8, 0};
     if (letter == kLetters[kind]) return text.empty();
   }
   if ((letter != 'f' && letter != 'q') || text.empty() || text.front() != '.') return false;
   text.remove_prefix(1);
   if (!take_number(text, part) || part > bits || !text.empty()) return false;
-  format = {LeafKind::scalar, bits / 8, (letter == 'f' ? 1u : 2u) << 16 | bits << 8 | part};
+  format = {FieldKind::scalar, bits / 8, (letter == 'f' ? 1u : 2u) << 16 | bits << 8 | part};
   return true;
 }
 
@@ -62,16 +62,16 @@ bool read_bits(std::string_view text, std::uint32_t size, std::uint64_t& bits) {
 
 }  // namespace
 
-std::string leaf_line(const NamedLeaf& leaf) {
-  return leaf.path + "\t" + format_text(leaf.format) + "\t" + bits_text(leaf.format, leaf.bits);
+std::string field_line(const NamedField& field) {
+  return field.path + "\t" + format_text(field.format) + "\t" + bits_text(field.format, field.bits);
 }
 
-bool read_leaf_line(std::string_view line, NamedLeaf& leaf) {
+bool read_field_line(std::string_view line, NamedField& field) {
   const std::size_t first = line.find('\t'), last = line.rfind('\t');
   if (first == last || first == 0) return false;
-  leaf.path = line.substr(0, first);
-  return read_format(line.substr(first + 1, last - first - 1), leaf.format) &&
-         read_bits(line.substr(last + 1), leaf.format.size, leaf.bits);
+  field.path = line.substr(0, first);
+  return read_format(line.substr(first + 1, last - first - 1), field.format) &&
+         read_bits(line.substr(last + 1), field.format.size, field.bits);
 }
 
 }  // namespace isostep

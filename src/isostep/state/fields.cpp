@@ -1,14 +1,14 @@
-// Leaves as hashes.
+// Fields as hashes.
 // SPDX-License-Identifier: MIT
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 
 #include "isostep/state/hash.hpp"
 
 namespace isostep {
 namespace {
 
-/// Bits of leaves one after another, a stretch at a time.
-class LeafHash {
+/// Bits of fields one after another, a stretch at a time.
+class FieldHash {
  public:
   void add(std::uint64_t bits) {
     if (filled_ == sizeof words_) flush();
@@ -36,14 +36,14 @@ class LeafHash {
 
 }  // namespace
 
-StageView::StageView(const LeafSource& source, std::uint32_t stage) : source_(source), stage_(stage) {}
+StageView::StageView(const FieldSource& source, std::uint32_t stage) : source_(source), stage_(stage) {}
 
 std::uint64_t StageView::hash() const {
-  LeafHash scratch;
-  const LeafSink sink = {
-      [](void* user, const PathPart&, LeafFormat, std::uint64_t bits) { static_cast<LeafHash*>(user)->add(bits); },
+  FieldHash scratch;
+  const FieldSink sink = {
+      [](void* user, const PathPart&, FieldFormat, std::uint64_t bits) { static_cast<FieldHash*>(user)->add(bits); },
       &scratch};
-  source_.walk(source_.engine, LeafPart::scratch, stage_, sink);
+  source_.walk(source_.engine, FieldGroup::scratch, stage_, sink);
   const std::uint64_t state = source_.state_hash(source_.engine);
   if (!scratch.any()) return state;
   HashCombiner combiner;
@@ -52,9 +52,9 @@ std::uint64_t StageView::hash() const {
   return combiner.value();
 }
 
-void StageView::visit(const LeafSink& sink) const {
-  source_.walk(source_.engine, LeafPart::state, stage_, sink);
-  source_.walk(source_.engine, LeafPart::scratch, stage_, sink);
+void StageView::visit(const FieldSink& sink) const {
+  source_.walk(source_.engine, FieldGroup::state, stage_, sink);
+  source_.walk(source_.engine, FieldGroup::scratch, stage_, sink);
 }
 
 }  // namespace isostep

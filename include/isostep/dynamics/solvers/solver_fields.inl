@@ -7,7 +7,7 @@
 #include <span>
 
 #include "isostep/dynamics/body_inertia.hpp"
-#include "isostep/dynamics/solvers/contact_leaves.inl"
+#include "isostep/dynamics/solvers/contact_fields.inl"
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 #include "isostep/dynamics/solvers/worst_first.hpp"

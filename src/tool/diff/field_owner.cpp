@@ -1,9 +1,9 @@
-// Whose a leaf is: from an array's name and an index to the slots that games know bodies, joints and particles by.
+// Whose a field is: from an array's name and an index to the slots that games know bodies, joints and particles by.
 // SPDX-License-Identifier: MIT
 #include <array>
 
+#include "field_list.hpp"
 #include "isostep/core/number_text.hpp"
-#include "leaf_list.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -40,7 +40,7 @@ template <std::size_t N> bool is_any(std::string_view name, const std::array<con
 
 class Owners {
  public:
-  explicit Owners(const LeafList& leaves) : leaves_(leaves), rigid_(leaves.find("body_slots.first_free") != nullptr) {}
+  explicit Owners(const FieldList& fields) : fields_(fields), rigid_(fields.find("body_slots.first_free") != nullptr) {}
 
   std::string of(std::string_view path) const {
     const std::optional<Item> item = item_of(path, 0);
@@ -49,7 +49,7 @@ class Owners {
   }
 
  private:
-  Slot value(const std::string& path) const { return leaves_.value(path); }
+  Slot value(const std::string& path) const { return fields_.value(path); }
   static std::string named(const char* kind, Slot slot) {
     return slot ? std::string(kind) + " slot " + std::to_string(*slot) : std::string();
   }
@@ -164,16 +164,16 @@ class Owners {
   /// By the paths of both sides' slots; the second is a particle if there is one of that slot.
   std::string of_sides(const std::string& path_a, const std::string& path_b) const {
     const Slot b = value(path_b);
-    const bool particle = b && leaves_.find(Item{"inverse_mass", *b}.text()) != nullptr;
+    const bool particle = b && fields_.find(Item{"inverse_mass", *b}.text()) != nullptr;
     return named("particle", value(path_a), particle ? b : std::nullopt);
   }
 
-  const LeafList& leaves_;
+  const FieldList& fields_;
   bool rigid_;
 };
 
 }  // namespace
 
-std::string owner_of(const LeafList& leaves, std::string_view path) { return Owners(leaves).of(path); }
+std::string owner_of(const FieldList& fields, std::string_view path) { return Owners(fields).of(path); }
 
 }  // namespace isostep::tool

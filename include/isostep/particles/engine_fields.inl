@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "isostep/particles/particle_engine.hpp"
-#include "isostep/state/leaves.inl"
+#include "isostep/state/fields.inl"
 
 namespace isostep {
 namespace {
@@ -109,18 +109,18 @@ void ParticleEngine<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
 
 template <class S>
 template <class Visit>
-void ParticleEngine<S>::visit_leaves(LeafPart part, std::uint32_t stage, const Visit& visit) {
-  if (part == LeafPart::scratch) {
+void ParticleEngine<S>::visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit) {
+  if (group == FieldGroup::scratch) {
     if (stage < kParticleStages) visit_scratch(visit, static_cast<ParticleStage>(stage));
   } else {
-    ParticleState<S>::members(StateLeaves(visit), state_);
+    ParticleState<S>::members(StateFields(visit), state_);
   }
 }
 
 template <class S>
-void ParticleEngine<S>::walk_leaves(void* engine, LeafPart part, std::uint32_t stage, const LeafSink& sink) {
-  const LeafReading reading = {sink};
-  static_cast<ParticleEngine*>(engine)->visit_leaves(part, stage, LeafVisitor(nullptr, reading));
+void ParticleEngine<S>::walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink) {
+  const FieldReading reading = {sink};
+  static_cast<ParticleEngine*>(engine)->visit_fields(group, stage, FieldVisitor(nullptr, reading));
 }
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// The visitor that takes engines apart into leaves. For files that instantiate an engine's walk; all of it has internal
+// The visitor that takes engines apart into fields. For files that instantiate an engine's walk; all of it has internal
 // linkage, so no two objects share a symbol of it.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -10,14 +10,14 @@
 #include <utility>
 
 #include "isostep/core/slot_map.hpp"
-#include "isostep/state/leaves.hpp"
+#include "isostep/state/fields.hpp"
 
 namespace isostep {
 namespace {
 
 /// A vector, a span, an array in pages.
 template <class T>
-concept LeafList = requires(T& list) {
+concept FieldList = requires(T& list) {
   list.size();
   list[0];
 };
@@ -25,29 +25,29 @@ concept LeafList = requires(T& list) {
 /// A copy of a part of T, to be written only where T may be.
 template <class T, class Part> using ConstAs = std::conditional_t<std::is_const_v<T>, const Part, Part>;
 
-/// Tells a sink of every leaf.
-struct LeafReading {
+/// Tells a sink of every field.
+struct FieldReading {
   static constexpr bool kEdits = false;
-  const LeafSink& sink;
+  const FieldSink& sink;
 
-  void operator()(const PathPart& path, LeafFormat format, std::uint64_t bits) const {
-    sink.leaf(sink.user, path, format, bits);
+  void operator()(const PathPart& path, FieldFormat format, std::uint64_t bits) const {
+    sink.field(sink.user, path, format, bits);
   }
 };
 
-template <class Visitor, class T> void walk_leaves(const PathPart& path, const Visitor& visit, T& value);
+template <class Visitor, class T> void walk_fields(const PathPart& path, const Visitor& visit, T& value);
 
-/// visit("name", value) for a leaf, a struct with `fields`, an array or a list of such. `Access` is LeafReading, or
-/// with kEdits returns the bits that a leaf is to have: leaves that are not const get them.
-template <class Access> class LeafVisitor {
+/// visit("name", value) for a number, a struct with `fields`, an array or a list of such. `Access` is FieldReading, or
+/// with kEdits returns the bits that a field is to have: fields that are not const get them.
+template <class Access> class FieldVisitor {
  public:
   static constexpr bool kEdits = Access::kEdits;
 
-  LeafVisitor(const PathPart* outer, const Access& access) : outer_(outer), access_(access) {}
-  LeafVisitor(const PathPart& outer, const LeafVisitor& other) : LeafVisitor(&outer, other.access_) {}
+  FieldVisitor(const PathPart* outer, const Access& access) : outer_(outer), access_(access) {}
+  FieldVisitor(const PathPart& outer, const FieldVisitor& other) : FieldVisitor(&outer, other.access_) {}
 
   template <class T> void operator()(const char* name, T&& value) const {
-    walk_leaves(PathPart{outer_, name, 0}, *this, value);
+    walk_fields(PathPart{outer_, name, 0}, *this, value);
   }
   /// For items that are made only to be looked at, or of which not all is there: each(visitor of the item, index).
   template <class Each> void each(const char* name, std::size_t count, Each&& each) const {
@@ -55,43 +55,43 @@ template <class Access> class LeafVisitor {
     tell_count(list, count);
     for (std::size_t i = 0; i < count; ++i) {
       const PathPart item{&list, nullptr, i};
-      each(LeafVisitor(item, *this), i);
+      each(FieldVisitor(item, *this), i);
     }
   }
   /// An item by itself, under the index that it has elsewhere.
   template <class Each> void one(const char* name, std::size_t index, Each&& each) const {
     const PathPart list{outer_, name, 0};
     const PathPart item{&list, nullptr, index};
-    each(LeafVisitor(item, *this));
+    each(FieldVisitor(item, *this));
   }
   void tell_count(const PathPart& list, std::size_t count) const {
     const auto words = static_cast<std::uint64_t>(count);
-    leaf(PathPart{&list, "count", 0}, words);
+    field(PathPart{&list, "count", 0}, words);
   }
 
-  template <class T> void leaf(const PathPart& path, T& value) const {
+  template <class T> void field(const PathPart& path, T& value) const {
     using Bare = std::remove_const_t<T>;
-    visit_bits(path, kLeafFormat<Bare>, value, leaf_bits(value),
-               [](std::uint64_t wanted) { return leaf_from_bits<Bare>(static_cast<LeafBits<Bare>>(wanted)); });
+    visit_bits(path, kFieldFormat<Bare>, value, field_bits(value),
+               [](std::uint64_t wanted) { return field_from_bits<Bare>(static_cast<FieldBits<Bare>>(wanted)); });
   }
   /// A format of fixed point that is no Scalar by itself: steps of time.
-  template <class T> void fixed_leaf(const PathPart& path, T& value) const {
+  template <class T> void fixed_field(const PathPart& path, T& value) const {
     using Bare = std::remove_const_t<T>;
     using Raw = typename Bare::Raw;
-    constexpr LeafFormat format = {LeafKind::scalar, sizeof(Raw), ScalarTraits<Bare>::kId};
-    visit_bits(path, format, value, leaf_bits(value.raw()), [](std::uint64_t wanted) {
-      return Bare::from_raw(leaf_from_bits<Raw>(static_cast<LeafBits<Raw>>(wanted)));
+    constexpr FieldFormat format = {FieldKind::scalar, sizeof(Raw), ScalarTraits<Bare>::kId};
+    visit_bits(path, format, value, field_bits(value.raw()), [](std::uint64_t wanted) {
+      return Bare::from_raw(field_from_bits<Raw>(static_cast<FieldBits<Raw>>(wanted)));
     });
   }
   /// As a part of what is visited.
   template <class Inside> void within(const char* name, const Inside& inside) const {
     const PathPart part{outer_, name, 0};
-    inside(LeafVisitor(part, *this));
+    inside(FieldVisitor(part, *this));
   }
 
  private:
   template <class T, class FromBits>
-  void visit_bits(const PathPart& path, LeafFormat format, T& value, std::uint64_t bits, FromBits&& from_bits) const {
+  void visit_bits(const PathPart& path, FieldFormat format, T& value, std::uint64_t bits, FromBits&& from_bits) const {
     if constexpr (!kEdits) {
       access_(path, format, bits);
     } else if constexpr (!std::is_const_v<T>) {
@@ -104,44 +104,44 @@ template <class Access> class LeafVisitor {
   const Access& access_;
 };
 
-template <class Visitor, class T> void walk_leaves(const PathPart& path, const Visitor& visit, T& value) {
+template <class Visitor, class T> void walk_fields(const PathPart& path, const Visitor& visit, T& value) {
   using Bare = std::remove_const_t<T>;
   if constexpr (std::is_bounded_array_v<Bare>) {
     if constexpr (std::extent_v<Bare> == 1) {  // a block of one lane
-      walk_leaves(path, visit, value[0]);
+      walk_fields(path, visit, value[0]);
     } else {
       for (std::size_t i = 0; i < std::extent_v<Bare>; ++i) {
-        walk_leaves(PathPart{&path, nullptr, i}, visit, value[i]);
+        walk_fields(PathPart{&path, nullptr, i}, visit, value[i]);
       }
     }
   } else if constexpr (HasFields<Bare>) {
     Bare::fields(Visitor(path, visit), value);
-  } else if constexpr (Leaf<Bare>) {
-    visit.leaf(path, value);
-  } else if constexpr (LeafList<Bare>) {
+  } else if constexpr (FieldValue<Bare>) {
+    visit.field(path, value);
+  } else if constexpr (FieldList<Bare>) {
     visit.tell_count(path, value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) walk_leaves(PathPart{&path, nullptr, i}, visit, value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i) walk_fields(PathPart{&path, nullptr, i}, visit, value[i]);
   } else if constexpr (requires { typename Bare::Raw; }) {
-    visit.fixed_leaf(path, value);
+    visit.fixed_field(path, value);
   } else if constexpr (requires { value.value(); }) {  // Exact
     ConstAs<T, decltype(value.value())> bare = value.value();
-    visit.leaf(path, bare);
+    visit.field(path, bare);
     if constexpr (Visitor::kEdits && !std::is_const_v<T>) value = Bare(bare);
   } else if constexpr (sizeof(value.raw) <= 8) {  // a sum of products
-    visit.leaf(path, value.raw);
+    visit.field(path, value.raw);
   } else {
     ConstAs<T, UInt128Parts> words = parts(value.raw);
-    visit.leaf(PathPart{&path, "high", 0}, words.high);
-    visit.leaf(PathPart{&path, "low", 0}, words.low);
+    visit.field(PathPart{&path, "high", 0}, words.high);
+    visit.field(PathPart{&path, "low", 0}, words.low);
     if constexpr (Visitor::kEdits && !std::is_const_v<T>) value.raw = int128_from(words);
   }
 }
 
-/// A whole state leaf by leaf: see members.hpp. What copies of a state share is copied first where it is written;
+/// A whole state field by field: see members.hpp. What copies of a state share is copied first where it is written;
 /// islands are never written.
-template <class Visitor> class StateLeaves {
+template <class Visitor> class StateFields {
  public:
-  explicit StateLeaves(const Visitor& visit) : visit_(visit) {}
+  explicit StateFields(const Visitor& visit) : visit_(visit) {}
 
   template <class T> void operator()(const char* name, T& value) const {
     if constexpr (std::is_same_v<std::remove_const_t<T>, SlotMap>) {
