@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "diagnostics/staged_replay.hpp"
 
-#include "diagnostics/fault_drill.hpp"
+#include "diagnostics/fault_injection.hpp"
 #include "isostep/core/number_text.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/state/command_log.hpp"
@@ -20,7 +20,7 @@ struct Watch {
   const FieldSink* fields;
   EditFields edit = nullptr;  // of the world's engine
   std::uint64_t frame = 0;
-  bool struck = false, visited = false;
+  bool injected = false, visited = false;
 
   bool is_at(const StagePoint& point, std::uint32_t step, std::string_view stage) const {
     return point.frame == frame && point.step == step && point.stage == stage;
@@ -28,9 +28,9 @@ struct Watch {
   void look(std::uint32_t step, const char* stage, const StageView& view) {
     const StageFault* const fault = how.fault;
     const bool faulty = fault != nullptr && is_at(fault->at, step, stage);
-    if (faulty) struck = FaultDrill(fault->path, fault->bit).strike(view, edit);
+    if (faulty) injected = FaultInjection(fault->path, fault->bit).inject(view, edit);
     tell(step, stage, view);
-    if (faulty && fault->heals) FaultDrill(fault->path, fault->bit).strike(view, edit);
+    if (faulty && fault->heals) FaultInjection(fault->path, fault->bit).inject(view, edit);
   }
   void tell(std::uint32_t step, const char* stage, const StageView& view) {
     if (trace != nullptr) trace->stage(trace->user, {frame, step, stage, view.hash()});
@@ -98,12 +98,12 @@ Result<void> play(const ReplayReader& replay, Watch& watch) {
   return played;
 }
 
-/// A drill that has not struck is no drill.
+/// A fault that was not injected is an error.
 Result<void> end_of(const Watch& watch) {
   const StageFault* const fault = watch.how.fault;
   const bool reached = fault != nullptr && (watch.at == nullptr || fault->at.frame <= watch.at->frame);
-  if (!reached || watch.struck) return {};
-  return Error{ErrorCode::invalid, "the fault strikes nothing: no such stage, or no such field that may be written",
+  if (!reached || watch.injected) return {};
+  return Error{ErrorCode::invalid, "the fault was not injected: no such stage, or no such field that may be written",
                std::string_view(fault->path)};
 }
 

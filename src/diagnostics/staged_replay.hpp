@@ -29,12 +29,12 @@ struct StagePoint {
 /// "12" or, of a frame with several steps, "12.2"; false for anything else.
 bool read_stage_step(std::string_view text, StagePoint& point);
 
-/// One bit of one field is turned right after the stage: a drill.
+/// One bit of one field is turned right after the stage.
 struct StageFault {
   StagePoint at;
   std::string path;
   std::uint32_t bit = 0;
-  bool heals = false;  // turned back once it has been looked at: an index may be struck, too
+  bool heals = false;  // turned back once it has been looked at: an index may be changed, too
 };
 /// "FRAME[.STEP]:STAGE:PATH:BIT"
 bool read_stage_fault(std::string_view text, StageFault& fault);
@@ -58,7 +58,7 @@ struct TraceSink {
 };
 
 /// Every stage of every step, and the end of every frame. A recording that is cut off is played as far as it goes. What
-/// it says of its behaviour version does not matter, nor do its hashes: `invalid` is a fault that struck nothing, all
+/// it says of its behaviour version does not matter, nor do its hashes: `invalid` is a fault that was not injected, all
 /// else is the file's.
 Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, const TraceSink& sink);
 

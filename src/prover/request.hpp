@@ -19,7 +19,7 @@ struct Request {
   std::vector<std::string_view> operands;
   Simd simd = Simd::best;
   std::uint64_t frames = kAllFrames;  // at most; one or more
-  std::optional<StageFault> fault;    // a drill of trace and fields
+  std::optional<StageFault> fault;    // to inject, of trace and fields
 };
 
 /// Options, "--name value", stand anywhere; the first other word is the command. 0, or the exit status after a line on

@@ -50,7 +50,7 @@ class StageView {
   void visit(const FieldSink& sink) const;
 
  private:
-  friend class FaultDrill;  // of src/diagnostics
+  friend class FaultInjection;  // of src/diagnostics
   FieldSource source_;
   std::uint32_t stage_;
 };

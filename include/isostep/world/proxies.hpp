@@ -33,7 +33,7 @@ template <class S> class Proxies {
 
   /// The pairs alone: trees differ between worlds that agree.
   template <class Visit> void visit_scratch(const Visit& visit) {
-    visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // fault drills write to them
+    visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // injected faults are written to them
   }
 
  private:

@@ -61,7 +61,8 @@ class DemoCommands {
     CommandLine::add_path(command, "--record", peer_.record, "write a replay");
     CommandLine::add_path(command, "--bundle", peer_.bundle, "on a desync, write what `isostep diff` needs");
     command->add_flag("--trace", peer_.trace, "hash every stage, so that a bundle can name it");
-    command->add_option("--fault", peer_.fault, "a drill: before this frame one bit of one body flips on this peer");
+    command->add_option("--fault", peer_.fault,
+                        "fault injection: before this frame one bit of one body flips on this peer");
     command
         ->add_option("--patience", peer_.patience, "seconds until a silent peer is lost [5], no host is given up [20]")
         ->check(CLI::Range(1, 3600));

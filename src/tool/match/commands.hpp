@@ -24,7 +24,7 @@ struct PeerOptions {
   std::string profile;                 // what befalls this peer's packets
   std::string hashes, record, bundle;  // files, or empty
   bool trace = false;                  // stage hashes in bundles
-  int fault = -1;                      // frame of a drill: one bit of one body is flipped
+  int fault = -1;                      // frame of an injected fault: one bit of one body is flipped
   int patience = 0;                    // [s] that a silent peer is waited for; 0: the session's and the transport's own
   bool json = false;
 };

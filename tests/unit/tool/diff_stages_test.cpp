@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "tool/common/tool.hpp"
-#include "unit/tool/drills.hpp"
+#include "unit/tool/fault_injections.hpp"
 #include "unit/tool/staged_recordings.hpp"
 
 namespace isostep::test {
@@ -20,9 +20,9 @@ bool is_part_of(const std::string& array, const std::string& name) {
 }
 
 /// `owners`: of arrays that belong to somebody, whose the printed slot must be. `state`: whether the state's arrays are
-/// struck as well, or just what stages leave in scratch.
+/// written as well, or just what stages leave in scratch.
 template <class W>
-void strike_everything(const tool::Input& input, const std::map<std::string, Arrays>& scratch,
+void inject_everywhere(const tool::Input& input, const std::map<std::string, Arrays>& scratch,
                        const std::map<std::string, std::string>& owners, bool state) {
   const OrderlySide orderly(input);
   const Survey survey = Surveyor<W>().survey(input.bytes);
@@ -122,17 +122,17 @@ const Arrays kBlocks = {"prepared", "prepared[].tangents", "prepared[].normals",
 
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithSoftStep) {
   const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 44)));
-  strike_everything<World<float>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
+  inject_everywhere<World<float>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
                                   true);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithGaussSeidel) {
   const tool::Input input(file("a", rigid_recording<Q32_32>(SolverName::pgs, 44)));
-  strike_everything<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
+  inject_everywhere<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
                                    false);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithWorstFirst) {
   const tool::Input input(file("a", rigid_recording<Q16_16>(SolverName::worst_first, 44)));
-  strike_everything<World<Q16_16>>(
+  inject_everywhere<World<Q16_16>>(
       input, rigid_scratch({"points", "rolling", "held_joints", "ends", "neighbours"}, {}, {"points"}, {}),
       kRigidOwners, false);
 }
@@ -141,7 +141,7 @@ TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithTheDirectSolver) {
   const Arrays islands = {"islands[].joints", "islands[].contacts", "islands[].bodies", "islands[].joint_blocks",
                           "islands[].contact_blocks"};
   const Arrays rows = with(kBlocks, {"islands[].blocks", "islands[].blocks[].rows"});
-  strike_everything<World<double>>(input, rigid_scratch(islands, kBlocks, rows, rows), kRigidOwners, false);
+  inject_everywhere<World<double>>(input, rigid_scratch(islands, kBlocks, rows, rows), kRigidOwners, false);
 }
 
 const std::map<std::string, std::string> kParticleOwners = {
@@ -192,11 +192,11 @@ const std::map<std::string, Arrays> kParticleScratch = {
 
 TEST_F(Recorded, EveryArrayOfEveryStageOfParticlesIsNamed) {
   const tool::Input input(file("a", particle_recording<float>(0, 130)));
-  strike_everything<ParticleWorld<float>>(input, kParticleScratch, kParticleOwners, true);
+  inject_everywhere<ParticleWorld<float>>(input, kParticleScratch, kParticleOwners, true);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageOfParticlesIsNamedInFixedPoint) {
   const tool::Input input(file("a", particle_recording<Q32_32>(6, 130)));
-  strike_everything<ParticleWorld<Q32_32>>(input, kParticleScratch, kParticleOwners, false);
+  inject_everywhere<ParticleWorld<Q32_32>>(input, kParticleScratch, kParticleOwners, false);
 }
 
 /// Slots that the tool names, from the world itself.
@@ -325,7 +325,7 @@ TEST_F(Recorded, OtherCommandsAndOtherLengthsAreNamed) {
             0u);
 }
 
-TEST_F(Recorded, DrillsThatStrikeNothingAreErrors) {
+TEST_F(Recorded, FaultsThatCannotBeInjectedAreErrors) {
   const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 3)));
   StageFault fault;
   for (const char* text :

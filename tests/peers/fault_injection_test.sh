@@ -1,7 +1,7 @@
 #!/bin/sh
-# The desync drill: one bit of one body flips on the client at a frame, and both peers' bundles must name it.
+# A desync by fault injection: one bit of one body flips on the client at a frame, and both peers' bundles must name it.
 # SPDX-License-Identifier: MIT
-# usage: drill_test.sh TOOL
+# usage: fault_injection_test.sh TOOL
 set -u
 tool=$1
 . "$(dirname "$0")/common.sh"

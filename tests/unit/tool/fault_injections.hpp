@@ -1,4 +1,4 @@
-// Drills of `isostep diff --stages`: a recording, a survey of everything that stages leave in it, a bit of any of that.
+// Fault injection for `isostep diff --stages`: a recording, a survey of all that stages leave, a bit of any of that.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -35,7 +35,7 @@ inline std::string array_of(const std::string& path) {
   return end != 0 ? array.substr(0, end) : array.substr(0, array.find('.'));
 }
 
-/// What no drill may write: it is shared, or how much there is to look at.
+/// Where no fault may be injected: it is shared, or how much there is to look at.
 inline bool is_read_only(const std::string& path) {
   const auto begins = [&](const char* name) { return path.rfind(name, 0) == 0; };
   const bool length = path.size() > 6 && path.compare(path.size() - 6, 6, ".count") == 0;

@@ -1,6 +1,6 @@
-// A drill strikes what may be written, and says of anything else that it struck nothing.
+// A fault is injected into what may be written, and of anything else it is said that none was.
 // SPDX-License-Identifier: MIT
-#include "diagnostics/fault_drill.hpp"
+#include "diagnostics/fault_injection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,37 +59,37 @@ std::vector<NamedField> fields_of(Engine& engine) {
   return fields;
 }
 
-TEST(Fields, ADrillTurnsTheOneBitAndNoOther) {
+TEST(FaultInjection, TurnsTheOneBitAndNoOther) {
   Engine engine;
   const std::vector<NamedField> before = fields_of(engine);
-  int struck = 0;
+  int injected = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].path.rfind("own.", 0) != 0) continue;
-    ++struck;
-    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit)) << before[i].path;
+    ++injected;
+    EXPECT_TRUE(FaultInjection(before[i].path, 3).inject(engine.view(), &Engine::edit)) << before[i].path;
     const std::vector<NamedField> after = fields_of(engine);
     for (std::size_t j = 0; j < before.size(); ++j)
       EXPECT_EQ(after[j].bits, before[j].bits ^ (i == j ? 8u : 0u)) << before[i].path << " at " << before[j].path;
-    EXPECT_TRUE(FaultDrill(before[i].path, 3).strike(engine.view(), &Engine::edit));  // back
+    EXPECT_TRUE(FaultInjection(before[i].path, 3).inject(engine.view(), &Engine::edit));  // back
   }
-  EXPECT_EQ(struck, 6) << "two words of the wide sum";
+  EXPECT_EQ(injected, 6) << "two words of the wide sum";
 }
 
-TEST(Fields, ADrillOnWhatIsSharedStrikesNothing) {
+TEST(FaultInjection, WritesNothingThatIsShared) {
   Engine engine;
   int tried = 0;
   for (const NamedField& field : fields_of(engine)) {
     if (field.path.rfind("shared.", 0) != 0) continue;
     ++tried;
-    EXPECT_FALSE(FaultDrill(field.path, 3).strike(engine.view(), &Engine::edit)) << field.path;
+    EXPECT_FALSE(FaultInjection(field.path, 3).inject(engine.view(), &Engine::edit)) << field.path;
   }
   EXPECT_EQ(tried, 6);
 }
 
-TEST(Fields, ADrillOnWhatIsNotThereStrikesNothing) {
+TEST(FaultInjection, WritesNothingThatIsNotThere) {
   Engine engine;
-  EXPECT_FALSE(FaultDrill("own.cuont", 3).strike(engine.view(), &Engine::edit));
-  EXPECT_FALSE(FaultDrill("own.count", 32).strike(engine.view(), &Engine::edit));
+  EXPECT_FALSE(FaultInjection("own.cuont", 3).inject(engine.view(), &Engine::edit));
+  EXPECT_FALSE(FaultInjection("own.count", 32).inject(engine.view(), &Engine::edit));
 }
 
 }  // namespace
