@@ -25,7 +25,7 @@ class ToolCommands {
     demo_ = add_demo_commands(line);
     add_diff();
     add_selftest();
-    add_rebake();
+    add_regenerate();
     add_lab();
     add_selfcheck();
   }
@@ -105,12 +105,13 @@ class ToolCommands {
         ->check(CLI::Range(1, CommandLine::kMostFrames))
         ->capture_default_str();
   }
-  void add_rebake() {
-    CLI::App* command =
-        line_.add("rebake", "rewrite the golden hashes, on purpose", [this] { return command_rebake(rebake_); });
-    CommandLine::add_path(command, "--dir", rebake_.directory, "where to [the repository]");
-    command->add_flag("--recordings", rebake_.record, "instead the self-check's recordings, of this build's behaviour");
-    command->footer("./isostep rebake does both, and builds in between: the behaviour is a digest of the lists.");
+  void add_regenerate() {
+    CLI::App* command = line_.add("regenerate", "rewrite the golden hashes, on purpose",
+                                  [this] { return command_regenerate(regenerate_); });
+    CommandLine::add_path(command, "--dir", regenerate_.directory, "where to [the repository]");
+    command->add_flag("--recordings", regenerate_.record,
+                      "instead the self-check's recordings, of this build's behaviour");
+    command->footer("./isostep regenerate does both, and builds in between: the behaviour is a digest of the lists.");
   }
   void add_lab() {
     CLI::App* lab = line_.app().add_subcommand(
@@ -181,7 +182,7 @@ class ToolCommands {
   RunOptions run_;
   DiffOptions diff_;
   SelftestOptions selftest_;
-  RebakeOptions rebake_;
+  RegenerateOptions regenerate_;
   SelfcheckOptions selfcheck_;
   LabOptions lab_;
   LabSpringsOptions lab_springs_;

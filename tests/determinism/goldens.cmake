@@ -8,7 +8,7 @@ endif()
 execute_process(COMMAND ${TOOL} verify --jobs 2 ${REPLAYS} RESULT_VARIABLE result OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
-  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `./isostep rebake` and a RESULT line in "
+  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `./isostep regenerate` and a RESULT line in "
     "CHANGELOG.md; recordings of another behaviour need the same\n${output}")
 endif()
 string(REGEX MATCHALL "VERIFIED" verified "${output}")

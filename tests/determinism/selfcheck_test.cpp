@@ -98,7 +98,7 @@ template <class S> std::size_t expect_lanes(const SelfcheckResult& result) {
 TEST(Selfcheck, FindsThisBuildSoundInEveryScalarWithEverySetOfLanes) {
   const SelfcheckResult result = selfcheck();
   ASSERT_TRUE(result.sound()) << describe(result)
-                              << "\nrecordings of another behaviour version are renewed by ./isostep rebake";
+                              << "\nrecordings of another behaviour version are renewed by ./isostep regenerate";
   EXPECT_EQ(result.caller, 0u) << deviation_names(result.caller);
   std::size_t sets = 0;
   any_scalar([&](auto tag) {
@@ -119,7 +119,7 @@ template <class S> struct Methods {
 
   void look_at(const SelfcheckRecording& recording) {
     const ReplayReader replay(recording.file);
-    EXPECT_EQ(replay.header().find("compiler"), nullptr) << "a rebake elsewhere would give other bytes";
+    EXPECT_EQ(replay.header().find("compiler"), nullptr) << "regenerating elsewhere would give other bytes";
     World<S> bodies;
     if (read_whole(bodies, replay.state())) {
       EXPECT_EQ(bodies.tick() + bodies.counts().bodies + bodies.counts().shapes, 0u) << recording.name;

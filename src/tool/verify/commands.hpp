@@ -1,4 +1,4 @@
-// The commands verify, rebake and selfcheck: what each is told; each returns an exit status.
+// The commands verify, regenerate and selfcheck: what each is told; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,11 +16,11 @@ struct VerifyOptions {
 };
 int command_verify(const VerifyOptions& options);
 
-struct RebakeOptions {
+struct RegenerateOptions {
   std::string directory;  // empty: the repository's
   bool record = false;    // the self-check's recordings instead of the lists
 };
-int command_rebake(const RebakeOptions& options);
+int command_regenerate(const RegenerateOptions& options);
 
 struct SelfcheckOptions {
   bool verbose = false, json = false;

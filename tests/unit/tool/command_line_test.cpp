@@ -249,11 +249,11 @@ TEST_F(CommandLine, RefusesEmptyWordsThatNameAProverAFileOrADirectory) {
   for (const std::string& blank : std::vector<std::string>{"", " \t"}) {
     expect_one_line(run({"diff", "--stages", "--prover-a", blank, path("a")}), 64, "--prover-a");
     expect_one_line(run({"diff", "--stages", "--prover-b", blank, path("a")}), 64, "--prover-b");
-    expect_one_line(run({"rebake", "--recordings", "--dir", blank}), 64, "--dir");
+    expect_one_line(run({"regenerate", "--recordings", "--dir", blank}), 64, "--dir");
     for (const char* option : {"--load", "--save", "--record", "--hashes", "--dump", "--html"})
       expect_one_line(run({"run", "S1x5", "--frames", "1", option, blank}), 64, option);
   }
-  expect_one_line(run({"rebake", "nonsense"}), 64, "nonsense");
+  expect_one_line(run({"regenerate", "nonsense"}), 64, "nonsense");
 }
 
 TEST_F(CommandLine, HoldsTheLawOfRestoring) {
@@ -280,14 +280,14 @@ TEST_F(CommandLine, ChecksItself) {
 
 /// Recorded anew they are the files that the library carries, byte for byte, whoever records.
 TEST_F(CommandLine, RecordsTheSetOfTheSelfCheckAsItIsCommitted) {
-  const Answer answer = run({"rebake", "--recordings", "--dir", path("set")});
+  const Answer answer = run({"regenerate", "--recordings", "--dir", path("set")});
   ASSERT_EQ(answer.status, 0) << answer.err;
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(ISOSTEP_SOURCE_DIR) / "replays" / "selfcheck")) {
     ++files;
     const std::string name = entry.path().filename().string();
-    ASSERT_TRUE(fs::exists(fs::path(path("set")) / name)) << name << ": renew the set by ./isostep rebake";
-    EXPECT_TRUE(read("set/" + name) == content_of(entry.path())) << name << ": renew it by ./isostep rebake";
+    ASSERT_TRUE(fs::exists(fs::path(path("set")) / name)) << name << ": renew the set by ./isostep regenerate";
+    EXPECT_TRUE(read("set/" + name) == content_of(entry.path())) << name << ": renew it by ./isostep regenerate";
   }
   EXPECT_NE(answer.out.find(std::to_string(files) + " of " + std::to_string(files) + " recordings"), std::string::npos)
       << answer.out;

@@ -1,5 +1,5 @@
-// isostep rebake: the golden hashes anew, each list run again with one lane before it is written; and the recordings
-// of the self-check, which carry the behaviour version that the lists make.
+// isostep regenerate: the golden hashes anew, each list run again with one lane before it is written; and the
+// recordings of the self-check, which carry the behaviour version that the lists make.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
@@ -30,20 +30,20 @@ int golden_frames(const std::string& scene) {
   return 120;
 }
 
-struct Baked {
+struct Regenerated {
   std::string name, text;  // of a recording its bytes
 };
 
-template <class Game> Baked bake(const typename Game::Scene& scene) {
+template <class Game> Regenerated regenerate(const typename Game::Scene& scene) {
   Game game(scene);
-  const Baked baked = {golden_name(scene.name, ScalarTraits<typename Game::World::Scalar>::kName),
-                       hash_lines(hashes_of(game, golden_frames(scene.name)))};
-  const CheckedFile checked = check_golden(baked.name, baked.text, Simd::scalar);
+  const Regenerated file = {golden_name(scene.name, ScalarTraits<typename Game::World::Scalar>::kName),
+                            hash_lines(hashes_of(game, golden_frames(scene.name)))};
+  const CheckedFile checked = check_golden(file.name, file.text, Simd::scalar);
   if (status_of(checked) != exit_status::kOk) {
     throw ToolError(exit_status::kSoftware,
-                    baked.name + ": the widest lanes and one lane disagree: " + text_of(checked));
+                    file.name + ": the widest lanes and one lane disagree: " + text_of(checked));
   }
-  return baked;
+  return file;
 }
 
 /// The file as it is now; empty when there is none.
@@ -79,39 +79,40 @@ class Directory {
   int files_ = 0, changed_ = 0;
 };
 
-std::vector<Baked> bake_all() {
-  std::vector<Baked> all;
+std::vector<Regenerated> regenerate_all() {
+  std::vector<Regenerated> all;
   for (const SceneRow& row : scene_rows()) {
     any_scalar([&](auto scalar) {
       const char* name = ScalarTraits<typename decltype(scalar)::Type>::kName;
       std::printf("%s\n", golden_name(row.name, name).c_str());
       std::fflush(stdout);
-      with_named_game(row.name, name,
-                      [&](auto tag, const auto& scene) { all.push_back(bake<typename decltype(tag)::Type>(scene)); });
+      with_named_game(row.name, name, [&](auto tag, const auto& scene) {
+        all.push_back(regenerate<typename decltype(tag)::Type>(scene));
+      });
       return false;
     });
   }
   return all;
 }
 
-int record(const RebakeOptions& options) {
-  std::vector<Baked> all;  // or nothing: half a set renewed is none
+int record(const RegenerateOptions& options) {
+  std::vector<Regenerated> all;  // or nothing: half a set renewed is none
   record_selfcheck([&](const std::string& name, const std::vector<std::uint8_t>& bytes) {
     all.push_back({name, {bytes.begin(), bytes.end()}});
   });
   Directory directory(options.directory.empty() ? ISOSTEP_SELFCHECK_DIR : options.directory);
-  for (const Baked& baked : all) directory.put(baked.name, baked.text);
+  for (const Regenerated& file : all) directory.put(file.name, file.text);
   directory.tell("recordings");
   return exit_status::kOk;
 }
 
 }  // namespace
 
-int command_rebake(const RebakeOptions& options) {
+int command_regenerate(const RegenerateOptions& options) {
   if (options.record) return record(options);
-  const std::vector<Baked> all = bake_all();  // all or nothing
+  const std::vector<Regenerated> all = regenerate_all();  // all or nothing
   Directory directory(options.directory.empty() ? ISOSTEP_GOLDENS_DIR : options.directory);
-  for (const Baked& baked : all) directory.put(baked.name, baked.text);
+  for (const Regenerated& file : all) directory.put(file.name, file.text);
   directory.tell("lists");
   if (directory.is_changed())
     std::printf("Commit them with their recordings and nothing else, and with a RESULT line in CHANGELOG.\n");
