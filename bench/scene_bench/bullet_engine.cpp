@@ -94,10 +94,10 @@ class BulletEngine : public Peer {
   void drive(int frame) override {
     for (std::size_t i = 0; i < bodies().size(); ++i) {
       if (bodies()[i].type != BodyType::kinematic) continue;
-      const Vec3<double> spin = bodies()[i].spin;
-      const double speed = sqrt(dot(spin, spin)), time = (frame + 1) / 60.0;
+      const Vec3<double> angular_velocity = bodies()[i].angular_velocity;
+      const double speed = sqrt(dot(angular_velocity, angular_velocity)), time = (frame + 1) / 60.0;
       const btQuaternion turn =
-          speed > 0 ? btQuaternion(bt(spin * (1 / speed)), bt(speed * time)) : btQuaternion::getIdentity();
+          speed > 0 ? btQuaternion(bt(angular_velocity * (1 / speed)), bt(speed * time)) : btQuaternion::getIdentity();
       bodies_[i].path->setWorldTransform(
           btTransform(turn * bt(bodies()[i].orientation), bt(bodies()[i].position + bodies()[i].velocity * time)));
     }
@@ -128,7 +128,7 @@ class BulletEngine : public Peer {
     info.m_angularDamping = damping(from.angular_damping);
     made.body = std::make_unique<btRigidBody>(info);
     made.body->setLinearVelocity(bt(from.velocity));
-    made.body->setAngularVelocity(bt(from.spin));
+    made.body->setAngularVelocity(bt(from.angular_velocity));
     made.body->setUserIndex(static_cast<int>(from.group));
     if (from.type == BodyType::kinematic) {
       made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);

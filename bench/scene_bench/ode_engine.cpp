@@ -65,7 +65,7 @@ class OdeEngine : public Peer {
     const dBodyID body = bodies_[i].body;
     if (body == nullptr) {
       const PeerBody& fixed = bodies()[i];
-      return {fixed.position, fixed.velocity, fixed.spin, fixed.orientation, false};
+      return {fixed.position, fixed.velocity, fixed.angular_velocity, fixed.orientation, false};
     }
     const dReal* q = dBodyGetQuaternion(body);
     return {ours(dBodyGetPosition(body)), ours(dBodyGetLinearVel(body)), ours(dBodyGetAngularVel(body)),
@@ -126,7 +126,7 @@ class OdeEngine : public Peer {
     dBodySetPosition(body, from.position.x, from.position.y, from.position.z);
     dBodySetQuaternion(body, q);
     dBodySetLinearVel(body, from.velocity.x, from.velocity.y, from.velocity.z);
-    dBodySetAngularVel(body, from.spin.x, from.spin.y, from.spin.z);
+    dBodySetAngularVel(body, from.angular_velocity.x, from.angular_velocity.y, from.angular_velocity.z);
     if (from.type == BodyType::kinematic) {
       dBodySetKinematic(body);
       dBodySetAutoDisableFlag(body, 0);

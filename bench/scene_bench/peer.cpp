@@ -12,7 +12,8 @@ namespace isostep::bench {
 namespace {
 
 bool is_number(const Motion& m) {
-  return is_finite(m.position) && is_finite(m.velocity) && is_finite(m.spin) && std::isfinite(m.orientation.w);
+  return is_finite(m.position) && is_finite(m.velocity) && is_finite(m.angular_velocity) &&
+         std::isfinite(m.orientation.w);
 }
 
 /// From the principal axes to the scene's frame of the body.
@@ -74,7 +75,7 @@ scenes::Sight Peer::sight() const {
     const Motion at = motion(i);
     const bool dynamic = bodies_[i].type == BodyType::dynamic;
     sight.bodies.push_back(
-        {at.position, body_axes(bodies_[i], at), at.velocity, at.spin, dynamic, dynamic && at.awake});
+        {at.position, body_axes(bodies_[i], at), at.velocity, at.angular_velocity, dynamic, dynamic && at.awake});
   }
   sight.joint_error = joint_error();
   sight.energy = energy();
@@ -106,9 +107,9 @@ scenes::Energy Peer::energy() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].type != BodyType::dynamic) continue;
     const Motion at = motion(i);
-    const Vec3<double> spin = transposed_times(to_matrix(at.orientation), at.spin);
-    energy.kinetic +=
-        0.5 * (bodies_[i].mass * dot(at.velocity, at.velocity) + dot(spin, scale(bodies_[i].inertia, spin)));
+    const Vec3<double> angular_velocity = transposed_times(to_matrix(at.orientation), at.angular_velocity);
+    energy.kinetic += 0.5 * (bodies_[i].mass * dot(at.velocity, at.velocity) +
+                             dot(angular_velocity, scale(bodies_[i].inertia, angular_velocity)));
     energy.potential -= bodies_[i].mass * bodies_[i].gravity_scale * dot(gravity_, at.position);
     energy.mass += bodies_[i].mass;
   }

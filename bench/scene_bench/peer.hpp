@@ -9,7 +9,7 @@ namespace isostep::bench {
 
 /// How a peer says where a body is, in the frame of PeerBody.
 struct Motion {
-  Vec3<double> position, velocity, spin;
+  Vec3<double> position, velocity, angular_velocity;
   Quat<double> orientation;
   bool awake;
 };
@@ -35,7 +35,7 @@ class Peer : public Engine {
   virtual Motion motion(std::size_t body) const = 0;
   /// The body at this index is gone; another takes its place.
   virtual void replace(std::size_t body, const PeerBody& by) = 0;
-  virtual void launch(std::size_t body, Vec3<double> velocity) = 0;  // [m/s], and without spin
+  virtual void launch(std::size_t body, Vec3<double> velocity) = 0;  // [m/s], and does not turn
   /// Whoever drives the engine does here what it does not do itself: kinematic bodies, forces.
   virtual void drive(int frame) = 0;
 

@@ -114,7 +114,7 @@ PeerBody peer_body(const scenes::SceneBody& of) {
   for (const scenes::ScenePart& part : of.parts) body.parts.push_back(peer_part(part));
   body.position = real(of.position);
   body.velocity = real(of.velocity);
-  body.spin = real(of.angular_velocity);
+  body.angular_velocity = real(of.angular_velocity);
   body.orientation = normalise(real(of.orientation));
   body.frame = Pose<double>::identity();
   body.friction = real(of.friction);

@@ -21,15 +21,15 @@ struct PeerPart {
 struct PeerBody {
   BodyType type;
   std::vector<PeerPart> parts;
-  Vec3<double> position, velocity, spin;   // [m], [m/s], [rad/s] world; of the centre of mass
-  Quat<double> orientation;                // of the principal axes
-  Pose<double> frame;                      // this frame in the scene's frame of the body
-  double mass;                             // [kg]
-  Vec3<double> inertia;                    // [kg m^2] principal
-  double friction, restitution;            // [1] pairs: root of the product, the larger
-  double gravity_scale;                    // [1]
-  double linear_damping, angular_damping;  // [1/s]
-  std::uint32_t group;                     // bodies of one group other than 0 do not collide
+  Vec3<double> position, velocity, angular_velocity;  // [m], [m/s], [rad/s] world; of the centre of mass
+  Quat<double> orientation;                           // of the principal axes
+  Pose<double> frame;                                 // this frame in the scene's frame of the body
+  double mass;                                        // [kg]
+  Vec3<double> inertia;                               // [kg m^2] principal
+  double friction, restitution;                       // [1] pairs: root of the product, the larger
+  double gravity_scale;                               // [1]
+  double linear_damping, angular_damping;             // [1/s]
+  std::uint32_t group;                                // bodies of one group other than 0 do not collide
   bool collide;
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.

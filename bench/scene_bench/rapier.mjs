@@ -6,7 +6,7 @@
 //   {"launch": [i, v]}       body i flies off with velocity v [m/s]          answer: 0
 //   {"steps": n}             steps                                           answer: CPU time of them all [ms]
 //   {"state": 0}             where everything is     answer: 14 doubles a body (position, quaternion x y z w, velocity,
-//                                                    spin, whether it is awake)
+//                                                    angular velocity, whether it is awake)
 // CPU time is that of this process, all threads, in whole microseconds: other work on the machine does not count.
 import { readSync, writeSync } from "node:fs";
 import { join } from "node:path";
@@ -56,7 +56,7 @@ function make(body, allowSleep) {
   const kinds = { fixed: "fixed", kinematic: "kinematicVelocityBased", dynamic: "dynamic" };
   const description = RAPIER.RigidBodyDesc[kinds[body.type]]();
   description.setTranslation(...body.position).setRotation(rotation(body.orientation));
-  description.setLinvel(...body.velocity).setAngvel(vector(body.spin)).setCanSleep(allowSleep);
+  description.setLinvel(...body.velocity).setAngvel(vector(body.angular_velocity)).setCanSleep(allowSleep);
   description.setGravityScale(body.gravity_scale);
   description.setLinearDamping(body.linear_damping).setAngularDamping(body.angular_damping);
   if (body.type === "dynamic" && body.parts.length > 1) description.setAdditionalMassProperties(...mass(body));

@@ -101,7 +101,7 @@ Json json_of(const PeerBody& body) {
                {"position", json_of(body.position)},
                {"orientation", json_of(body.orientation)},
                {"velocity", json_of(body.velocity)},
-               {"spin", json_of(body.spin)},
+               {"angular_velocity", json_of(body.angular_velocity)},
                {"mass", body.mass},
                {"inertia", json_of(body.inertia)},
                {"friction", body.friction},

@@ -28,7 +28,7 @@ template <class S> struct MatchRules {
   static constexpr S kLean = S(2.5), kFall = S(-10);                        // [m/s^2]
   static constexpr S kHardHit = S(0.6);                                     // [kg m/s]
   static constexpr S kDepth = S(-3);                                        // [m] fallen
-  static constexpr S kSpinDamping = S(1), kAwayDamping = S(4);              // [1/s]
+  static constexpr S kAngularDamping = S(1), kAwayDamping = S(4);           // [1/s]
   static constexpr S kByte = S(0.02454369260617026), kPart = S(0.0078125);  // [rad] 1/256 turn, 1/128
 };
 
@@ -69,7 +69,7 @@ template <class S> void Match<S>::attend(int player, bool away) {
   if (((state_.user.away & bit) != 0) == away) return;
   state_.user.away ^= bit;
   const S linear = away ? MatchRules<S>::kAwayDamping : S(0);
-  state_.world.set_motion(puck(player), S(1), linear, MatchRules<S>::kSpinDamping, 0);
+  state_.world.set_motion(puck(player), S(1), linear, MatchRules<S>::kAngularDamping, 0);
 }
 
 template <class S> bool Match<S>::ready(int player, const MatchInput& input, MatchAction action) {
@@ -173,7 +173,7 @@ template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
   definition.material.friction = S(0.5);
   definition.material.restitution = S(0.25);
   definition.filter.category = match_category::kSpawned;
-  definition.angular_damping = MatchRules<S>::kSpinDamping;
+  definition.angular_damping = MatchRules<S>::kAngularDamping;
   const BodyId body = world.create(definition);
   own.spawned[place] = body;
   own.shapes[place] = definition.shape;

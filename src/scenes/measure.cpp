@@ -148,9 +148,10 @@ template <class S> Energy measure_energy(const World<S>& world) {
     const Vec3<double> velocity = in_double(body.velocity);
     const Mat3<double> axes =
         to_matrix(unit_in_double(body.orientation)) * to_matrix(unit_in_double(properties.principal));
-    const Vec3<double> spin = transposed_times(axes, in_double(body.spin)), kappa = in_double(properties.kappa);
+    const Vec3<double> angular_velocity = transposed_times(axes, in_double(body.angular_velocity)),
+                       kappa = in_double(properties.kappa);
     double square = dot(velocity, velocity);
-    for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? spin[i] * spin[i] / kappa[i] : 0.0;
+    for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? angular_velocity[i] * angular_velocity[i] / kappa[i] : 0.0;
     energy.kinetic += 0.5 * mass * square;
     energy.potential -= mass * to_double(properties.gravity_scale) * dot(gravity, in_double(body.centre));
     energy.mass += mass;

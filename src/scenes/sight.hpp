@@ -11,10 +11,10 @@
 namespace isostep::scenes {
 
 struct BodySight {
-  Vec3<double> centre = {0, 0, 0};          // [m] centre of mass, world
-  Quat<double> orientation = {0, 0, 0, 1};  // body frame to world
-  Vec3<double> velocity = {0, 0, 0};        // [m/s]
-  Vec3<double> spin = {0, 0, 0};            // [rad/s] world
+  Vec3<double> centre = {0, 0, 0};            // [m] centre of mass, world
+  Quat<double> orientation = {0, 0, 0, 1};    // body frame to world
+  Vec3<double> velocity = {0, 0, 0};          // [m/s]
+  Vec3<double> angular_velocity = {0, 0, 0};  // [rad/s] world
   bool dynamic = false;
   bool awake = false;
 };

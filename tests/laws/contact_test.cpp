@@ -138,7 +138,7 @@ TYPED_TEST(ContactLaws, a_sliding_ball_ends_up_rolling_at_five_sevenths_of_its_s
     EXPECT_NEAR(dot(real(w.velocity(id)), heading), 6, 0.07) << "heading " << i;
     run(w, 48);
     EXPECT_NEAR(dot(real(w.velocity(id)), heading), 5, 0.05) << "heading " << i;
-    expect_near(real(w.angular_velocity(id)), D3{heading.z, 0, -heading.x} * 10.0, 0.15, "spin");
+    expect_near(real(w.angular_velocity(id)), D3{heading.z, 0, -heading.x} * 10.0, 0.15, "angular velocity");
   }
 }
 
@@ -283,8 +283,9 @@ TYPED_TEST(ContactLaws, the_energy_of_a_settled_pile_does_not_rise) {
   const auto energy = [&] {
     double sum = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      const D3 v = real(w.velocity(ids[i])), spin = real(w.angular_velocity(ids[i]));
-      sum += 10 * to_double(w.center_of_mass(ids[i]).y) + dot(v, v) / 2 + dot(spin, spin) * moments[i / 4 % 3].x / 2;
+      const D3 v = real(w.velocity(ids[i])), angular_velocity = real(w.angular_velocity(ids[i]));
+      sum += 10 * to_double(w.center_of_mass(ids[i]).y) + dot(v, v) / 2 +
+             dot(angular_velocity, angular_velocity) * moments[i / 4 % 3].x / 2;
     }
     return sum / static_cast<double>(ids.size());
   };

@@ -12,14 +12,14 @@ template <class S> class FlightLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(FlightLaws, AllScalars);
 
 /// Principal moments about the centre, for bodies whose principal axes are their own.
-template <class S> D3 spin_momentum(const World<S>& w, BodyId id, D3 moments) {
+template <class S> D3 angular_momentum(const World<S>& w, BodyId id, D3 moments) {
   const auto q = w.pose(id).orientation;
   const Quat<Unit<S>> back = conjugate(q);
   const D3 local = rotated<S>(back, real(w.angular_velocity(id)));
   return rotated<S>(q, {moments.x * local.x, moments.y * local.y, moments.z * local.z});
 }
-template <class S> double spin_energy(const World<S>& w, BodyId id, D3 moments) {
-  return dot(spin_momentum(w, id, moments), real(w.angular_velocity(id))) / 2;
+template <class S> double rotational_energy(const World<S>& w, BodyId id, D3 moments) {
+  return dot(angular_momentum(w, id, moments), real(w.angular_velocity(id))) / 2;
 }
 
 // O1. Velocity before position: x_n = x_0 + n h v_0 + a h^2 n (n + 1) / 2.
@@ -73,8 +73,8 @@ TYPED_TEST(FlightLaws, a_symmetric_top_precesses_about_its_angular_momentum) {
   d.angular_velocity = vec<S>(1, 8, 0);
   const BodyId id = w.create(d);
   const D3 moments = {0.25 + 0.0625, 0.5, 0.25 + 0.0625};
-  const D3 momentum = spin_momentum(w, id, moments);
-  const double rate = length(momentum) / moments.x, energy = spin_energy(w, id, moments);
+  const D3 momentum = angular_momentum(w, id, moments);
+  const double rate = length(momentum) / moments.x, energy = rotational_energy(w, id, moments);
   const D3 up = momentum * (1 / length(momentum));
   const auto off_axis = [&] {
     const D3 a = rotated<S>(w.pose(id).orientation, {0, 1, 0});
@@ -90,8 +90,8 @@ TYPED_TEST(FlightLaws, a_symmetric_top_precesses_about_its_angular_momentum) {
     previous = angle;
   }
   EXPECT_NEAR(turned, rate, 0.02 * rate);
-  EXPECT_LT(length(spin_momentum(w, id, moments) - momentum), 0.02 * length(momentum));
-  EXPECT_LE(spin_energy(w, id, moments), energy * 1.001);
+  EXPECT_LT(length(angular_momentum(w, id, moments) - momentum), 0.02 * length(momentum));
+  EXPECT_LE(rotational_energy(w, id, moments), energy * 1.001);
 }
 
 // O13. The intermediate axis: I = (1, 2, 3), w = (0.01, 5, 0), flips at 2.633 and 7.899 s (Runge-Kutta, fine steps).
@@ -104,8 +104,8 @@ TYPED_TEST(FlightLaws, a_body_turning_about_its_middle_axis_flips_and_gains_no_e
   d.angular_velocity = vec<S>(0.01, 5, 0);
   const BodyId id = w.create(d);
   const D3 moments = {1, 2, 3};
-  const D3 momentum = spin_momentum(w, id, moments);
-  const double energy = spin_energy(w, id, moments);
+  const D3 momentum = angular_momentum(w, id, moments);
+  const double energy = rotational_energy(w, id, moments);
   std::vector<double> flips;
   double side = 1;
   for (int i = 1; i <= 8 * 60; ++i) {
@@ -116,8 +116,8 @@ TYPED_TEST(FlightLaws, a_body_turning_about_its_middle_axis_flips_and_gains_no_e
       flips.push_back(i / 60.0);
       side = -side;
     }
-    ASSERT_LE(spin_energy(w, id, moments), energy * 1.001) << i;
-    ASSERT_LT(length(spin_momentum(w, id, moments) - momentum), 0.1 * length(momentum)) << i;
+    ASSERT_LE(rotational_energy(w, id, moments), energy * 1.001) << i;
+    ASSERT_LT(length(angular_momentum(w, id, moments) - momentum), 0.1 * length(momentum)) << i;
   }
   ASSERT_GE(flips.size(), 1u);
   EXPECT_NEAR(flips[0], 2.633, pick<S>(0.1, 0.1, 0.4, 0.1));

@@ -8,11 +8,11 @@ namespace {
 template <class S> class LockedTurning : public ::testing::Test {
  protected:
   /// A box of three different moments, 1 kg, askew.
-  static BodyId add_askew(World<S>& w, D3 spin, std::uint32_t locks) {
+  static BodyId add_askew(World<S>& w, D3 angular_velocity, std::uint32_t locks) {
     BodyDefinition<S> d = moving<S>(add_box(w, 2, 0.5, 1), {0, 0, 0});
     d.mass = S(1);
     d.orientation = turn<S>({0.6, 0.48, 0.64}, 1);
-    d.angular_velocity = vec<S>(spin);
+    d.angular_velocity = vec<S>(angular_velocity);
     d.locks = locks;
     d.allow_sleep = false;
     return w.create(d);
@@ -30,18 +30,18 @@ TYPED_TEST_SUITE(LockedTurning, AllScalars);
 
 constexpr std::uint32_t kAboutX = body_flag::kLockAngularX, kAboutZ = body_flag::kLockAngularX << 2;
 
-TYPED_TEST(LockedTurning, an_axis_that_is_no_principal_one_keeps_its_spin) {
+TYPED_TEST(LockedTurning, an_axis_that_is_no_principal_one_keeps_its_angular_velocity) {
   using S = TypeParam;
   for (const SolverName solver :
        {SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct}) {
     for (const std::uint32_t locks : {kAboutX | kAboutZ, kAboutX}) {
-      for (const double spin : {-3.0, 3.0, 12.0}) {
+      for (const double angular_velocity : {-3.0, 3.0, 12.0}) {
         Settings<S> s = settings<S>(0);
         s.solver = solver;
         World<S> w(s);
-        const BodyId body = this->add_askew(w, {0, spin, 0}, locks);
+        const BodyId body = this->add_askew(w, {0, angular_velocity, 0}, locks);
         for (int i = 0; i < 600; ++i) ASSERT_TRUE(w.step().clean());
-        expect_near(real(w.angular_velocity(body)), {0, spin, 0}, 1e-3);
+        expect_near(real(w.angular_velocity(body)), {0, angular_velocity, 0}, 1e-3);
       }
     }
   }

@@ -11,8 +11,8 @@ namespace {
 template <class S> class Overlap : public ::testing::Test {
  protected:
   struct Motion {
-    double speed = 0, spin = 0;  // [m/s], [rad/s] largest of any body at any frame
-    double width = 0;            // [m] between the two that are farthest apart, in the end
+    double speed = 0, angular_speed = 0;  // [m/s], [rad/s] largest of any body at any frame
+    double width = 0;                     // [m] between the two that are farthest apart, in the end
   };
   static Settings<S> weightless(SolverName solver, int substeps) {
     Settings<S> s = settings<S>(0, 60, substeps);
@@ -71,7 +71,7 @@ template <class S> class Overlap : public ::testing::Test {
   static void note(const World<S>& w, const std::vector<BodyId>& bodies, Motion& motion) {
     for (const BodyId id : bodies) {
       motion.speed = std::max(motion.speed, length(real(w.velocity(id))));
-      motion.spin = std::max(motion.spin, length(real(w.angular_velocity(id))));
+      motion.angular_speed = std::max(motion.angular_speed, length(real(w.angular_velocity(id))));
     }
   }
 };
@@ -98,7 +98,7 @@ TYPED_TEST(Overlap, worst_first_parts_a_crowd_without_any_motion) {
 TYPED_TEST(Overlap, what_is_pinched_does_not_spin_away) {
   for (const int substeps : {4, 8}) {
     const auto motion = this->pinch(substeps);
-    EXPECT_LT(motion.spin, substeps == 4 ? 70 : 120) << substeps;
+    EXPECT_LT(motion.angular_speed, substeps == 4 ? 70 : 120) << substeps;
     EXPECT_LT(motion.speed, 2) << substeps;
   }
 }

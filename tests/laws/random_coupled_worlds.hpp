@@ -244,10 +244,10 @@ template <class S> class RandomCoupledWorld {
   void add_body() {
     double reach = 0;
     const ShapeId shape = draw_shape(reach);
-    const double speed = draw_speed(), spin = chance_.one_in(2) ? 0 : 6;
+    const double speed = draw_speed(), angular_speed = chance_.one_in(2) ? 0 : 6;
     const D3 v = chance_.point(speed);
     BodyDefinition<S> d = moving<S>(shape, clear_place(reach), v);
-    d.angular_velocity = vec<S>(chance_.point(spin));
+    d.angular_velocity = vec<S>(chance_.point(angular_speed));
     d.orientation = turn<S>({0.6, 0, 0.8}, chance_.in(0, 6));
     d.mass = num<S>(chance_.one_in(2) ? 1 : chance_.in(0.25, 16));
     d.material.friction = num<S>(slip());

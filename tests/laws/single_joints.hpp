@@ -132,7 +132,7 @@ template <class S> class JointWatch {
     weight_ = j.mass * kFall;
     inertia_ = inertia_about(view, at.anchor, at.axis);
     grain_ = kFall / rate + grain<S>(10) * rate;
-    slow_ = 0.5 * inertia_ * std::pow(to_double(rapid_spin<S>(60)), 2);
+    slow_ = 0.5 * inertia_ * std::pow(to_double(rapid_angular_speed<S>(60)), 2);
     if (j.has(joint_flag::kSpring)) {
       const double w2 = std::pow(2 * kPi * j.frequency, 2);
       sprung_ = 0.5 * inertia_ * w2 * std::pow(at.twist - j.target, 2);
@@ -159,7 +159,7 @@ template <class S> class JointWatch {
       at_ = frame_;
     }
     if (frame_ > trial_.frames - 30) see_end(now, std::sqrt(2 * kinetic_energy(view) / j_.mass));
-    top_spin_ = std::max(top_spin_, std::fabs(now.spin));
+    top_angular_speed_ = std::max(top_angular_speed_, std::fabs(now.angular_velocity));
     top_swing_ = std::max(top_swing_, now.swing);
   }
 
@@ -184,10 +184,10 @@ template <class S> class JointWatch {
     if (must_drive()) {
       f.drove = 1;
       const double reach = std::fabs(j_.speed), bar = 0.05 * reach + grain_ * j_.mass * radius() / inertia_;
-      if (!(end_slip_ <= bar) || !(top_spin_ <= 1.1 * reach + grain_ * j_.mass * radius() / inertia_)) {
+      if (!(end_slip_ <= bar) || !(top_angular_speed_ <= 1.1 * reach + grain_ * j_.mass * radius() / inertia_)) {
         f.motor_off = 1;
-        words << "motor of " << j_.speed << " rad/s off by " << end_slip_ << " at the end, at most " << top_spin_
-              << "; ";
+        words << "motor of " << j_.speed << " rad/s off by " << end_slip_ << " at the end, at most "
+              << top_angular_speed_ << "; ";
       }
     }
     const std::string what = words.str();
@@ -222,7 +222,7 @@ template <class S> class JointWatch {
   }
   void see_end(const JointAngles& now, double speed) {
     end_speed_ = std::max(end_speed_, speed);
-    end_slip_ = std::max(end_slip_, std::fabs(now.spin - j_.speed));
+    end_slip_ = std::max(end_slip_, std::fabs(now.angular_velocity - j_.speed));
     double past = -1;
     // Twist is told apart from swing only while the swing is no half turn.
     if (j_.has(joint_flag::kLimit) && now.swing < 2.5) past = std::max(now.twist - j_.upper, j_.lower - now.twist);
@@ -260,11 +260,11 @@ template <class S> class JointWatch {
   double weight_, inertia_;          // [N], [kg m^2] about the joint
   double grain_;                     // [m/s] of gravity, and of a place's last digit, between two solutions
   double sprung_ = 0;                // [J] in the spring at the start
-  double slow_ = 0;                  // [J] below rapid_spin() inertia is that of the step's beginning: gains end there
-  double turned_ = 0, angle_ = 0;    // [rad]
+  double slow_ = 0;  // [J] below rapid_angular_speed() inertia is that of the step's beginning: gains end there
+  double turned_ = 0, angle_ = 0;  // [rad]
   int frame_ = 0, at_ = 0;
   double excess_ = 0, worst_ = 0, worst_allowed_ = 0;  // [m/s]
-  double end_speed_ = 0, end_past_ = -1, end_slip_ = 0, top_spin_ = 0, top_swing_ = 0;
+  double end_speed_ = 0, end_past_ = -1, end_slip_ = 0, top_angular_speed_ = 0, top_swing_ = 0;
 };
 
 /// `count` joints of one kind from `first` on, side by side in one world, where they never touch.

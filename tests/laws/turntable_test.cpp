@@ -12,12 +12,12 @@ template <class S> class Turntable : public ::testing::Test {
  protected:
   struct Ride {
     double seconds;
-    D3 velocity, spin;             // [m/s], [rad/s] of the platform
-    D3 axis = {0, 0, 1};           // the platform lies turned about this
-    double angle = 0;              // [rad]
-    D3 rider = {1, 0, 0};          // [m] from the platform's middle, in its plane
-    D3 half = {0.25, 0.25, 0.25};  // [m] of the rider
-    double gravity = -10;          // [m/s^2]
+    D3 velocity, angular_velocity;  // [m/s], [rad/s] of the platform
+    D3 axis = {0, 0, 1};            // the platform lies turned about this
+    double angle = 0;               // [rad]
+    D3 rider = {1, 0, 0};           // [m] from the platform's middle, in its plane
+    D3 half = {0.25, 0.25, 0.25};   // [m] of the rider
+    double gravity = -10;           // [m/s^2]
   };
 
   /// How far a box on the platform has come after it has settled, seen from the platform [m].
@@ -28,15 +28,16 @@ template <class S> class Turntable : public ::testing::Test {
     d.type = BodyType::kinematic;
     d.orientation = lie;
     d.velocity = vec<S>(ride.velocity);
-    d.angular_velocity = vec<S>(ride.spin);
+    d.angular_velocity = vec<S>(ride.angular_velocity);
     d.material = belt;
     d.material.friction = S(1);
     const BodyId platform = w.create(d);
     const D3 up = ride.rider + D3{0, 0.5 + ride.half.y, 0};
     const D3 place = rotated<S>(lie, up);
-    d = moving<S>(add_box(w, ride.half.x, ride.half.y, ride.half.z), place, ride.velocity + cross(ride.spin, place));
+    d = moving<S>(add_box(w, ride.half.x, ride.half.y, ride.half.z), place,
+                  ride.velocity + cross(ride.angular_velocity, place));
     d.orientation = lie;
-    d.angular_velocity = vec<S>(ride.spin);
+    d.angular_velocity = vec<S>(ride.angular_velocity);
     d.material.friction = S(1);
     const BodyId rider = w.create(d);
     const auto seen = [&] {
@@ -62,8 +63,8 @@ template <class S> double drift_bar() { return pick<S>(0.001, 0.001, 0.006, 0.00
 // At 4 rad/s friction of 1 holds what is within 0.625 m.
 TYPED_TEST(Turntable, a_rider_stays_within_a_millimetre_in_a_minute) {
   using S = TypeParam;
-  const auto ride = [](double spin, double x) {
-    typename TestFixture::Ride r = {60, {0, 0, 0}, {0, spin, 0}};
+  const auto ride = [](double angular_velocity, double x) {
+    typename TestFixture::Ride r = {60, {0, 0, 0}, {0, angular_velocity, 0}};
     r.rider = {x, 0, 0};
     return r;
   };

@@ -50,7 +50,7 @@ template <class S> void use_numbers() {
   Pcg32 random = Pcg32::seeded(1);
   keep(uniform(random, b, a)), keep(random_between(random, 1, 6)), keep(unit_interval<S>(random.next_u24()));
   keep(Limits<S>::extent()), keep(Limits<S>::minimum_size()), keep(Limits<S>::position()), keep(Limits<S>::speed());
-  keep(Limits<S>::spin()), keep(Limits<S>::mass()), keep(Limits<S>::mass_ratio());
+  keep(Limits<S>::angular_speed()), keep(Limits<S>::mass()), keep(Limits<S>::mass_ratio());
 }
 
 template <class S> void use_mathematics() {

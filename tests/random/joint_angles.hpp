@@ -7,12 +7,12 @@
 namespace isostep::test {
 
 struct JointAngles {
-  double twist = 0;       // [rad] of b's frame against a's about z, in (-pi, pi]; a hinge's angle
-  double swing = 0;       // [rad] between the z axes
-  double apart = 0;       // [m] between the anchors
-  double spin = 0;        // [rad/s] of b against a about a's z
-  D3 axis = {0, 0, 0};    // [1] a's z, world
-  D3 anchor = {0, 0, 0};  // [m] on a, world
+  double twist = 0;             // [rad] of b's frame against a's about z, in (-pi, pi]; a hinge's angle
+  double swing = 0;             // [rad] between the z axes
+  double apart = 0;             // [m] between the anchors
+  double angular_velocity = 0;  // [rad/s] of b against a about a's z
+  D3 axis = {0, 0, 0};          // [1] a's z, world
+  D3 anchor = {0, 0, 0};        // [m] on a, world
 };
 
 namespace joint_angles_detail {
@@ -22,14 +22,14 @@ template <class U> Quat<double> wide(const Quat<U>& q) {
 }
 struct End {
   Quat<double> frame;
-  D3 anchor, spin;
+  D3 anchor, angular_velocity;
 };
 template <class S> End end_of(const World<S>& w, std::uint32_t slot, std::uint32_t generation, const Pose<S>& frame) {
   if (slot == kNoBody) return {wide(frame.orientation), real(frame.position), {0, 0, 0}};
   const BodyView<S> body = w.view({slot, generation});
   const Quat<double> turned = wide(body.state->orientation);
   return {turned * wide(frame.orientation), real(body.state->centre) + to_matrix(turned) * real(frame.position),
-          real(body.state->spin)};
+          real(body.state->angular_velocity)};
 }
 
 }  // namespace joint_angles_detail
@@ -45,7 +45,7 @@ template <class S> JointAngles angles_of(const World<S>& w, const JointPropertie
   angles.apart = length(b.anchor - a.anchor);
   angles.axis = to_matrix(a.frame).column(2);
   angles.anchor = a.anchor;
-  angles.spin = dot(b.spin - a.spin, angles.axis);
+  angles.angular_velocity = dot(b.angular_velocity - a.angular_velocity, angles.axis);
   return angles;
 }
 
@@ -54,9 +54,9 @@ template <class S> double kinetic_energy(const BodyView<S>& body) {
   using namespace joint_angles_detail;
   const Mat3<double> axes = to_matrix(wide(body.state->orientation)) * to_matrix(wide(body.properties->principal));
   const D3 v = real(body.state->velocity), kappa = real(body.properties->kappa);
-  const D3 spin = transposed_times(axes, real(body.state->spin));
+  const D3 angular_velocity = transposed_times(axes, real(body.state->angular_velocity));
   double square = dot(v, v);
-  for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? spin[i] * spin[i] / kappa[i] : 0.0;
+  for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? angular_velocity[i] * angular_velocity[i] / kappa[i] : 0.0;
   return to_double(body.properties->mass) * square / 2;
 }
 /// [kg m^2] of one body about an axis through a point, both world.

@@ -96,8 +96,8 @@ TYPED_TEST(RangeContract, BodiesAtTheSpeedLimitCollide) {
     const S gap = S(0.5) + speed * S(2.0 / 60) * S(i) * S(0.125);
     const BodyId left = this->add(ball, {-gap, S(1 + 2 * i), 0}, S(1)),
                  right = this->add(ball, {gap, S(1 + 2 * i), 0}, S(3));
-    this->world.set_velocity(left, {speed, 0, 0}, {0, 0, Limits<S>::spin()});
-    this->world.set_velocity(right, {-speed, 0, 0}, {0, Limits<S>::spin(), 0});
+    this->world.set_velocity(left, {speed, 0, 0}, {0, 0, Limits<S>::angular_speed()});
+    this->world.set_velocity(right, {-speed, 0, 0}, {0, Limits<S>::angular_speed(), 0});
   }
   this->step(60);
 }

@@ -51,7 +51,7 @@ template <class S> class WorldFuzz : public ::testing::Test {
     d.position = edges.vector(Limits<S>::position());
     d.orientation = edges.orientation();
     d.velocity = edges.vector(Limits<S>::speed());
-    d.angular_velocity = edges.below(2) == 0 ? Vec3<S>::zero() : edges.vector(Limits<S>::spin());
+    d.angular_velocity = edges.below(2) == 0 ? Vec3<S>::zero() : edges.vector(Limits<S>::angular_speed());
     d.mass = edges.below(3) == 0 ? edges.near(Limits<S>::mass() * num<S>(0.5)) : S(0);
     d.sensor = edges.below(5) == 0;
     const BodyId id = world.create(d);
@@ -76,7 +76,8 @@ template <class S> class WorldFuzz : public ::testing::Test {
       case 11: return world.wake(body);
       case 1: return world.destroy(body);
       case 2: return world.set_pose(body, {edges.vector(Limits<S>::position()), edges.orientation()});
-      case 3: return world.set_velocity(body, edges.vector(Limits<S>::speed()), edges.vector(Limits<S>::spin()));
+      case 3:
+        return world.set_velocity(body, edges.vector(Limits<S>::speed()), edges.vector(Limits<S>::angular_speed()));
       case 4: return world.apply_impulse(body, edges.vector(Limits<S>::mass()), edges.vector(Limits<S>::mass()));
       case 5: return world.apply_force(body, edges.vector(Limits<S>::mass()), edges.vector(Limits<S>::mass()));
       case 6: return world.apply_force_at(body, edges.vector(S(99)), edges.vector(Limits<S>::position()));

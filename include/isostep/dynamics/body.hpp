@@ -32,13 +32,13 @@ inline constexpr std::uint32_t kAllLocks = 0x3fu << 8;
 
 /// The part of a body that the step changes.
 template <class S> struct BodyState {
-  std::uint32_t slot;          // of its id
-  std::uint32_t sleep_clock;   // steps spent slower than the sleep speed
-  Vec3<S> centre;              // [m] centre of mass, world
-  Quat<Unit<S>> orientation;   // body frame to world
-  Vec3<Velocity<S>> velocity;  // [m/s] of the centre of mass
-  Vec3<Velocity<S>> spin;      // [rad/s] angular velocity, world
-  Aabb<S> fat;                 // [m] bounds plus margin: renewed when the body leaves them
+  std::uint32_t slot;                  // of its id
+  std::uint32_t sleep_clock;           // steps spent slower than the sleep speed
+  Vec3<S> centre;                      // [m] centre of mass, world
+  Quat<Unit<S>> orientation;           // body frame to world
+  Vec3<Velocity<S>> velocity;          // [m/s] of the centre of mass
+  Vec3<Velocity<S>> angular_velocity;  // [rad/s] world
+  Aabb<S> fat;                         // [m] bounds plus margin: renewed when the body leaves them
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
@@ -46,7 +46,7 @@ template <class S> struct BodyState {
     visit("centre", self.centre);
     visit("orientation", self.orientation);
     visit("velocity", self.velocity);
-    visit("spin", self.spin);
+    visit("angular_velocity", self.angular_velocity);
     visit("fat", self.fat);
   }
 };

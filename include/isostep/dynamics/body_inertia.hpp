@@ -16,14 +16,14 @@ template <class S> ISO_INLINE Mat3<Unit<S>> world_axes(Quat<Unit<S>> orientation
   return to_matrix(own ? orientation : orientation * body.principal);
 }
 
-/// Whether free turning changes its spin. What may not turn about each axis is held by what locks it: a change of the
-/// free body's spin, cut down to the free axes, would drive it like a motor.
+/// Whether free turning changes its angular velocity. What may not turn about each axis is held by what locks it: a
+/// change of the free body's angular velocity, cut down to the free axes, would drive it like a motor.
 template <class S> ISO_INLINE bool turns_freely(const BodyProperties<S>& body) {
   return (body.flags & (body_flag::kSpins | body_flag::kAngularLocks)) == body_flag::kSpins;
 }
 
-/// Mass times inverse inertia in the world's axes [1/m^2]. A locked axis gives whatever holds its spin at zero: what
-/// is left is the inverse of the inertia about the free axes alone.
+/// Mass times inverse inertia in the world's axes [1/m^2]. A locked axis gives whatever holds its angular velocity at
+/// zero: what is left is the inverse of the inertia about the free axes alone.
 template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
   Mat3<S> kappa =
       (body.flags & body_flag::kSpins) != 0 ? rotate_diagonal(axes, body.kappa) : Mat3<S>::diagonal(body.kappa);

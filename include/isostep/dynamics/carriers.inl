@@ -32,19 +32,19 @@ void Carriers<S>::find_carriers(std::span<const BodyState<S>> states, std::span<
                                 std::int32_t rate) {
   using V = Velocity<S>;
   carriers_.clear();
-  const V fastest = spin_limit<S>(rate);
+  const V fastest = angular_speed_limit<S>(rate);
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   const auto turn = [&](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyProperties<S>& body = properties[i];
     if (body.type != BodyType::kinematic) continue;
-    Vec3<V> spin = states[i].spin;
+    Vec3<V> angular_velocity = states[i].angular_velocity;
     for (int axis = 0; axis < 3; ++axis) {
-      if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) spin[axis] = V(0);
+      if ((body.flags & (body_flag::kLockAngularX << axis)) != 0) angular_velocity[axis] = V(0);
     }
-    if (spin == Vec3<V>::zero()) continue;
-    const Vec3<Unit<S>> turned = {turn(spin.x), turn(spin.y), turn(spin.z)};
-    carriers_.push_back(Carrier<S>::of(static_cast<std::uint32_t>(i) + 1, spin, turned, rate));
+    if (angular_velocity == Vec3<V>::zero()) continue;
+    const Vec3<Unit<S>> turned = {turn(angular_velocity.x), turn(angular_velocity.y), turn(angular_velocity.z)};
+    carriers_.push_back(Carrier<S>::of(static_cast<std::uint32_t>(i) + 1, angular_velocity, turned, rate));
   }
 }
 

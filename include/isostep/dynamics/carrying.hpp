@@ -15,26 +15,27 @@ namespace isostep {
 /// up for the step, that leads off the circle, and its radius grows as exp(w^2 t / (2 hz)), sub-steps or not. In a
 /// sub-step of h the place under the rider itself goes to R (d + D): friction aims at (R - 1) (d + D) / h. What that
 /// adds to w x d acts as a belt on the platform's surface.
-/// Symbols: w = spin [rad/s], d = from the platform's centre of mass to the rider's as the step begins [m], D = by how
-///          much that has changed since [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a sub-step's
-///          turn.
+/// Symbols: w = angular velocity [rad/s], d = from the platform's centre of mass to the rider's as the step begins [m],
+///          D = by how much that has changed since [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a
+///          sub-step's turn.
 template <class S> struct Carrier {
   using V = Velocity<S>;
-  std::uint32_t row;  // of SolverBodies
-  Vec3<V> spin;       // [rad/s]
-  Mat3<V> added;      // [1/s] (R - 1) / h - [w]x
+  std::uint32_t row;         // of SolverBodies
+  Vec3<V> angular_velocity;  // [rad/s]
+  Mat3<V> added;             // [1/s] (R - 1) / h - [w]x
 
   /// `turn` [rad] as BodyRows::integrate_positions has it at 1 / `rate` seconds.
-  static ISO_INLINE Carrier of(std::uint32_t row, Vec3<V> spin, Vec3<Unit<S>> turn, std::int32_t rate) {
+  static ISO_INLINE Carrier of(std::uint32_t row, Vec3<V> angular_velocity, Vec3<Unit<S>> turn, std::int32_t rate) {
     const Quat<Unit<S>> q = integrate(Quat<Unit<S>>::identity(), turn);
     const auto part = [](Unit<S> a, S b) { return round_to<V>(product(a, b)); };
     const auto twice = [&](Unit<S> a) { return round_to<S>(product(a, S(2) * S(rate))); };
     const Vec3<S> v = {twice(q.x), twice(q.y), twice(q.z)};
-    const Vec3<V> w = Vec3<V>{part(q.w, v.x), part(q.w, v.y), part(q.w, v.z)} - spin;
+    const Vec3<V> w = Vec3<V>{part(q.w, v.x), part(q.w, v.y), part(q.w, v.z)} - angular_velocity;
     const V xx = part(q.x, v.x), yy = part(q.y, v.y), zz = part(q.z, v.z);
     const V xy = part(q.x, v.y), xz = part(q.x, v.z), yz = part(q.y, v.z);
-    return {
-        row, spin, {{{-yy - zz, xy - w.z, xz + w.y}, {xy + w.z, -xx - zz, yz - w.x}, {xz - w.y, yz + w.x, -xx - yy}}}};
+    return {row,
+            angular_velocity,
+            {{{-yy - zz, xy - w.z, xz + w.y}, {xy + w.z, -xx - zz, yz - w.x}, {xz - w.y, yz + w.x, -xx - yy}}}};
   }
 };
 
@@ -52,7 +53,7 @@ template <class S> struct Carried {
   ISO_INLINE Vec3<V> surface(const SolverBodies<S>& bodies) const {
     const Vec3<V> moved = bodies.displacement[rider].linear - bodies.displacement[carrier.row].linear;
     const Vec3<S> at = place + convert<S>(moved);
-    const Vec3<V> w = carrier.spin;
+    const Vec3<V> w = carrier.angular_velocity;
     const auto part = [&](int i, V u, V v) ISO_INLINE_LAMBDA {
       const auto turned = product(w[(i + 1) % 3], v) - product(w[(i + 2) % 3], u);
       return round_to<V>(dot_sum(carrier.added.rows[i], at)) + round_to<V>(turned);

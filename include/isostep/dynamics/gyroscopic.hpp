@@ -14,16 +14,17 @@ namespace isostep {
 /// its energy in a step, the flattest strip 1.3e-4. Others take one Newton step, which keeps both to third order: at a
 /// radian a sub-step, the most that a body turns, energy swings by 6 %.
 ///
-/// Pushes: the orientation follows w' as if it were the spin half a step later, so momentum is I w' + h/2 w' x I w'. A
-/// push of k after the step adds more to that than the torque h^-1 I k, and a fast top under torque would sink as under
-/// a brake: what is too much, h/2 (f(w' + k) - f(w')) with f(w) = w x I w, is taken back once k is known.
+/// Pushes: the orientation follows w' as if it were the angular velocity half a step later, so momentum is
+/// I w' + h/2 w' x I w'. A push of k after the step adds more to that than the torque h^-1 I k, and a fast top under
+/// torque would sink as under a brake: what is too much, h/2 (f(w' + k) - f(w')) with f(w) = w x I w, is taken back
+/// once k is known.
 /// Source:  Catto 2015, Numerical Methods (GDC), implicit gyroscopic torque; Hairer, Lubich, Wanner 2006, Geometric
 ///          Numerical Integration, on quadratic invariants; Lee, Leok, McClamroch 2005, A Lie group variational
 ///          integrator for the attitude dynamics of a rigid body, on momentum between two orientations.
 /// Symbols: inertia = principal moments over the largest of them [1]; only ratios matter, so no unit is needed.
 ///          euler = (I_y - I_z) / I_x and so on around [1]: Euler's equations are dw_x/dt = euler_x w_y w_z.
-/// Frames:  `axes` leads from the principal frame to the world; spins in and out are in the world [rad/s], `known` is
-///          in the principal frame: what it was after the last step, all pushes since being new.
+/// Frames:  `axes` leads from the principal frame to the world; angular velocities in and out are in the world [rad/s],
+///          `known` is in the principal frame: what it was after the last step, all pushes since being new.
 template <class S> struct FreeTurn {
   using V = Velocity<S>;
   const Mat3<Unit<S>>& axes;
@@ -39,19 +40,19 @@ template <class S> struct FreeTurn {
 
   /// Turns. What is `slow` takes the explicit form, for others pushes since the last step first lose what they did too
   /// much. What the axes round is no push: taken for one it feeds on itself.
-  ISO_INLINE Vec3<V> turn(Vec3<V> spin, Vec3<V>& known, bool slow) const {
-    const Vec3<V> w = local(spin);
+  ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, bool slow) const {
+    const Vec3<V> w = local(angular_velocity);
     const Vec3<V> change = slow ? -explicit_change(w + half(explicit_change(w))) : implicit_change(w, known);
     known = w - change;
-    return spin - world(change);
+    return angular_velocity - world(change);
   }
   /// Takes back alone, when no step follows.
-  ISO_INLINE Vec3<V> settle(Vec3<V> spin, Vec3<V> known) const {
-    const Vec3<V> w = local(spin);
-    return spin - world(solve(w, half(bend(w) - bend(known))));
+  ISO_INLINE Vec3<V> settle(Vec3<V> angular_velocity, Vec3<V> known) const {
+    const Vec3<V> w = local(angular_velocity);
+    return angular_velocity - world(solve(w, half(bend(w) - bend(known))));
   }
-  ISO_INLINE Vec3<V> local(Vec3<V> spin) const {
-    const auto part = [&](int i) { return round_to<V>(dot_sum(axes.column(i), spin)); };
+  ISO_INLINE Vec3<V> local(Vec3<V> angular_velocity) const {
+    const auto part = [&](int i) { return round_to<V>(dot_sum(axes.column(i), angular_velocity)); };
     return {part(0), part(1), part(2)};
   }
 
@@ -95,7 +96,7 @@ template <class S> struct FreeTurn {
     const auto part = [&](Vec3<S> n) { return divide_to<V>(round_to<V>(dot_sum(n, f)), convert<V>(determinant)); };
     return {part(n12), part(n20), part(n01)};
   }
-  /// Only changes go through the axes, which are not quite of unit length: all of the spin would grow with them.
+  /// Only changes go through the axes, which are not quite of unit length: all of the velocity would grow with them.
   ISO_INLINE Vec3<V> world(Vec3<V> change) const {
     const auto part = [&](int i) { return round_to<V>(dot_sum(axes.rows[i], change)); };
     return {part(0), part(1), part(2)};

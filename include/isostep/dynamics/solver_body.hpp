@@ -25,14 +25,15 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
 
 /// What turns faster about an axis counts as spinning [rad/s]: the orientation in which a step finds a body does not do
 /// for the whole of it. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
-template <class S> ISO_INLINE Velocity<S> rapid_spin(std::int32_t hz) {
+template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
 
 /// What turns faster [rad/s], an eighth of a radian a sub-step, keeps the inertia about the world's axes that it has,
 /// and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a limb in a pinch is
-/// spun up to the limit of spins. Light links of a rope under load whip so fast, and what bends their arms drives them.
-template <class S> ISO_INLINE Velocity<S> spin_to_follow(std::int32_t rate) {
+/// spun up to the limit of angular speeds. Light links of a rope under load whip so fast, and what bends their arms
+/// drives them.
+template <class S> ISO_INLINE Velocity<S> angular_speed_to_follow(std::int32_t rate) {
   return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }
 

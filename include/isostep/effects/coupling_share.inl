@@ -85,7 +85,7 @@ template <class S> ISO_INLINE S ParticleCoupling<S>::response(const Along& along
 /// One body's touches alone, particles as free points without springs: what comes about at once; then the body's
 /// gravity within the step, against particles that stay as they are, for what bears it is what is behind them.
 template <class S> void ParticleCoupling<S>::foresee(Met& met) {
-  Motion motion = {met.velocity, transposed_times(met.principal, met.spin)};
+  Motion motion = {met.velocity, transposed_times(met.principal, met.angular_velocity)};
   solve(met, motion, true);
   for (std::uint32_t i = met.first_touch; i != kNone; i = touching_[i].next) touching_[i].blow = touching_[i].impulse;
   if (!(met.gravity == Vec3<S>::zero())) {
@@ -135,7 +135,7 @@ template <class S> void ParticleCoupling<S>::solve(Met& met, Motion& motion, boo
 }
 template <class S> ISO_INLINE S ParticleCoupling<S>::speed_along(const Along& along, const Motion& motion) {
   return saturating_add(saturate_to<S>(dot_sum(along.push, motion.velocity)),
-                        saturate_to<S>(dot_sum(along.lever, motion.spin)));
+                        saturate_to<S>(dot_sum(along.lever, motion.angular_velocity)));
 }
 template <class S> ISO_INLINE S ParticleCoupling<S>::missing_speed(const Touching& touching, const Motion& motion) {
   const S apart = saturating_add(speed_along(touching.along, motion), -touching.speed);
@@ -152,7 +152,7 @@ ISO_INLINE S ParticleCoupling<S>::give(Touching& touching, Motion& motion, S mis
   touching.impulse = next;
   const Along& along = touching.along;
   motion.velocity = saturating_add(motion.velocity, detail::saturating_product(along.push, more));
-  motion.spin = saturating_add(motion.spin, detail::saturating_product(along.turn, more));
+  motion.angular_velocity = saturating_add(motion.angular_velocity, detail::saturating_product(along.turn, more));
   if (gives) touching.speed = saturating_add(touching.speed, -saturate_to<S>(product(touching.own, more)));
   return saturate_to<S>(product(abs(more), sum));
 }

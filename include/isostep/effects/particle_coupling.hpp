@@ -94,13 +94,13 @@ template <class S> class ParticleCoupling {
     BodyId body;
     bool collides, moves, rests;  // moves: pushes matter; rests: asleep, or slow in the step before
     std::uint32_t first_part, part_count;
-    Vec3<S> centre;          // [m]
-    Vec3<S> velocity, spin;  // [m/s] [rad/s]
-    Vec3<S> gravity;         // [m/s^2] that acts on it while awake
-    Mat3<U> principal;       // principal axes to world
-    S mass;                  // [kg]
-    Vec3<S> kappa;           // [1/m^2]
-    std::uint32_t locks;     // body_flag
+    Vec3<S> centre;                      // [m]
+    Vec3<S> velocity, angular_velocity;  // [m/s] [rad/s]
+    Vec3<S> gravity;                     // [m/s^2] that acts on it while awake
+    Mat3<U> principal;                   // principal axes to world
+    S mass;                              // [kg]
+    Vec3<S> kappa;                       // [1/m^2]
+    std::uint32_t locks;                 // body_flag
     Material<S> material;
     std::uint32_t first_touch, last_touch;
     std::uint32_t pressing;   // touches that may press
@@ -144,8 +144,8 @@ template <class S> class ParticleCoupling {
   };
   /// Of a body, foreseen.
   struct Motion {
-    Vec3<S> velocity;  // [m/s]
-    Vec3<S> spin;      // [rad/s] in principal axes
+    Vec3<S> velocity;          // [m/s]
+    Vec3<S> angular_velocity;  // [rad/s] in principal axes
   };
   /// Where a flier meets a part.
   struct Meeting {

@@ -84,7 +84,7 @@ template <class S> S ParticleCoupling<S>::farthest_way(const World<S>& bodies) c
   S most = S(0);
   for (const BodyState<S>& body : bodies.state().awake.states) {
     const S arm = max_abs(max(body.fat.high - body.centre, body.centre - body.fat.low));
-    const auto turning = product(convert<S>(max_abs(body.spin)), arm);
+    const auto turning = product(convert<S>(max_abs(body.angular_velocity)), arm);
     most = max(most, saturating_add(convert<S>(max_abs(body.velocity)), saturate_to<S>(turning + turning)));
   }
   return most * step_;
@@ -119,7 +119,7 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   met.rests = !awake || view.state->sleep_clock > 0;
   met.centre = view.state->centre;
   met.velocity = convert<S>(view.state->velocity);
-  met.spin = convert<S>(view.state->spin);
+  met.angular_velocity = convert<S>(view.state->angular_velocity);
   if (met.moves && awake) met.gravity = detail::saturating_product(bodies.settings().gravity, properties.gravity_scale);
   met.principal = to_matrix(view.state->orientation * properties.principal);
   met.mass = properties.mass;
@@ -168,7 +168,7 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
 
 /// [m/s] of the body's matter.
 template <class S> ISO_INLINE Vec3<S> ParticleCoupling<S>::velocity_at(const Met& met, Vec3<S> arm) const {
-  return saturating_add(met.velocity, detail::saturating_moment(met.spin, arm));
+  return saturating_add(met.velocity, detail::saturating_moment(met.angular_velocity, arm));
 }
 
 template <class S>

@@ -11,7 +11,7 @@ namespace isostep {
 ///   minimum_size()  [m]      smallest radius, half extent or half height; four boxes stand on each other from 1/64 m
 ///   position()      [m]      largest coordinate of a body
 ///   speed()         [m/s]    largest length of a velocity
-///   spin()          [rad/s]  largest length of an angular velocity
+///   angular_speed() [rad/s]  largest length of an angular velocity
 ///   mass()          [kg]     largest mass
 ///   mass_ratio()    [1]      largest ratio of two bodies' masses that keeps half of the format's digits
 ///   leverage()      [1]      largest kappa arm^2 of a joint
@@ -21,8 +21,8 @@ template <class S> struct Limits;
 /// Fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
 ///   extent <= 2^((W-1)/2)    a product of two extents, 2^(W-1), fits.
 ///   speed  <= 2^((W-3)/2)    its square, 2^(W-3), fits with room for an energy's other terms.
-///   spin   <= 2^((W-3)/2)    two points at arms of sqrt(3) extent move against each other with at most
-///                            2 (speed + sqrt(3) spin extent) <= 2 speed + 0.87 2^W, which fits for W >= 11.
+///   angular_speed <= 2^((W-3)/2)    two points at arms of sqrt(3) extent move against each other with at most
+///                            2 (speed + sqrt(3) angular_speed extent) <= 2 speed + 0.87 2^W, which fits for W >= 11.
 ///   position <= 2^(W-6)      32 positions add up: differences, doubled coordinates, rays and margins fit.
 ///   minimum_size >= 2^-((W-3)/2), 2^(10-F)    kappa <= 5 / (2 size^2) <= 5/16 2^W fits; a size has three digits.
 ///   mass <= 2^(W-2)          the sum of two masses fits.
@@ -30,9 +30,9 @@ template <class S> struct Limits;
 ///   leverage <= 2^(W/2 + 1)  times an impulse of a few metres a second, and summed over a joint's rows, it fits.
 ///   surface_speed            a quarter of what Velocity<S> holds: two bodies' points meet and are summed by axis.
 /// Beyond 2^20 m, 2^14 m, 2^14 m/s and below 2^-10 m they stop growing: no scene needs more.
-/// Q16.16: extent 128, size 1/64, position 512, speed 64, spin 64, mass 8192, ratio 128, leverage 256,
+/// Q16.16: extent 128, size 1/64, position 512, speed 64, angular speed 64, mass 8192, ratio 128, leverage 256,
 ///         surface speed 512.
-/// Q32.32: extent 16384, size 1/1024, position 1048576, speed 16384, spin 16384, mass 2^29, ratio 32768.
+/// Q32.32: extent 16384, size 1/1024, position 1048576, speed 16384, angular speed 16384, mass 2^29, ratio 32768.
 template <class Rep, int F, Overflow P> struct Limits<Fixed<Rep, F, P>> {
   using S = Fixed<Rep, F, P>;
   static constexpr int kWhole = S::kBits - 1 - F;
@@ -43,7 +43,7 @@ template <class Rep, int F, Overflow P> struct Limits<Fixed<Rep, F, P>> {
   static ISO_INLINE constexpr S minimum_size() { return power(-least((kWhole - 3) / 2, least(F - 10, 10))); }
   static ISO_INLINE constexpr S position() { return power(least(kWhole - 6, 20)); }
   static ISO_INLINE constexpr S speed() { return power(least((kWhole - 3) / 2, 14)); }
-  static ISO_INLINE constexpr S spin() { return power(least((kWhole - 3) / 2, 14)); }
+  static ISO_INLINE constexpr S angular_speed() { return power(least((kWhole - 3) / 2, 14)); }
   static ISO_INLINE constexpr S mass() { return power(kWhole - 2); }
   static ISO_INLINE constexpr S mass_ratio() { return power(kWhole / 2); }
   static ISO_INLINE constexpr S leverage() { return power(kWhole / 2 + 1); }
@@ -61,7 +61,7 @@ template <> struct Limits<float> {
   static ISO_INLINE constexpr float minimum_size() { return 0x1p-10f; }
   static ISO_INLINE constexpr float position() { return 0x1p16f; }
   static ISO_INLINE constexpr float speed() { return 0x1p14f; }
-  static ISO_INLINE constexpr float spin() { return 0x1p14f; }
+  static ISO_INLINE constexpr float angular_speed() { return 0x1p14f; }
   static ISO_INLINE constexpr float mass() { return 0x1p40f; }
   static ISO_INLINE constexpr float mass_ratio() { return 0x1p12f; }
   static ISO_INLINE constexpr float leverage() { return 0x1p30f; }
@@ -73,7 +73,7 @@ template <> struct Limits<double> {
   static ISO_INLINE constexpr double minimum_size() { return 0x1p-10; }
   static ISO_INLINE constexpr double position() { return 0x1p30; }
   static ISO_INLINE constexpr double speed() { return 0x1p20; }
-  static ISO_INLINE constexpr double spin() { return 0x1p17; }
+  static ISO_INLINE constexpr double angular_speed() { return 0x1p17; }
   static ISO_INLINE constexpr double mass() { return 0x1p60; }
   static ISO_INLINE constexpr double mass_ratio() { return 0x1p26; }
   static ISO_INLINE constexpr double leverage() { return 0x1p60; }

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// All are powers of two, so that they are exact in every format. Particles have no extent to square and no spin, so
-/// they may be four times as fast as bodies of a narrow scalar.
+/// All are powers of two, so that they are exact in every format. Particles have no extent to square and do not turn,
+/// so they may be four times as fast as bodies of a narrow scalar.
 ///   position()     [m]     largest coordinate
 ///   speed()        [m/s]   largest component of a velocity
 ///   acceleration() [m/s^2] largest component that gravity, drag and commands may give, each

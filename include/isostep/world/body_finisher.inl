@@ -26,13 +26,13 @@ template <class S> void BodyFinisher<S>::finish(std::span<const Pose<S>> start, 
 template <class S>
 ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report) {
   const auto& q = state.orientation;
-  const bool finite = is_finite(state.centre) && is_finite(state.velocity) && is_finite(state.spin) && is_finite(q.x) &&
-                      is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
+  const bool finite = is_finite(state.centre) && is_finite(state.velocity) && is_finite(state.angular_velocity) &&
+                      is_finite(q.x) && is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
   if (finite) return;
   state.centre = start.position;
   state.orientation = start.orientation;
   state.velocity = Vec3<Velocity<S>>::zero();
-  state.spin = Vec3<Velocity<S>>::zero();
+  state.angular_velocity = Vec3<Velocity<S>>::zero();
   ++report.stopped;
 }
 
@@ -55,12 +55,16 @@ template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
 template <class S> ISO_INLINE void BodyFinisher<S>::clamp_speed(BodyState<S>& state, StepReport& report) const {
   using V = Velocity<S>;
   const V speed = convert<V>(Limits<S>::speed());
-  const V spin = spin_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
-  const bool overspins = detail::overspins(state.spin, state.fat);
-  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.spin, spin) || overspins)) return;
-  const S most = overspins ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low) : Limits<S>::spin();
+  const V angular_speed =
+      angular_speed_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
+  const bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, state.fat);
+  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_speed) ||
+        rotates_too_fast))
+    return;
+  const S most = rotates_too_fast ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low)
+                                  : Limits<S>::angular_speed();
   state.velocity = detail::shortened(state.velocity, speed);
-  state.spin = detail::shortened(state.spin, min(spin, convert<V>(most)));
+  state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_speed, convert<V>(most)));
   ++report.clamped_speed;
 }
 

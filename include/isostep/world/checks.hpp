@@ -57,7 +57,7 @@ class Checklist {
 };
 
 inline constexpr char kWithinSpeed[] = "a length up to Limits::speed()";
-inline constexpr char kWithinSpin[] = "a length up to Limits::spin()";
+inline constexpr char kWithinAngularSpeed[] = "a length up to Limits::angular_speed()";
 inline constexpr char kWithinPosition[] = "coordinates up to Limits::position()";
 inline constexpr char kUnitLength[] = "a quaternion of length 1";
 
@@ -146,7 +146,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .in_range(within(j.upper, reach), "upper", expected)
       .in_range(within(j.cone, kMaxAngle<S>), "cone", "0 to 2 pi")
       .in_range(within(j.spring_target, reach), "spring_target", expected)
-      .in_range(within(j.motor_speed, Limits<S>::spin()), "motor_speed", "a size up to Limits::spin()")
+      .in_range(within(j.motor_speed, Limits<S>::angular_speed()), "motor_speed",
+                "a size up to Limits::angular_speed()")
       .in_range(j.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
@@ -178,10 +179,10 @@ template <class S> bool overreaches(Vec3<S> kappa, const Quat<Unit<S>>& principa
   return too_long(kappa.x, p.y, p.z) || too_long(kappa.y, p.z, p.x) || too_long(kappa.z, p.x, p.y);
 }
 
-/// Spin so fast that points of the body leave the range of velocities. `box` is the body's.
-template <class S> bool overspins(Vec3<Velocity<S>> spin, const Aabb<S>& box) {
+/// Turning so fast that points of the body leave the range of velocities. `box` is the body's.
+template <class S> bool rotates_too_fast(Vec3<Velocity<S>> angular_velocity, const Aabb<S>& box) {
   const S reach = max_abs(box.high - box.low);  // twice the arm, roughly
-  return product(convert<S>(Limits<S>::surface_speed()), S(1)) < product(reach, convert<S>(max_abs(spin)));
+  return product(convert<S>(Limits<S>::surface_speed()), S(1)) < product(reach, convert<S>(max_abs(angular_velocity)));
 }
 
 /// An exact sum as an S, held at the ends of the format instead of wrapping.

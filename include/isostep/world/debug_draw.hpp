@@ -26,9 +26,9 @@ struct DrawnBody {
   bool sensor;           // reports overlaps, is not solved
   std::uint32_t island;  // of those asleep, as DrawnIsland counts them; kNoIsland: awake or static
   std::uint64_t user_data;
-  DrawnPose pose;     // of the body's origin
-  float velocity[3];  // [m/s] of the centre of mass
-  float spin[3];      // [rad/s]
+  DrawnPose pose;             // of the body's origin
+  float velocity[3];          // [m/s] of the centre of mass
+  float angular_velocity[3];  // [rad/s]
 };
 
 /// One primitive of a body's shape.

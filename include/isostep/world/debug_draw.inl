@@ -69,7 +69,7 @@ template <class S> class BodySketch {
     body.user_data = properties.user_data;
     body.pose = sketch_.pose(view.pose);
     sketch_.vector(state.velocity, body.velocity);
-    sketch_.vector(state.spin, body.spin);
+    sketch_.vector(state.angular_velocity, body.angular_velocity);
     to_.body(body);
     for (std::uint32_t child = 0; child < view.children.size(); ++child)
       draw_part(body, view.pose, view.children[child], child);

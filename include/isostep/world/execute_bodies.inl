@@ -21,8 +21,8 @@ template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
                  .finite(d.inertia, "inertia")
                  .in_range(detail::within(d.position, Limits<S>::position()), "position", detail::kWithinPosition)
                  .in_range(detail::no_longer(d.velocity, Limits<S>::speed()), "velocity", detail::kWithinSpeed)
-                 .in_range(detail::no_longer(d.angular_velocity, Limits<S>::spin()), "angular_velocity",
-                           detail::kWithinSpin)
+                 .in_range(detail::no_longer(d.angular_velocity, Limits<S>::angular_speed()), "angular_velocity",
+                           detail::kWithinAngularSpeed)
                  .proper(detail::is_unit<S>(d.orientation), "orientation", detail::kUnitLength)
                  .proper(d.type <= BodyType::dynamic, "type", "one of BodyType")
                  .also(detail::fault_of(d.material))
@@ -92,11 +92,11 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   state.centre = d.position + to_matrix(state.orientation) * body.local_centre;
   if (d.type != BodyType::static_) {
     state.velocity = convert<Velocity<S>>(d.velocity);
-    state.spin = convert<Velocity<S>>(d.angular_velocity);
+    state.angular_velocity = convert<Velocity<S>>(d.angular_velocity);
   }
   if (!journal_.accept(detail::fault_of_place(state.centre, "position"))) return {};
   detail::renew_fat_box(map_, state, body, true);
-  if (detail::overspins(state.spin, state.fat)) {
+  if (detail::rotates_too_fast(state.angular_velocity, state.fat)) {
     journal_.refuse(
         {Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
     return {};
@@ -181,7 +181,7 @@ template <class S> void CommandExecutor<S>::halt(std::uint32_t slot) {
   if (map_.location(slot).set != Location::kAwake) return;
   BodyState<S>& state = state_.awake.states[map_.location(slot).index];
   state.velocity = Vec3<Velocity<S>>::zero();
-  state.spin = Vec3<Velocity<S>>::zero();
+  state.angular_velocity = Vec3<Velocity<S>>::zero();
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& command) {
@@ -190,7 +190,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& comman
               .finite(command.linear, "linear")
               .finite(command.angular, "angular")
               .in_range(detail::no_longer(command.linear, Limits<S>::speed()), "linear", detail::kWithinSpeed)
-              .in_range(detail::no_longer(command.angular, Limits<S>::spin()), "angular", detail::kWithinSpin)
+              .in_range(detail::no_longer(command.angular, Limits<S>::angular_speed()), "angular",
+                        detail::kWithinAngularSpeed)
               .report()) ||
       !may_change(command.body)) {
     return false;
@@ -204,7 +205,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& comman
   if (map_.properties_at(map_.location(slot)).type == BodyType::kinematic) wake_.wake_held_by(slot);
   BodyState<S>& state = state_.awake.states[map_.location(slot).index];
   state.velocity = convert<Velocity<S>>(command.linear);
-  state.spin = convert<Velocity<S>>(command.angular);
+  state.angular_velocity = convert<Velocity<S>>(command.angular);
   return true;
 }
 

@@ -58,9 +58,9 @@ template <class S> struct Bounder {
   }
 };
 
-/// [rad/s] Twice as fast points of the body leave the range of velocities: overspins(). `box` is the body's.
-template <class S> S most_spin(const Aabb<S>& box) {
-  return min(Limits<S>::spin(), S(0.5) * Limits<S>::surface_speed() / max(S(1), max_abs(box.high - box.low)));
+/// [rad/s] Twice as fast points of the body leave the range of velocities: rotates_too_fast(). `box` is the body's.
+template <class S> S most_angular_speed(const Aabb<S>& box) {
+  return min(Limits<S>::angular_speed(), S(0.5) * Limits<S>::surface_speed() / max(S(1), max_abs(box.high - box.low)));
 }
 }  // namespace detail
 
@@ -82,7 +82,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyForce<S>& command
   // From rest to the limit in one step: velocities then stay within their format.
   const std::int32_t hz = state_.settings.hz;
   const S most = detail::most_acceleration(hz, Limits<S>::speed());
-  const S most_turning = detail::most_acceleration(hz, detail::most_spin(state.fat));
+  const S most_turning = detail::most_acceleration(hz, detail::most_angular_speed(state.fat));
   PendingForce<S>& force = pending_force(state.slot);
   detail::Bounder<S> bounder;
   const Vec3<S> linear = bounder.quotient(command.force, body.mass, most);
@@ -104,12 +104,12 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyImpulse<S>& comma
   const BodyProperties<S>& body = state_.awake.properties[map_.location(state.slot).index];
   const Mat3<S> kappa = detail::world_kappa(body, detail::world_axes(state.orientation, body));
   // A quarter above the limit: the step then cuts them again and reports it.
-  const S speed = Limits<S>::speed() * S(1.25), spin = Limits<S>::spin() * S(1.25);
+  const S speed = Limits<S>::speed() * S(1.25), angular_speed = Limits<S>::angular_speed() * S(1.25);
   detail::Bounder<S> bounder;
   const Vec3<S> linear = bounder.quotient(command.linear, body.mass, S(2) * speed);
   state.velocity = bounder.faster(state.velocity, linear, speed);
-  const Vec3<S> turning = bounder.turning(kappa, command.angular, body.mass, S(2) * spin);
-  state.spin = bounder.faster(state.spin, turning, spin);
+  const Vec3<S> turning = bounder.turning(kappa, command.angular, body.mass, S(2) * angular_speed);
+  state.angular_velocity = bounder.faster(state.angular_velocity, turning, angular_speed);
   if (bounder.cut) pending_force(state.slot).cut = 1;
   return true;
 }

@@ -41,8 +41,9 @@ template <class S> void IslandSleep<S>::update_clocks() {
     const BodyProperties<S>& body = state_.awake.properties[i];
     const bool may = (body.flags & body_flag::kAllowSleep) != 0;
     // A kinematic body rests when told to: however slow, it carries what lies on it.
-    const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.spin == Vec3<Velocity<S>>::zero();
-    const bool slow = max_abs(state.velocity) < limit && max_abs(state.spin) < limit;
+    const bool still =
+        state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
+    const bool slow = max_abs(state.velocity) < limit && max_abs(state.angular_velocity) < limit;
     const bool rests = body.type == BodyType::kinematic ? still : slow;
     state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
   }
@@ -176,7 +177,7 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
     if (island != nullptr) {
       BodyState<S> still = awake.states[i];
       still.velocity = Vec3<Velocity<S>>::zero();
-      still.spin = Vec3<Velocity<S>>::zero();
+      still.angular_velocity = Vec3<Velocity<S>>::zero();
       island->bodies.states.push_back(still);
       island->bodies.properties.push_back(awake.properties[i]);
       fell_asleep.push_back(state_.body_slots.template id_of<BodyId>(still.slot));

@@ -51,7 +51,7 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   if (mover.set != Location::kAwake) return false;
   const BodyState<S>& state = state_.awake.states[mover.index];
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
-  const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.spin == Vec3<Velocity<S>>::zero();
+  const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (body.type == BodyType::kinematic && still) return false;
   if (((body.flags | map_.properties_at(a.is_asleep() ? a : b).flags) & body_flag::kSensor) != 0) return false;
   return bodies_touch(map_, pair_a(pair), pair_b(pair));

@@ -160,9 +160,9 @@ template <class S> class StateValidator {
     }
     // Impulses cut speeds a quarter above the limits, axis by axis.
     const S quarter = S(1.25);
-    if (!is_finite(b.velocity) || !is_finite(b.spin) ||
+    if (!is_finite(b.velocity) || !is_finite(b.angular_velocity) ||
         convert<Velocity<S>>(Limits<S>::speed() * quarter) < max_abs(b.velocity) ||
-        convert<Velocity<S>>(Limits<S>::spin() * quarter) < max_abs(b.spin)) {
+        convert<Velocity<S>>(Limits<S>::angular_speed() * quarter) < max_abs(b.angular_velocity)) {
       return "a body's speed is out of range";
     }
     const S edge = Limits<S>::position() + Limits<S>::position() + Limits<S>::position();
@@ -253,7 +253,7 @@ template <class S> class StateValidator {
       const std::int32_t hz = state_.settings.hz;
       if (forces[i].cut > 1 || !is_finite(forces[i].linear) || !is_finite(forces[i].angular) ||
           !detail::within(forces[i].linear, detail::most_acceleration(hz, Limits<S>::speed())) ||
-          !detail::within(forces[i].angular, detail::most_acceleration(hz, Limits<S>::spin()))) {
+          !detail::within(forces[i].angular, detail::most_acceleration(hz, Limits<S>::angular_speed()))) {
         return "a force is out of range";
       }
       if (i > 0 && !(forces[i - 1].slot < slot)) return "forces ascend by slot";

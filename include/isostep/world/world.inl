@@ -217,7 +217,7 @@ template <class S> Vec3<S> World<S>::velocity(BodyId body) const {
 }
 template <class S> Vec3<S> World<S>::angular_velocity(BodyId body) const {
   const BodyState<S>* state = engine_->map_.state_of(body);
-  return state == nullptr ? Vec3<S>::zero() : convert<S>(state->spin);
+  return state == nullptr ? Vec3<S>::zero() : convert<S>(state->angular_velocity);
 }
 template <class S> S World<S>::mass(BodyId body) const {
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);

@@ -91,7 +91,7 @@ Scene long_lever() {
   return scene;
 }
 
-/// [%] Errors of both velocities and of the beam's spin after the hit, over what theory says. An impulse
+/// [%] Errors of both velocities and of the beam's angular velocity after the hit, over what theory says. An impulse
 /// j = 2 v / (1/m + 1/M + arm^2 / I) acts on each.
 class LeverError : public Judge {
  public:
@@ -100,7 +100,7 @@ class LeverError : public Judge {
     const double impulse = 2 * kShotSpeed / (1 / kShotMass + 1 / kBeamMass + kShotArm * kShotArm / inertia);
     const auto error = [](Vec3<double> is, Vec3<double> ought) { return length_of(is - ought) / length_of(ought); };
     last_ = worse(error(sight.bodies[0].velocity, {0, impulse / kBeamMass, 0}),
-                  error(sight.bodies[0].spin, {0, 0, impulse * kShotArm / inertia}));
+                  error(sight.bodies[0].angular_velocity, {0, 0, impulse * kShotArm / inertia}));
     last_ = worse(last_, error(sight.bodies[1].velocity, {0, kShotSpeed - impulse / kShotMass, 0}));
   }
   double figure() const override { return 100 * last_; }
@@ -109,12 +109,12 @@ class LeverError : public Judge {
   double last_ = 0;
 };
 
-constexpr double kSpin = 5;  // [rad/s]
+constexpr double kAngularSpeed = 5;  // [rad/s]
 
 Scene spin_for_an_hour() {
   Scene scene = weightless(216'000);
   scene.bodies.push_back(body_of(box_part({0.5, 0.125, 0.25}), {0, 0, 0}));
-  scene.bodies.back().angular_velocity = vector_of({0, kSpin, 0});
+  scene.bodies.back().angular_velocity = vector_of({0, kAngularSpeed, 0});
   return scene;
 }
 
@@ -134,7 +134,7 @@ class HourOfSpin : public Judge {
   }
   double figure() const override {
     double worst = worst_;
-    if (time_ > 0) worst = worse(worst, std::abs(turned_ / (kSpin * time_) - 1));
+    if (time_ > 0) worst = worse(worst, std::abs(turned_ / (kAngularSpeed * time_) - 1));
     return 1e6 * worst;
   }
 
@@ -207,8 +207,8 @@ const Trial kTrials[] = {
      sizes_apart, judge_sizes},
     {"coincident_pairs", "f2", "pairs whose centres or faces coincide, weightless",
      "exit speed over 3 m/s, or overlap left over 5 % of the width", "", 1, coincident_pairs, judge_of<PairsApart>},
-    {"long_lever", "f3", "a shot at 8 km/s hits the end of a beam of 100 m", "error of velocities and spin", "%", 2,
-     long_lever, judge_of<LeverError>},
+    {"long_lever", "f3", "a shot at 8 km/s hits the end of a beam of 100 m", "error of linear and angular velocity",
+     "%", 2, long_lever, judge_of<LeverError>},
     {"spin_hour", "f4", "a box turns for an hour, weightless", "error of norm, axis or angle", "ppm", 100,
      spin_for_an_hour, judge_of<HourOfSpin>},
     {"slow_drift", "f5", "bodies at rest and at 1 mm/s, weightless, for ten minutes", "drift, of 1 mm/s", "%", 1,

@@ -17,8 +17,8 @@ class FreeTurning : public Judge {
   void see(const Sight& sight) override {
     const BodySight& body = sight.bodies.front();
     const Mat3<double> axes = to_matrix(body.orientation);
-    const Vec3<double> momentum = axes * (inertia_ * transposed_times(axes, body.spin));
-    const double energy = 0.5 * dot(momentum, body.spin);
+    const Vec3<double> momentum = axes * (inertia_ * transposed_times(axes, body.angular_velocity));
+    const double energy = 0.5 * dot(momentum, body.angular_velocity);
     if (!(energy_ > 0)) {
       centre_ = body.centre;
       momentum_ = momentum;
@@ -95,11 +95,11 @@ Scene whirling_rods() {
   scene.allow_sleep = false;
   scene.frames = 300;
   scene.bodies.push_back(fixed_box({0, -0.05, 0}, {100, 0.05, 100}));
-  const Point spins[] = {{0, 0, 20}, {20, 0, 0}, {0, 6, -19}, {-12, 0, 16}};
+  const Point angular_velocities[] = {{0, 0, 20}, {20, 0, 0}, {0, 6, -19}, {-12, 0, 16}};
   for (int i = 0; i < 4; ++i) {
     SceneBody rod = body_of(capsule_part(kRodRadius, kRodHalf), {12.0 * (i % 2), 1.25, 12.0 * (i / 2)});
     rod.density = 1000;
-    rod.angular_velocity = vector_of(spins[i]);
+    rod.angular_velocity = vector_of(angular_velocities[i]);
     scene.bodies.push_back(rod);
   }
   return scene;

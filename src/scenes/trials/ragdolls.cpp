@@ -60,9 +60,10 @@ class RagdollEnergy : public Judge {
     double energy = 0, mass = 0;
     for (std::size_t i = first; i < first + kRagdollParts; ++i) {
       const BodySight& body = sight.bodies[fixed_ + i];
-      const Vec3<double> spin = transposed_times(to_matrix(normalise(body.orientation)), body.spin);
+      const Vec3<double> angular_velocity =
+          transposed_times(to_matrix(normalise(body.orientation)), body.angular_velocity);
       energy += masses_[i].mass * (dot(body.velocity, body.velocity) / 2 + 10 * body.centre.y);
-      energy += dot(spin, masses_[i].inertia * spin) / 2;
+      energy += dot(angular_velocity, masses_[i].inertia * angular_velocity) / 2;
       mass += masses_[i].mass;
     }
     return energy / mass;

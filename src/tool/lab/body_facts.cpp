@@ -65,7 +65,7 @@ BodyFacts facts_of(const scenes::SceneBody& body) {
   facts.mass = mass > 0 ? mass : value_of(body.density) * facts.volume;
   facts.radius = std::cbrt(facts.volume * 3 / (4 * std::numbers::pi));
   facts.centre = facts.volume > 0 ? moment * (1 / facts.volume) : origin;
-  facts.spin = value_of(body.angular_velocity);
+  facts.angular_velocity = value_of(body.angular_velocity);
   facts.velocity = value_of(body.velocity);
   return facts;
 }

@@ -12,13 +12,13 @@
 namespace isostep::tool::lab {
 
 struct BodyFacts {
-  double volume = 0;                  // [m^3] of the parts, as if none lay in another; half-spaces have none
-  double mass = 0;                    // [kg]
-  double radius = 0;                  // [m] of the sphere of that volume
-  Vec3<double> centre = {};           // [m] of the volume, world
-  Vec3<double> velocity = {};         // [m/s] of the centre
-  Vec3<double> spin = {};             // [rad/s]
-  std::vector<scenes::Solid> solids;  // the parts, in the world
+  double volume = 0;                   // [m^3] of the parts, as if none lay in another; half-spaces have none
+  double mass = 0;                     // [kg]
+  double radius = 0;                   // [m] of the sphere of that volume
+  Vec3<double> centre = {};            // [m] of the volume, world
+  Vec3<double> velocity = {};          // [m/s] of the centre
+  Vec3<double> angular_velocity = {};  // [rad/s]
+  std::vector<scenes::Solid> solids;   // the parts, in the world
 };
 BodyFacts facts_of(const scenes::SceneBody& body);
 

@@ -62,7 +62,7 @@ class Planner {
   }
   int add_pivot_particle(Vec3<double> place, int holder) {
     const BodyFacts& facts = facts_[static_cast<std::size_t>(holder)];
-    const Vec3<double> velocity = facts.velocity + cross(facts.spin, place - facts.centre);
+    const Vec3<double> velocity = facts.velocity + cross(facts.angular_velocity, place - facts.centre);
     return add_particle(place, velocity, 0, material_of(body(static_cast<std::size_t>(holder)), 0, false));
   }
   int add_particle(Vec3<double> place, Vec3<double> velocity, double mass, std::size_t material) {

@@ -14,7 +14,7 @@ template <class S> class CarriersOf : public ::testing::Test {
   CarriersOf() : states(3), properties(3), geometry(2) {
     properties[0].type = properties[2].type = BodyType::dynamic;
     properties[1].type = BodyType::kinematic;
-    states[1].spin.y = Velocity<S>(1);
+    states[1].angular_velocity.y = Velocity<S>(1);
     for (ContactGeometry<S>& g : geometry) g.points[0].arm_a.x = S(2);
     geometry[0].row_a = 1;
     geometry[0].row_b = 3;
@@ -57,9 +57,9 @@ TYPED_TEST(CarriersOf, what_is_not_kinematic_does_not_turn_or_may_not_turn_carri
   this->properties[1].flags = body_flag::kAngularLocks;
   EXPECT_TRUE(this->update().empty());
   this->properties[1].flags = 0;
-  this->states[1].spin.y = Velocity<TypeParam>(0);
+  this->states[1].angular_velocity.y = Velocity<TypeParam>(0);
   EXPECT_TRUE(this->update().empty());
-  this->states[1].spin.y = Velocity<TypeParam>(1);
+  this->states[1].angular_velocity.y = Velocity<TypeParam>(1);
   this->properties[1].type = BodyType::dynamic;
   EXPECT_TRUE(this->update().empty());
 }

@@ -69,8 +69,8 @@ template <class S> struct Scene {
   std::vector<ContactGeometry<S>> geometry;
   std::vector<std::uint32_t> order;
 
-  std::uint32_t add_body(double mass, Vec3<S> kappa, Vec3<V> velocity, Vec3<V> spin) {
-    bodies.velocity.push_back({velocity, V(0), spin, V(0)});
+  std::uint32_t add_body(double mass, Vec3<S> kappa, Vec3<V> velocity, Vec3<V> angular_velocity) {
+    bodies.velocity.push_back({velocity, V(0), angular_velocity, V(0)});
     bodies.mass.push_back({from_double<S>(mass), Mat3<S>::diagonal(kappa)});
     return static_cast<std::uint32_t>(bodies.mass.size()) - 1;
   }
@@ -299,7 +299,7 @@ TYPED_TEST(ContactPrepare, ABallsMassesAgreeWithClosedForms) {
     for (const auto& t : c.tangents) expect(t.row.effective_mass[0], 1 / 3.5);  // 1 + r^2 m / I
     for (const auto& r : block.rolling.rows) expect(r.effective_mass[0], 1 / 2.5);
     expect(block.rolling.lever[0], 0.125);
-    // The point of contact moves at 2 m/s less the spin's 2 m/s: it does not slide, but the ball rolls about -z.
+    // The point of contact moves at 2 m/s less the rotation's 2 m/s: it does not slide, but the ball rolls about -z.
     expect(block.rolling.rows[0].jacobian_b[0][0], 0);
     expect(block.rolling.rows[0].jacobian_b[1][0], 0);
     expect(block.rolling.rows[0].jacobian_b[2][0], -1);

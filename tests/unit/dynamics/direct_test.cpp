@@ -135,10 +135,10 @@ TYPED_TEST(Direct, AMotorGivesItsTorqueAndALimitHolds) {
   hinge.motor_torque = S(2);
   const double inertia = 3 * (0.25 + (0.25 + 0.01) / 3);
   for (int frame = 0; frame < 15; ++frame) world.step();
-  EXPECT_NEAR(to_double(world.states[door].spin.z), 2 / inertia * 0.25, 0.02);
+  EXPECT_NEAR(to_double(world.states[door].angular_velocity.z), 2 / inertia * 0.25, 0.02);
   for (int frame = 0; frame < 120; ++frame) world.step();
   EXPECT_NEAR(world.centre(door).y, 0.5 * std::sin(0.5), 2e-3);
-  EXPECT_NEAR(to_double(world.states[door].spin.z), 0, 1e-2);
+  EXPECT_NEAR(to_double(world.states[door].angular_velocity.z), 0, 1e-2);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Free turning keeps angular momentum and energy, in every scalar, for as long as one looks and at any rate of spin.
+// Free turning keeps angular momentum and energy, in every scalar, for as long as one looks and at any angular speed.
 // SPDX-License-Identifier: MIT
 #include "isostep/dynamics/gyroscopic.hpp"
 
@@ -22,17 +22,17 @@ struct Change {
   double momentum = 0, gain = 0, loss = 0;  // [1] of the start's
 };
 
-/// Turns as a step does: spin first, then the orientation by it. `inertia`: over the largest.
+/// Turns as a step does: angular velocity first, then the orientation by it. `inertia`: over the largest.
 template <class S>
 Change turn(Vec3<double> inertia, Vec3<double> start, std::int32_t rate, int steps, bool slow = false) {
   using V = Velocity<S>;
   const Vec3<S> moments = {from_double<S>(inertia.x), from_double<S>(inertia.y), from_double<S>(inertia.z)};
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   Quat<Unit<S>> q = normalise(Quat<Unit<S>>{Unit<S>(0.1), Unit<S>(0.3), Unit<S>(0.3), Unit<S>(0.9)});
-  Vec3<V> spin = {from_double<V>(start.x), from_double<V>(start.y), from_double<V>(start.z)};
+  Vec3<V> angular_velocity = {from_double<V>(start.x), from_double<V>(start.y), from_double<V>(start.z)};
   Change worst;
   Vec3<V> known = Vec3<V>::zero();
-  for (int k = 0; k < 3; ++k) known[k] = round_to<V>(dot_sum(to_matrix(q).column(k), spin));
+  for (int k = 0; k < 3; ++k) known[k] = round_to<V>(dot_sum(to_matrix(q).column(k), angular_velocity));
   Vec3<double> momentum0 = {0, 0, 0};
   double energy0 = 0;
   for (int i = 0; i <= steps; ++i) {
@@ -40,9 +40,9 @@ Change turn(Vec3<double> inertia, Vec3<double> start, std::int32_t rate, int ste
     Vec3<double> momentum = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
       const Vec3<double> axis = in_double(axes.column(k));
-      momentum += axis * (inertia[k] * dot(axis, in_double(spin)));
+      momentum += axis * (inertia[k] * dot(axis, in_double(angular_velocity)));
     }
-    const double energy = dot(momentum, in_double(spin));
+    const double energy = dot(momentum, in_double(angular_velocity));
     if (i == 0) {
       momentum0 = momentum;
       energy0 = energy;
@@ -51,9 +51,10 @@ Change turn(Vec3<double> inertia, Vec3<double> start, std::int32_t rate, int ste
     worst.momentum = std::max(worst.momentum, std::sqrt(dot(change, change) / dot(momentum0, momentum0)));
     worst.gain = std::max(worst.gain, energy / energy0 - 1);
     worst.loss = std::max(worst.loss, 1 - energy / energy0);
-    spin = FreeTurn<S>{axes, moments, FreeTurn<S>::euler_of(moments), h}.turn(spin, known, slow);
+    angular_velocity =
+        FreeTurn<S>{axes, moments, FreeTurn<S>::euler_of(moments), h}.turn(angular_velocity, known, slow);
     const auto angle = [&](V w) { return round_to<Unit<S>>(product(w, h)); };
-    q = integrate(q, Vec3<Unit<S>>{angle(spin.x), angle(spin.y), angle(spin.z)});
+    q = integrate(q, Vec3<Unit<S>>{angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)});
   }
   return worst;
 }
@@ -85,7 +86,7 @@ TYPED_TEST(FreeTurning, KeepsEnergyOfSlowSolidsByTheExplicitForm) {
 }
 
 /// Nearly a radian a step, half a minute: energy swings, and neither grows nor fades away.
-TYPED_TEST(FreeTurning, IsStableAtTheGreatestSpin) {
+TYPED_TEST(FreeTurning, IsStableAtTheGreatestAngularSpeed) {
   for (const Vec3<double> inertia :
        {Vec3<double>{0.25, 1, 0.85}, Vec3<double>{1, 0.9, 0.1}, Vec3<double>{1, 1, 0.01}}) {
     const Change change = turn<TypeParam>(inertia, {30, 35, 36}, 60, 1800);

@@ -30,7 +30,7 @@ template <class S>
 std::uint32_t add_part(JointWorld<S>& world, Draw& draw, D3 at, double mass, D3 half = {0.25, 0.3, 0.2}) {
   const std::uint32_t body = world.add_box(at, mass, {half.x * (1 + draw(0.125)), half.y, half.z});
   world.states[body].velocity = JointWorld<S>::velocity(draw.point(1));
-  world.states[body].spin = JointWorld<S>::velocity(draw.point(2));
+  world.states[body].angular_velocity = JointWorld<S>::velocity(draw.point(2));
   return body;
 }
 /// A trunk with arms of two: joints made inwards and outwards. `arms` up to 4.
@@ -71,7 +71,7 @@ template <class S> void build_forest(JointWorld<S>& world) {
     world.join(JointType::ball, end, kNoBody, {4, 20, 3.0 * i});  // a bridge
   }
   const std::uint32_t rotor = world.add_body({0, 24, 0}, 0, {0, 0, 0});
-  world.states[rotor].spin = JointWorld<S>::velocity({0, 2, 0});
+  world.states[rotor].angular_velocity = JointWorld<S>::velocity({0, 2, 0});
   world.states[rotor].velocity = JointWorld<S>::velocity({0.5, 0, 0});
   for (int i = 0; i < 3; ++i) add_chain(world, draw, rotor, {0.5, 24, 3.0 * i}, 3, 5);
 }
@@ -115,7 +115,7 @@ template <class S> Numbers<S> numbers_of(const JointWorld<S>& world, bool signle
     add(state.orientation.w);
     add_vector(Vec3<Unit<S>>{state.orientation.x, state.orientation.y, state.orientation.z});
     add_vector(state.velocity);
-    add_vector(state.spin);
+    add_vector(state.angular_velocity);
   }
   for (const JointState<S>& joint : world.impulses) add_vector(joint.point);
   return out;

@@ -73,7 +73,7 @@ template <class S> class JointWorld {
     bodies.mass.assign(states.size() + 1, {S(0), Mat3<S>::diagonal(Vec3<S>::zero())});
     for (std::size_t i = 0; i < states.size(); ++i) {
       bodies.velocity[i + 1].linear = states[i].velocity;
-      bodies.velocity[i + 1].angular = states[i].spin;
+      bodies.velocity[i + 1].angular = states[i].angular_velocity;
       bodies.mass[i + 1] = {masses[i], rotate_diagonal(to_matrix(states[i].orientation), kappas[i])};
     }
     constraints.resize(joints.size());
@@ -88,7 +88,8 @@ template <class S> class JointWorld {
   }
   JointStep<S> substep() {
     const S rate = S(240);
-    return {states.data(), &bodies, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate), rapid_spin<S>(60)};
+    return {
+        states.data(), &bodies, rate, divide_to<Step<S>>(S(1), rate), joint_softness(rate), rapid_angular_speed<S>(60)};
   }
   template <class Act> void for_each_batch(const Act& act) {
     const std::uint32_t count = trees.batch_count();
@@ -117,7 +118,7 @@ template <class S> class JointWorld {
     }
     for (std::size_t r = 0; r < states.size(); ++r) {
       states[r].velocity = bodies.velocity[r + 1].linear;
-      states[r].spin = bodies.velocity[r + 1].angular;
+      states[r].angular_velocity = bodies.velocity[r + 1].angular;
     }
     if (!one_by_one) for_each_batch([&](std::uint32_t batch) { trees.store(batch, constraints); });
     for (std::size_t j = 0; j < joints.size(); ++j) store_joint(constraints[j], impulses[j]);
@@ -158,7 +159,7 @@ template <class S> class JointWorld {
       const D3 k = wide(kappas[i]);
       const Eigen::Matrix3d inertia = r * Eigen::Vector3d(m / k.x, m / k.y, m / k.z).asDiagonal() * r.transpose();
       p += m * to(wide_of(states[i].velocity));
-      l += m * to(centre(b)).cross(to(wide_of(states[i].velocity))) + inertia * to(wide_of(states[i].spin));
+      l += m * to(centre(b)).cross(to(wide_of(states[i].velocity))) + inertia * to(wide_of(states[i].angular_velocity));
     }
     return {{p.x(), p.y(), p.z()}, {l.x(), l.y(), l.z()}};
   }
@@ -168,7 +169,8 @@ template <class S> class JointWorld {
       const double m = to_double(masses[i]);
       const D3 v = wide_of(states[i].velocity), c = wide(states[i].centre);
       e += m * (v.x * v.x + v.y * v.y + v.z * v.z) / 2 - m * (gravity.x * c.x + gravity.y * c.y + gravity.z * c.z);
-      const D3 w = wide_of(transposed_times(to_matrix(states[i].orientation), states[i].spin)), k = wide(kappas[i]);
+      const D3 w = wide_of(transposed_times(to_matrix(states[i].orientation), states[i].angular_velocity)),
+               k = wide(kappas[i]);
       e += m * (w.x * w.x / k.x + w.y * w.y / k.y + w.z * w.z / k.z) / 2;
     }
     return e;

@@ -120,7 +120,7 @@ TYPED_TEST(Joints, ConeAndTwistLimitsAreNotPassed) {
   ball.cone = S(0.5);
   ball.lower = S(-0.25);
   ball.upper = S(0.25);
-  world.states[arm].spin = JointWorld<S>::velocity({0, 0, 3});
+  world.states[arm].angular_velocity = JointWorld<S>::velocity({0, 0, 3});
   double swing = 0, twist = 0;
   for (int frame = 0; frame < 240; ++frame) {
     world.step();
@@ -143,7 +143,7 @@ TYPED_TEST(Joints, HingeKeepsItsAxisUnderLoadAcrossIt) {
   JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, door, {0, 0.3, 0});
   hinge.frame_a.orientation = hinge.frame_b.orientation =
       rotation<S>({Unit<S>(1), Unit<S>(0), Unit<S>(0)}, S(-kPi / 2));
-  world.states[door].spin = JointWorld<S>::velocity({0, 4, 0});
+  world.states[door].angular_velocity = JointWorld<S>::velocity({0, 4, 0});
   double turned = 0;
   for (int frame = 0; frame < 240; ++frame) {
     world.step();
@@ -184,7 +184,7 @@ TYPED_TEST(Joints, HingeLimitStopsAFallingBarAndHoldsIt) {
   }
   EXPECT_GT(lowest, -0.76);
   EXPECT_NEAR(angle, -0.75, 0.004);
-  EXPECT_LT(norm(JointWorld<S>::wide_of(world.states[bar].spin)), 1e-2);
+  EXPECT_LT(norm(JointWorld<S>::wide_of(world.states[bar].angular_velocity)), 1e-2);
 }
 
 TYPED_TEST(Joints, MotorGathersSpeedByItsTorqueAndThenKeepsIt) {
@@ -198,9 +198,9 @@ TYPED_TEST(Joints, MotorGathersSpeedByItsTorqueAndThenKeepsIt) {
   hinge.motor_torque = S(1.5);
   const double inertia = 2 * ((0.25 + 0.01) / 3 + 0.25);  // about the hinge
   for (int frame = 0; frame < 30; ++frame) world.step();
-  EXPECT_NEAR(to_double(world.states[bar].spin.z), 1.5 / inertia * 0.5, 0.02);
+  EXPECT_NEAR(to_double(world.states[bar].angular_velocity.z), 1.5 / inertia * 0.5, 0.02);
   for (int frame = 0; frame < 90; ++frame) world.step();
-  EXPECT_NEAR(to_double(world.states[bar].spin.z), 4, tolerance<S>(5e-3, 1e-2));
+  EXPECT_NEAR(to_double(world.states[bar].angular_velocity.z), 4, tolerance<S>(5e-3, 1e-2));
 }
 
 TYPED_TEST(Joints, MotorTooWeakForTheLoadLetsItFall) {
@@ -245,13 +245,13 @@ TYPED_TEST(Joints, WeldedBoxesTumbleAsOne) {
   const std::uint32_t b = world.add_box({0.5, 0, 0}, 4, {0.5, 0.3, 0.2});
   world.join(JointType::fixed, a, b, {0, 0.1, 0});
   world.states[a].velocity = JointWorld<S>::velocity({0, 1.5, 0});
-  world.states[b].spin = JointWorld<S>::velocity({1, 2, 3});
+  world.states[b].angular_velocity = JointWorld<S>::velocity({1, 2, 3});
   for (int frame = 0; frame < 240; ++frame) {
     world.step();
     EXPECT_LT(world.worst_separation(), tolerance<S>(1e-3, 2e-3));
     for (int i = 0; i < 3; ++i) EXPECT_LT(norm(world.axis(a, i) - world.axis(b, i)), tolerance<S>(2e-3, 4e-3));
   }
-  EXPECT_GT(norm(JointWorld<S>::wide_of(world.states[a].spin)), 0.5);
+  EXPECT_GT(norm(JointWorld<S>::wide_of(world.states[a].angular_velocity)), 0.5);
 }
 
 TYPED_TEST(Joints, CantileverOfEightWeldedBoxesStaysStraight) {
@@ -323,7 +323,7 @@ template <class S> void build_creature(JointWorld<S>& world) {
   world.join(JointType::ball, torso, right, {-0.19, 0.48, 0});
   world.join(JointType::ball, pelvis, leg, {0.09, -0.11, 0});
   world.states[pelvis].velocity = JointWorld<S>::velocity({1, 0, 0.5});
-  world.states[torso].spin = JointWorld<S>::velocity({0.5, 3, -1});
+  world.states[torso].angular_velocity = JointWorld<S>::velocity({0.5, 3, -1});
   world.states[head].velocity = JointWorld<S>::velocity({0, 1, 0});
 }
 
@@ -345,7 +345,7 @@ TYPED_TEST(Joints, JointsWithoutTheWorldConserveMomentum) {
       world.solve(sub, true);
       for (std::size_t r = 0; r < world.states.size(); ++r) {
         world.states[r].velocity = world.bodies.velocity[r + 1].linear;
-        world.states[r].spin = world.bodies.velocity[r + 1].angular;
+        world.states[r].angular_velocity = world.bodies.velocity[r + 1].angular;
       }
       const auto after = world.momentum();
       EXPECT_LT(norm(after.first - before.first), tolerance<S>(1e-5, 1e-4));

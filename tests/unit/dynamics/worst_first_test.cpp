@@ -72,7 +72,7 @@ TYPED_TEST(WorstFirstBodies, an_impact_off_the_centre_turns_as_much_as_it_pushes
     const double off = pick<S>(1e-5, 1e-13, 1e-3, 1e-8) * 10;
     expect_near(real(w.velocity(ball)), {0, impulse - speed, 0}, off, "ball");
     expect_near(real(w.velocity(box)), {0, -impulse / mass, 0}, off, "box");
-    expect_near(real(w.angular_velocity(box)), {0, 0, -arm * impulse / inertia}, off, "spin");
+    expect_near(real(w.angular_velocity(box)), {0, 0, -arm * impulse / inertia}, off, "angular velocity");
     // Angular momentum about the box's centre: the ball's before, m_ball arm (-speed).
     const double after = arm * real(w.velocity(ball)).y + inertia * real(w.angular_velocity(box)).z;
     EXPECT_NEAR(after, -arm * speed, 4 * off);
@@ -294,7 +294,7 @@ TYPED_TEST(WorstFirstBodies, overlap_off_the_centre_is_shared_by_moving_and_turn
   EXPECT_GT(first, 0.002);
   EXPECT_LT(first, 0.016) << "relaxed: not all at once";
   expect_near(real(w.velocity(id)), {0, 0, 0}, 0, "speed");
-  expect_near(real(w.angular_velocity(id)), {0, 0, 0}, 0, "spin");
+  expect_near(real(w.angular_velocity(id)), {0, 0, 0}, 0, "angular velocity");
   run(w, 60);
   // To what a resting contact keeps, half a millimetre.
   EXPECT_NEAR(moved(), 0.03125 - 0.0005, 5e-4);

@@ -36,8 +36,9 @@ TYPED_TEST(CouplingOf, a_body_and_what_hits_it_keep_their_momentum_and_gain_no_e
     double sum = 0;
     for (const ParticleId id : game.particles.particles())
       sum += to_double(game.particles.mass(id)) / 2 * length(game.speed(id)) * length(game.speed(id));
-    const double spin = length(real(game.bodies.angular_velocity(body)));
-    return sum + length(game.speed(body)) * length(game.speed(body)) + spin * spin / 6;  // of a cube: m a^2 / 6
+    const double angular_speed = length(real(game.bodies.angular_velocity(body)));
+    return sum + length(game.speed(body)) * length(game.speed(body)) +
+           angular_speed * angular_speed / 6;  // of a cube: m a^2 / 6
   };
   const D3 before = game.momentum();
   double least = energy();

@@ -124,7 +124,7 @@ TEST(Limits, AreWhatTheirPageSays) {
   EXPECT_EQ(to_double(Limits<Q16_16>::minimum_size()), 1.0 / 64);
   EXPECT_EQ(to_double(Limits<Q16_16>::position()), 512);
   EXPECT_EQ(to_double(Limits<Q16_16>::speed()), 64);
-  EXPECT_EQ(to_double(Limits<Q16_16>::spin()), 64);
+  EXPECT_EQ(to_double(Limits<Q16_16>::angular_speed()), 64);
   EXPECT_EQ(to_double(Limits<Q16_16>::mass()), 8192);
   EXPECT_EQ(to_double(Limits<Q16_16>::mass_ratio()), 128);
   EXPECT_EQ(to_double(Limits<Q32_32>::extent()), 16384);
@@ -136,10 +136,10 @@ TEST(Limits, AreWhatTheirPageSays) {
 template <class S> void expect_argued_limits() {
   const double top = to_double(S::highest());
   const double extent = to_double(Limits<S>::extent()), speed = to_double(Limits<S>::speed());
-  const double spin = to_double(Limits<S>::spin()), size = to_double(Limits<S>::minimum_size());
+  const double angular_speed = to_double(Limits<S>::angular_speed()), size = to_double(Limits<S>::minimum_size());
   EXPECT_LT(extent * extent, top);
   EXPECT_LT(3 * speed * speed, top);
-  EXPECT_LT(2 * (speed + std::sqrt(3.0) * spin * extent), top);
+  EXPECT_LT(2 * (speed + std::sqrt(3.0) * angular_speed * extent), top);
   EXPECT_LT(16 * to_double(Limits<S>::position()), top);
   EXPECT_GE(to_double(Limits<S>::position()), extent);
   EXPECT_LT(2.5 / (size * size), top);

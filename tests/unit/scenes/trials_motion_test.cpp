@@ -56,7 +56,7 @@ TEST(MotionTrials, AreFailedByWhateverExplodes) {
         if (!body.dynamic) continue;
         body.centre += {3e3, -5e3, 4e3};
         body.velocity += {2e4, -7e4, 1e4};
-        body.spin += {900, 700, -800};
+        body.angular_velocity += {900, 700, -800};
         body.awake = true;
       }
       bench.sight.joint_error += 10;
@@ -76,7 +76,7 @@ TEST(MotionTrials, AreFailedByNumbersThatAreNone) {
     bench.show(0);
     const Sight start = bench.sight;
     for (BodySight& body : bench.sight.bodies) {
-      body.centre = body.velocity = body.spin = {kNan, kNan, kNan};
+      body.centre = body.velocity = body.angular_velocity = {kNan, kNan, kNan};
       body.orientation = {kNan, kNan, kNan, kNan};
     }
     bench.sight.joint_error = kNan;
@@ -92,16 +92,16 @@ TEST(MotionTrials, FreeTurningIsJudgedByAngularMomentum) {
   const double ix = 40 / 12.0 * 0.08 + 40 * centre * centre + 16 / 12.0 * (0.16 + 0.04) + 16 * below * below;
   const double iy = 40 / 12.0 * 1.04 + 16 / 12.0 * 0.08;
   Bench bench("t_handle");
-  bench.body(0).spin = {0, 10, 0};
+  bench.body(0).angular_velocity = {0, 10, 0};
   EXPECT_EQ(bench.show(0), 0.0);
-  bench.body(0).orientation = {0, std::sin(1.2), 0, std::cos(1.2)};  // about its spin
+  bench.body(0).orientation = {0, std::sin(1.2), 0, std::cos(1.2)};  // about its axis of rotation
   EXPECT_NEAR(bench.show(1), 0, kTight);
-  bench.body(0).spin = {0, 9.9, 0};
+  bench.body(0).angular_velocity = {0, 9.9, 0};
   EXPECT_NEAR(bench.show(2), 1, kTight);
-  bench.body(0).spin = {0, 10.1, 0};
+  bench.body(0).angular_velocity = {0, 10.1, 0};
   EXPECT_NEAR(bench.show(3), 2.01, kTight);
   bench.body(0).orientation = {0, 0, 0, 1};
-  bench.body(0).spin = {10 * iy / ix, 0, 0};  // as much, another way, and more energy
+  bench.body(0).angular_velocity = {10 * iy / ix, 0, 0};  // as much, another way, and more energy
   EXPECT_NEAR(bench.show(4), 100 * std::max(std::sqrt(2.0), iy / ix - 1), 1e-6);
 }
 
@@ -270,15 +270,16 @@ TEST(MotionTrials, BouncesMustKeepEnergy) {
 TEST(MotionTrials, TheLeverIsJudgedByWhatAHitWithoutLossDoes) {
   const double m = 10, v = 8000, arm = 45, mass = 100, inertia = 100 * (50 * 50 + 0.25) / 3;
   const double beam = 2 * m * v / (m + mass + m * mass * arm * arm / inertia);  // from the three, by elimination
-  const double after = v - mass / m * beam, spin = mass * beam * arm / inertia;
-  ASSERT_NEAR(m * v * v / (m * after * after + mass * beam * beam + inertia * spin * spin), 1, 1e-12);
+  const double after = v - mass / m * beam, angular_velocity = mass * beam * arm / inertia;
+  ASSERT_NEAR(m * v * v / (m * after * after + mass * beam * beam + inertia * angular_velocity * angular_velocity), 1,
+              1e-12);
   Bench bench("long_lever");
   EXPECT_GT(bench.show(0), 50);
   bench.body(0).velocity = {0, beam, 0};
-  bench.body(0).spin = {0, 0, spin};
+  bench.body(0).angular_velocity = {0, 0, angular_velocity};
   bench.body(1).velocity = {0, after, 0};
   EXPECT_NEAR(bench.show(1), 0, kTight);
-  bench.body(0).spin.z *= 1.05;
+  bench.body(0).angular_velocity.z *= 1.05;
   EXPECT_NEAR(bench.show(1), 5, kTight);
 }
 

@@ -361,7 +361,8 @@ TEST(Trials, BuildInDoubleAndDoSomething) {
     const Sight sight = sight_of(world, 0);
     bool moves = world.counts().points > 0;
     for (const BodySight& body : sight.bodies) {
-      moves = moves || (body.dynamic && dot(body.velocity, body.velocity) + dot(body.spin, body.spin) > 0);
+      moves = moves || (body.dynamic &&
+                        dot(body.velocity, body.velocity) + dot(body.angular_velocity, body.angular_velocity) > 0);
     }
     EXPECT_TRUE(moves) << trial.name;
     EXPECT_FALSE(run.over()) << trial.name;
@@ -386,7 +387,7 @@ TEST(FarTrials, AreInFixedPointAsTheyAreAtHome) {
     for (std::size_t i = 0; i < here.bodies.size(); ++i) {
       EXPECT_EQ(here.bodies[i].centre + (Vec3<double>{1e6, 0, 0}), there.bodies[i].centre) << name;
       EXPECT_EQ(here.bodies[i].velocity, there.bodies[i].velocity) << name;
-      EXPECT_EQ(here.bodies[i].spin, there.bodies[i].spin) << name;
+      EXPECT_EQ(here.bodies[i].angular_velocity, there.bodies[i].angular_velocity) << name;
     }
   }
 }

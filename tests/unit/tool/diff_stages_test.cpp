@@ -214,7 +214,7 @@ TEST_F(Recorded, OwnersAreThoseOfTheWorld) {
   ASSERT_GT(contacts.size(), 8u);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const std::string slot = "body slot " + std::to_string(states[i].slot);
-    EXPECT_EQ(tool::owner_of(fields, "bodies[" + std::to_string(i) + "].spin.z"), slot);
+    EXPECT_EQ(tool::owner_of(fields, "bodies[" + std::to_string(i) + "].angular_velocity.z"), slot);
     EXPECT_EQ(tool::owner_of(fields, "solver_velocity[" + std::to_string(i + 1) + "].linear.x"), slot);
   }
   EXPECT_EQ(tool::owner_of(fields, "solver_velocity[0].linear.x"), "") << "what does not move";
@@ -317,11 +317,11 @@ TEST_F(Recorded, OtherCommandsAndOtherLengthsAreNamed) {
   EXPECT_EQ(output(1, {a, c}), "the same as far as both go: 7 and 5 frames\n");
   EXPECT_EQ(output(0, {a}), "the same: 7 frames, stage by stage\n");
   const tool::Input input(a);
-  const StageFault fault = {{3, 2, "finalise_bodies"}, "bodies[2].spin.x", 3};
+  const StageFault fault = {{3, 2, "finalise_bodies"}, "bodies[2].angular_velocity.x", 3};
   StagedReplay how;
   how.fault = &fault;
   EXPECT_EQ(said(input, *tool::played_here(input), *tool::played_here(input, how), 1)
-                .rfind("frame 3, step 2 of the frame, stage finalise_bodies\n  bodies[2].spin.x: ", 0),
+                .rfind("frame 3, step 2 of the frame, stage finalise_bodies\n  bodies[2].angular_velocity.x: ", 0),
             0u);
 }
 

@@ -134,10 +134,10 @@ TYPED_TEST(WorldBodies, damping_divides_velocity_by_one_plus_h_c_every_substep) 
   d.angular_damping = num<S>(0.5);
   const BodyId id = w.create(d);
   run(w, 64);
-  const double keep = std::pow(1 + 2.0 / 256, -256), keep_spin = std::pow(1 + 0.5 / 256, -256);
+  const double keep = std::pow(1 + 2.0 / 256, -256), keep_angular = std::pow(1 + 0.5 / 256, -256);
   const double bound = pick<S>(1e-4, 1e-12, 4e-2, 1e-6);  // Q16.16 keeps a factor near one to 1 / 65536, 256 times
   expect_near(real(w.velocity(id)), {8 * keep, 0, -4 * keep}, bound);
-  expect_near(real(w.angular_velocity(id)), {0, 6 * keep_spin, 0}, bound);
+  expect_near(real(w.angular_velocity(id)), {0, 6 * keep_angular, 0}, bound);
 }
 
 TYPED_TEST(WorldBodies, heavy_damping_never_turns_a_velocity_round) {

@@ -68,7 +68,8 @@ TYPED_TEST(WorldCommands, bad_definitions_are_refused) {
   this->expect_bad_definition(Fault::stale_id, [&](auto& d) { d.shape = ShapeId{999, 1}; });
   this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.position.y = Limits<S>::position() + S(1); });
   this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.velocity.z = -Limits<S>::speed() - S(1); });
-  this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.angular_velocity.x = Limits<S>::spin() + S(1); });
+  this->expect_bad_definition(Fault::out_of_range,
+                              [&](auto& d) { d.angular_velocity.x = Limits<S>::angular_speed() + S(1); });
   this->expect_bad_definition(Fault::out_of_range,
                               [&](auto& d) { d.material.surface_velocity.x = Limits<S>::speed() + S(1); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.orientation.w = Unit<S>(0.5); });
@@ -155,7 +156,7 @@ TYPED_TEST(WorldCommands, arguments_out_of_range_are_refused) {
   World<S>& w = this->world;
   const Vec3<S> zero = Vec3<S>::zero();
   const Vec3<S> far_off = {Limits<S>::position() + S(1), S(0), S(0)}, fast = {S(0), Limits<S>::speed() + S(1), S(0)},
-                whirling = {S(0), S(0), -Limits<S>::spin() - S(1)};
+                whirling = {S(0), S(0), -Limits<S>::angular_speed() - S(1)};
   for (const BodyId id : {this->flier, this->sleeper, this->kinematic}) {
     this->expect_refused(Fault::out_of_range, [&] { return w.set_pose(id, {far_off, Quat<Unit<S>>::identity()}); });
     this->expect_refused(Fault::bad_argument, [&] {

@@ -338,7 +338,7 @@ TYPED_TEST(WorldFaults, each_field_has_a_text_of_its_own) {
   refused([](auto& d) { d.orientation.w = Unit<S>(0.5); });
   refused([](auto& d) { d.position.x = Limits<S>::position() + S(1); });
   refused([](auto& d) { d.velocity.x = Limits<S>::speed() + S(1); });
-  refused([](auto& d) { d.angular_velocity.x = Limits<S>::spin() + S(1); });
+  refused([](auto& d) { d.angular_velocity.x = Limits<S>::angular_speed() + S(1); });
   refused([](auto& d) { d.mass = S(-1); });
   refused([](auto& d) { d.density = S(-1); });
   refused([](auto& d) { d.inertia.x = S(-1); });
@@ -352,11 +352,11 @@ TYPED_TEST(WorldFaults, each_field_has_a_text_of_its_own) {
 TYPED_TEST(WorldFaults, a_speed_is_a_length_and_not_that_of_an_axis) {
   using S = TypeParam;
   World<S>& w = this->world;
-  const S most = Limits<S>::speed(), spin = Limits<S>::spin();
+  const S most = Limits<S>::speed(), angular_speed = Limits<S>::angular_speed();
   const Vec3<S> zero = Vec3<S>::zero();
   EXPECT_FALSE(w.set_velocity(this->a, {most, most, most}, zero));
   this->expect_fault(Fault::out_of_range, "set_velocity", "linear");
-  EXPECT_FALSE(w.set_velocity(this->a, zero, {spin, spin, S(0)}));
+  EXPECT_FALSE(w.set_velocity(this->a, zero, {angular_speed, angular_speed, S(0)}));
   this->expect_fault(Fault::out_of_range, "set_velocity", "angular");
   BodyDefinition<S> d = moving<S>(this->ball, {0, 9, 0});
   d.velocity = {most, most, most};

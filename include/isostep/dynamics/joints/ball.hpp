@@ -11,8 +11,8 @@ namespace detail {
 /// sub-step follows, and at half a turn it means nothing.
 template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
 
-/// Twist, about z, of a rotation that also swings: its rate is the relative spin about the mean of the two z axes,
-/// divided by cos(swing / 2).
+/// Twist, about z, of a rotation that also swings: its rate is the relative angular velocity about the mean of the two
+/// z axes, divided by cos(swing / 2).
 template <class S>
 ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
                                 JointConstraint<S>& joint) {

@@ -44,7 +44,7 @@ template <class S> struct JointStep {
   S rate;     // [1/s] sub-steps a second
   Step<S> h;  // [s]
   Softness<S> softness;
-  // [rad/s] slower than rapid_spin() or faster than spin_to_follow(), arms count as straight
+  // [rad/s] slower than rapid_angular_speed() or faster than angular_speed_to_follow(), arms count as straight
   Velocity<S> rapid = Velocity<S>(0), fastest = highest<Velocity<S>>();
 };
 
@@ -73,8 +73,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
 /// Jacobian and error from the poses of now.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// For velocities, after linearise_joint() and from the spins of `step.bodies` as they are: how joints' arms curve. Not
-/// for solvers that close errors of position by themselves: what the arms curved then stays as speed.
+/// For velocities, after linearise_joint() and from the angular velocities of `step.bodies` as they are: how joints'
+/// arms curve. Not for solvers that close errors of position by themselves: what the arms curved then stays as speed.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
 /// What the rows move, for bodies that turn by kappa, and how strong springs are.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);

@@ -19,21 +19,24 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
 /// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
 /// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
 /// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second
-/// order. An arm that turns by more than a sixteenth of a radian in the sub-step, half of what spin_to_follow() allows,
-/// counts as straight: light links of a rope under load whip so fast, and what bends them would drive them.
+/// order. An arm that turns by more than a sixteenth of a radian in the sub-step, half of what
+/// angular_speed_to_follow() allows, counts as straight: light links of a rope under load whip so fast, and what bends
+/// them would drive them.
 template <class S>
-ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> spin, Step<S> h, Velocity<S> fastest) {
+ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_velocity, Step<S> h, Velocity<S> fastest) {
   using V = Velocity<S>;
   const auto across = [](Vec3<V> w, Vec3<S> r) {
     return Vec3<V>{saturated<S>(product(r.z, w.y) - product(r.y, w.z)),
                    saturated<S>(product(r.x, w.z) - product(r.z, w.x)),
                    saturated<S>(product(r.y, w.x) - product(r.x, w.y))};
   };
-  const Vec3<V> turning = across(spin, arm);
+  const Vec3<V> turning = across(angular_velocity, arm);
   if (!(max_abs(turning) < saturated<S>(product(S(0.5) * max_abs(arm), fastest)))) return Vec3<V>::zero();
   const S half = S(0.5) * h;
   const V most = kJointPushSpeed<S>;
-  const Vec3<V> bent = across({scaled(half, spin.x), scaled(half, spin.y), scaled(half, spin.z)}, convert<S>(turning));
+  const Vec3<V> bent =
+      across({scaled(half, angular_velocity.x), scaled(half, angular_velocity.y), scaled(half, angular_velocity.z)},
+             convert<S>(turning));
   return held_within(bent, most);
 }
 
@@ -55,10 +58,10 @@ ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointC
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
   if (!joint.blocks[0].point) return;
   const auto curve = [&](Vec3<S> arm, std::uint32_t row) {
-    const Vec3<Velocity<S>> spin = step.bodies->velocity[row].angular;
-    const Velocity<S> fast = max_abs(spin);
+    const Vec3<Velocity<S>> angular_velocity = step.bodies->velocity[row].angular;
+    const Velocity<S> fast = max_abs(angular_velocity);
     const bool bends = step.rapid < fast && fast < step.fastest;
-    return bends ? detail::curve_of(arm, spin, step.h, step.fastest) : Vec3<Velocity<S>>::zero();
+    return bends ? detail::curve_of(arm, angular_velocity, step.h, step.fastest) : Vec3<Velocity<S>>::zero();
   };
   joint.blocks[0].curve = curve(joint.arm_b, joint.row_b) - curve(joint.arm_a, joint.row_a);
 }

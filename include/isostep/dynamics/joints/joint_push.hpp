@@ -7,7 +7,7 @@
 namespace isostep::detail {
 
 /// The changes of impulse of a joint's rows, for bodies to be pushed once by all: on a long arm a drive and the point
-/// turn a light body hard against each other, beyond the range of a spin, and what is left of both is little.
+/// turn a light body hard against each other, beyond the range of velocities, and what is left of both is little.
 template <class S> class JointPush {
  public:
   using V = Velocity<S>;

@@ -13,7 +13,7 @@ namespace isostep {
 template <class S> struct JointRow {
   Vec3<S> linear;                // [1]
   Vec3<S> angular_a, angular_b;  // [m]
-  Vec3<S> turn_a, turn_b;        // [1/m] kappa angular: spin per impulse, before the mass share
+  Vec3<S> turn_a, turn_b;        // [1/m] kappa angular: angular velocity per impulse, before the mass share
 
   static ISO_INLINE constexpr JointRow zero() {
     constexpr Vec3<S> kZero = Vec3<S>::zero();

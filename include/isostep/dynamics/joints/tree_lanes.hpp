@@ -25,7 +25,7 @@ template <class S, int W> struct TreeJointLanes {
   S share_a[W], share_b[W];        // [1] MassShare
   S arm_a[3][W], arm_b[3][W];      // [m] the same, world axes, now
   S pull_a[W], pull_b[W];          // [m^2]
-  S turn_a[9][W], turn_b[9][W];    // [1/m] spin per impulse, before the mass share: column i for world axis i
+  S turn_a[9][W], turn_b[9][W];    // [1/m] angular velocity per impulse, before the mass share: column i for axis i
   S inverse[6][W];                 // [1] of D; until then what earlier eliminations have left of K
   Velocity<S> error[3][W];         // [m]
   Velocity<S> impulse[3][W];       // [m/s] accumulated

@@ -36,7 +36,7 @@ template <class S> class BodyRows {
  private:
   struct Gyro {
     Vec3<S> inertia, euler;   // [1] gyroscopic.hpp
-    Vec3<Velocity<S>> known;  // [rad/s] principal frame: spin after the last free turn
+    Vec3<Velocity<S>> known;  // [rad/s] principal frame: angular velocity after the last free turn
     bool solid;
   };
 

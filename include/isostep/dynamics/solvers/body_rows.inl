@@ -34,7 +34,7 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context) {
     const BodyState<S>& state = context.states[i];
     const BodyProperties<S>& body = context.properties[i];
     start_[i] = state.centre;
-    rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.spin, Velocity<S>(0)};
+    rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.angular_velocity, Velocity<S>(0)};
     SolverMass<S>& mass = rows_.mass[i + 1];
     if (body.type != BodyType::dynamic) {
       mass = rows_.mass[0];
@@ -49,7 +49,8 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context) {
     const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
     const Vec3<S> inertia = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
     const Vec3<S> euler = FreeTurn<S>::euler_of(inertia);
-    gyro_[i] = {inertia, euler, FreeTurn<S>{axes, inertia, euler, {}}.local(state.spin), FreeTurn<S>::is_solid(euler)};
+    gyro_[i] = {inertia, euler, FreeTurn<S>{axes, inertia, euler, {}}.local(state.angular_velocity),
+                FreeTurn<S>::is_solid(euler)};
   }
 }
 
@@ -58,7 +59,7 @@ void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::int32
                                        std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V rapid = rapid_spin<S>(context.hz), most = spin_to_follow<S>(rate);
+  const V rapid = rapid_angular_speed<S>(context.hz), most = angular_speed_to_follow<S>(rate);
   const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
     const BodyProperties<S>& body = context.properties[i];
@@ -91,8 +92,8 @@ void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::int32
       row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, slow);
     }
     detail::hold_locks(body.flags, row);
-    const V spin = max_abs(row.angular);
-    if (rapid < spin && spin < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
+    const V angular_speed = max_abs(row.angular);
+    if (rapid < angular_speed && angular_speed < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
   }
 }
 
@@ -101,7 +102,7 @@ void BodyRows<S>::integrate_positions(const StepContext<S>& context, std::int32_
                                       std::size_t end) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V fastest = spin_limit<S>(rate);
+  const V fastest = angular_speed_limit<S>(rate);
   const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
   for (std::size_t i = first; i < end; ++i) {
     MotionRow<V>& v = rows_.velocity[i + 1];
@@ -127,13 +128,13 @@ void BodyRows<S>::store(const StepContext<S>& context, std::int32_t rate, std::s
     const BodyProperties<S>& body = context.properties[i];
     MotionRow<Velocity<S>> row = rows_.velocity[i + 1];
     const bool turns = body.type == BodyType::dynamic && detail::turns_freely(body);
-    if (turns && rapid_spin<S>(context.hz) < max_abs(row.angular)) {
+    if (turns && rapid_angular_speed<S>(context.hz) < max_abs(row.angular)) {
       const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       row.angular = FreeTurn<S>{axes, gyro_[i].inertia, gyro_[i].euler, h}.settle(row.angular, gyro_[i].known);
       detail::hold_locks(body.flags, row);
     }
     state.velocity = row.linear;
-    state.spin = row.angular;
+    state.angular_velocity = row.angular;
   }
 }
 

@@ -12,18 +12,19 @@
 namespace isostep {
 
 /// One row of the Jacobian that turns but does not push: angular parts only.
-/// Symbols: jacobian_a, jacobian_b = the row's angular parts; spin_a, spin_b = change of angular velocity per impulse.
+/// Symbols: jacobian_a, jacobian_b = the row's angular parts; response_a, response_b = change of angular velocity per
+///          impulse.
 template <class S, int W> struct AngularRow {
   S jacobian_a[3][W], jacobian_b[3][W];
-  S spin_a[3][W], spin_b[3][W];
+  S response_a[3][W], response_b[3][W];
   S effective_mass[W];
   Velocity<S> impulse[W];  // [m/s] accumulated
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("jacobian_a", self.jacobian_a);
     visit("jacobian_b", self.jacobian_b);
-    visit("spin_a", self.spin_a);
-    visit("spin_b", self.spin_b);
+    visit("response_a", self.response_a);
+    visit("response_b", self.response_b);
     visit("effective_mass", self.effective_mass);
     visit("impulse", self.impulse);
   }

@@ -14,7 +14,8 @@ namespace {
 
 /// Source:  Catto 2024, Solver2D: Soft Step. Impulses are velocity changes of the reduced mass, so that every
 ///          coefficient is near one whatever the masses.
-/// Symbols: n = normal from a to b, v, w = velocity and spin, d = displacement since the step began, lambda = impulse.
+/// Symbols: n = normal from a to b, v, w = linear and angular velocity, d = displacement since the step began,
+///          lambda = impulse.
 /// Order:   biased, tangents then normals: what may not overlap has the last word. Relaxed, normals then tangents: a
 ///          step's friction is bounded by the normal impulse that is left when the push is gone. Lanes never meet.
 template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
@@ -61,15 +62,15 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   }
   static ISO_INLINE void turn(const AngularRow<S, W>& row, V impulse, Motion& a, Motion& b) {
     for (int i = 0; i < 3; ++i) {
-      a.angular[i] = a.angular[i] - times(L::load(row.spin_a[i]), impulse);
-      b.angular[i] = b.angular[i] + times(L::load(row.spin_b[i]), impulse);
+      a.angular[i] = a.angular[i] - times(L::load(row.response_a[i]), impulse);
+      b.angular[i] = b.angular[i] + times(L::load(row.response_b[i]), impulse);
     }
   }
   /// turn() of a row that has no lever and bears nothing.
   static ISO_INLINE void turn_by_nothing(const AngularRow<S, W>& row, Motion& a, Motion& b) {
     for (int i = 0; i < 3; ++i) {
-      a.angular[i] = subtract_zero(a.angular[i], L::load(row.spin_a[i]));
-      b.angular[i] = add_zero(b.angular[i], L::load(row.spin_b[i]));
+      a.angular[i] = subtract_zero(a.angular[i], L::load(row.response_a[i]));
+      b.angular[i] = add_zero(b.angular[i], L::load(row.response_b[i]));
     }
   }
   static ISO_INLINE void push(const S (&direction)[3][W], const AngularRow<S, W>& row, const Shares& share, V impulse,

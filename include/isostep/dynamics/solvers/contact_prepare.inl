@@ -25,7 +25,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
   using Point = typename Geometry::Point;
 
   struct Body {
-    Vec3<V> velocity, spin;
+    Vec3<V> velocity, angular_velocity;
     L mass;
     Mat3<L> kappa;
     Mask moves;
@@ -122,15 +122,15 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const Mat3<L>& kappa_b;
     L share_a, share_b;
 
-    /// Angular parts of a row whose speed is jacobian_b . spin_b - jacobian_a . spin_a, `linear` apart.
+    /// Angular parts of a row whose speed is jacobian_b . response_b - jacobian_a . response_a, `linear` apart.
     ISO_INLINE void angular(Vec3<L> jacobian_a, Vec3<L> jacobian_b, L linear, V impulse, Row& row) const {
-      const Vec3<L> spin_a = (kappa_a * jacobian_a) * share_a;
-      const Vec3<L> spin_b = (kappa_b * jacobian_b) * share_b;
-      const L k = linear + round_to<L>(dot_sum(jacobian_a, spin_a) + dot_sum(jacobian_b, spin_b));
+      const Vec3<L> response_a = (kappa_a * jacobian_a) * share_a;
+      const Vec3<L> response_b = (kappa_b * jacobian_b) * share_b;
+      const L k = linear + round_to<L>(dot_sum(jacobian_a, response_a) + dot_sum(jacobian_b, response_b));
       store(jacobian_a, row.jacobian_a);
       store(jacobian_b, row.jacobian_b);
-      store(spin_a, row.spin_a);
-      store(spin_b, row.spin_b);
+      store(response_a, row.response_a);
+      store(response_b, row.response_b);
       // Rows that push have k >= 1. A turning row with less than an eighth has hardly a lever: it resists nothing.
       const Mask sound = less(L::broadcast(S(0.125)), k);
       quotient_where<L>(sound, L::broadcast(S(1)), k).store(row.effective_mass);
@@ -153,8 +153,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
   /// v_b - v_a at the ends of two arms [m/s].
   static ISO_INLINE Vec3<V> relative_velocity(const Body& a, const Body& b, const Arms& arms) {
     const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
-      return round_to<V>(product(b.spin[i], arms.b[j]) - product(b.spin[j], arms.b[i]) - product(a.spin[i], arms.a[j]) +
-                         product(a.spin[j], arms.a[i]));
+      return round_to<V>(product(b.angular_velocity[i], arms.b[j]) - product(b.angular_velocity[j], arms.b[i]) -
+                         product(a.angular_velocity[i], arms.a[j]) + product(a.angular_velocity[j], arms.a[i]));
     };
     return b.velocity - a.velocity + Vec3<V>{part(1, 2), part(2, 0), part(0, 1)};
   }
@@ -296,9 +296,9 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const L zero = L::zero();
     const L radius = max(select(a.moves, abs(dot(arms.a, n)), zero), select(b.moves, abs(dot(arms.b, n)), zero));
     // Along the rolling itself, so that the two rows' separate limits resist it as one.
-    const Vec3<V> spin = flatten(b.spin - a.spin, n);
-    const Mask rolls = less(V::broadcast(Velocity<S>(0.01)), max_abs(spin));  // [rad/s] slower is rest
-    const Tangents<U> basis = basis_along(rolls, spin, n);
+    const Vec3<V> angular_velocity = flatten(b.angular_velocity - a.angular_velocity, n);
+    const Mask rolls = less(V::broadcast(Velocity<S>(0.01)), max_abs(angular_velocity));  // [rad/s] slower is rest
+    const Tangents<U> basis = basis_along(rolls, angular_velocity, n);
     const Vec3<U> axes[2] = {basis.t, basis.u};
     for (int k = 0; k < 2; ++k) {
       const Vec3<L> axis = {convert<L>(axes[k].x), convert<L>(axes[k].y), convert<L>(axes[k].z)};

@@ -35,8 +35,8 @@ template <class S> JointStep<S> DirectSolver<S>::joint_step(const StepContext<S>
           rate,
           divide_to<Step<S>>(S(1), rate),
           {detail::kDirectJointShare<S> * rate, S(1), S(0)},
-          rapid_spin<S>(context.hz),
-          spin_to_follow<S>(rate_)};
+          rapid_angular_speed<S>(context.hz),
+          angular_speed_to_follow<S>(rate_)};
 }
 
 template <class S> void DirectSolver<S>::linearise_joints(const StepContext<S>& context, Island& island) {

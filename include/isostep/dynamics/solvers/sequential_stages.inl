@@ -37,7 +37,7 @@ template <class S> void Sequential<S>::run(const StepContext<S>& context) {
              context,
              detail::contact_pass(schedule_),
              {context.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
-              rapid_spin<S>(context.hz), spin_to_follow<S>(schedule_.rate)}};
+              rapid_angular_speed<S>(context.hz), angular_speed_to_follow<S>(schedule_.rate)}};
   run_stages(runner_, pieces_, &Sequential::do_piece, &job);
   stages_.clear();
   pieces_.clear();

@@ -30,8 +30,8 @@ template <class S> struct Acceleration {
 
 /// No body turns by more than a radian about an axis in a step of integration [rad/s]: beyond, a turn is no longer
 /// small.
-template <class S> ISO_INLINE constexpr Velocity<S> spin_limit(std::int32_t rate) {
-  return convert<Velocity<S>>(min(Limits<S>::spin(), S(rate)));
+template <class S> ISO_INLINE constexpr Velocity<S> angular_speed_limit(std::int32_t rate) {
+  return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(rate)));
 }
 
 /// Awake bodies in order, the contacts between them and their joints in canonical order.

@@ -197,8 +197,8 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<
                              S(rate),
                              divide_to<Step<S>>(S(1), S(rate)),
                              Softness<S>::rigid(),
-                             rapid_spin<S>(context.hz),
-                             spin_to_follow<S>(rate)};
+                             rapid_angular_speed<S>(context.hz),
+                             angular_speed_to_follow<S>(rate)};
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return joints_[held_[i - points]]; };
   islands_left_ = 0;

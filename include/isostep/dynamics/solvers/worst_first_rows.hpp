@@ -80,8 +80,8 @@ template <class S> using Motion = MotionRow<Velocity<S>>;
 template <class S> ISO_INLINE constexpr Velocity<S> passing_velocity() {
   return convert<Velocity<S>>(Limits<S>::speed()) * Velocity<S>(8);
 }
-template <class S> ISO_INLINE constexpr Velocity<S> passing_spin() {
-  return convert<Velocity<S>>(Limits<S>::spin()) * Velocity<S>(8);
+template <class S> ISO_INLINE constexpr Velocity<S> passing_angular_speed() {
+  return convert<Velocity<S>>(Limits<S>::angular_speed()) * Velocity<S>(8);
 }
 
 template <class V> ISO_INLINE constexpr Vec3<V> held(Vec3<V> v, V most) {
@@ -107,18 +107,18 @@ ISO_INLINE Vec3<Velocity<S>> pushed(Vec3<Velocity<S>> old, Vec3<S> v, Velocity<S
 template <class S>
 ISO_INLINE void push(const JointRow<S>& row, MassShare<S> share, Velocity<S> impulse, Motion<S>& a, Motion<S>& b) {
   using V = Velocity<S>;
-  const V most = passing_velocity<S>(), most_spin = passing_spin<S>();
+  const V most = passing_velocity<S>(), most_angular_speed = passing_angular_speed<S>();
   if (share.a > S(0)) {
     a.linear = pushed(a.linear, row.linear, -saturate_to<V>(product(share.a, impulse)), most);
-    a.angular = pushed(a.angular, row.turn_a, -impulse, most_spin);
+    a.angular = pushed(a.angular, row.turn_a, -impulse, most_angular_speed);
   }
   if (share.b > S(0)) {
     b.linear = pushed(b.linear, row.linear, saturate_to<V>(product(share.b, impulse)), most);
-    b.angular = pushed(b.angular, row.turn_b, impulse, most_spin);
+    b.angular = pushed(b.angular, row.turn_b, impulse, most_angular_speed);
   }
 }
 
-/// A row of two bodies' spins, turns with the shares in them.
+/// A row of two bodies' angular velocities, turns with the shares in them.
 template <class S>
 ISO_INLINE JointRow<S> weighed_row(Vec3<S> linear, Vec3<S> angular_a, Vec3<S> angular_b, const SolverMass<S>& a,
                                    const SolverMass<S>& b, MassShare<S> share) {

@@ -87,7 +87,7 @@ template <class S> void WorstFirstResolver<S>::hold(JointConstraint<S>& joint) {
     if (!bodies.moves(body)) continue;
     Motion& v = bodies.velocity[body];
     v.linear = detail::held(v.linear, detail::passing_velocity<S>());
-    v.angular = detail::held(v.angular, detail::passing_spin<S>());
+    v.angular = detail::held(v.angular, detail::passing_angular_speed<S>());
   }
 }
 
