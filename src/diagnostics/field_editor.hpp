@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Is asked of every field which bits it shall have from now on. Fields that may not be written keep theirs.
+/// Called for every field, returns the bits that it shall have from now on. Fields that may not be written keep theirs.
 struct FieldEditor {
   std::uint64_t (*field)(void* user, const PathPart& path, FieldFormat format, std::uint64_t bits);
   void* user;

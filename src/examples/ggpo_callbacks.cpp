@@ -1,4 +1,4 @@
-// The engine under netcode of GGPO's shape: the netcode owns states, inputs and time; the game answers four callbacks.
+// The engine under netcode of GGPO's shape: the netcode owns states, inputs and time; the game has four callbacks.
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cstdint>

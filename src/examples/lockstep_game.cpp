@@ -51,7 +51,7 @@ struct Machine {
   std::uint64_t hashes[300] = {};  // of the final frames
 
   Machine(const iso::SessionConfig& config, SimulatedNetwork::Port its_port) : session(config), port(its_port) {}
-  void confirmed(iso::Frame frame, std::uint64_t hash) {  // drive() tells this
+  void confirmed(iso::Frame frame, std::uint64_t hash) {  // drive() calls this
     if (frame < 300) hashes[frame] = hash;
   }
   // README: begin

@@ -29,7 +29,7 @@ int answer(const Result<void>& played) {
   return refuse(status_of(played.error()), played.error().message.view(), played.error().place.view());
 }
 
-/// All that is there has been traced; that more was asked for is told as `verify` tells it.
+/// All that is there has been traced; that more was asked for is reported as `verify` reports it.
 int end_of(const ReplayReader& replay, std::uint64_t frames) {
   if (replay.status() != ReplayStatus::truncated || frames <= replay.frame_count()) return exit_status::kOk;
   return answer(replay.error());

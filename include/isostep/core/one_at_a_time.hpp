@@ -11,7 +11,7 @@ namespace isostep {
 /// Not null, and another one in each thread that runs.
 const void* this_thread();
 
-/// Whoever is inside twice is a callback that changes what calls it, and is told. In builds with ISOSTEP_ASSERTS a
+/// Whoever is inside twice is a callback that changes what calls it, and is reported. In builds with ISOSTEP_ASSERTS a
 /// second thread ends the program; in others it may go unseen.
 class OneAtATime {
  public:

@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// A value computed from something at most once between two changes, by whoever asks first; a copy may know it. Several
-/// threads may ask at once: they come to the same value. A value of 0 is computed again every time.
+/// A value computed from something at most once between two changes, by whoever calls first; a copy may know it.
+/// Several threads may call at once: they come to the same value. A value of 0 is computed again every time.
 class Remembered {
  public:
   ISO_INLINE Remembered() : value_(0) {}

@@ -1,4 +1,4 @@
-// Stable sorts of records by a 64-bit key: one answer on every machine and standard library, no allocation.
+// Stable sorts of records by a 64-bit key: one result on every machine and standard library, no allocation.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -12,7 +12,7 @@ namespace isostep {
 /// Pieces of a stage, at most.
 inline constexpr std::uint32_t kMaxPieces = 32;
 
-/// A function and its data; `threads` of 1, the default, asks nobody.
+/// A function and its data; `threads` of 1, the default, calls no other.
 ///
 /// Contract: run(user, copies, task, data) calls task(data) up to `copies` times and returns when all of those calls
 /// have. They may run side by side, one after another, or not at all: a copy waits for no other, the caller finishes

@@ -11,7 +11,7 @@
 namespace isostep {
 
 /// Players 0..count-1 meet in pairs, the winners in pairs, and so on. `before(i, j)` is a strict total order of
-/// players, so the answer depends on who plays, not on the order in which they changed.
+/// players, so the result depends on who plays, not on the order in which they changed.
 class TournamentTree {
  public:
   /// All meet anew.

@@ -141,7 +141,7 @@ template <class S> ISO_INLINE S ParticleCoupling<S>::missing_speed(const Touchin
   const S apart = saturating_add(speed_along(touching.along, motion), -touching.speed);
   return saturating_add(touching.least_speed, -apart);
 }
-/// Answers by how much the touch changed [m/s].
+/// Returns by how much the touch changed [m/s].
 template <class S>
 ISO_INLINE S ParticleCoupling<S>::give(Touching& touching, Motion& motion, S missing, S answer, bool gives) {
   const S sum = gives ? saturating_add(answer, touching.own) : answer;

@@ -66,7 +66,7 @@ struct CouplingReport {
 ///          so can leave with some times its energy. What begins deep inside a body and hangs on springs stretches them
 ///          by that depth. Under worst_first a touch waits for the sub-step in which its gap closes, and time division
 ///          does not stop there: particles that go far in a sub-step can pass a thin body. Impulses are in S: Q16.16
-///          holds them at 32767 kg m/s a step, which no report tells.
+///          holds them at 32767 kg m/s a step, which no report says.
 template <class S> class ParticleCoupling {
  public:
   explicit ParticleCoupling(const CouplingSettings<S>& settings = {});

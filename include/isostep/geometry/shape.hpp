@@ -1,4 +1,4 @@
-// The closed set of shapes: all that their files say, asked of the one record that the engine stores.
+// The closed set of shapes: all that their files say, called on the one record that the engine stores.
 // SPDX-License-Identifier: MIT
 #pragma once
 

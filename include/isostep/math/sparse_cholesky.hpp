@@ -58,7 +58,7 @@ template <class N> class SparseCholesky {
   /// Bit c of held[i]: component c of vector i. Where one is held, b has to be zero.
   bool factorise(const std::vector<std::uint8_t>& held);
   /// x 2^exponent = A^-1 b 2^b_exponent. `loss`: A's eigenvalues are at least 2^-loss.
-  /// False: no convergence, or (floating point) an answer that is not finite.
+  /// False: no convergence, or (floating point) a result that is not finite.
   bool solve(const std::vector<Vec3<N>>& b, int b_exponent, int loss, std::vector<Vec3<N>>& x, int& exponent);
 
  private:

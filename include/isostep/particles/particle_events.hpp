@@ -1,4 +1,4 @@
-// What a step of particles tells the game: output of one step, in canonical order, never state.
+// What a step of particles reports to the game: output of one step, in canonical order, never state.
 // SPDX-License-Identifier: MIT
 #pragma once
 

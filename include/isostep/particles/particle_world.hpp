@@ -29,7 +29,7 @@ struct ParticleCounts {
 /// A world of particles over any scalar, beside World<S>.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
-/// in `fault()`. Observers of stages call none. Two worlds of one type that were told the same things in the same order
+/// in `fault()`. Observers of stages call none. Two worlds of one type that were given the same calls in the same order
 /// have equal hashes at every tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
@@ -104,7 +104,7 @@ template <class S> class ParticleWorld final {
   /// How often the world was loaded or read.
   std::uint64_t loads() const;
 
-  // What particles are like. A stale id gives the zero of the answer's type.
+  // What particles are like. A stale id gives the zero of the type that is returned.
   bool contains(ParticleId particle) const;
   Vec3<S> position(ParticleId particle) const;
   Vec3<S> velocity(ParticleId particle) const;

@@ -1,4 +1,4 @@
-// What a particle world is told at birth, and the names of its methods.
+// What a particle world is made with, and the names of its methods.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -48,7 +48,7 @@ template <class S> struct ParticleSettings {
   ParticleSolver solver = ParticleSolver::soft_step;
   Stepping stepping = Stepping::fixed;
   std::uint32_t iterations = 0;  // of worst_first a sub-step, of all; 0: two a constraint, each island its own
-  // What a crowd may cost; ParticleReport tells what was over, and it is over alike everywhere.
+  // What a crowd may cost; ParticleReport says what was over, and it is over alike everywhere.
   std::uint32_t pairs = 0;  // that a step's search may find, up to kMostParticlePairs; 0: 64 a particle, at least 2^21
   std::uint32_t looks = 0;  // at constraints, of worst_first a step; 0: 2^22 and 2048 a particle
 

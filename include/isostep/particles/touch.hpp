@@ -14,7 +14,7 @@ template <class S> struct ParticleTouch {
   S separation = S(0);  // [m] gap between the particle's surface and the other's; below 0 they overlap
   Vec3<Velocity<S>> surface_velocity = Vec3<Velocity<S>>::zero();  // [m/s] of the other at the point
   Vec3<S> surface_acceleration = Vec3<S>::zero();   // [m/s^2] with which that changes within the step by itself
-  InverseMass<S> inverse_mass = InverseMass<S>(0);  // [1/kg] with which the other answers there; 0: it does not
+  InverseMass<S> inverse_mass = InverseMass<S>(0);  // [1/kg] with which the other reacts there; 0: it does not
   S friction = S(0);                                // [1]
   S restitution = S(0);                             // [1]
 

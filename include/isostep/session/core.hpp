@@ -42,11 +42,11 @@ enum class SessionPhase : std::uint8_t {
 struct SessionEvent {
   enum class Kind : std::uint8_t {
     started,       // frame: the first
-    joined,        // player plays from frame on: told when that is final, alike on all peers
+    joined,        // player plays from frame on: reported when that is final, alike on all peers
     left,          // player is gone from frame on: as well
     waiting_for,   // players (a bit each) whose inputs are missing hold the match up
     resumed,       // it goes on
-    refused,       // field, theirs, ours: which field differs; the host tells it too
+    refused,       // field, theirs, ours: which field differs; the host reports it too
     lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
     bad_snapshot,  // the state that arrived does not have the host's hash, or was refused: error
@@ -77,7 +77,7 @@ struct SessionStats {
   std::uint64_t bytes_out = 0, bytes_in = 0;  // datagrams' and messages' own, without UDP/IP
   std::uint64_t refused = 0;                  // datagrams and messages that were malformed or not for us
   std::uint64_t flooded = 0;                  // dropped unread
-  std::uint64_t events_lost = 0;              // the caller did not ask for them in time
+  std::uint64_t events_lost = 0;              // the caller did not take them in time
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
   int peers = 0;                              // connected
   Frame delay = 0;                            // [frames] an input waits now

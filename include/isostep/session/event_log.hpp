@@ -1,4 +1,4 @@
-// EventLog<E>: tells what happened in a game that steps its frames more than once, so that a sound plays exactly once.
+// EventLog<E>: reports what happened in a game that steps its frames more than once, so that a sound plays only once.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,8 +26,8 @@ enum class NoticeKind : std::uint8_t {
   retracted   // it was predicted and has not happened
 };
 
-/// Each happening is told as `predicted`, then `confirmed` or `retracted`; or, if its frame was confirmed before anyone
-/// asked (in lockstep on the host), as `confirmed` alone.
+/// Each happening is reported as `predicted`, then `confirmed` or `retracted`; or, if its frame was confirmed before
+/// anyone polled (in lockstep on the host), as `confirmed` alone.
 ///
 ///     sounds, sparks                 if (notice.first) play(notice.event)
 ///     long ones, to be cut short     if (notice.kind == retracted) fade_out(playing[notice.happening])
@@ -46,7 +46,7 @@ struct EventLogConfig {
   Frame reach = 4;            // [frames] an event may move in a rollback and still be the same happening
 };
 
-/// What was not told. Both zero: all of it was.
+/// What was not reported. Both zero: all of it was.
 struct EventLoss {
   std::uint64_t crowded = 0;   // past the `events` of a confirmed frame: equal on every peer
   std::uint64_t homeless = 0;  // emitted between frames, or while `frames` full ones wait: this machine's own
@@ -56,15 +56,16 @@ struct EventLoss {
 ///
 /// The confirmed notices are, frame for frame and in order, what a run that never rolled back emits: equal on every
 /// peer. Predictions and retractions are this machine's. Nothing is decided during a rollback: `poll` compares what was
-/// told with what stands when it is called, so poll after `drive`, until nothing is left. An event of a frame that was
-/// stepped again is, if equal, the one that was told there; failing that, the nearest equal one within `reach` frames;
-/// equal ones count one by one. So a retraction waits until `reach` frames past the event were stepped without it.
+/// reported with what stands when it is called, so poll after `drive`, until nothing is left. An event of a frame that
+/// was stepped again is, if equal, the one that was reported there; failing that, the nearest equal one within `reach`
+/// frames; equal ones count one by one. So a retraction waits until `reach` frames past the event were stepped without
+/// it.
 ///
 ///     for (const auto& touch : world.events().contact_begin) log->emit({touch.a, touch.b});  // after world.step()
 ///     drive(session, game, now, log);
 ///     while (const auto notice = log.poll()) if (notice->first) play(notice->event);
 ///
-/// Who joins late is told of the frames that are caught up with as well: a sound is worth playing only while its frame
+/// Who joins late hears of the frames that are caught up with as well: a sound is worth playing only while its frame
 /// is near the present. Never part of the state: games hold a pointer to the log. Allocates when it is made, not later.
 template <LoggedEvent E> class EventLog {
  public:
@@ -81,7 +82,7 @@ template <LoggedEvent E> class EventLog {
 
   /// In a frame that is being stepped. False: lost, see `lost`.
   ISO_INLINE bool emit(const E& event) {
-    if (frame_ != kNoFrame && frame_ <= confirmed_) return true;  // told or waiting to be, and final
+    if (frame_ != kNoFrame && frame_ <= confirmed_) return true;  // reported or waiting to be, and final
     if (frame_ != kNoFrame && in_frame_ == events_) {
       ++records_.back().crowded;
       return false;
@@ -99,7 +100,7 @@ template <LoggedEvent E> class EventLog {
   ISO_INLINE std::optional<Notice<E>> poll() {
     if (changed_) settle();
     for (std::size_t i = 0; i < missing_.size(); ++i) {
-      // The second bound keeps room for all that is told: each poll leaves at most `capacity_` missing.
+      // The second bound keeps room for all that is reported: each poll leaves at most `capacity_` missing.
       if (missing_[i].frame + reach_ >= next_ && missing_.size() <= capacity_) continue;
       const Record gone = missing_[i];
       missing_.erase(missing_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -107,11 +108,11 @@ template <LoggedEvent E> class EventLog {
     }
     while (cursor_ < records_.size()) {
       Record& record = records_[cursor_++];
-      const bool first = !record.told;
+      const bool first = !record.reported;
       const bool final = record.frame <= confirmed_;
       if (!first && !final) continue;
       if (first) record.happening = happenings_++;
-      record.told = true;
+      record.reported = true;
       if (final) {
         done_ = cursor_;
         lost_.crowded += record.crowded;
@@ -141,7 +142,7 @@ template <LoggedEvent E> class EventLog {
     std::size_t kept = records_.size();
     while (kept > done_ && records_[kept - 1].frame >= frame && records_[kept - 1].frame > confirmed_) --kept;
     for (std::size_t i = kept; i < records_.size(); ++i) {
-      if (records_[i].told) missing_.push_back(records_[i]);
+      if (records_[i].reported) missing_.push_back(records_[i]);
     }
     records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(kept), records_.end());
     next_ = frame;
@@ -167,7 +168,7 @@ template <LoggedEvent E> class EventLog {
     Frame frame;
     std::uint32_t happening;
     std::uint32_t crowded;  // events of its frame after it that found no room
-    bool told;
+    bool reported;
   };
 
   /// What is missing and has come again is the same happening: in its own frame, else in the nearest.
@@ -185,9 +186,9 @@ template <LoggedEvent E> class EventLog {
   ISO_INLINE bool find_again(const Record& gone, Frame distance) {
     for (std::size_t i = done_; i < records_.size(); ++i) {
       Record& record = records_[i];
-      if (record.told || (record.frame != gone.frame - distance && record.frame != gone.frame + distance)) continue;
+      if (record.reported || (record.frame != gone.frame - distance && record.frame != gone.frame + distance)) continue;
       if (!(record.event == gone.event)) continue;
-      record.told = true;
+      record.reported = true;
       record.happening = gone.happening;
       return true;
     }
@@ -198,7 +199,7 @@ template <LoggedEvent E> class EventLog {
   std::uint32_t events_;
   Frame reach_;
   std::vector<Record> records_;  // by frame: those before done_ are over, then the confirmed ones, then the predicted
-  std::vector<Record> missing_;  // told as predicted, and not in what was stepped since
+  std::vector<Record> missing_;  // reported as predicted, and not in what was stepped since
   std::size_t done_ = 0;
   std::size_t cursor_ = 0;      // of poll
   Frame frame_ = kNoFrame;      // under way

@@ -92,7 +92,7 @@ class PeerCore : public SessionCore {
   };
   Pending pending_[kMaxPlayers];
   Frame limit_ = 0;            // of what may be settled, as of the last plan
-  Time next_observation_ = 0;  // [us] when observe_delay is asked again
+  Time next_observation_ = 0;  // [us] when observe_delay is called again
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

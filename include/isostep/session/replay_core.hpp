@@ -16,7 +16,7 @@ bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs);
 
 class ReplayCore : public SessionCore {
  public:
-  /// `file` must outlive the session. What is wrong with it is told as an event; then the session is over.
+  /// `file` must outlive the session. What is wrong with it is reported as an event; then the session is over.
   ReplayCore(const SessionConfig& config, const InputRules& rules, Bytes file);
 
   bool add_local_input(int, Bytes) override { return false; }

@@ -147,7 +147,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
 /// Sees nothing. An observer has any of these members, each called as its name says; see Observers for several.
 struct NoObserver {};
 
-/// Several observers in one, told in their order.
+/// Several observers in one, called in their order.
 template <class... Each> struct Observers {
   std::tuple<Each&...> each;
   explicit Observers(Each&... observers) : each(observers...) {}
@@ -204,7 +204,7 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
 }
 }  // namespace detail
 
-/// Plays what is due: carries out the session's requests with the game, and tells `observer`:
+/// Plays what is due: carries out the session's requests with the game, and calls `observer`:
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
 ///   rolled_back(f)                  the state is again that before frame f
 ///   restarted(f)                    the state is one that arrived from elsewhere, before frame f

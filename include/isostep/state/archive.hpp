@@ -88,7 +88,7 @@ class Writer {
 };
 
 /// Reads what a Writer wrote from bytes nobody vouches for. The first failure sticks: every later read gives zero, so
-/// a caller may read a whole record and ask once.
+/// a caller may read a whole record and check once.
 class Reader {
  public:
   ISO_INLINE explicit Reader(Bytes bytes)
@@ -134,7 +134,7 @@ class Reader {
     }
   }
   /// A count that is at most `cap` and whose records of `packed_size` bytes each are all there; else 0 and a failure.
-  /// Ask before allocating.
+  /// Call before allocating.
   std::uint32_t read_count(std::uint32_t cap, std::size_t packed_size);
   /// Replaces what `records` holds; on failure it is empty.
   template <class T> ISO_INLINE bool read_array(std::vector<T>& records, std::uint32_t cap) {

@@ -60,7 +60,7 @@ class CommandJournal {
     if (handler_.refused != nullptr) handler_.refused(handler_.user, fault_);
   }
   /// For calls that are no commands. A query that is accepted leaves the fault as it is, so that any number of threads
-  /// may ask at once.
+  /// may query at once.
   ISO_INLINE bool refuse_call(const char* name, const FaultReport& report) {
     refuse(report);
     sign(name);

@@ -84,7 +84,7 @@ template <RecordableWorld W> class CommandRecorder {
     return result;
   }
   ISO_INLINE Result<void> end_frame() { return end_frame(world_.hash()); }
-  /// After `end_frame`, with nothing told to the world since: whoever verifies the recording compares this state byte
+  /// After `end_frame`, with no call to the world since: whoever verifies the recording compares this state byte
   /// for byte with its own.
   ISO_INLINE Result<void> keyframe() {
     const char* flaw = start_.flaw(world_, log_);

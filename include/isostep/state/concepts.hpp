@@ -1,4 +1,4 @@
-// What sessions, replays and tools ask of a world or a game: to be saved, loaded, hashed, stepped and written down.
+// What sessions, replays and tools require of a world or a game: to be saved, loaded, hashed, stepped and written down.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -21,7 +21,7 @@ std::string field_line(const NamedField& field);
 /// False for anything else.
 bool read_field_line(std::string_view line, NamedField& field);
 
-/// Is told of every field in turn.
+/// Is called for every field in turn.
 struct FieldSink {
   void (*field)(void* user, const PathPart& path, FieldFormat format, std::uint64_t bits);
   void* user;
@@ -38,7 +38,7 @@ struct FieldSource {
 };
 
 /// All state, and of a step's scratch what one stage made: given to an observer for the length of its call.
-/// Cost:  nothing until it is asked; a hash or a walk takes some 5 ns a field, a contact has up to two hundred.
+/// Cost:  nothing until it is called; a hash or a walk takes some 5 ns a field, a contact has up to two hundred.
 /// Order: fixed, and of what contacts are worked on by lanes, by contact: a look does not depend on their number.
 class StageView {
  public:

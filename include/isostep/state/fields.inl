@@ -25,7 +25,7 @@ concept FieldList = requires(T& list) {
 /// A copy of a part of T, to be written only where T may be.
 template <class T, class Part> using ConstAs = std::conditional_t<std::is_const_v<T>, const Part, Part>;
 
-/// Tells a sink of every field.
+/// Calls a sink for every field.
 struct FieldReading {
   static constexpr bool kEdits = false;
   const FieldSink& sink;

@@ -14,7 +14,7 @@ namespace isostep {
 /// Names the algorithm in files.
 inline constexpr char kHashName[] = "xxh3-64";
 
-/// XXH3-64 with seed 0. The answer depends on the bytes alone, not on the instruction set.
+/// XXH3-64 with seed 0. The result depends on the bytes alone, not on the instruction set.
 std::uint64_t hash_bytes(const void* bytes, std::size_t size);
 
 /// The name of content: its XXH3-128. Two different contents never share one by chance.

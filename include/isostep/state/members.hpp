@@ -18,9 +18,9 @@
 
 // A state names what it consists of once, in `members(visit, self)`, and everything that reads a state whole visits it:
 // these here, the walk over fields (fields.inl) and the differ of the tool. Members have the order of the hash and of
-// the portable form. A member is told as one of
+// the portable form. A member is visited as one of
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
-//   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) tells its vectors, two at most
+//   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) visits its vectors, two at most
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
 //   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all; a state
 //                                without any has the hash and the portable form of one that knows of no store

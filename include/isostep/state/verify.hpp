@@ -19,7 +19,7 @@ struct VerifyResult {
   enum class Where : std::uint8_t { start, frame, keyframe };
 
   VerifyOutcome outcome;
-  Where where;              // diverged: at the initial state, after a frame, or a stored keyframe is not the state
+  Where where;           // diverged: at the initial state, after a frame, or a stored keyframe is not the state
   std::uint64_t frames;  // verified: compared; else the frame that diverged, or the first that is missing or not played
   std::uint64_t expected;   // diverged: the replay's hash
   std::uint64_t actual;     // diverged: ours
@@ -35,7 +35,7 @@ struct VerifySpan {
   std::uint64_t first = 0;           // frames before it
   std::uint64_t count = kAllFrames;  // at most
   Bytes state = {};  // portable, after `first` frames; empty: the replay's own start, where `first` is 0
-  /// Asked before every frame; false: verify has no more of the time, or whatever its caller counts.
+  /// Called before every frame; false: verify has no more of the time, or whatever its caller counts.
   bool (*go_on)(void* user) = nullptr;
   void* user = nullptr;
 };
@@ -48,7 +48,7 @@ std::string describe(const VerifyResult& result);
 namespace detail {
 /// What the file itself says before any simulation runs; `verified` when it says nothing against.
 VerifyResult verify_file(const ReplayReader& replay);
-/// The answer when every frame that was to be compared agreed, so many.
+/// The result when every frame that was to be compared agreed, so many.
 VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared);
 VerifyResult too_short(const ReplayReader& replay);
 VerifyResult stopped(std::uint64_t frames);

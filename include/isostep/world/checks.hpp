@@ -30,7 +30,7 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
 /// By its length, not by axis.
 template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < length(v)); }
 
-/// What is asked of a command's fields, in order; the first that is not met is the fault.
+/// What is required of a command's fields, in order; the first that is not met is the fault.
 class Checklist {
  public:
   template <class T> ISO_INLINE Checklist& finite(const T& number, const char* field) {
@@ -106,7 +106,7 @@ template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
       .report();
 }
 
-/// What a kind of joint asks of its record; see JointOf.
+/// What a kind of joint requires of its record; see JointOf.
 template <class S> struct JointRules {
   JointMeasure measure;
   std::uint32_t flags;

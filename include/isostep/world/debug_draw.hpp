@@ -161,11 +161,11 @@ class DebugDraw {
   virtual void collider(const DrawnCollider& collider);
 };
 
-/// Tells `to` what the state holds, whatever led there: after a step, a command or a load alike; sleepers too. Changes
-/// and allocates nothing. Bodies: the static, the awake, then island by island, each ascending by slot.
+/// Draws to `to` what the state holds, whatever led there: after a step, a command or a load alike; sleepers too.
+/// Changes and allocates nothing. Bodies: the static, the awake, then island by island, each ascending by slot.
 /// Contacts are those that the last step left. Impulses are state, geometry is not: where the points are and how deep
 /// is found anew from the poses of now, so it is what the next step begins with, not what the last one solved. A
-/// contact whose parts have moved apart since is not told; a point with no namesake among the remembered has no force.
+/// contact whose parts have moved apart since is not drawn; a point with no namesake among the remembered has no force.
 template <class S> void draw(const World<S>& world, DebugDraw& to, const DrawOptions& options = {});
 template <class S> void draw(const ParticleWorld<S>& world, DebugDraw& to, const DrawOptions& options = {});
 

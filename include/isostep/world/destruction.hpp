@@ -11,7 +11,7 @@
 namespace isostep {
 
 /// Input:   slots of bodies and joints that exist.
-/// Output:  the state without them: their ids, records, contacts, joints, overlaps and forces. WorldState::untold tells
+/// Output:  the state without them: their ids, records, contacts, joints, overlaps and forces. WorldState::untold keeps
 ///          what their touches and overlaps were. What they may have held up is awake.
 /// Keeps:   bodies that are marked and not yet erased.
 template <class S> class Destruction {

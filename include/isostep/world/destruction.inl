@@ -31,7 +31,7 @@ template <class S> void Destruction<S>::erase_marked() {
   marked_.clear();
 }
 
-/// The next step tells that what touched the marked bodies, or was inside them, does so no more.
+/// The next step reports that what touched the marked bodies, or was inside them, does so no more.
 template <class S> void Destruction<S>::tell_ends() {
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
   const auto ends = [&](std::uint32_t a, std::uint32_t b) { return is_marked(a) || is_marked(b); };

@@ -52,7 +52,7 @@ template <class S> void WorldEngine<S>::find_pairs() {
   report_.crowded = proxies_.bodies_left_out();
 }
 
-/// What commands ended and woke since the last step, and what this one woke, is told by this one.
+/// What commands ended and woke since the last step, and what this one woke, is reported by this one.
 template <class S> void WorldEngine<S>::tell_untold() {
   events_.clear();
   events_.contact_end.swap(state_.untold.contact_end);

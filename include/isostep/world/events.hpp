@@ -1,5 +1,5 @@
-// What a step tells the game: output of one step, in canonical order, never state. What commands end and wake is told
-// by the next step; until then it is state (UntoldEvents).
+// What a step reports to the game: output of one step, in canonical order, never state. What commands end and wake is
+// reported by the next step; until then it is state (UntoldEvents).
 // SPDX-License-Identifier: MIT
 #pragma once
 

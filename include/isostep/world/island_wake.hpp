@@ -28,7 +28,7 @@ template <class S> class IslandWake {
   void wake(std::span<const std::uint32_t> slots);
   void wake_all();
   /// Islands that something awake and moving has a contact with. False: there was none. Waking brings new pairs, so the
-  /// caller updates the broad phase and asks again.
+  /// caller updates the broad phase and calls again.
   bool wake_touched();
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.

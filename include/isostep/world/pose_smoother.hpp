@@ -17,7 +17,7 @@ struct PoseSmootherSettings {
   float snap_distance = 2;        // [m] a body that is drawn further off than this jumps
 };
 
-/// Told of every step by an observer of `drive`, it filters the poses for drawing:
+/// Called at every step by an observer of `drive`, it filters the poses for drawing:
 ///
 ///     after_step(f)  { smoother.after_step(f, game.world); }
 ///     restarted(f)   { smoother.restarted(f); }
@@ -34,7 +34,7 @@ class PoseSmoother {
  public:
   ISO_INLINE explicit PoseSmoother(const PoseSmootherSettings& settings = {}) : settings_(settings) {}
 
-  /// `world` has stepped `frame`, once more if it was loaded. What it is asked for, `poses_float`, is no state.
+  /// `world` has stepped `frame`, once more if it was loaded. What is called, `poses_float`, is no state.
   template <class W> ISO_INLINE void after_step(Frame frame, W& world) {
     if (frame < stepped_ && present_ == kNoFrame) present_ = stepped_;
     stepped_ = frame + 1;
@@ -51,7 +51,7 @@ class PoseSmoother {
     stepped_ = frame;
   }
 
-  /// The poses to draw, in the order given. `dt` [s]: since the last call. The answer is valid until the next.
+  /// The poses to draw, in the order given. `dt` [s]: since the last call. The result is valid until the next.
   ISO_INLINE const std::vector<RenderPose>& smooth(const std::vector<RenderPose>& poses, float dt) {
     const float left = share_left(dt);
     drawn_.clear();
@@ -154,7 +154,7 @@ class PoseSmoother {
 
   PoseSmootherSettings settings_;
   std::vector<Body> bodies_;       // by slot
-  std::vector<RenderPose> drawn_;  // the answer
+  std::vector<RenderPose> drawn_;  // the result
   std::uint64_t belief_ = 0;       // samples taken
   Frame stepped_ = 0;              // all before it are stepped
   Frame present_ = kNoFrame;       // during a rollback: the frame it must reach to be compared with what was believed

@@ -15,7 +15,7 @@ namespace isostep {
 
 /// Input:   the state, the body map and the broad phase, as the last step or command left them.
 /// Output:  what World's calls of the same names return; the journal holds the fault of a question that is refused.
-/// Keeps:   nothing: any number of threads may ask at once, as long as no question is refused.
+/// Keeps:   nothing: any number of threads may query at once, as long as no question is refused.
 template <class S> class Queries {
  public:
   ISO_INLINE Queries(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,

@@ -51,7 +51,7 @@ struct SelfcheckResult {
   }
 };
 
-/// One line: the answer, the build, what was compared and the first failure.
+/// One line: the result, the build, what was compared and the first failure.
 std::string describe(const SelfcheckResult& result);
 /// "flush-float rounding", empty for 0.
 std::string deviation_names(std::uint32_t deviations);

@@ -14,7 +14,7 @@ namespace isostep {
 /// Observes `drive` beside the FrameHistory of the same world, which keeps at least as many frames as may be predicted.
 /// The recording starts with the state before the first frame that is stepped, and a frame is written once it is
 /// confirmed. Where the session restarts from another state the recording ends, whole; what follows wants a recorder of
-/// its own. Errors stay, and `finish` tells them: the hooks of observers answer nothing.
+/// its own. Errors stay, and `finish` returns them: the hooks of observers return nothing.
 template <class S> class SessionRecorder {
  public:
   /// `scene` is copied; the history must outlive this.

@@ -1,4 +1,4 @@
-// What a world is told at birth.
+// What a world is made with.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// `broken_rule` is null, or a sentence for the first rule that the state breaks. Ask once.
+/// `broken_rule` is null, or a sentence for the first rule that the state breaks. Call once.
 template <class S> class StateValidator {
  public:
   explicit StateValidator(const WorldState<S>& state) : state_(state) {}

@@ -72,7 +72,7 @@ struct WorldCounts {
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
 /// in `fault()`. Observers of stages call none. One thread at a time calls mutators and `step`; between them any number
-/// may ask. Two worlds of one type that were told the same things in the same order have equal hashes at every
+/// may query. Two worlds of one type that were given the same calls in the same order have equal hashes at every
 /// tick, on every machine. `load(save(w))` brings back ids, contacts, sleep and future exactly.
 ///
 /// A game is no World but has one, beside what it remembers itself: see Composite (state/composite.hpp).
@@ -117,7 +117,7 @@ template <class S> class World final {
   // Bodies.
   BodyId create(const BodyDefinition<S>& definition);
   bool destroy(BodyId body);
-  /// The same as one by one, in this order, for the price of one: a pass over the awake. Answers how many there were.
+  /// The same as one by one, in this order, for the price of one: a pass over the awake. Returns how many there were.
   std::size_t destroy(std::span<const BodyId> bodies);
   bool wake(BodyId body);
   bool set_pose(BodyId body, const Pose<S>& pose);
@@ -169,7 +169,7 @@ template <class S> class World final {
   /// session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
   std::uint64_t loads() const;
 
-  // What bodies are like. A stale id gives the zero of the answer's type.
+  // What bodies are like. A stale id gives the zero of the type that is returned.
   bool contains(BodyId body) const;
   bool contains(ShapeId shape) const;
   bool contains(JointId joint) const;
@@ -196,7 +196,7 @@ template <class S> class World final {
   void overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                      QueryFilter filter = {}) const;
   /// Bodies whose bounds, with the broad phase's margin of 0.1 m at most, meet the box, ascending by slot, appended to
-  /// `out`. A cheap first question: allocates nothing but room in `out`, and where more than 32 answer.
+  /// `out`. A cheap first query: allocates nothing but room in `out`, and where more than 32 are found.
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter = {}) const;
   BodyView<S> view(BodyId body) const;
 

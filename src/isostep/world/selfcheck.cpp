@@ -1,4 +1,4 @@
-// The self-check: recordings replayed in every scalar with every set of lanes, and the answer as a line.
+// The self-check: recordings replayed in every scalar with every set of lanes, and the result as a line.
 // SPDX-License-Identifier: MIT
 #include "isostep/world/selfcheck.hpp"
 

@@ -1,4 +1,4 @@
-// The command demo: what it is told; it returns an exit status.
+// The command demo: its options; it returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

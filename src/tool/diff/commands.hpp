@@ -1,4 +1,4 @@
-// The commands diff and selftest: what each is told; each returns an exit status.
+// The commands diff and selftest: the options of each; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -26,7 +26,7 @@ class FieldList {
   std::unordered_map<std::string, std::size_t> places_;  // by path
 };
 
-/// Both as far as each has fields of a path; answers the first path that one of them lacks, or nothing. Lists that
+/// Both as far as each has fields of a path; returns the first path that one of them lacks, or nothing. Lists that
 /// differ in length differ in a field "count", too.
 std::optional<std::string> diff_fields(const FieldList& a, const FieldList& b, DiffReport& report);
 

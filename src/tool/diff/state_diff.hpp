@@ -98,7 +98,7 @@ class RowKeys {
   std::map<std::string, std::vector<RowKey>> all_;
 };
 
-/// What an object's visit tells, in its order.
+/// What an object's visit names, in its order.
 struct MemberList {
   std::vector<const void*> members;
   template <class T> void operator()(const char*, const T& member) { members.push_back(&member); }

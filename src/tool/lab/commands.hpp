@@ -1,4 +1,4 @@
-// The commands lab and lab springs: what each is told; each returns an exit status.
+// The commands lab and lab springs: the options of each; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

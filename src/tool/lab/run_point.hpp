@@ -31,7 +31,7 @@ struct RunLimits {
   double limit = 0;  // [s] CPU time
 };
 
-/// Asked now and then: true, and the run ends as if it had never been.
+/// Called now and then: true, and the run ends as if it had never been.
 using Cancel = std::function<bool()>;
 struct Cancelled {};
 

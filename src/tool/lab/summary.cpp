@@ -1,4 +1,4 @@
-// The laboratory's answers.
+// The laboratory's results.
 // SPDX-License-Identifier: MIT
 #include "summary.hpp"
 

@@ -1,4 +1,4 @@
-// The commands peer and relay: what each is told; each returns an exit status.
+// The commands peer and relay: the options of each; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

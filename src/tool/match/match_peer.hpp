@@ -69,7 +69,7 @@ template <class S> class MatchPeer {
   /// A host stays until the others have what they need, but not for ever.
   bool is_over(Time now);
 
-  // What drive() tells.
+  // What drive() calls.
   void before_step(Frame frame) {
     started_at_ = thread_milliseconds();
     sounds_.before_step(frame);

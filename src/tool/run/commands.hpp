@@ -1,4 +1,4 @@
-// The commands scenes and run: what each is told; each returns an exit status.
+// The commands scenes and run: the options of each; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// The commands verify, regenerate and selfcheck: what each is told; each returns an exit status.
+// The commands verify, regenerate and selfcheck: the options of each; each returns an exit status.
 // SPDX-License-Identifier: MIT
 #pragma once
 

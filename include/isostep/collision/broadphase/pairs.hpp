@@ -31,7 +31,7 @@ template <class S> class PairSet {
   void mark_moved(std::uint32_t slot);
   /// The slot left the tree. It may be inserted again before `update`, and is then marked moved as well.
   void mark_removed(std::uint32_t slot);
-  /// Brings the pairs up to date with the tree. may_collide(a, b) -> bool, a < b, is asked only of overlapping pairs.
+  /// Brings the pairs up to date with the tree. may_collide(a, b) -> bool, a < b, is called only for overlapping pairs.
   /// False: the caller is to choose.
   template <class Predicate>
   ISO_INLINE bool update(const AabbTree<S>& tree, const Predicate& may_collide, std::uint64_t most = kAnyNumber);

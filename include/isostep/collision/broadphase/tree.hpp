@@ -20,7 +20,7 @@ template <class S> struct Sweep {
 };
 
 namespace detail {
-/// overlap() as 0 or 1 and without branches: in a join every second answer is a surprise, and a mispredicted branch
+/// overlap() as 0 or 1 and without branches: in a join every second result is a surprise, and a mispredicted branch
 /// costs more than six comparisons.
 template <class S> ISO_INLINE std::uint32_t overlap_flag(const Aabb<S>& a, const Aabb<S>& b) {
   return static_cast<std::uint32_t>(a.low.x <= b.high.x) & static_cast<std::uint32_t>(b.low.x <= a.high.x) &
@@ -101,7 +101,7 @@ template <class S> class AabbTree {
   /// The slot must be taken.
   void remove(std::uint32_t slot);
   void update(std::uint32_t slot, const Aabb<S>& box);
-  /// Restores the tree's quality after inserts and updates; call it once, before many queries. Answers do not need it.
+  /// Restores the tree's quality after inserts and updates; call it once, before many queries. Results do not need it.
   void optimise();
 
   /// Bulk insertion: stage any number, then rebuild; between the two the tree may not be used otherwise.

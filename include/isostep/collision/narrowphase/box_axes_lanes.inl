@@ -145,7 +145,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
   }
 
   /// Examines one by one the crosses that are worth it; collides the pairs of which one is the best axis or separates.
-  /// Answers which those are, a bit a lane.
+  /// Returns which those are, a bit a lane.
   static ISO_INLINE std::uint32_t finish_crosses(const PairRun<S>& run, const Batch& batch, const Best& best,
                                                  const Rest& rest) {
     std::uint32_t done = 0;

@@ -12,7 +12,8 @@ namespace {
 /// A convex polygon leaves each side of the reference face at most once, so its edges are known beforehand: 0..3 of the
 /// incident face, 4 + side along a side, from where the polygon leaves it to where it comes back. Every edge is cut by
 /// the sides in turn, as Sutherland and Hodgman cut a polygon's corners: the same numbers meet in the same order. What
-/// rounding makes of polygons that only touch a side, or are not convex, is told as unclear, and left to touch_faces().
+/// rounding makes of polygons that only touch a side, or are not convex, is reported as unclear, and left to
+/// touch_faces().
 template <class S, int W, class Isa> struct BoxFacesLanes {
   using Pairs = PairLanes<S, W, Isa>;
   using Axes = BoxAxesLanes<S, W, Isa>;

@@ -47,7 +47,7 @@ template <class S> struct ClipPolygon {
 };
 
 /// Cuts off what lies beyond `side` (0: u < -half, 1: u > half, 2, 3: v). A corner on the line stays, not doubled.
-/// The result is in `to` if something was cut, which is the answer, else still in `from`.
+/// The result is in `to` if something was cut, which it returns, else still in `from`.
 template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigned side, S half, ClipPolygon<S>& to) {
   S beyond[kClipPoints];
   bool cuts = false;

@@ -18,7 +18,7 @@ ISO_INLINE constexpr PartKind part_kind_of(ShapeType type) {
   return type == ShapeType::sphere ? PartKind::sphere : type == ShapeType::box ? PartKind::box : PartKind::other;
 }
 
-/// What the narrow phase asks of a body. Lanes read the numbers in runs of four and eight.
+/// What the narrow phase needs of a body. Lanes read the numbers in runs of four and eight.
 template <class S> struct BodyFrame {
   Vec3<S> half;         // [m] of the core of the only part
   S radius;             // [m] around it

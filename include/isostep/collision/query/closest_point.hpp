@@ -10,8 +10,8 @@ namespace isostep {
 /// Closest surface point to `query` [m], world frame, from outside or inside.
 /// Error:  fixed: point and distance within 4 raw units; float, double: 4 ulp of the largest coordinate. The normal is
 ///         as good as that error over the distance to the core (centre, segment or box).
-/// Order:  where several points are closest, a box answers with the lowest axis, towards plus from its very centre; a
-///         sphere's centre and a capsule's segment answer along local +x.
+/// Order:  where several points are closest, a box takes the lowest axis, towards plus from its very centre; a
+///         sphere's centre and a capsule's segment take local +x.
 template <class S>
 ClosestPoint<S> closest_point(const Primitive<S>& primitive, const Transform<S>& transform, Vec3<S> query);
 

@@ -14,7 +14,7 @@ template <class S> struct RayHit {
 
 /// The first point where origin + fraction translation, 0 <= fraction <= max_fraction, meets the primitive. An origin
 /// inside or on the surface reports fraction 0 and the normal opposite to the ray (zero for a ray of no length).
-/// `hit` is written only when the answer is true. Surfaces are hit from outside alone.
+/// `hit` is written only when the result is true. Surfaces are hit from outside alone.
 /// Units:  origin and translation [m], world frame.
 /// Error:  of the point hit, along the ray: fixed 4 raw units, float and double 4 ulp of the largest coordinate, over
 /// the

@@ -1,4 +1,4 @@
-// The closed set of joints: all that their files say, asked by the type that is stored.
+// The closed set of joints: all that their files say, called by the type that is stored.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -149,7 +149,7 @@ template <class S> class JointTrees {
   std::vector<Link> links_;
   std::vector<Elimination> eliminations_;  // of the trees that no kernel solves
   std::vector<std::uint32_t> driven_;      // their joints that have drives
-  std::vector<Vec3<Velocity<S>>> right_;   // right-hand sides, then answers
+  std::vector<Vec3<Velocity<S>>> right_;   // right-hand sides, then solutions
   std::vector<JointStart<S>> starts_;      // of a pass, by the node of a joint's point
 
   std::vector<std::uint32_t> rest_;         // joints that no kernel solves

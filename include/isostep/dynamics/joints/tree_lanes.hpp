@@ -30,7 +30,7 @@ template <class S, int W> struct TreeJointLanes {
   Velocity<S> error[3][W];         // [m]
   Velocity<S> impulse[3][W];       // [m/s] accumulated
   Velocity<S> curve[3][W];         // [m/s] of what the arms' turning adds to the speed
-  Velocity<S> right[3][W];         // [m/s] right-hand sides, then answers
+  Velocity<S> right[3][W];         // [m/s] right-hand sides, then solutions
 };
 template <class S, int W> struct TreeLinkLanes {
   S down[9][W];  // [1] K_ji, i = the joint that has the link, j = `to`

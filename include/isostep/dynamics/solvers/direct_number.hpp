@@ -1,4 +1,4 @@
-// DirectNumber<N>: what the direct solver asks of LinearSystem<S>::Number beyond its operators.
+// DirectNumber<N>: what the direct solver requires of LinearSystem<S>::Number beyond its operators.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// The answer of every `build`. A builder gives commands and remembers nothing: the ids are the caller's to keep. At
+/// What every `build` returns. A builder gives commands and remembers nothing: the ids are the caller's to keep. At
 /// the first command that the world refuses it stops and takes back what it made; then all lists are empty and `fault`
 /// is the world's reason, or bad_argument for counts that make no body.
 struct ParticleBody {

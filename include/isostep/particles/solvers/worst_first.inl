@@ -85,7 +85,7 @@ ISO_INLINE void WorstFirst<S>::push(const Row& row, Sides sides, Vec3<V> change,
   b = held_within(saturating_add(b, change * row.share_b), most);
 }
 
-/// What is touched from outside answers too.
+/// What is touched from outside reacts too.
 template <class S> ISO_INLINE void WorstFirst<S>::hit(Row& row, Sides sides, Vec3<V> change) {
   const V most = passing_speed<S>();
   push(row, sides, change, &Point::velocity, most);

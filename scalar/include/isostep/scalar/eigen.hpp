@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Eigen has no packets for these scalars, so its answers are those of its plain loops whatever EIGEN_DONT_VECTORIZE,
+// Eigen has no packets for these scalars, so its results are those of its plain loops whatever EIGEN_DONT_VECTORIZE,
 // -mavx or -mfma say. Over raw float and double they are not: packets sum in another order and fuse by intrinsics.
 // Fixed wraps where Eigen expects infinity. Measured sound with room to spare in the format: everything in the list of
 // tests/unit/scalar/eigen_test.cpp. 3 x 3 inverse and determinant need the cube of the entries' range.

@@ -161,7 +161,7 @@ class FloatEnvironment {
   std::uint64_t caller_;
 };
 
-/// What the probe finds; bit n of its answer is the n-th of these. One cause may set several: rounding upwards looks
+/// What the probe finds; bit n of its result is the n-th of these. One cause may set several: rounding upwards looks
 /// like contraction too.
 enum class Deviation : std::uint8_t {
   flush_float,  // a denormal result became zero
@@ -262,7 +262,7 @@ ISO_INLINE std::uint32_t probe_specials() {
 }
 }  // namespace detail
 
-/// Runs a dozen operations whose answers IEEE 754 fixes and returns the deviations, 0 on a sound build and thread.
+/// Runs a dozen operations whose results IEEE 754 fixes and returns the deviations, 0 on a sound build and thread.
 /// Inlined, so it tells of the flags of the file that calls it; `probe_environment` tells of the library's. Exceptions
 /// do not trap meanwhile, and leave no flags.
 ISO_INLINE std::uint32_t probe_environment_here() {

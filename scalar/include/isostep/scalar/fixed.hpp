@@ -1,4 +1,4 @@
-// Fixed<Rep, FracBits>: two's complement fixed point whose answers are integers, so the same on every machine.
+// Fixed<Rep, FracBits>: two's complement fixed point whose results are integers, so the same on every machine.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What an operation does whose exact answer does not fit: `wrap` is defined, branch-free and the release behaviour;
+/// What an operation does whose exact result does not fit: `wrap` is defined, branch-free and the release behaviour;
 /// `trap` stops the program and exists to test that a range contract holds.
 enum class Overflow { wrap, trap };
 
@@ -206,7 +206,7 @@ ISO_INLINE constexpr std::uint64_t magnitude(std::int64_t value) {
 }  // namespace detail
 
 /// a / b as a number of format Out, to nearest, ties away from zero. Saturates at the format's ends; x / 0 is the end
-/// on x's side, 0 / 0 is 0: division has no undefined answer.
+/// on x's side, 0 / 0 is 0: division has no undefined result.
 template <class Out, class Rep, int F, int G, Overflow P>
 ISO_INLINE constexpr Out divide_to(Fixed<Rep, F, P> a, Fixed<Rep, G, P> b) {
   constexpr int shift = Out::kFracBits + G - F;

@@ -42,7 +42,7 @@ template <class Rep, int F, Overflow P> struct LaneKeyOf<Fixed<Rep, F, P>> {
 };
 template <class S> using LaneKey = typename LaneKeyOf<S>::Type;
 
-/// One answer of a comparison in memory. clang 14 for WebAssembly passes a struct of one bool as one bit, and what is
+/// One result of a comparison in memory. clang 14 for WebAssembly passes a struct of one bool as one bit, and what is
 /// folded of a true one reads 255.
 #if defined(__wasm__)
 using LaneAnswer = std::uint8_t;
@@ -72,7 +72,7 @@ template <class S> ISO_INLINE S sqrt_lane(S a) {
 /// Where load and store expect their W scalars to begin [bytes].
 template <class S, int W> inline constexpr std::size_t kLaneAlignment = detail::lane_alignment(W * sizeof(S));
 
-/// W answers of a comparison. Key is detail::LaneKey of the scalar.
+/// W results of a comparison. Key is detail::LaneKey of the scalar.
 template <class Key, int W, class Isa> struct LaneMask {
   static_assert(W >= 1 && W <= 32, "the bits of a mask fit 32");
   detail::LaneAnswer v[W];

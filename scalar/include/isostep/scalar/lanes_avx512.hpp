@@ -67,7 +67,7 @@ template <> struct Registers<float, isa::Avx512> : detail::Avx512Masks<16> {
   static ISO_INLINE Type divide(Type a, Type b) { return _mm512_div_ps(a, b); }
   static ISO_INLINE Type sqrt(Type a) { return _mm512_sqrt_ps(a); }
   static ISO_INLINE Type negate(Type a) { return _mm512_xor_ps(a, _mm512_set1_ps(-0.0f)); }
-  // The instruction answers its second operand when neither is smaller: exactly b < a ? b : a and a < b ? b : a.
+  // The instruction returns its second operand when neither is smaller: exactly b < a ? b : a and a < b ? b : a.
   static ISO_INLINE Type min(Type a, Type b) { return _mm512_min_ps(b, a); }
   static ISO_INLINE Type max(Type a, Type b) { return _mm512_max_ps(b, a); }
   static ISO_INLINE Type abs(Type a) {  // flips the sign of what is below zero: -0.0 and NaN keep theirs

@@ -60,7 +60,7 @@ template <> struct Registers<float, isa::Neon> : detail::NeonMasks<4> {
   static ISO_INLINE Type divide(Type a, Type b) { return vdivq_f32(a, b); }
   static ISO_INLINE Type sqrt(Type a) { return vsqrtq_f32(a); }
   static ISO_INLINE Type negate(Type a) { return vnegq_f32(a); }
-  // b < a ? b : a and a < b ? b : a. The instructions for them answer NaN for any NaN, and order the zeros.
+  // b < a ? b : a and a < b ? b : a. The instructions for them return NaN for any NaN, and order the zeros.
   static ISO_INLINE Type min(Type a, Type b) { return vbslq_f32(vcltq_f32(b, a), b, a); }
   static ISO_INLINE Type max(Type a, Type b) { return vbslq_f32(vcltq_f32(a, b), b, a); }
   static ISO_INLINE Type abs(Type a) { return vbslq_f32(vcltzq_f32(a), vnegq_f32(a), a); }  // -0.0 and NaN keep theirs

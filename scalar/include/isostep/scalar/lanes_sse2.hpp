@@ -40,7 +40,7 @@ template <> struct Registers<float, isa::Sse2> {
   static ISO_INLINE Type divide(Type a, Type b) { return _mm_div_ps(a, b); }
   static ISO_INLINE Type sqrt(Type a) { return _mm_sqrt_ps(a); }
   static ISO_INLINE Type negate(Type a) { return _mm_xor_ps(a, _mm_set1_ps(-0.0f)); }
-  // The instruction answers its second operand when neither is smaller: exactly b < a ? b : a and a < b ? b : a.
+  // The instruction returns its second operand when neither is smaller: exactly b < a ? b : a and a < b ? b : a.
   static ISO_INLINE Type min(Type a, Type b) { return _mm_min_ps(b, a); }
   static ISO_INLINE Type max(Type a, Type b) { return _mm_max_ps(b, a); }
   static ISO_INLINE Type abs(Type a) {  // flips the sign of what is below zero: -0.0 and NaN keep theirs

@@ -1,4 +1,4 @@
-// Elementary functions with one answer on every machine: square roots and normalising inline, the rest compiled once.
+// Elementary functions with one result on every machine: square roots and normalising inline, the rest compiled once.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -230,7 +230,7 @@ float cos(float x);
 double cos(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> cos(Fixed<Rep, F, P> x);
 
-/// Both from one reduction. The `_to` form chooses the answer's format: a quaternion from an angle is
+/// Both from one reduction. The `_to` form chooses the result's format: a quaternion from an angle is
 /// sin_cos_to<Unit<S>>(angle), not a rounding to S and a widening.
 SinCos<float> sin_cos(float x);
 SinCos<double> sin_cos(double x);
@@ -260,7 +260,7 @@ double acos(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> acos(Fixed<Rep, F, P> x);
 
 /// e^x. Beyond the format: fixed point ends at highest() and 0, float and double at infinity and 0, by way of the
-/// subnormal numbers. The `_to` form chooses the answer's format: exp_to<Step<S>>(x) for x <= 0 is a factor of decay
+/// subnormal numbers. The `_to` form chooses the result's format: exp_to<Step<S>>(x) for x <= 0 is a factor of decay
 /// with all of Step's digits; 1, which Step cannot hold, becomes highest().
 float exp(float x);
 double exp(double x);

@@ -110,11 +110,11 @@ inline constexpr RsqrtSeed kRsqrtSeed[192] = {
     {0x820c414du, 0x10bbu}, {0x81c95617u, 0x10a2u}, {0x8186d1c4u, 0x1088u}, {0x8144b34eu, 0x106fu},
     {0x8102f9b2u, 0x1056u}, {0x80c1a3f1u, 0x103du}, {0x8080b10fu, 0x1025u}, {0x80402014u, 0x100du}};
 
-/// 2^64 / sqrt(m / 2^62) for m in [2^62, 2^64): the argument is m as Q2.62, the answer in [1/2, 1) as Q0.64; 1 itself
+/// 2^64 / sqrt(m / 2^62) for m in [2^62, 2^64): the argument is m as Q2.62, the result in [1/2, 1) as Q0.64; 1 itself
 /// is given as 1 - 2^-64.
 /// Symbols: y0 = seed, e = 1 - m y0^2 exactly known to 2^-78, 0 < e < 2^-14.41.
 ///          1/sqrt(m) = y0 (1 - e)^(-1/2) = y0 (1 + e/2 + e^2 (c2 + c3 e)).
-/// Error:   c2, c3 minimax on that interval, 2^-65.2; with the last rounding the answer is within 1 unit of 2^-64.
+/// Error:   c2, c3 minimax on that interval, 2^-65.2; with the last rounding the result is within 1 unit of 2^-64.
 ///          Measured in tests/unit/scalar/math_test.cpp.
 ISO_INLINE constexpr std::uint64_t rsqrt_q64(std::uint64_t m) {
   constexpr std::uint64_t c2 = 0x5ffffffe95dec083u;  // 0.37499999966964480, Q0.64

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// What the engine asks of a number type S:
+/// What the engine requires of a number type S:
 ///   Unit     directions, quaternions, rotation matrices: values in [-2, 2), as fine as the width allows
 ///   Velocity speeds, impulses per mass, displacements within a step: where S is narrow, finer than S at less range
 ///   Step     a time step or another fraction below one [s]
@@ -114,7 +114,7 @@ template <class S> ISO_INLINE constexpr bool decided(bool less) {
 }
 }  // namespace detail
 
-// One answer on every machine: min and max by comparison (never fmin), abs by negation. Of equals the first, so that
+// One result on every machine: min and max by comparison (never fmin), abs by negation. Of equals the first, so that
 // max(-0.0, 0.0) is -0.0.
 template <class S> ISO_INLINE constexpr S min(S a, S b) { return detail::decided<S>(b < a) ? b : a; }
 template <class S> ISO_INLINE constexpr S max(S a, S b) { return detail::decided<S>(a < b) ? b : a; }

@@ -24,8 +24,8 @@ ISO_INLINE constexpr UInt128Parts multiply_portable(std::uint64_t a, std::uint64
   return {high_high + (low_high >> 32) + (high_low >> 32) + (middle >> 32), (middle << 32) | (low_low & mask)};
 }
 
-/// Two's complement 128-bit integer in two 64-bit words; wraps like unsigned arithmetic. Holds the same values and
-/// answers as __int128 on every machine, and stands in for it where the compiler has none (32-bit targets, MSVC).
+/// Two's complement 128-bit integer in two 64-bit words; wraps like unsigned arithmetic. Has the values and results of
+/// __int128 on every machine, and stands in for it where the compiler has none (32-bit targets, MSVC).
 class PortableInt128 {
  public:
   PortableInt128() = default;
