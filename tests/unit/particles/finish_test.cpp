@@ -53,7 +53,9 @@ TYPED_TEST(FinishTest, SpeedsAndPlacesBeyondTheLimitsAreHeldThere) {
 
 TYPED_TEST(FinishTest, WhatIsNoNumberIsPutBackAndStoppedAndItsImpulsesForgotten) {
   using S = TypeParam;
-  if constexpr (!kIsFixed<S>) {
+  if constexpr (kIsFixed<S>) {
+    GTEST_SKIP() << "every pattern of bits is a number";
+  } else {
     Room<S>& room = this->room_;
     const ParticleId a = room.add({1, 2, 3}), b = room.add(kNowhere);
     room.add_link(LinkType::rod, a, b, 1);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/forces.hpp"
 
+#include <limits>
+
 #include "unit/particles/room.hpp"
 
 namespace isostep {
@@ -15,6 +17,11 @@ template <class S> class ForcesTest : public testing::Test {
   PairSearch<S> search_{room_.state, room_.step};
   ParticleForces<S> forces_{room_.state, room_.step, flight_, springs_};
 
+  /// Where sums end: of floating formats at infinity, which velocities are then cut to their limit from.
+  static S end() {
+    if constexpr (kIsFixed<S>) return highest<S>();
+    else return std::numeric_limits<S>::infinity();
+  }
   void accelerate() {
     room_.begin();
     forces_.begin_step();
@@ -73,18 +80,28 @@ TYPED_TEST(ForcesTest, CohesionRepelsNearAndAttractsALittleApart) {
   EXPECT_LT(room.a(c).y, -4);
 }
 
+/// Of a the sum alone leaves the format; of b a command was cut; of c nothing is.
 TYPED_TEST(ForcesTest, WhatIsCutCountsOnceAParticleAndStep) {
   using S = TypeParam;
   Room<S>& room = this->room_;
-  const ParticleId a = room.add(kNowhere), b = room.add(kRight);
-  room.state.pushes.push_back({a.slot, 1, {highest<S>(), S(0), S(0)}});
+  const ParticleId a = room.add(kNowhere), b = room.add(kRight), c = room.add({2, 0, 0});
+  const Vec3<S> most_of_all = {highest<S>() * S(0.75), S(0), S(0)};
+  ParticleForce<S> force;
+  force.particle = a;
+  force.acceleration = most_of_all;
+  room.state.forces.add(force);
+  room.state.pushes.push_back({a.slot, 0, most_of_all});
   room.state.pushes.push_back({b.slot, 1, Room<S>::vec(kRight)});
+  room.state.pushes.push_back({c.slot, 0, most_of_all});
   this->accelerate();
   this->forces_.accelerate();
   EXPECT_EQ(room.step.report.clamped_force, 2u);
+  EXPECT_EQ(room.step.acceleration[a.slot].x, this->end());
+  EXPECT_EQ(room.step.acceleration[b.slot].x, S(1));
+  EXPECT_EQ(room.step.acceleration[c.slot].x, most_of_all.x);
   room.state.pushes.clear();
   this->accelerate();
-  EXPECT_EQ(room.step.report.clamped_force, 0u);
+  EXPECT_EQ(room.step.report.clamped_force, 0u) << "in the next step";
 }
 
 }  // namespace

@@ -48,13 +48,31 @@ TYPED_TEST(BodyFinishers, speed_and_position_are_cut_to_their_limits) {
   using S = TypeParam;
   BodyState<S>& body = this->rooms.awake(this->ball);
   const S edge = Limits<S>::position();
-  body.centre.x = edge + S(2);
-  body.velocity.x = convert<Velocity<S>>(Limits<S>::speed() * S(1.25));
+  const double most = to_double(Limits<S>::speed());
+  body.centre = {edge + S(2), S(3), S(0)};
+  body.velocity = vec<Velocity<S>>(1, 1.25 * most, 0);
   const StepReport report = this->finish();
   EXPECT_EQ(report.clamped_speed, 1u);
   EXPECT_EQ(report.clamped_position, 1u);
   EXPECT_EQ(body.centre.x, edge);
+  EXPECT_EQ(body.centre.y, S(3));
   EXPECT_EQ(body.velocity.x, Velocity<S>(0)) << "it does not move on";
+  EXPECT_LE(to_double(body.velocity.y), most);
+  EXPECT_GT(to_double(body.velocity.y), most * (1 - 0x1p-11)) << "along the edge it does";
+}
+
+TYPED_TEST(BodyFinishers, a_speed_that_no_axis_shows_is_cut_along_its_way) {
+  using S = TypeParam;
+  BodyState<S>& body = this->rooms.awake(this->ball);
+  const double most = to_double(Limits<S>::speed());
+  body.velocity = vec<Velocity<S>>(0.75 * most, -0.75 * most, 0.75 * most);
+  const StepReport report = this->finish();
+  EXPECT_EQ(report.clamped_speed, 1u);
+  EXPECT_EQ(report.clamped_position, 0u);
+  const D3 v = real(body.velocity);
+  EXPECT_LE(length(v), most * (1 + 1e-9));
+  EXPECT_GT(length(v), most * (1 - 0x1p-11));
+  expect_near(v, D3{1, -1, 1} * (most / std::sqrt(3.0)), most * 0x1p-11);
 }
 
 TEST(BodyFinishersOfFloat, a_body_that_is_no_number_goes_back_and_stops) {

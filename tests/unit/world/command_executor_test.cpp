@@ -3,6 +3,8 @@
 
 #include "isostep/world/command_executor.hpp"
 
+#include "isostep/state/members.hpp"
+#include "isostep/world/island_sleep.hpp"
 #include "unit/world/rooms.hpp"
 
 namespace isostep::test {
@@ -13,6 +15,11 @@ template <class S> class Executors : public ::testing::Test {
   Executors() : rooms(world) {
     const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
     shape = executor.execute(AddShape<S>{{ball}});
+  }
+  std::uint64_t hash() const {
+    detail::StateHasher hasher;
+    WorldState<S>::members(hasher, rooms.state);
+    return hasher.value();
   }
 
   World<S> world{settings<S>()};
@@ -39,16 +46,56 @@ TYPED_TEST(Executors, a_body_that_is_created_is_in_the_state_the_map_and_the_bro
   EXPECT_FALSE(this->rooms.proxies.present(body.slot));
 }
 
+/// In a state where much could be changed: a body that sleeps on a joint to the world, and one that is awake and pushed.
 TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   using S = TypeParam;
+  const BodyId asleep = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {0, 0, 0})});
+  JointProperties<S> tie;
+  tie.body_a = asleep.slot;
+  tie.generation_a = asleep.generation;
+  const JointId joint = this->executor.execute(CreateJoint<S>{tie});
+  ASSERT_TRUE(joint);
+  IslandSleep<S> sleep(this->rooms.state, this->rooms.map, this->rooms.proxies);
+  std::vector<BodyId> fell_asleep;
+  for (int i = 0; i < 30; ++i) sleep.update(fell_asleep);
+  ASSERT_TRUE(this->rooms.is_asleep(asleep));
+  const BodyId awake = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {0.75, 0, 0})});
+  const BodyId gone = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {8, 0, 0})});
+  ASSERT_TRUE(this->executor.execute(DestroyBody{gone}));
+  ASSERT_TRUE(this->executor.execute(ApplyForce<S>{awake, vec<S>(3, 0, 0), vec<S>(0, 0, 0)}));
+
+  const auto expect_refused = [&](const auto& command, Fault fault, const char* field) {
+    const std::uint64_t before = this->hash();
+    this->journal.forget_faults();
+    EXPECT_FALSE(this->executor.execute(command));
+    EXPECT_EQ(this->journal.fault().fault, fault);
+    EXPECT_STREQ(this->journal.fault().field, field);
+    EXPECT_EQ(this->hash(), before) << "a refused command changed something: " << field;
+  };
   BodyDefinition<S> d = moving<S>(this->shape, {0, 0, 0});
   d.mass = S(-1);
-  EXPECT_FALSE(this->executor.execute(CreateBody<S>{d}));
-  EXPECT_EQ(this->journal.fault().fault, Fault::bad_mass);
-  EXPECT_STREQ(this->journal.fault().field, "mass");
-  EXPECT_TRUE(this->rooms.state.body_slots.entries().empty());
-  EXPECT_FALSE(this->executor.execute(RemoveShape{ShapeId{}}));
-  EXPECT_EQ(this->journal.fault().fault, Fault::null_id);
+  const Vec3<S> beyond = {Limits<S>::position() + S(1), S(0), S(0)}, fast = {Limits<S>::speed() + S(1), S(0), S(0)};
+  const Vec3<S> none = vec<S>(0, 0, 0);
+  Material<S> rough;
+  rough.friction = S(-1);
+  JointProperties<S> other = tie;
+  other.type = JointType::distance;
+  expect_refused(AddShape<S>{}, Fault::bad_shape, "a shape has no children");
+  expect_refused(CreateBody<S>{d}, Fault::bad_mass, "mass");
+  expect_refused(RemoveShape{ShapeId{}}, Fault::null_id, "shape");
+  expect_refused(RemoveShape{this->shape}, Fault::shape_in_use, "shape");
+  expect_refused(DestroyBody{gone}, Fault::stale_id, "body");
+  expect_refused(SetPose<S>{asleep, {beyond, Quat<Unit<S>>::identity()}}, Fault::out_of_range, "position");
+  expect_refused(SetVelocity<S>{asleep, fast, none}, Fault::out_of_range, "linear");
+  expect_refused(SetMaterial<S>{asleep, rough}, Fault::bad_argument, "material.friction");
+  expect_refused(SetMotion<S>{asleep, S(1), S(-1), S(0), 0}, Fault::bad_argument, "linear_damping");
+  expect_refused(SetFilter{gone, {}}, Fault::stale_id, "body");
+  expect_refused(ApplyForce<S>{gone, none, none}, Fault::stale_id, "body");
+  expect_refused(ApplyImpulse<S>{gone, none, none}, Fault::stale_id, "body");
+  expect_refused(SetGravity<S>{fast}, Fault::out_of_range, "gravity");
+  expect_refused(CreateJoint<S>{{}}, Fault::not_dynamic, "body_a, body_b");
+  expect_refused(SetJoint<S>{joint, other}, Fault::bad_argument, "type");
+  expect_refused(DestroyJoint{JointId{}}, Fault::null_id, "joint");
 }
 
 TYPED_TEST(Executors, forces_add_up_until_the_step) {

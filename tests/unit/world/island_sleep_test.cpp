@@ -11,16 +11,31 @@ namespace {
 /// Three balls: a contact ties the first two together.
 template <class S> class IslandSleeps : public ::testing::Test {
  protected:
-  IslandSleeps() : rooms(made()) {
-    Contact<S> contact = {};
-    contact.key = {balls[0].slot, balls[1].slot, 0, 0};
-    contact.count = 1;
-    rooms.state.contacts.push_back(contact);
-  }
+  IslandSleeps() : rooms(made()) { add_contact(0, 1); }
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 3; ++i) balls[i] = world.create(moving<S>(ball, {2.0 * i, 0, 0}));
     return world;
+  }
+  void reset() {
+    rooms.loader.load(world.state());
+    add_contact(0, 1);
+  }
+  void add_contact(int a, int b) {
+    Contact<S> contact = {};
+    contact.key = {balls[a].slot, balls[b].slot, 0, 0};
+    contact.count = 1;
+    rooms.state.contacts.push_back(contact);
+  }
+  JointId tie(std::uint32_t a, std::uint32_t b) {
+    const JointId id = rooms.state.joint_slots.template take<JointId>();
+    JointState<S> joint = {};
+    joint.slot = id.slot;
+    JointProperties<S> properties;
+    properties.body_a = a;
+    properties.body_b = b;
+    rooms.map.insert(joint, properties);
+    return id;
   }
   std::vector<BodyId> after(int steps) {
     std::vector<BodyId> fell_asleep;
@@ -60,6 +75,79 @@ TYPED_TEST(IslandSleeps, one_that_moves_keeps_its_island_awake) {
 TYPED_TEST(IslandSleeps, what_lies_on_a_conveyor_does_not_rest) {
   auto& belt = this->rooms.map.change_properties(this->balls[0].slot);
   belt.material.surface_velocity = vec<TypeParam>(1, 0, 0);
+  this->after(60);
+  EXPECT_FALSE(this->rooms.is_asleep(this->balls[1]));
+  EXPECT_TRUE(this->rooms.is_asleep(this->balls[2]));
+}
+
+TYPED_TEST(IslandSleeps, bodies_that_a_joint_ties_fall_asleep_together_and_the_joint_with_them) {
+  using S = TypeParam;
+  const JointId joint = this->tie(this->balls[1].slot, this->balls[2].slot);
+  this->rooms.awake(this->balls[0]).velocity = vec<Velocity<S>>(1, 0, 0);
+  EXPECT_TRUE(this->after(60).empty()) << "by the contact and the joint the first keeps all of them awake";
+  this->rooms.awake(this->balls[0]).velocity = vec<Velocity<S>>(0, 0, 0);
+  EXPECT_EQ(this->after(30).size(), 3u);
+  const WorldState<S>& state = this->rooms.state;
+  ASSERT_EQ(state.sleeping.size(), 1u);
+  EXPECT_EQ(state.sleeping[0]->joints.states.size(), 1u);
+  EXPECT_EQ(state.sleeping[0]->joints.properties.size(), 1u);
+  EXPECT_TRUE(state.joints.states.empty());
+  EXPECT_TRUE(state.joints.properties.empty());
+  EXPECT_EQ(this->rooms.map.joint_location(joint.slot).set, 0u);
+  EXPECT_EQ(this->rooms.map.names(this->balls[1].slot), 2u);
+}
+
+TYPED_TEST(IslandSleeps, a_joint_to_the_world_sleeps_with_its_body) {
+  const JointId joint = this->tie(kNoBody, this->balls[2].slot);
+  EXPECT_EQ(this->after(30).size(), 3u);
+  EXPECT_TRUE(this->rooms.map.joint_location(joint.slot).is_asleep());
+  EXPECT_EQ(this->rooms.state.sleeping[1]->joints.states.size(), 1u);
+}
+
+/// However slowly: what is told to move does not rest.
+TYPED_TEST(IslandSleeps, what_a_driven_body_touches_or_holds_stays_awake_while_it_moves) {
+  using S = TypeParam;
+  for (const bool by_joint : {false, true}) {
+    this->reset();
+    this->rooms.map.change_properties(this->balls[0].slot).type = BodyType::kinematic;
+    this->rooms.awake(this->balls[0]).velocity = vec<Velocity<S>>(0.015625, 0, 0);
+    if (by_joint) {
+      this->rooms.state.contacts.clear();
+      this->tie(this->balls[0].slot, this->balls[1].slot);
+    }
+    const std::vector<BodyId> fell_asleep = this->after(60);
+    ASSERT_EQ(fell_asleep.size(), 1u) << by_joint;
+    EXPECT_EQ(fell_asleep[0], this->balls[2]);
+    this->rooms.awake(this->balls[0]).velocity = vec<Velocity<S>>(0, 0, 0);
+    this->after(30);
+    EXPECT_TRUE(this->rooms.is_asleep(this->balls[1])) << by_joint;
+    EXPECT_FALSE(this->rooms.is_asleep(this->balls[0])) << "what can be driven is always awake";
+    EXPECT_EQ(this->rooms.state.joints.states.size(), 0u);
+  }
+}
+
+/// A driven body is no bridge: what rests on it on either side are islands of their own.
+TYPED_TEST(IslandSleeps, a_driven_body_at_rest_ties_nothing_together) {
+  using S = TypeParam;
+  this->rooms.map.change_properties(this->balls[1].slot).type = BodyType::kinematic;
+  this->add_contact(1, 2);
+  this->rooms.awake(this->balls[2]).velocity = vec<Velocity<S>>(1, 0, 0);
+  const std::vector<BodyId> fell_asleep = this->after(60);
+  ASSERT_EQ(fell_asleep.size(), 1u);
+  EXPECT_EQ(fell_asleep[0], this->balls[0]);
+}
+
+TYPED_TEST(IslandSleeps, a_sensor_ties_nothing_together) {
+  using S = TypeParam;
+  this->rooms.map.change_properties(this->balls[0].slot).flags |= body_flag::kSensor;
+  this->rooms.awake(this->balls[0]).velocity = vec<Velocity<S>>(1, 0, 0);
+  EXPECT_EQ(this->after(60).size(), 2u);
+  EXPECT_FALSE(this->rooms.is_asleep(this->balls[0]));
+  EXPECT_TRUE(this->rooms.is_asleep(this->balls[1]));
+}
+
+TYPED_TEST(IslandSleeps, a_body_that_may_not_sleep_keeps_its_island_awake) {
+  this->rooms.map.change_properties(this->balls[0].slot).flags &= ~body_flag::kAllowSleep;
   this->after(60);
   EXPECT_FALSE(this->rooms.is_asleep(this->balls[1]));
   EXPECT_TRUE(this->rooms.is_asleep(this->balls[2]));

@@ -8,7 +8,8 @@
 namespace isostep::test {
 namespace {
 
-/// Three stacks of two boxes on the ground, asleep. Slots of the stacks alternate.
+/// Three stacks of two boxes on the ground, asleep. Slots of the stacks alternate. Joints tie the boxes of the first and
+/// of the last stack.
 template <class S> class IslandWakes : public ::testing::Test {
  protected:
   IslandWakes() : rooms(asleep()) {}
@@ -16,6 +17,12 @@ template <class S> class IslandWakes : public ::testing::Test {
     ground = add_ground(world);
     const ShapeId box = add_box(world, 0.5, 0.5, 0.5);
     for (int i = 0; i < 6; ++i) boxes[i] = world.create(moving<S>(box, {5.0 * (i % 3), 0.5 + i / 3, 0}));
+    for (const int i : {0, 2}) {
+      JointProperties<S> tie =
+          world.joint_at(JointType::fixed, boxes[i], boxes[i + 3], {vec<S>(5.0 * i, 1, 0), Quat<Unit<S>>::identity()});
+      tie.flags |= joint_flag::kCollideConnected;
+      joints[i / 2] = world.create(tie);
+    }
     EXPECT_TRUE(settle(world));
     return world;
   }
@@ -27,6 +34,7 @@ template <class S> class IslandWakes : public ::testing::Test {
 
   World<S> world{settings<S>()};
   BodyId ground, boxes[6];
+  JointId joints[2];
   Rooms<S> rooms;
 };
 TYPED_TEST_SUITE(IslandWakes, RoomScalars);
@@ -51,6 +59,37 @@ TYPED_TEST(IslandWakes, what_is_awake_already_stays_as_it_is) {
   EXPECT_EQ(this->rooms.awake(this->boxes[4]).sleep_clock, 7u);
   this->rooms.wake.reset_clock(this->boxes[4].slot);
   EXPECT_EQ(this->rooms.awake(this->boxes[4]).sleep_clock, 0u);
+}
+
+TYPED_TEST(IslandWakes, all_wake_at_once_and_what_was_awake_rests_anew) {
+  this->rooms.wake.wake(this->boxes[1].slot);
+  this->rooms.awake(this->boxes[4]).sleep_clock = 7;
+  this->rooms.wake.wake_all();
+  this->expect_awake({0, 1, 2, 3, 4, 5});
+  EXPECT_TRUE(this->rooms.state.sleeping.empty());
+  EXPECT_EQ(this->rooms.state.untold.woke.size(), 6u);
+  EXPECT_EQ(this->rooms.map.names(this->ground.slot), 0u);
+  for (const BodyState<TypeParam>& body : this->rooms.state.awake.states) EXPECT_EQ(body.sleep_clock, 0u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(this->rooms.map.location(this->boxes[i].slot).index, i) << "as the map has them";
+  this->rooms.find_pairs();
+  EXPECT_EQ(this->rooms.proxies.pairs().size(), 6u) << "three with the ground, three in the stacks";
+}
+
+TYPED_TEST(IslandWakes, a_joint_wakes_with_its_bodies_and_what_it_ties_rests_anew) {
+  EXPECT_TRUE(this->rooms.map.joint_location(this->joints[1].slot).is_asleep());
+  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[1].slot), 0u);
+  this->expect_awake({2, 5});
+  EXPECT_TRUE(this->rooms.map.joint_location(this->joints[0].slot).is_asleep());
+  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[0].slot), 0u);
+  this->expect_awake({0, 2, 3, 5});
+  ASSERT_EQ(this->rooms.state.joints.states.size(), 2u);
+  EXPECT_EQ(this->rooms.state.joints.states[0].slot, this->joints[0].slot);
+  EXPECT_EQ(this->rooms.state.joints.properties[1].body_b, this->boxes[5].slot);
+  for (const int box : {0, 2, 3, 5}) this->rooms.awake(this->boxes[box]).sleep_clock = 7;
+  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[1].slot), 1u) << "among the awake ones";
+  for (const int box : {0, 3}) EXPECT_EQ(this->rooms.awake(this->boxes[box]).sleep_clock, 7u);
+  for (const int box : {2, 5}) EXPECT_EQ(this->rooms.awake(this->boxes[box]).sleep_clock, 0u);
 }
 
 TYPED_TEST(IslandWakes, the_ground_holds_all_of_them) {

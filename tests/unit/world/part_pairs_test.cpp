@@ -3,6 +3,9 @@
 
 #include "isostep/world/part_pairs.hpp"
 
+#include <map>
+#include <utility>
+
 #include "unit/world/rooms.hpp"
 
 namespace isostep::test {
@@ -27,10 +30,10 @@ template <class S> class PartPairsOf : public ::testing::Test {
     return count;
   }
   /// So many small boxes in a row from the origin on.
-  ShapeId add_row(int count) {
+  ShapeId add_row(int count, double apart = 1) {
     std::vector<Child<S>> children;
     for (int i = 0; i < count; ++i) {
-      const Pose<S> pose = {vec<S>(i, 0, 0), Quat<Unit<S>>::identity()};
+      const Pose<S> pose = {vec<S>(apart * i, 0, 0), Quat<Unit<S>>::identity()};
       children.push_back({primitive_of(Box<S>{vec<S>(0.25, 0.25, 0.25)}), pose});
     }
     return world.add_shape(std::span<const Child<S>>(children));
@@ -89,14 +92,29 @@ TYPED_TEST(PartPairsOf, of_compounds_only_parts_that_are_near_each_other_pair_an
 
 TYPED_TEST(PartPairsOf, beyond_the_budget_every_pair_of_compounds_gets_the_same_share) {
   using S = TypeParam;
-  Settings<S> few = settings<S>(0);
-  few.most_pairs = kLeastPairs;
-  this->world = World<S>(few);
-  const ShapeId row = this->add_row(100);
-  for (int i = 0; i < 3; ++i) this->world.create(moving<S>(row, {0, 0.125 * i, 0}));
-  EXPECT_EQ(this->gather(), 3u);
-  EXPECT_LE(this->parts(), 2u * static_cast<std::size_t>(kLeastPairs));
-  EXPECT_EQ(this->parts() % 3, 0u);
+  static_assert(kLeastPairs == 64);
+  struct Case {
+    int children;
+    double apart;  // [m]
+    std::size_t share;
+  };
+  // 64 * 64 comparisons and 64 * 2 parts for three pairs.
+  const Case cases[] = {{100, 1, 14},  // of 1365 comparisons: parts 0 to 13 meet their likes at 101 each, the last too
+                        {36, 0, 42}};  // of 1296 pairs of parts in one place
+  for (const Case& each : cases) {
+    Settings<S> few = settings<S>(0);
+    few.most_pairs = kLeastPairs;
+    this->world = World<S>(few);
+    const ShapeId row = this->add_row(each.children, each.apart);
+    for (int i = 0; i < 3; ++i) this->world.create(moving<S>(row, {0, 0.125 * i, 0}));
+    EXPECT_EQ(this->gather(), 3u);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> parts;  // by frames
+    for (std::size_t g = 0; g < this->pairs->groups(); ++g) {
+      for (const PartPair& pair : this->pairs->group(g).parts) ++parts[{pair.frame_a, pair.frame_b}];
+    }
+    EXPECT_EQ(parts.size(), 3u);
+    for (const auto& [pair, count] : parts) EXPECT_EQ(count, each.share) << pair.first << " " << pair.second;
+  }
 }
 
 }  // namespace

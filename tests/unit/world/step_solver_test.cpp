@@ -3,6 +3,8 @@
 
 #include "isostep/world/step_solver.hpp"
 
+#include <set>
+
 #include "isostep/dynamics/solvers/solvers.inl"
 #include "unit/world/rooms.hpp"
 
@@ -52,20 +54,58 @@ TYPED_TEST(StepSolvers, joints_know_the_rows_and_the_poses_of_their_ends) {
   EXPECT_EQ(context.joint_ends[0].b.pose.position, vec<S>(0, 2, 0));
 }
 
-TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_of_the_state) {
+/// The awake ball flies up; then it has come to the fixed one, which stops it.
+TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_the_impulses_of_contacts) {
   using S = TypeParam;
-  this->rooms.state.joints = {};
-  this->rooms.awake(this->awake).velocity = vec<Velocity<S>>(0, 6, 0);
-  const StepContext<S> context = this->solver.context({}, {}, this->tools, false);
-  this->solver.with_solver([&](auto& chosen) {
-    chosen.colour_constraints(context);
-    chosen.prepare(context);
-    chosen.solve_substeps(context);
-    chosen.apply_restitution(context);
-    chosen.store_impulses(context);
-  });
-  EXPECT_NEAR(to_double(this->rooms.awake(this->awake).centre.y), 2.1, 1e-5);
-  EXPECT_TRUE(this->solver.impulses().empty());
+  using V = Velocity<S>;
+  WorldState<S>& state = this->rooms.state;
+  state.joints = {};
+  const BodyState<S> start = this->rooms.awake(this->awake);
+  const BodyState<S>& ball = this->rooms.awake(this->awake);
+  std::vector<ContactGeometry<S>> geometry;
+  const auto solve_from = [&](double y) {
+    state.awake.states[0] = start;
+    state.awake.states[0].centre = vec<S>(0, y, 0);
+    state.awake.states[0].velocity = vec<V>(0, 6, 0);
+    const StepContext<S> context = this->solver.context(geometry, {}, this->tools, false);
+    const void* used = nullptr;
+    this->solver.with_solver([&](auto& chosen) {
+      used = &chosen;
+      chosen.colour_constraints(context);
+      chosen.prepare(context);
+      chosen.solve_substeps(context);
+      chosen.apply_restitution(context);
+      chosen.store_impulses(context);
+    });
+    return used;
+  };
+  std::set<const void*> all_used;
+  for (std::uint32_t name = 0; name < kSolvers; ++name) {
+    SCOPED_TRACE(kSolverNames[name]);
+    state.settings.solver = static_cast<SolverName>(name);
+    state.contacts.clear();
+    geometry.clear();
+    all_used.insert(solve_from(2));
+    EXPECT_NEAR(to_double(ball.centre.y), 2.1, 1e-5);
+    EXPECT_TRUE(this->solver.impulses().empty());
+
+    Contact<S> contact = {};
+    contact.key = {this->fixed.slot, this->awake.slot, 0, 0};
+    contact.count = 1;
+    state.contacts.push_back(contact);
+    ContactGeometry<S> touch = {};
+    touch.row_b = 1;
+    touch.normal.y = Unit<S>(-1);
+    touch.points[0].arm_a = vec<S>(0, -0.5, 0);
+    touch.points[0].arm_b = vec<S>(0, 0.5, 0);
+    geometry.push_back(touch);
+    all_used.insert(solve_from(3));
+    EXPECT_NEAR(to_double(ball.velocity.y), 0, 0.05);
+    ASSERT_EQ(this->solver.impulses().size(), 1u);
+    EXPECT_NEAR(to_double(this->solver.impulses()[0]), 6, 0.05);
+    EXPECT_EQ(state.contacts[0].flags, contact_flag::kTouching);
+  }
+  EXPECT_EQ(all_used.size(), kSolvers) << "each name has a solver of its own";
 }
 
 }  // namespace
