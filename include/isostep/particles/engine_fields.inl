@@ -1,4 +1,4 @@
-// ParticleEngine: its state, and what each room leaves behind from stage to stage, by name.
+// ParticleEngine: its state, and what each system leaves behind from stage to stage, by name.
 // SPDX-License-Identifier: MIT
 #pragma once
 

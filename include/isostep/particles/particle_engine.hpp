@@ -1,4 +1,4 @@
-// ParticleEngine<S>: what stands behind ParticleWorld<S>. It holds the state and the rooms, and conducts a step.
+// ParticleEngine<S>: what stands behind ParticleWorld<S>. It holds the state and the systems that a step calls.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -33,7 +33,7 @@ template <class S> class ParticleEngine {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
 
-  // Each room knows only what stands above it: README.md draws who knows whom.
+  // Each system knows only what stands above it: README.md draws who knows whom.
   ParticleState<S> state_;
   CommandJournal journal_;
   ParticleRemoval<S> removal_{state_};

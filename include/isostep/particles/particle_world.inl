@@ -202,8 +202,8 @@ template <class S> StageView ParticleWorld<S>::state_fields() const { return eng
 
 }  // namespace isostep
 
-/// ParticleWorld<S>, the rooms behind it, and what each command does: a command of the list without `execute` does not
-/// compile.
+/// ParticleWorld<S>, the systems behind it, and what each command does: a command of the list without `execute` does
+/// not compile.
 #define ISO_INSTANTIATE_PARTICLE_EXECUTE(name, Type, Result, S) \
   template Result ParticleCommands<S>::execute(const Type&);
 #define ISO_INSTANTIATE_PARTICLE_RECORD(name, Record, Id, S)                \

@@ -1,4 +1,4 @@
-// WorldEngine<S>: what stands behind World<S>: the state, and the rooms that advance it.
+// WorldEngine<S>: what stands behind World<S>: the state, and the systems that advance it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -28,17 +28,17 @@
 
 namespace isostep {
 
-/// Conducts: a step calls the rooms in the order of its stages. Each room is a class that is read and tested alone; its
-/// header says what comes in, what goes out and what it keeps. A room knows the rooms that it names in its constructor
-/// and no others, never the engine:
+/// A step calls the systems in the order of its stages. Each system is a class that is read and tested alone; its header
+/// says what comes in, what goes out and what it keeps. A system knows those that it names in its constructor and no
+/// others, never the engine:
 ///
 ///   CommandExecutor -> Destruction -> IslandWake -> BodyMap, Proxies
 ///   CommandExecutor -> RenderPoses
 ///   IslandSleep, StateLoader, BodyFinisher, Queries -> BodyMap, Proxies
 ///   NarrowPhase (with PartPairs inside), StepSolver, SensorOverlaps -> BodyMap
-///   Carriers, ContactEvents -> no room
+///   Carriers, ContactEvents -> no other
 ///
-/// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one room needs of another,
+/// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one system needs of another,
 /// the step passes from call to call.
 template <class S> class WorldEngine {
  public:

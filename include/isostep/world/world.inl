@@ -354,7 +354,7 @@ template <class S> StageView World<S>::state_fields() const { return engine_->vi
 
 }  // namespace isostep
 
-/// World<S>, the rooms behind it, each a class that links alone, and what each command does: a command of the list
+/// World<S>, the systems behind it, each a class that links alone, and what each command does: a command of the list
 /// without `execute` does not compile.
 #define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);
 #define ISO_INSTANTIATE_WORLD(S)                   \

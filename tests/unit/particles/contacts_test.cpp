@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/contacts.hpp"
 
-#include "unit/particles/room.hpp"
+#include "unit/particles/step_scene.hpp"
 
 namespace isostep {
 namespace {
@@ -10,10 +10,10 @@ namespace {
 template <class S> class ContactsTest : public testing::Test {
  protected:
   using V = Velocity<S>;
-  Room<S> room_;
-  PairSearch<S> search_{room_.state, room_.step};
-  ParticleRows<S> rows_{room_.state, room_.step};
-  ParticleContacts<S> contacts_{room_.state, room_.step, search_, rows_};
+  StepScene<S> scene_;
+  PairSearch<S> search_{scene_.state, scene_.step};
+  ParticleRows<S> rows_{scene_.state, scene_.step};
+  ParticleContacts<S> contacts_{scene_.state, scene_.step, search_, rows_};
 
   /// As a solver leaves them: what was met pressed with an impulse.
   void press(double impulse) {
@@ -23,7 +23,7 @@ template <class S> class ContactsTest : public testing::Test {
     }
   }
   void find() {
-    room_.begin();
+    scene_.begin();
     contacts_.find();
   }
 };
@@ -31,20 +31,20 @@ TYPED_TEST_SUITE(ContactsTest, Scalars);
 
 TYPED_TEST(ContactsTest, LinksComeFirstThenContactsByKeyThenTouches) {
   using S = TypeParam;
-  Room<S>& room = this->room_;
-  room.make_balls(0.5);
-  const ParticleId a = room.add({0, 0.5, 0}), b = room.add({1, 0.5, 0}), c = room.add({2, 0.5, 0});
-  room.state.colliders.add(Collider<S>{});
-  room.add_link(LinkType::cable, a, c, 2);
-  room.state.link_impulses[0] = Velocity<S>(5);
+  StepScene<S>& scene = this->scene_;
+  scene.make_balls(0.5);
+  const ParticleId a = scene.add({0, 0.5, 0}), b = scene.add({1, 0.5, 0}), c = scene.add({2, 0.5, 0});
+  scene.state.colliders.add(Collider<S>{});
+  scene.add_link(LinkType::cable, a, c, 2);
+  scene.state.link_impulses[0] = Velocity<S>(5);
   ParticleTouch<S> touch;
   touch.particle = b;
-  room.state.touches.push_back(touch);
+  scene.state.touches.push_back(touch);
   this->find();
   ASSERT_EQ(this->rows_.links().size(), 1u);
   EXPECT_EQ(to_double(this->rows_.links()[0].impulse), 5);
   std::vector<std::uint64_t> keys;
-  for (const ParticleContact<S>& contact : room.state.contacts) keys.push_back(contact.key());
+  for (const ParticleContact<S>& contact : scene.state.contacts) keys.push_back(contact.key());
   const std::uint64_t plane = ParticleContact<S>::kCollider, one = std::uint64_t{1} << 32;
   EXPECT_EQ(keys, (std::vector<std::uint64_t>{1, plane, one | 2, one | plane, 2 * one | plane}));
   EXPECT_EQ(this->rows_.contacts().size(), 5u);
@@ -52,53 +52,53 @@ TYPED_TEST(ContactsTest, LinksComeFirstThenContactsByKeyThenTouches) {
 }
 
 TYPED_TEST(ContactsTest, AContactKeepsItsImpulseAndIsToldOnce) {
-  Room<TypeParam>& room = this->room_;
-  room.make_balls(0.5);
-  const ParticleId a = room.add(kNowhere), b = room.add(kRight);
+  StepScene<TypeParam>& scene = this->scene_;
+  scene.make_balls(0.5);
+  const ParticleId a = scene.add(kNowhere), b = scene.add(kRight);
   this->find();
   this->press(2);
   this->contacts_.store(true);
-  ASSERT_EQ(room.step.events.contact_begin.size(), 1u);
-  EXPECT_EQ(room.step.events.contact_begin[0].a, a);
-  EXPECT_EQ(room.step.events.contact_begin[0].b, b);
-  EXPECT_EQ(to_double(room.step.events.contact_begin[0].speed), 3);
+  ASSERT_EQ(scene.step.events.contact_begin.size(), 1u);
+  EXPECT_EQ(scene.step.events.contact_begin[0].a, a);
+  EXPECT_EQ(scene.step.events.contact_begin[0].b, b);
+  EXPECT_EQ(to_double(scene.step.events.contact_begin[0].speed), 3);
   this->find();
   EXPECT_EQ(to_double(this->rows_.contacts()[0].impulse), 2);
   this->press(1);
   this->contacts_.store(true);
-  EXPECT_TRUE(room.step.events.contact_begin.empty());
-  EXPECT_EQ(to_double(room.state.contacts.at(0).impulse), 1);
+  EXPECT_TRUE(scene.step.events.contact_begin.empty());
+  EXPECT_EQ(to_double(scene.state.contacts.at(0).impulse), 1);
 }
 
 TYPED_TEST(ContactsTest, WhatBoreNothingIsForgottenAndSoAreImpulsesThatASolverDoesNotKeep) {
-  Room<TypeParam>& room = this->room_;
-  room.make_balls(0.5);
-  room.add(kNowhere);
-  room.add(kRight);
+  StepScene<TypeParam>& scene = this->scene_;
+  scene.make_balls(0.5);
+  scene.add(kNowhere);
+  scene.add(kRight);
   this->find();
   this->press(2);
   this->contacts_.store(false);
-  ASSERT_EQ(room.state.contacts.size(), 1u);
-  EXPECT_EQ(to_double(room.state.contacts[0].impulse), 0);
+  ASSERT_EQ(scene.state.contacts.size(), 1u);
+  EXPECT_EQ(to_double(scene.state.contacts[0].impulse), 0);
   this->find();
   this->contacts_.store(true);
-  EXPECT_TRUE(room.state.contacts.empty());
+  EXPECT_TRUE(scene.state.contacts.empty());
 }
 
 TYPED_TEST(ContactsTest, OfTwoMaterialsTheLesserFrictionAndTheGreaterRestitutionCount) {
   using S = TypeParam;
-  Room<S>& room = this->room_;
+  StepScene<S>& scene = this->scene_;
   ParticleMaterial<S> other;
   other.radius = S(0.5);
   other.collides = true;
   other.friction = S(0.25);
   other.restitution = S(0.5);
-  room.make_balls(0.5, 0.125);
-  room.state.materials.change_all()[0].friction = S(0.75);
-  room.state.materials.add(other);
-  room.add(kNowhere);
-  room.add(kRight, kNowhere, 3);
-  room.state.material[1] = 1;
+  scene.make_balls(0.5, 0.125);
+  scene.state.materials.change_all()[0].friction = S(0.75);
+  scene.state.materials.add(other);
+  scene.add(kNowhere);
+  scene.add(kRight, kNowhere, 3);
+  scene.state.material[1] = 1;
   this->find();
   const ParticleConstraint<S>& row = this->rows_.contacts()[0];
   EXPECT_EQ(to_double(row.friction), 0.25);
@@ -109,19 +109,19 @@ TYPED_TEST(ContactsTest, OfTwoMaterialsTheLesserFrictionAndTheGreaterRestitution
 
 TYPED_TEST(ContactsTest, TouchesTellWhatTheyGotAndAreUsedUp) {
   using S = TypeParam;
-  Room<S>& room = this->room_;
+  StepScene<S>& scene = this->scene_;
   ParticleTouch<S> touch;
-  touch.particle = room.add(kNowhere, kNowhere, 0.5);
+  touch.particle = scene.add(kNowhere, kNowhere, 0.5);
   touch.inverse_mass = InverseMass<S>(2);
-  room.state.touches.push_back(touch);
-  room.state.pushes.push_back({touch.particle.slot, 0, Room<S>::vec(kUp)});
+  scene.state.touches.push_back(touch);
+  scene.state.pushes.push_back({touch.particle.slot, 0, StepScene<S>::vec(kUp)});
   this->find();
   this->rows_.touches()[0].total.y = Velocity<S>(8);
   this->contacts_.store(true);
-  ASSERT_EQ(room.step.events.touch_impulses.size(), 1u);
-  EXPECT_EQ(to_double(room.step.events.touch_impulses[0].y), 2);  // 8 m/s of a reduced mass of 1/4 kg
-  EXPECT_TRUE(room.state.touches.empty());
-  EXPECT_TRUE(room.state.pushes.empty());
+  ASSERT_EQ(scene.step.events.touch_impulses.size(), 1u);
+  EXPECT_EQ(to_double(scene.step.events.touch_impulses[0].y), 2);  // 8 m/s of a reduced mass of 1/4 kg
+  EXPECT_TRUE(scene.state.touches.empty());
+  EXPECT_TRUE(scene.state.pushes.empty());
 }
 
 }  // namespace

@@ -4,30 +4,30 @@
 
 #include <iterator>
 
-#include "unit/particles/room.hpp"
+#include "unit/particles/step_scene.hpp"
 
 namespace isostep {
 namespace {
 
 template <class S> class IntegrationTest : public testing::Test {
  protected:
-  Room<S> room_;
-  FreeFlight<S> flight_{room_.state, room_.step};
-  ParticleSprings<S> springs_{room_.state, room_.step};
-  StiffSprings<S> stiff_springs_{room_.state, room_.step};
-  ParticleForces<S> forces_{room_.state, room_.step, flight_, springs_};
-  ParticleIntegration<S> integration_{room_.state, room_.step, flight_, forces_, stiff_springs_};
+  StepScene<S> scene_;
+  FreeFlight<S> flight_{scene_.state, scene_.step};
+  ParticleSprings<S> springs_{scene_.state, scene_.step};
+  StiffSprings<S> stiff_springs_{scene_.state, scene_.step};
+  ParticleForces<S> forces_{scene_.state, scene_.step, flight_, springs_};
+  ParticleIntegration<S> integration_{scene_.state, scene_.step, flight_, forces_, stiff_springs_};
 
   void begin(Integrator integrator) {
-    room_.state.settings.integrator = integrator;
-    room_.begin();
+    scene_.state.settings.integrator = integrator;
+    scene_.begin();
     flight_.prepare();
     springs_.prepare();
     stiff_springs_.prepare({});
   }
   void fly(Integrator integrator) {
     begin(integrator);
-    for (int i = 0; i < room_.state.settings.substeps; ++i) {
+    for (int i = 0; i < scene_.state.settings.substeps; ++i) {
       integration_.fly();
       integration_.place();
     }
@@ -46,29 +46,29 @@ TYPED_TEST(IntegrationTest, FreeFallOfFourSubsteps) {
                         {Integrator::velocity_verlet, 8},
                         {Integrator::rk4, 8}};
   for (const Case& each : cases) {
-    Room<TypeParam>& room = this->room_;
-    room.state.settings.gravity = Room<TypeParam>::vec({0, -10, 0});
-    const ParticleId a = room.add(kNowhere);
+    StepScene<TypeParam>& scene = this->scene_;
+    scene.state.settings.gravity = StepScene<TypeParam>::vec({0, -10, 0});
+    const ParticleId a = scene.add(kNowhere);
     this->fly(each.integrator);
     const double slack = 64 * grain<TypeParam>(1);
-    EXPECT_NEAR(room.v(a).y, -10.0 / 60, slack) << static_cast<std::uint32_t>(each.integrator);
-    EXPECT_NEAR(room.d(a).y, -10 * each.way * room.h() * room.h(), slack)
+    EXPECT_NEAR(scene.v(a).y, -10.0 / 60, slack) << static_cast<std::uint32_t>(each.integrator);
+    EXPECT_NEAR(scene.d(a).y, -10 * each.way * scene.h() * scene.h(), slack)
         << static_cast<std::uint32_t>(each.integrator);
   }
 }
 
 /// k h^2 / m = 0.01: four sub-steps are a turn of 0.4.
 TYPED_TEST(IntegrationTest, HigherOrdersFollowASpring) {
-  Room<TypeParam>& room = this->room_;
-  const double k = 0.01 / (room.h() * room.h());
-  const ParticleId a = room.add(kRight);
-  room.state.springs.add(room.spring(a, {}, k, 0));
+  StepScene<TypeParam>& scene = this->scene_;
+  const double k = 0.01 / (scene.h() * scene.h());
+  const ParticleId a = scene.add(kRight);
+  scene.state.springs.add(scene.spring(a, {}, k, 0));
   const double way = std::cos(0.4) - 1;
-  const ParticleState<TypeParam> start = room.state;
+  const ParticleState<TypeParam> start = scene.state;
   const auto error_of = [&](Integrator integrator) {
-    room.state = start;
+    scene.state = start;
     this->fly(integrator);
-    return std::abs(room.d(a).x - way);
+    return std::abs(scene.d(a).x - way);
   };
   const double slack = 64 * grain<TypeParam>(1);
   EXPECT_LT(error_of(Integrator::rk4), 1e-5 + slack);
@@ -90,22 +90,22 @@ TYPED_TEST(IntegrationTest, OnlyMethodsWithALaterVelocityArrive) {
                         {Integrator::rk4, true, 0.5},
                         {Integrator::implicit_euler, false, 1}};
   ASSERT_EQ(std::size(cases), kIntegrators);
-  Room<TypeParam>& room = this->room_;
-  room.state.settings.gravity = Room<TypeParam>::vec({0, -10, 0});
-  const ParticleId a = room.add(kNowhere);
-  const ParticleState<TypeParam> start = room.state;
-  const double gained = -10 * room.h(), slack = 64 * grain<TypeParam>(1);
+  StepScene<TypeParam>& scene = this->scene_;
+  scene.state.settings.gravity = StepScene<TypeParam>::vec({0, -10, 0});
+  const ParticleId a = scene.add(kNowhere);
+  const ParticleState<TypeParam> start = scene.state;
+  const double gained = -10 * scene.h(), slack = 64 * grain<TypeParam>(1);
   for (const Case& each : cases) {
     SCOPED_TRACE(kIntegratorNames[static_cast<std::uint32_t>(each.integrator)]);
-    room.state = start;
+    scene.state = start;
     this->begin(each.integrator);
     EXPECT_EQ(this->integration_.arrives(), each.arrives);
     this->integration_.integrate(false);
-    EXPECT_NEAR(room.v(a).y, each.way * gained, slack);
-    room.state = start;
+    EXPECT_NEAR(scene.v(a).y, each.way * gained, slack);
+    scene.state = start;
     this->begin(each.integrator);
     this->integration_.fly();
-    EXPECT_NEAR(room.v(a).y, gained, slack) << "of the sub-step's end";
+    EXPECT_NEAR(scene.v(a).y, gained, slack) << "of the sub-step's end";
   }
 }
 

@@ -1,4 +1,4 @@
-// Particles and rows made by hand, for tests of what solves them; doubles at the door.
+// Particles and rows made by hand, for tests of what solves them; numbers go in and come out as doubles.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -25,7 +25,7 @@ constexpr D3 kRight = {1, 0, 0}, kUp = {0, 1, 0}, kNowhere = {0, 0, 0};
 constexpr double kPinned = 0;
 constexpr std::uint32_t kMany = 100000;
 
-/// Particles and the rows between them, in the resolver's own terms; doubles at the door.
+/// Particles and the rows between them, in the resolver's own terms.
 template <class S> struct Scene {
   using V = Velocity<S>;
   Axes<V> velocity, displacement, gained;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/rows.hpp"
 
-#include "unit/particles/room.hpp"
+#include "unit/particles/step_scene.hpp"
 
 namespace isostep {
 namespace {
@@ -25,17 +25,17 @@ template <class S> class RowsTest : public testing::Test {
     EXPECT_NEAR(to_double(row.normal.z), normal.z, 1e-4);
     EXPECT_NEAR(to_double(row.separation), separation, 16 * grain<S>(4));
   }
-  Room<S> room_;
-  ParticleRows<S> rows_{room_.state, room_.step};
+  StepScene<S> scene_;
+  ParticleRows<S> rows_{scene_.state, scene_.step};
 };
 TYPED_TEST_SUITE(RowsTest, Scalars);
 
 TYPED_TEST(RowsTest, LinksContactsAndTouchesStandWhereTheirSidesAreNow) {
-  Room<TypeParam>& room = this->room_;
-  const ParticleId a = room.add(kNowhere), b = room.add({0, 3, 4});
-  const LinkId rod = room.add_link(LinkType::rod, a, b, 4), cable = room.add_link(LinkType::cable, a, b, 6);
-  room.state.colliders.add(Collider<TypeParam>{});  // the plane y = 0
-  room.begin();
+  StepScene<TypeParam>& scene = this->scene_;
+  const ParticleId a = scene.add(kNowhere), b = scene.add({0, 3, 4});
+  const LinkId rod = scene.add_link(LinkType::rod, a, b, 4), cable = scene.add_link(LinkType::cable, a, b, 6);
+  scene.state.colliders.add(Collider<TypeParam>{});  // the plane y = 0
+  scene.begin();
   this->rows_.add(this->row(ConstraintKind::rod, a, b.slot, rod.slot));
   this->rows_.add(this->row(ConstraintKind::cable, a, b.slot, cable.slot));
   this->rows_.end_links();
@@ -53,9 +53,9 @@ TYPED_TEST(RowsTest, LinksContactsAndTouchesStandWhereTheirSidesAreNow) {
 }
 
 TYPED_TEST(RowsTest, ParticlesInOnePlacePartUpwards) {
-  Room<TypeParam>& room = this->room_;
-  const ParticleId a = room.add(kRight), b = room.add(kRight);
-  room.begin();
+  StepScene<TypeParam>& scene = this->scene_;
+  const ParticleId a = scene.add(kRight), b = scene.add(kRight);
+  scene.begin();
   this->rows_.end_links();
   this->rows_.add(this->row(ConstraintKind::contact, a, b.slot, kNoParticle, 1));
   this->rows_.end_contacts();
@@ -66,9 +66,9 @@ TYPED_TEST(RowsTest, ParticlesInOnePlacePartUpwards) {
 TYPED_TEST(RowsTest, ATouchedSurfaceGoesOnByItself) {
   using S = TypeParam;
   using V = Velocity<S>;
-  Room<S>& room = this->room_;
-  const ParticleId a = room.add(kNowhere);
-  room.begin();
+  StepScene<S>& scene = this->scene_;
+  const ParticleId a = scene.add(kNowhere);
+  scene.begin();
   this->rows_.end_links();
   this->rows_.end_contacts();
   ParticleConstraint<S> touch = this->row(ConstraintKind::contact, a, kNoParticle, kNoParticle, -1);
@@ -80,7 +80,7 @@ TYPED_TEST(RowsTest, ATouchedSurfaceGoesOnByItself) {
     this->rows_.move_surfaces();
   }
   this->rows_.look();
-  this->expect(this->rows_.touches()[0], kUp, 1 + (2 + 4) * room.h());
+  this->expect(this->rows_.touches()[0], kUp, 1 + (2 + 4) * scene.h());
 }
 
 }  // namespace

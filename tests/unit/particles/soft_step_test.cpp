@@ -2,64 +2,64 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/solvers/soft_step.hpp"
 
-#include "unit/particles/solver_room.hpp"
+#include "unit/particles/solver_scene.hpp"
 
 namespace isostep {
 namespace {
 
 template <class S> class SoftStepTest : public testing::Test {
  protected:
-  SolverRoom<S, ParticleSoftStep> room_;
+  SolverScene<S, ParticleSoftStep> scene_;
 };
 TYPED_TEST_SUITE(SoftStepTest, Scalars);
 
 TYPED_TEST(SoftStepTest, BallsThatMeetShareTheirMotionAndRestitutionPartsThem) {
-  auto& room = this->room_;
-  const ParticleId a = room.add(kNowhere, {2, 0, 0}), b = room.add(kRight, {-2, 0, 0});
-  room.rows.end_links();
-  room.add_contact(a, b, 1, 0.5, 0.5);
-  room.rows.end_contacts();
-  room.solve_step();
+  auto& scene = this->scene_;
+  const ParticleId a = scene.add(kNowhere, {2, 0, 0}), b = scene.add(kRight, {-2, 0, 0});
+  scene.rows.end_links();
+  scene.add_contact(a, b, 1, 0.5, 0.5);
+  scene.rows.end_contacts();
+  scene.solve_step();
   const double slack = 256 * grain<TypeParam>(4);
-  EXPECT_NEAR(room.v(a).x, 0, slack);
-  EXPECT_NEAR(room.v(b).x, 0, slack);
-  EXPECT_NEAR(to_double(room.rows.all()[0].approach), -4, slack);
-  room.solver.apply_restitution();
-  EXPECT_NEAR(room.v(a).x, -1, slack);
-  EXPECT_NEAR(room.v(b).x, 1, slack);
-  EXPECT_EQ(to_double(room.rows.all()[0].impulse), 0) << "a blow is not a load";
+  EXPECT_NEAR(scene.v(a).x, 0, slack);
+  EXPECT_NEAR(scene.v(b).x, 0, slack);
+  EXPECT_NEAR(to_double(scene.rows.all()[0].approach), -4, slack);
+  scene.solver.apply_restitution();
+  EXPECT_NEAR(scene.v(a).x, -1, slack);
+  EXPECT_NEAR(scene.v(b).x, 1, slack);
+  EXPECT_EQ(to_double(scene.rows.all()[0].impulse), 0) << "a blow is not a load";
 }
 
 TYPED_TEST(SoftStepTest, AnOverlapIsPushedApartAndLeavesNoVelocity) {
-  auto& room = this->room_;
-  const ParticleId a = room.add(kNowhere), b = room.add(kRight);
-  room.rows.end_links();
-  room.add_contact(a, b, 1.5, 0, 0.5);
-  room.rows.end_contacts();
-  room.solve_step();
-  EXPECT_LT(room.d(a).x, -0.005);
-  EXPECT_GT(room.d(b).x, 0.005);
-  EXPECT_LE(room.d(b).x - room.d(a).x, 4.0 / 60 + 1e-3) << "at most 4 m/s";
-  EXPECT_EQ(room.v(a).x, 0);
-  EXPECT_EQ(room.v(b).x, 0);
+  auto& scene = this->scene_;
+  const ParticleId a = scene.add(kNowhere), b = scene.add(kRight);
+  scene.rows.end_links();
+  scene.add_contact(a, b, 1.5, 0, 0.5);
+  scene.rows.end_contacts();
+  scene.solve_step();
+  EXPECT_LT(scene.d(a).x, -0.005);
+  EXPECT_GT(scene.d(b).x, 0.005);
+  EXPECT_LE(scene.d(b).x - scene.d(a).x, 4.0 / 60 + 1e-3) << "at most 4 m/s";
+  EXPECT_EQ(scene.v(a).x, 0);
+  EXPECT_EQ(scene.v(b).x, 0);
 }
 
 TYPED_TEST(SoftStepTest, ACableAtItsEndHoldsAndASlackOneDoesNot) {
   for (const double length : {1.0, 2.0}) {
-    SolverRoom<TypeParam, ParticleSoftStep> room;
-    const ParticleId a = room.add(kRight, {1, 0, 0});
-    const LinkId link = room.add_link(LinkType::cable, a, {}, length);
+    SolverScene<TypeParam, ParticleSoftStep> scene;
+    const ParticleId a = scene.add(kRight, {1, 0, 0});
+    const LinkId link = scene.add_link(LinkType::cable, a, {}, length);
     ParticleConstraint<TypeParam> row = {};
     row.kind = ConstraintKind::cable;
     row.a = a.slot;
     row.b = kNoParticle;
     row.other = link.slot;
     row.share_a = Unit<TypeParam>(1);
-    room.rows.add(row);
-    room.rows.end_links();
-    room.rows.end_contacts();
-    room.solve_step();
-    EXPECT_NEAR(room.v(a).x, length == 1 ? 0 : 1, 256 * grain<TypeParam>(1));
+    scene.rows.add(row);
+    scene.rows.end_links();
+    scene.rows.end_contacts();
+    scene.solve_step();
+    EXPECT_NEAR(scene.v(a).x, length == 1 ? 0 : 1, 256 * grain<TypeParam>(1));
   }
 }
 

@@ -2,24 +2,24 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/stiff_springs.hpp"
 
-#include "unit/particles/room.hpp"
+#include "unit/particles/step_scene.hpp"
 
 namespace isostep {
 namespace {
 
 template <class S> class StiffSpringsTest : public testing::Test {
  protected:
-  Room<S> room_;
-  StiffSprings<S> springs_{room_.state, room_.step};
-  ParticleId a_ = room_.add(kRight);
+  StepScene<S> scene_;
+  StiffSprings<S> springs_{scene_.state, scene_.step};
+  ParticleId a_ = scene_.add(kRight);
 
   /// [N/m] of 1 kg: k h^2 = 1/4.
-  double stiffness() const { return 0.25 / (room_.h() * room_.h()); }
+  double stiffness() const { return 0.25 / (scene_.h() * scene_.h()); }
   void swing(const std::vector<ParticleConstraint<S>>& rows = {}) {
-    Spring<S> spring = room_.spring(a_, {}, stiffness(), 0);
+    Spring<S> spring = scene_.spring(a_, {}, stiffness(), 0);
     spring.type = SpringType::stiff;
-    room_.state.springs.add(spring);
-    room_.begin();
+    scene_.state.springs.add(spring);
+    scene_.begin();
     springs_.prepare(rows);
     springs_.swing();
   }
@@ -28,8 +28,8 @@ TYPED_TEST_SUITE(StiffSpringsTest, Scalars);
 
 TYPED_TEST(StiffSpringsTest, AloneItSwingsExactly) {
   this->swing();
-  EXPECT_NEAR(this->room_.d(this->a_).x, std::cos(0.5) - 1, 64 * grain<TypeParam>(1));
-  EXPECT_NEAR(this->room_.v(this->a_).x, -0.5 * std::sin(0.5) / this->room_.h(), 64 * grain<TypeParam>(64) + 0.01);
+  EXPECT_NEAR(this->scene_.d(this->a_).x, std::cos(0.5) - 1, 64 * grain<TypeParam>(1));
+  EXPECT_NEAR(this->scene_.v(this->a_).x, -0.5 * std::sin(0.5) / this->scene_.h(), 64 * grain<TypeParam>(64) + 0.01);
 }
 
 TYPED_TEST(StiffSpringsTest, BesideAConstraintItIsTakenByBackwardEuler) {
@@ -37,14 +37,14 @@ TYPED_TEST(StiffSpringsTest, BesideAConstraintItIsTakenByBackwardEuler) {
   row.a = this->a_.slot;
   row.b = kNoParticle;
   this->swing({row});
-  EXPECT_NEAR(this->room_.d(this->a_).x, -0.2, 64 * grain<TypeParam>(1));  // -k h^2 / (1 + k h^2)
-  EXPECT_NEAR(this->room_.v(this->a_).x, -0.2 / this->room_.h(), 64 * grain<TypeParam>(64) + 0.01);
+  EXPECT_NEAR(this->scene_.d(this->a_).x, -0.2, 64 * grain<TypeParam>(1));  // -k h^2 / (1 + k h^2)
+  EXPECT_NEAR(this->scene_.v(this->a_).x, -0.2 / this->scene_.h(), 64 * grain<TypeParam>(64) + 0.01);
 }
 
 TYPED_TEST(StiffSpringsTest, AsAForceItPullsByItsStiffness) {
   this->swing();
   this->springs_.pull();
-  EXPECT_NEAR(this->room_.a(this->a_).x, -this->stiffness(), 1e-3 * this->stiffness());
+  EXPECT_NEAR(this->scene_.a(this->a_).x, -this->stiffness(), 1e-3 * this->stiffness());
 }
 
 }  // namespace

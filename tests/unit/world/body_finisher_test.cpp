@@ -5,14 +5,14 @@
 
 #include <limits>
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class BodyFinishers : public ::testing::Test {
  protected:
-  BodyFinishers() : rooms(made()) {}
+  BodyFinishers() : systems(made()) {}
   World<S>& made() {
     ball = world.create(moving<S>(add_ball(world, 0.5), {1, 0, 0}));
     return world;
@@ -26,14 +26,14 @@ template <class S> class BodyFinishers : public ::testing::Test {
 
   World<S> world{settings<S>(0)};
   BodyId ball;
-  Rooms<S> rooms;
-  BodyFinisher<S> finisher{rooms.state, rooms.map, rooms.proxies};
+  Systems<S> systems;
+  BodyFinisher<S> finisher{systems.state, systems.map, systems.proxies};
 };
-TYPED_TEST_SUITE(BodyFinishers, RoomScalars);
+TYPED_TEST_SUITE(BodyFinishers, SystemScalars);
 
 TYPED_TEST(BodyFinishers, what_is_in_range_stays_and_its_fat_box_is_renewed_when_it_leaves_it) {
   using S = TypeParam;
-  BodyState<S>& body = this->rooms.awake(this->ball);
+  BodyState<S>& body = this->systems.awake(this->ball);
   const Aabb<S> fat = body.fat;
   body.centre = vec<S>(1.0625, 0, 0);
   EXPECT_TRUE(this->finish().clean());
@@ -41,12 +41,12 @@ TYPED_TEST(BodyFinishers, what_is_in_range_stays_and_its_fat_box_is_renewed_when
   body.centre = vec<S>(2, 0, 0);
   EXPECT_TRUE(this->finish().clean());
   EXPECT_NEAR(to_double(body.fat.low.x), 1.4, 1e-4);
-  EXPECT_TRUE(this->rooms.proxies.tree().box(this->ball.slot) == body.fat);
+  EXPECT_TRUE(this->systems.proxies.tree().box(this->ball.slot) == body.fat);
 }
 
 TYPED_TEST(BodyFinishers, speed_and_position_are_cut_to_their_limits) {
   using S = TypeParam;
-  BodyState<S>& body = this->rooms.awake(this->ball);
+  BodyState<S>& body = this->systems.awake(this->ball);
   const S edge = Limits<S>::position();
   const double most = to_double(Limits<S>::speed());
   body.centre = {edge + S(2), S(3), S(0)};
@@ -63,7 +63,7 @@ TYPED_TEST(BodyFinishers, speed_and_position_are_cut_to_their_limits) {
 
 TYPED_TEST(BodyFinishers, a_speed_that_no_axis_shows_is_cut_along_its_way) {
   using S = TypeParam;
-  BodyState<S>& body = this->rooms.awake(this->ball);
+  BodyState<S>& body = this->systems.awake(this->ball);
   const double most = to_double(Limits<S>::speed());
   body.velocity = vec<Velocity<S>>(0.75 * most, -0.75 * most, 0.75 * most);
   const StepReport report = this->finish();
@@ -78,21 +78,21 @@ TYPED_TEST(BodyFinishers, a_speed_that_no_axis_shows_is_cut_along_its_way) {
 TEST(BodyFinishersOfFloat, a_body_that_is_no_number_goes_back_and_stops) {
   World<float> world(settings<float>(0));
   const BodyId ball = world.create(moving<float>(add_ball(world, 0.5), {1, 0, 0}));
-  Rooms<float> rooms(world);
-  BodyFinisher<float> finisher(rooms.state, rooms.map, rooms.proxies);
-  BodyState<float>& body = rooms.awake(ball);
+  Systems<float> systems(world);
+  BodyFinisher<float> finisher(systems.state, systems.map, systems.proxies);
+  BodyState<float>& body = systems.awake(ball);
   body.centre.y = std::numeric_limits<float>::quiet_NaN();
   body.velocity.y = 3;
   Contact<float> contact = {};
   contact.normal_impulse[1] = std::numeric_limits<float>::infinity();
-  rooms.state.contacts.push_back(contact);
+  systems.state.contacts.push_back(contact);
   const Pose<float> start[] = {{{1, 2, 3}, Quat<float>::identity()}};
   StepReport report;
   finisher.finish(start, report);
   EXPECT_EQ(report.stopped, 1u);
   EXPECT_EQ(body.centre.y, 2.0f);
   EXPECT_EQ(body.velocity.y, 0.0f);
-  EXPECT_EQ(rooms.state.contacts[0].normal_impulse[1], 0.0f);
+  EXPECT_EQ(systems.state.contacts[0].normal_impulse[1], 0.0f);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "isostep/world/body_map.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -29,7 +29,7 @@ template <class S> class BodyMaps : public ::testing::Test {
   BodyMap<S> map{state};
   BodyId ids[3];
 };
-TYPED_TEST_SUITE(BodyMaps, RoomScalars);
+TYPED_TEST_SUITE(BodyMaps, SystemScalars);
 
 TYPED_TEST(BodyMaps, bodies_lie_ascending_by_slot_in_whatever_order_they_come) {
   this->insert(this->ids[2], BodyType::dynamic);

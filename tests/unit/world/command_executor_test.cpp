@@ -5,45 +5,45 @@
 
 #include "isostep/state/members.hpp"
 #include "isostep/world/island_sleep.hpp"
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class Executors : public ::testing::Test {
  protected:
-  Executors() : rooms(world) {
+  Executors() : systems(world) {
     const Child<S> ball = {primitive_of(Sphere<S>{num<S>(0.5)}), Pose<S>::identity()};
     shape = executor.execute(AddShape<S>{{ball}});
   }
   std::uint64_t hash() const {
     detail::StateHasher hasher;
-    WorldState<S>::members(hasher, rooms.state);
+    WorldState<S>::members(hasher, systems.state);
     return hasher.value();
   }
 
   World<S> world{settings<S>()};
-  Rooms<S> rooms;
+  Systems<S> systems;
   CommandJournal journal;
-  RenderPoses<S> render_poses{rooms.state};
-  Destruction<S> destruction{rooms.state, rooms.map, rooms.proxies, rooms.wake};
+  RenderPoses<S> render_poses{systems.state};
+  Destruction<S> destruction{systems.state, systems.map, systems.proxies, systems.wake};
   AssetSource assets;
-  CommandExecutor<S> executor{rooms.state, rooms.map,    rooms.proxies, rooms.wake,
-                              destruction, render_poses, assets,        journal};
+  CommandExecutor<S> executor{systems.state, systems.map,  systems.proxies, systems.wake,
+                              destruction,   render_poses, assets,          journal};
   ShapeId shape;
 };
-TYPED_TEST_SUITE(Executors, RoomScalars);
+TYPED_TEST_SUITE(Executors, SystemScalars);
 
 TYPED_TEST(Executors, a_body_that_is_created_is_in_the_state_the_map_and_the_broad_phase) {
   using S = TypeParam;
   const BodyId body = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {1, 2, 3})});
   ASSERT_TRUE(body);
-  EXPECT_EQ(this->rooms.state.awake.states.size(), 1u);
-  EXPECT_EQ(this->rooms.map.location(body.slot).set, Location::kAwake);
-  EXPECT_TRUE(this->rooms.proxies.present(body.slot));
+  EXPECT_EQ(this->systems.state.awake.states.size(), 1u);
+  EXPECT_EQ(this->systems.map.location(body.slot).set, Location::kAwake);
+  EXPECT_TRUE(this->systems.proxies.present(body.slot));
   EXPECT_TRUE(this->executor.execute(DestroyBody{body}));
-  EXPECT_TRUE(this->rooms.state.awake.states.empty());
-  EXPECT_FALSE(this->rooms.proxies.present(body.slot));
+  EXPECT_TRUE(this->systems.state.awake.states.empty());
+  EXPECT_FALSE(this->systems.proxies.present(body.slot));
 }
 
 /// In a state where much could be changed: a body that sleeps on a joint to the world, and one that is awake and pushed.
@@ -55,10 +55,10 @@ TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   tie.generation_a = asleep.generation;
   const JointId joint = this->executor.execute(CreateJoint<S>{tie});
   ASSERT_TRUE(joint);
-  IslandSleep<S> sleep(this->rooms.state, this->rooms.map, this->rooms.proxies);
+  IslandSleep<S> sleep(this->systems.state, this->systems.map, this->systems.proxies);
   std::vector<BodyId> fell_asleep;
   for (int i = 0; i < 30; ++i) sleep.update(fell_asleep);
-  ASSERT_TRUE(this->rooms.is_asleep(asleep));
+  ASSERT_TRUE(this->systems.is_asleep(asleep));
   const BodyId awake = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {0.75, 0, 0})});
   const BodyId gone = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {8, 0, 0})});
   ASSERT_TRUE(this->executor.execute(DestroyBody{gone}));
@@ -105,8 +105,8 @@ TYPED_TEST(Executors, forces_add_up_until_the_step) {
   const BodyId body = this->executor.execute(CreateBody<S>{d});
   for (int i = 0; i < 2; ++i)
     EXPECT_TRUE(this->executor.execute(ApplyForce<S>{body, vec<S>(3, 0, 0), vec<S>(0, 0, 0)}));
-  ASSERT_EQ(this->rooms.state.forces.size(), 1u);
-  EXPECT_EQ(to_double(this->rooms.state.forces[0].linear.x), 3) << "6 N on 2 kg";
+  ASSERT_EQ(this->systems.state.forces.size(), 1u);
+  EXPECT_EQ(to_double(this->systems.state.forces[0].linear.x), 3) << "6 N on 2 kg";
 }
 
 TYPED_TEST(Executors, of_many_to_destroy_a_stale_id_is_a_fault_and_the_others_go) {
@@ -116,7 +116,7 @@ TYPED_TEST(Executors, of_many_to_destroy_a_stale_id_is_a_fault_and_the_others_go
   const BodyId list[] = {a, a, b};
   EXPECT_EQ(this->executor.destroy_all(list), 2u);
   EXPECT_EQ(this->journal.first_fault().fault, Fault::stale_id);
-  EXPECT_TRUE(this->rooms.state.awake.states.empty());
+  EXPECT_TRUE(this->systems.state.awake.states.empty());
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "isostep/world/destruction.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -11,16 +11,16 @@ namespace {
 /// Four balls in a row; neighbours touch, and a joint ties the first to the last.
 template <class S> class Destructions : public ::testing::Test {
  protected:
-  Destructions() : rooms(made()) {
+  Destructions() : systems(made()) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       Contact<S> contact = {};
       contact.key = {balls[i].slot, balls[i + 1].slot, 0, 0};
       contact.count = 1;
       contact.flags = contact_flag::kTouching;
-      rooms.state.contacts.push_back(contact);
+      systems.state.contacts.push_back(contact);
     }
-    rooms.state.overlaps = {{balls[2].slot, balls[0].slot}};
-    rooms.state.forces = {{balls[2].slot, 0, vec<S>(1, 0, 0), vec<S>(0, 0, 0)}};
+    systems.state.overlaps = {{balls[2].slot, balls[0].slot}};
+    systems.state.forces = {{balls[2].slot, 0, vec<S>(1, 0, 0), vec<S>(0, 0, 0)}};
   }
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
@@ -32,26 +32,26 @@ template <class S> class Destructions : public ::testing::Test {
   World<S> world{settings<S>(0)};
   BodyId balls[4];
   JointId joint;
-  Rooms<S> rooms;
-  Destruction<S> destruction{rooms.state, rooms.map, rooms.proxies, rooms.wake};
+  Systems<S> systems;
+  Destruction<S> destruction{systems.state, systems.map, systems.proxies, systems.wake};
 };
-TYPED_TEST_SUITE(Destructions, RoomScalars);
+TYPED_TEST_SUITE(Destructions, SystemScalars);
 
 TYPED_TEST(Destructions, a_marked_body_keeps_its_records_until_they_are_erased) {
   this->destruction.mark(this->balls[2].slot);
   EXPECT_TRUE(this->destruction.is_marked(this->balls[2].slot));
   EXPECT_EQ(this->destruction.marked(), 1u);
-  EXPECT_EQ(this->rooms.state.awake.states.size(), 4u);
-  EXPECT_FALSE(this->rooms.proxies.present(this->balls[2].slot));
+  EXPECT_EQ(this->systems.state.awake.states.size(), 4u);
+  EXPECT_FALSE(this->systems.proxies.present(this->balls[2].slot));
   this->destruction.erase_marked();
   EXPECT_EQ(this->destruction.marked(), 0u);
-  EXPECT_FALSE(this->rooms.state.body_slots.holds(this->balls[2]));
+  EXPECT_FALSE(this->systems.state.body_slots.holds(this->balls[2]));
 }
 
 TYPED_TEST(Destructions, contacts_overlaps_and_forces_go_and_their_ends_are_told) {
   this->destruction.mark(this->balls[2].slot);
   this->destruction.erase_marked();
-  const WorldState<TypeParam>& state = this->rooms.state;
+  const WorldState<TypeParam>& state = this->systems.state;
   ASSERT_EQ(state.contacts.size(), 1u);
   EXPECT_EQ(state.contacts[0].key.body_b, this->balls[1].slot);
   EXPECT_TRUE(state.overlaps.empty());
@@ -61,14 +61,14 @@ TYPED_TEST(Destructions, contacts_overlaps_and_forces_go_and_their_ends_are_told
   EXPECT_EQ(state.untold.contact_end[1].b, this->balls[3]);
   ASSERT_EQ(state.untold.sensor_end.size(), 1u);
   ASSERT_EQ(state.awake.states.size(), 3u);
-  EXPECT_EQ(this->rooms.map.location(this->balls[3].slot).index, 2u);
+  EXPECT_EQ(this->systems.map.location(this->balls[3].slot).index, 2u);
 }
 
 TYPED_TEST(Destructions, the_joints_of_a_body_go_with_it) {
-  ASSERT_TRUE(this->rooms.state.joint_slots.holds(this->joint));
+  ASSERT_TRUE(this->systems.state.joint_slots.holds(this->joint));
   this->destruction.mark(this->balls[0].slot);
-  EXPECT_FALSE(this->rooms.state.joint_slots.holds(this->joint));
-  EXPECT_TRUE(this->rooms.state.joints.states.empty());
+  EXPECT_FALSE(this->systems.state.joint_slots.holds(this->joint));
+  EXPECT_TRUE(this->systems.state.joints.states.empty());
 }
 
 }  // namespace

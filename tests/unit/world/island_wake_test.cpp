@@ -3,7 +3,7 @@
 
 #include "isostep/world/island_wake.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// of the last stack.
 template <class S> class IslandWakes : public ::testing::Test {
  protected:
-  IslandWakes() : rooms(asleep()) {}
+  IslandWakes() : systems(asleep()) {}
   World<S>& asleep() {
     ground = add_ground(world);
     const ShapeId box = add_box(world, 0.5, 0.5, 0.5);
@@ -27,97 +27,97 @@ template <class S> class IslandWakes : public ::testing::Test {
     return world;
   }
   void expect_awake(std::initializer_list<int> which) {
-    ASSERT_EQ(rooms.state.awake.states.size(), which.size());
+    ASSERT_EQ(systems.state.awake.states.size(), which.size());
     std::size_t i = 0;
-    for (const int box : which) EXPECT_EQ(rooms.state.awake.states[i++].slot, boxes[box].slot);
+    for (const int box : which) EXPECT_EQ(systems.state.awake.states[i++].slot, boxes[box].slot);
   }
 
   World<S> world{settings<S>()};
   BodyId ground, boxes[6];
   JointId joints[2];
-  Rooms<S> rooms;
+  Systems<S> systems;
 };
-TYPED_TEST_SUITE(IslandWakes, RoomScalars);
+TYPED_TEST_SUITE(IslandWakes, SystemScalars);
 
 TYPED_TEST(IslandWakes, an_island_wakes_whole_and_in_canonical_order) {
-  this->rooms.wake.wake(this->boxes[5].slot);
+  this->systems.wake.wake(this->boxes[5].slot);
   this->expect_awake({2, 5});
-  this->rooms.wake.wake(this->boxes[0].slot);
+  this->systems.wake.wake(this->boxes[0].slot);
   this->expect_awake({0, 2, 3, 5});
-  EXPECT_EQ(this->rooms.state.sleeping.size(), 1u);
-  EXPECT_EQ(this->rooms.state.contacts.size(), 4u);
+  EXPECT_EQ(this->systems.state.sleeping.size(), 1u);
+  EXPECT_EQ(this->systems.state.contacts.size(), 4u);
   for (std::size_t i = 1; i < 4; ++i)
-    EXPECT_LT(this->rooms.state.contacts[i - 1].key, this->rooms.state.contacts[i].key);
-  EXPECT_EQ(this->rooms.state.untold.woke.size(), 4u);
-  EXPECT_EQ(this->rooms.awake(this->boxes[3]).sleep_clock, 0u);
+    EXPECT_LT(this->systems.state.contacts[i - 1].key, this->systems.state.contacts[i].key);
+  EXPECT_EQ(this->systems.state.untold.woke.size(), 4u);
+  EXPECT_EQ(this->systems.awake(this->boxes[3]).sleep_clock, 0u);
 }
 
 TYPED_TEST(IslandWakes, what_is_awake_already_stays_as_it_is) {
-  this->rooms.wake.wake(this->boxes[1].slot);
-  this->rooms.awake(this->boxes[4]).sleep_clock = 7;
-  this->rooms.wake.wake(this->boxes[1].slot);
-  EXPECT_EQ(this->rooms.awake(this->boxes[4]).sleep_clock, 7u);
-  this->rooms.wake.reset_clock(this->boxes[4].slot);
-  EXPECT_EQ(this->rooms.awake(this->boxes[4]).sleep_clock, 0u);
+  this->systems.wake.wake(this->boxes[1].slot);
+  this->systems.awake(this->boxes[4]).sleep_clock = 7;
+  this->systems.wake.wake(this->boxes[1].slot);
+  EXPECT_EQ(this->systems.awake(this->boxes[4]).sleep_clock, 7u);
+  this->systems.wake.reset_clock(this->boxes[4].slot);
+  EXPECT_EQ(this->systems.awake(this->boxes[4]).sleep_clock, 0u);
 }
 
 TYPED_TEST(IslandWakes, all_wake_at_once_and_what_was_awake_rests_anew) {
-  this->rooms.wake.wake(this->boxes[1].slot);
-  this->rooms.awake(this->boxes[4]).sleep_clock = 7;
-  this->rooms.wake.wake_all();
+  this->systems.wake.wake(this->boxes[1].slot);
+  this->systems.awake(this->boxes[4]).sleep_clock = 7;
+  this->systems.wake.wake_all();
   this->expect_awake({0, 1, 2, 3, 4, 5});
-  EXPECT_TRUE(this->rooms.state.sleeping.empty());
-  EXPECT_EQ(this->rooms.state.untold.woke.size(), 6u);
-  EXPECT_EQ(this->rooms.map.names(this->ground.slot), 0u);
-  for (const BodyState<TypeParam>& body : this->rooms.state.awake.states) EXPECT_EQ(body.sleep_clock, 0u);
+  EXPECT_TRUE(this->systems.state.sleeping.empty());
+  EXPECT_EQ(this->systems.state.untold.woke.size(), 6u);
+  EXPECT_EQ(this->systems.map.names(this->ground.slot), 0u);
+  for (const BodyState<TypeParam>& body : this->systems.state.awake.states) EXPECT_EQ(body.sleep_clock, 0u);
   for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_EQ(this->rooms.map.location(this->boxes[i].slot).index, i) << "as the map has them";
-  this->rooms.find_pairs();
-  EXPECT_EQ(this->rooms.proxies.pairs().size(), 6u) << "three with the ground, three in the stacks";
+    EXPECT_EQ(this->systems.map.location(this->boxes[i].slot).index, i) << "as the map has them";
+  this->systems.find_pairs();
+  EXPECT_EQ(this->systems.proxies.pairs().size(), 6u) << "three with the ground, three in the stacks";
 }
 
 TYPED_TEST(IslandWakes, a_joint_wakes_with_its_bodies_and_what_it_ties_rests_anew) {
-  EXPECT_TRUE(this->rooms.map.joint_location(this->joints[1].slot).is_asleep());
-  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[1].slot), 0u);
+  EXPECT_TRUE(this->systems.map.joint_location(this->joints[1].slot).is_asleep());
+  EXPECT_EQ(this->systems.wake.wake_joint(this->joints[1].slot), 0u);
   this->expect_awake({2, 5});
-  EXPECT_TRUE(this->rooms.map.joint_location(this->joints[0].slot).is_asleep());
-  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[0].slot), 0u);
+  EXPECT_TRUE(this->systems.map.joint_location(this->joints[0].slot).is_asleep());
+  EXPECT_EQ(this->systems.wake.wake_joint(this->joints[0].slot), 0u);
   this->expect_awake({0, 2, 3, 5});
-  ASSERT_EQ(this->rooms.state.joints.states.size(), 2u);
-  EXPECT_EQ(this->rooms.state.joints.states[0].slot, this->joints[0].slot);
-  EXPECT_EQ(this->rooms.state.joints.properties[1].body_b, this->boxes[5].slot);
-  for (const int box : {0, 2, 3, 5}) this->rooms.awake(this->boxes[box]).sleep_clock = 7;
-  EXPECT_EQ(this->rooms.wake.wake_joint(this->joints[1].slot), 1u) << "among the awake ones";
-  for (const int box : {0, 3}) EXPECT_EQ(this->rooms.awake(this->boxes[box]).sleep_clock, 7u);
-  for (const int box : {2, 5}) EXPECT_EQ(this->rooms.awake(this->boxes[box]).sleep_clock, 0u);
+  ASSERT_EQ(this->systems.state.joints.states.size(), 2u);
+  EXPECT_EQ(this->systems.state.joints.states[0].slot, this->joints[0].slot);
+  EXPECT_EQ(this->systems.state.joints.properties[1].body_b, this->boxes[5].slot);
+  for (const int box : {0, 2, 3, 5}) this->systems.awake(this->boxes[box]).sleep_clock = 7;
+  EXPECT_EQ(this->systems.wake.wake_joint(this->joints[1].slot), 1u) << "among the awake ones";
+  for (const int box : {0, 3}) EXPECT_EQ(this->systems.awake(this->boxes[box]).sleep_clock, 7u);
+  for (const int box : {2, 5}) EXPECT_EQ(this->systems.awake(this->boxes[box]).sleep_clock, 0u);
 }
 
 TYPED_TEST(IslandWakes, the_ground_holds_all_of_them) {
-  this->rooms.wake.wake_held_by(this->ground.slot);
+  this->systems.wake.wake_held_by(this->ground.slot);
   this->expect_awake({0, 1, 2, 3, 4, 5});
-  EXPECT_EQ(this->rooms.map.names(this->ground.slot), 0u);
+  EXPECT_EQ(this->systems.map.names(this->ground.slot), 0u);
 }
 
 TYPED_TEST(IslandWakes, those_that_a_body_touches_wake_and_no_others) {
-  this->rooms.wake.wake_touching(this->boxes[1].slot);
+  this->systems.wake.wake_touching(this->boxes[1].slot);
   this->expect_awake({1, 4});
 }
 
 TYPED_TEST(IslandWakes, a_body_that_moves_wakes_what_it_runs_into) {
   using S = TypeParam;
-  EXPECT_FALSE(this->rooms.wake.wake_touched()) << "nothing is awake";
-  BodyState<S>& mover = this->rooms.wake.wake_for_change(this->boxes[0].slot);
-  const BodyProperties<S>& body = this->rooms.state.awake.properties[0];
+  EXPECT_FALSE(this->systems.wake.wake_touched()) << "nothing is awake";
+  BodyState<S>& mover = this->systems.wake.wake_for_change(this->boxes[0].slot);
+  const BodyProperties<S>& body = this->systems.state.awake.properties[0];
   const D3 beside = {4.125, 0.5, 0};
   mover.centre = vec<S>(beside);
   mover.velocity = vec<Velocity<S>>(1, 0, 0);
   mover.fat = Aabb<S>::around(mover.centre, vec<S>(0.625, 0.625, 0.625));
-  this->rooms.proxies.place(mover, body, true);
-  this->rooms.find_pairs();
-  EXPECT_TRUE(this->rooms.wake.wake_touched());
+  this->systems.proxies.place(mover, body, true);
+  this->systems.find_pairs();
+  EXPECT_TRUE(this->systems.wake.wake_touched());
   this->expect_awake({0, 1, 3, 4});
-  this->rooms.find_pairs();
-  EXPECT_FALSE(this->rooms.wake.wake_touched());
+  this->systems.find_pairs();
+  EXPECT_FALSE(this->systems.wake.wake_touched());
 }
 
 }  // namespace

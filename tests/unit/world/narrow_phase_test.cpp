@@ -4,21 +4,21 @@
 #include "isostep/world/narrow_phase.hpp"
 
 #include "isostep/state/hash.hpp"
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> struct Phase {
-  explicit Phase(const World<S>& world) : rooms(world) {
+  explicit Phase(const World<S>& world) : systems(world) {
     tools.use_simd(Simd::scalar);
-    rooms.find_pairs();
+    systems.find_pairs();
   }
-  std::uint32_t update() { return phase.update(rooms.proxies.pairs(), tools); }
+  std::uint32_t update() { return phase.update(systems.proxies.pairs(), tools); }
 
-  Rooms<S> rooms;
+  Systems<S> systems;
   StepTools<S> tools = {};
-  NarrowPhase<S> phase{rooms.state, rooms.map};
+  NarrowPhase<S> phase{systems.state, systems.map};
 };
 
 /// A grid of balls that touch their neighbours, on the ground; in the midst of it, and of the slots, a sensor.
@@ -35,7 +35,7 @@ template <class S> void add_grid(World<S>& world, int side) {
 }
 
 template <class S> class NarrowPhases : public ::testing::Test {};
-TYPED_TEST_SUITE(NarrowPhases, RoomScalars);
+TYPED_TEST_SUITE(NarrowPhases, SystemScalars);
 
 TYPED_TEST(NarrowPhases, a_box_on_the_ground_has_one_contact_of_four_points) {
   using S = TypeParam;
@@ -44,8 +44,8 @@ TYPED_TEST(NarrowPhases, a_box_on_the_ground_has_one_contact_of_four_points) {
   w.create(moving<S>(add_box(w, 0.5, 0.5, 0.5), {0, 0.5, 0}));
   Phase<S> of(w);
   EXPECT_EQ(of.update(), 0u);
-  ASSERT_EQ(of.rooms.state.contacts.size(), 1u);
-  EXPECT_EQ(of.rooms.state.contacts[0].count, 4u);
+  ASSERT_EQ(of.systems.state.contacts.size(), 1u);
+  EXPECT_EQ(of.systems.state.contacts[0].count, 4u);
   ASSERT_EQ(of.phase.geometry().size(), 1u);
   EXPECT_EQ(of.phase.geometry()[0].row_a, 0u) << "the ground does not move";
   EXPECT_EQ(of.phase.geometry()[0].row_b, 1u);
@@ -59,13 +59,13 @@ TYPED_TEST(NarrowPhases, a_contact_that_continues_keeps_its_impulses_and_flags) 
   w.create(moving<S>(add_box(w, 0.5, 0.5, 0.5), {0, 0.5, 0}));
   Phase<S> of(w);
   of.update();
-  Contact<S>& contact = of.rooms.state.contacts[0];
+  Contact<S>& contact = of.systems.state.contacts[0];
   contact.normal_impulse[2] = Velocity<S>(3);
   contact.flags = contact_flag::kTouching;
   of.update();
-  ASSERT_EQ(of.rooms.state.contacts.size(), 1u);
-  EXPECT_EQ(of.rooms.state.contacts[0].normal_impulse[2], Velocity<S>(3));
-  EXPECT_EQ(of.rooms.state.contacts[0].flags, contact_flag::kTouching);
+  ASSERT_EQ(of.systems.state.contacts.size(), 1u);
+  EXPECT_EQ(of.systems.state.contacts[0].normal_impulse[2], Velocity<S>(3));
+  EXPECT_EQ(of.systems.state.contacts[0].flags, contact_flag::kTouching);
 }
 
 TYPED_TEST(NarrowPhases, a_sensor_overlaps_and_has_no_contact) {
@@ -78,7 +78,7 @@ TYPED_TEST(NarrowPhases, a_sensor_overlaps_and_has_no_contact) {
   const BodyId sensor = w.create(d);
   Phase<S> of(w);
   of.update();
-  EXPECT_TRUE(of.rooms.state.contacts.empty());
+  EXPECT_TRUE(of.systems.state.contacts.empty());
   ASSERT_EQ(of.phase.overlaps().size(), 1u);
   EXPECT_EQ(of.phase.overlaps()[0], (SensorOverlap{sensor.slot, body.slot}));
 }
@@ -100,7 +100,7 @@ template <class S> void expect_same(const ContactGeometry<S>& x, const ContactGe
   }
 }
 template <class S> void expect_same(const Phase<S>& x, const Phase<S>& y) {
-  const std::vector<Contact<S>>&of_x = x.rooms.state.contacts, &of_y = y.rooms.state.contacts;
+  const std::vector<Contact<S>>&of_x = x.systems.state.contacts, &of_y = y.systems.state.contacts;
   ASSERT_EQ(of_x.size(), of_y.size());
   for (std::size_t i = 0; i < of_x.size(); ++i) {
     EXPECT_EQ(hash_records(&of_x[i], 1), hash_records(&of_y[i], 1)) << "contact " << i;
@@ -117,24 +117,24 @@ TYPED_TEST(NarrowPhases, shared_among_threads_it_finds_the_same) {
   add_grid(w, 24);
   Phase<S> alone(w), shared(w);
   shared.tools.runner = {run_here, nullptr, 4};
-  ASSERT_GE(alone.rooms.proxies.pairs().size(), 1024u) << "enough to be shared";
+  ASSERT_GE(alone.systems.proxies.pairs().size(), 1024u) << "enough to be shared";
   const auto impulse_of = [](const ContactKey& key) { return V(static_cast<int>(1 + (key.body_a + key.body_b) % 61)); };
   for (Phase<S>* of : {&alone, &shared}) of->update();
   expect_same(alone, shared);
   for (Phase<S>* of : {&alone, &shared}) {
-    for (Contact<S>& contact : of->rooms.state.contacts) {
+    for (Contact<S>& contact : of->systems.state.contacts) {
       contact.normal_impulse[0] = impulse_of(contact.key);
       contact.friction_impulse = {-impulse_of(contact.key), V(2), V(3)};
       contact.twist_impulse = V(4);
       contact.flags = contact.key.body_b % 3 == 0 ? contact_flag::kTouching : 0u;
     }
-    for (std::size_t i = 0; i < of->rooms.state.awake.states.size(); i += 8)
-      of->rooms.state.awake.states[i].centre.y = S(9);
+    for (std::size_t i = 0; i < of->systems.state.awake.states.size(); i += 8)
+      of->systems.state.awake.states[i].centre.y = S(9);
     of->update();
   }
   expect_same(alone, shared);
-  EXPECT_LT(shared.rooms.state.contacts.size(), shared.phase.old_contacts().size());
-  for (const Contact<S>& contact : shared.rooms.state.contacts) {
+  EXPECT_LT(shared.systems.state.contacts.size(), shared.phase.old_contacts().size());
+  for (const Contact<S>& contact : shared.systems.state.contacts) {
     EXPECT_EQ(contact.normal_impulse[0], impulse_of(contact.key));
     EXPECT_EQ(contact.friction_impulse.x, -impulse_of(contact.key));
     EXPECT_EQ(contact.flags, contact.key.body_b % 3 == 0 ? contact_flag::kTouching : 0u);

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -17,12 +17,12 @@ template <class S> class PartPairsOf : public ::testing::Test {
 
   /// Of the world as it is now. Returns how many pairs of compounds lack parts.
   std::uint32_t gather() {
-    rooms = std::make_unique<Rooms<S>>(world);
-    rooms->find_pairs();
-    pairs = std::make_unique<PartPairs<S>>(rooms->state, rooms->map);
+    systems = std::make_unique<Systems<S>>(world);
+    systems->find_pairs();
+    pairs = std::make_unique<PartPairs<S>>(systems->state, systems->map);
     pairs->begin();
-    for (std::size_t i = 0; i < rooms->state.awake.states.size(); ++i) pairs->frame_awake_body(i);
-    return pairs->gather(rooms->proxies.pairs());
+    for (std::size_t i = 0; i < systems->state.awake.states.size(); ++i) pairs->frame_awake_body(i);
+    return pairs->gather(systems->proxies.pairs());
   }
   std::size_t parts() const {
     std::size_t count = 0;
@@ -40,10 +40,10 @@ template <class S> class PartPairsOf : public ::testing::Test {
   }
 
   World<S> world;
-  std::unique_ptr<Rooms<S>> rooms;
+  std::unique_ptr<Systems<S>> systems;
   std::unique_ptr<PartPairs<S>> pairs;
 };
-TYPED_TEST_SUITE(PartPairsOf, RoomScalars);
+TYPED_TEST_SUITE(PartPairsOf, SystemScalars);
 
 TYPED_TEST(PartPairsOf, plain_bodies_have_a_frame_each_and_a_list_by_their_kinds) {
   using S = TypeParam;

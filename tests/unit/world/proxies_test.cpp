@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -36,7 +36,7 @@ template <class S> class ProxiesOf : public ::testing::Test {
   std::vector<Contact<S>> contacts;
   Proxies<S> proxies;
 };
-TYPED_TEST_SUITE(ProxiesOf, RoomScalars);
+TYPED_TEST_SUITE(ProxiesOf, SystemScalars);
 
 TYPED_TEST(ProxiesOf, bodies_pair_whose_boxes_meet_ascending) {
   this->place(7, 0);

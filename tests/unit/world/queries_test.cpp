@@ -3,7 +3,7 @@
 
 #include "isostep/world/queries.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// Three balls in a row.
 template <class S> class QueriesOf : public ::testing::Test {
  protected:
-  QueriesOf() : rooms(made()) {}
+  QueriesOf() : systems(made()) {}
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 3; ++i) balls[i] = world.create(moving<S>(ball, {2.0 * i, 0, 0}));
@@ -20,11 +20,11 @@ template <class S> class QueriesOf : public ::testing::Test {
 
   World<S> world{settings<S>(0)};
   BodyId balls[3];
-  Rooms<S> rooms;
+  Systems<S> systems;
   CommandJournal journal;
-  Queries<S> queries{rooms.state, rooms.map, rooms.proxies, journal};
+  Queries<S> queries{systems.state, systems.map, systems.proxies, journal};
 };
-TYPED_TEST_SUITE(QueriesOf, RoomScalars);
+TYPED_TEST_SUITE(QueriesOf, SystemScalars);
 
 TYPED_TEST(QueriesOf, a_ray_meets_the_nearest_body_that_it_may_see) {
   using S = TypeParam;

@@ -3,19 +3,19 @@
 
 #include "isostep/world/render_poses.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class RenderPosesOf : public ::testing::Test {
  protected:
-  RenderPosesOf() : rooms(made()) {}
+  RenderPosesOf() : systems(made()) {}
   World<S>& made() {
     ball = world.create(moving<S>(add_ball(world, 0.5), {1, 0, 0}));
     return world;
   }
-  void move_to(double x) { rooms.awake(ball).centre = vec<S>(x, 0, 0); }
+  void move_to(double x) { systems.awake(ball).centre = vec<S>(x, 0, 0); }
   float drawn_at(float alpha) {
     const std::vector<RenderPose>& drawn = poses.fill(alpha);
     EXPECT_EQ(drawn.size(), 1u);
@@ -26,10 +26,10 @@ template <class S> class RenderPosesOf : public ::testing::Test {
 
   World<S> world{settings<S>(0)};
   BodyId ball;
-  Rooms<S> rooms;
-  RenderPoses<S> poses{rooms.state};
+  Systems<S> systems;
+  RenderPoses<S> poses{systems.state};
 };
-TYPED_TEST_SUITE(RenderPosesOf, RoomScalars);
+TYPED_TEST_SUITE(RenderPosesOf, SystemScalars);
 
 TYPED_TEST(RenderPosesOf, a_body_is_drawn_between_its_start_and_its_end_of_a_step) {
   EXPECT_EQ(this->drawn_at(0.0f), 1.0f) << "no step was made yet";
@@ -45,7 +45,7 @@ TYPED_TEST(RenderPosesOf, a_body_is_drawn_between_its_start_and_its_end_of_a_ste
 TYPED_TEST(RenderPosesOf, what_a_command_moves_is_drawn_there) {
   this->poses.keep_start();
   this->move_to(3);
-  this->poses.start_here(this->rooms.awake(this->ball));
+  this->poses.start_here(this->systems.awake(this->ball));
   EXPECT_EQ(this->drawn_at(0.0f), 3.0f);
 }
 

@@ -3,7 +3,7 @@
 
 #include "isostep/world/sensor_overlaps.hpp"
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// Slot 0 is a static sensor, the others are awake balls.
 template <class S> class Overlaps : public ::testing::Test {
  protected:
-  Overlaps() : rooms(made()) {}
+  Overlaps() : systems(made()) {}
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 4; ++i) {
@@ -30,17 +30,17 @@ template <class S> class Overlaps : public ::testing::Test {
 
   World<S> world{settings<S>(0)};
   BodyId bodies[4];
-  Rooms<S> rooms;
-  SensorOverlaps<S> sensors{rooms.state, rooms.map};
+  Systems<S> systems;
+  SensorOverlaps<S> sensors{systems.state, systems.map};
   Events<S> events;
 };
-TYPED_TEST_SUITE(Overlaps, RoomScalars);
+TYPED_TEST_SUITE(Overlaps, SystemScalars);
 
 TYPED_TEST(Overlaps, new_ones_begin_and_missing_ones_end) {
-  this->rooms.state.overlaps = this->with({1, 2});
+  this->systems.state.overlaps = this->with({1, 2});
   std::vector<SensorOverlap> found = this->with({3, 2});
   this->sensors.update(found, this->events);
-  EXPECT_EQ(this->rooms.state.overlaps, this->with({2, 3}));
+  EXPECT_EQ(this->systems.state.overlaps, this->with({2, 3}));
   ASSERT_EQ(this->events.sensor_begin.size(), 1u);
   EXPECT_EQ(this->events.sensor_begin[0].other, this->bodies[3]);
   ASSERT_EQ(this->events.sensor_end.size(), 1u);
@@ -48,16 +48,16 @@ TYPED_TEST(Overlaps, new_ones_begin_and_missing_ones_end) {
 }
 
 TYPED_TEST(Overlaps, those_of_bodies_that_nobody_looked_at_stay) {
-  this->rooms.map.place(1, {0, 0});  // asleep
-  this->rooms.state.overlaps = this->with({1});
+  this->systems.map.place(1, {0, 0});  // asleep
+  this->systems.state.overlaps = this->with({1});
   std::vector<SensorOverlap> found;
   this->sensors.update(found, this->events);
-  EXPECT_EQ(this->rooms.state.overlaps, this->with({1}));
+  EXPECT_EQ(this->systems.state.overlaps, this->with({1}));
   EXPECT_TRUE(this->events.sensor_end.empty());
 }
 
 TYPED_TEST(Overlaps, ends_are_in_order_with_those_that_commands_made) {
-  this->rooms.state.overlaps = this->with({1});
+  this->systems.state.overlaps = this->with({1});
   this->events.sensor_end.push_back({this->bodies[0], this->bodies[2]});
   std::vector<SensorOverlap> found;
   this->sensors.update(found, this->events);

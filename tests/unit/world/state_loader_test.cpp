@@ -1,7 +1,7 @@
 // StateLoader alone: after a load the caches are those of the new state.
 // SPDX-License-Identifier: MIT
 
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
@@ -21,35 +21,35 @@ template <class S> class StateLoaders : public ::testing::Test {
   ShapeId box;
   BodyId ground, asleep, awake;
 };
-TYPED_TEST_SUITE(StateLoaders, RoomScalars);
+TYPED_TEST_SUITE(StateLoaders, SystemScalars);
 
 TYPED_TEST(StateLoaders, every_body_is_found_where_it_lies) {
   using S = TypeParam;
-  Rooms<S> rooms(this->world);
-  EXPECT_EQ(rooms.map.location(this->ground.slot).set, Location::kStatic);
-  EXPECT_EQ(rooms.map.location(this->asleep.slot).set, 0u);
-  EXPECT_EQ(rooms.map.location(this->awake.slot).set, Location::kAwake);
-  EXPECT_EQ(rooms.map.names(this->ground.slot), 1u) << "by the sleeper's contact";
-  rooms.find_pairs();
-  ASSERT_EQ(rooms.proxies.pairs().size(), 1u) << "of the awake box and the ground";
+  Systems<S> systems(this->world);
+  EXPECT_EQ(systems.map.location(this->ground.slot).set, Location::kStatic);
+  EXPECT_EQ(systems.map.location(this->asleep.slot).set, 0u);
+  EXPECT_EQ(systems.map.location(this->awake.slot).set, Location::kAwake);
+  EXPECT_EQ(systems.map.names(this->ground.slot), 1u) << "by the sleeper's contact";
+  systems.find_pairs();
+  ASSERT_EQ(systems.proxies.pairs().size(), 1u) << "of the awake box and the ground";
 }
 
 TYPED_TEST(StateLoaders, what_another_state_lacks_is_forgotten_and_what_it_has_is_found) {
   using S = TypeParam;
-  Rooms<S> rooms(this->world);
-  const WorldState<S> before = rooms.state;
+  Systems<S> systems(this->world);
+  const WorldState<S> before = systems.state;
   ASSERT_TRUE(this->world.destroy(this->awake));
   ASSERT_TRUE(this->world.wake(this->asleep));
-  rooms.loader.load(this->world.state());
-  EXPECT_EQ(rooms.map.location(this->awake.slot).set, Location::kNone);
-  EXPECT_FALSE(rooms.proxies.present(this->awake.slot));
-  EXPECT_EQ(rooms.map.location(this->asleep.slot).set, Location::kAwake);
-  EXPECT_EQ(rooms.map.names(this->ground.slot), 0u);
-  rooms.loader.load(before);
-  EXPECT_EQ(rooms.map.location(this->asleep.slot).set, 0u);
-  EXPECT_EQ(rooms.map.location(this->awake.slot).set, Location::kAwake);
-  EXPECT_TRUE(rooms.proxies.present(this->awake.slot));
-  EXPECT_EQ(rooms.map.names(this->ground.slot), 1u);
+  systems.loader.load(this->world.state());
+  EXPECT_EQ(systems.map.location(this->awake.slot).set, Location::kNone);
+  EXPECT_FALSE(systems.proxies.present(this->awake.slot));
+  EXPECT_EQ(systems.map.location(this->asleep.slot).set, Location::kAwake);
+  EXPECT_EQ(systems.map.names(this->ground.slot), 0u);
+  systems.loader.load(before);
+  EXPECT_EQ(systems.map.location(this->asleep.slot).set, 0u);
+  EXPECT_EQ(systems.map.location(this->awake.slot).set, Location::kAwake);
+  EXPECT_TRUE(systems.proxies.present(this->awake.slot));
+  EXPECT_EQ(systems.map.names(this->ground.slot), 1u);
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 #include <set>
 
 #include "isostep/dynamics/solvers/solvers.inl"
-#include "unit/world/rooms.hpp"
+#include "unit/world/systems.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class StepSolvers : public ::testing::Test {
  protected:
-  StepSolvers() : rooms(made()) { tools.use_simd(Simd::scalar); }
+  StepSolvers() : systems(made()) { tools.use_simd(Simd::scalar); }
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
     fixed = world.create(still<S>(ball, {0, 4, 0}));
@@ -24,18 +24,18 @@ template <class S> class StepSolvers : public ::testing::Test {
 
   World<S> world{settings<S>(0)};
   BodyId fixed, awake;
-  Rooms<S> rooms;
+  Systems<S> systems;
   StepTools<S> tools = {};
-  StepSolver<S> solver{rooms.state, rooms.map};
+  StepSolver<S> solver{systems.state, systems.map};
 };
-TYPED_TEST_SUITE(StepSolvers, RoomScalars);
+TYPED_TEST_SUITE(StepSolvers, SystemScalars);
 
 TYPED_TEST(StepSolvers, forces_become_accelerations_and_leave_the_state) {
   using S = TypeParam;
-  this->rooms.state.forces = {{this->awake.slot, 1, vec<S>(3, 0, 0), vec<S>(0, 0, 5)}};
+  this->systems.state.forces = {{this->awake.slot, 1, vec<S>(3, 0, 0), vec<S>(0, 0, 5)}};
   StepReport report;
   this->solver.take_forces(report);
-  EXPECT_TRUE(this->rooms.state.forces.empty());
+  EXPECT_TRUE(this->systems.state.forces.empty());
   EXPECT_EQ(report.clamped_force, 1u);
   const StepContext<S> context = this->solver.context({}, {}, this->tools, false);
   ASSERT_EQ(context.accelerations.size(), 1u);
@@ -58,10 +58,10 @@ TYPED_TEST(StepSolvers, joints_know_the_rows_and_the_poses_of_their_ends) {
 TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_the_impulses_of_contacts) {
   using S = TypeParam;
   using V = Velocity<S>;
-  WorldState<S>& state = this->rooms.state;
+  WorldState<S>& state = this->systems.state;
   state.joints = {};
-  const BodyState<S> start = this->rooms.awake(this->awake);
-  const BodyState<S>& ball = this->rooms.awake(this->awake);
+  const BodyState<S> start = this->systems.awake(this->awake);
+  const BodyState<S>& ball = this->systems.awake(this->awake);
   std::vector<ContactGeometry<S>> geometry;
   const auto solve_from = [&](double y) {
     state.awake.states[0] = start;

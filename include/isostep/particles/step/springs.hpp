@@ -1,4 +1,4 @@
-// ParticleSprings: springs and bungees as forces, and those that yield; stiff springs are another room's.
+// ParticleSprings: springs and bungees as forces, and those that yield; stiff springs are another system's.
 // SPDX-License-Identifier: MIT
 #pragma once
 

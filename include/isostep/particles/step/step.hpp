@@ -1,4 +1,4 @@
-// ParticleStep: what the rooms of a step have in common: its time, where particles are within it, and what it reports.
+// ParticleStep: what the systems of a step share: its time, where particles are within it, and what it reports.
 // SPDX-License-Identifier: MIT
 #pragma once
 

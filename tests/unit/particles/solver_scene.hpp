@@ -1,16 +1,16 @@
-// The rooms that a solver of rows draws on, on a state made by hand.
+// The systems that a solver of rows draws on, on a state made by hand.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/particles/step/integration.hpp"
 #include "isostep/particles/step/rows.hpp"
-#include "unit/particles/room.hpp"
+#include "unit/particles/step_scene.hpp"
 
 namespace isostep {
 namespace {
 
-/// Rows are made by hand; `Solver` is the room under test.
-template <class S, template <class> class Solver> struct SolverRoom : Room<S> {
+/// Rows are made by hand; `Solver` is the system under test.
+template <class S, template <class> class Solver> struct SolverScene : StepScene<S> {
   FreeFlight<S> flight{this->state, this->step};
   ParticleSprings<S> springs{this->state, this->step};
   StiffSprings<S> stiff_springs{this->state, this->step};

@@ -1,4 +1,4 @@
-// A particle world's state made by hand, and what the rooms of a step share, for tests that drive one room alone.
+// A particle world's state made by hand, and what the systems of a step share, for tests that drive one system alone.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,13 +9,14 @@
 namespace isostep {
 namespace {
 
-/// Without gravity; its one material has no damping, and nothing collides. Doubles at the door.
-template <class S> struct Room {
+/// Without gravity; its one material has no damping, and nothing collides. Numbers go in and come
+/// out as doubles.
+template <class S> struct StepScene {
   using V = Velocity<S>;
   ParticleState<S> state;
   ParticleStep<S> step;
 
-  Room() {
+  StepScene() {
     state.settings.gravity = vec(kNowhere);
     state.materials.add(ParticleMaterial<S>{});
   }

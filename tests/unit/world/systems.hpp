@@ -1,4 +1,4 @@
-// What the tests of rooms share: a state with its caches, without a world around it.
+// What the tests of systems share: a state with its caches, without a world around it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace isostep::test {
 
-/// Of float and of fixed point: rooms hold no code of one scalar alone.
-using RoomScalars = ::testing::Types<float, Q32_32>;
+/// Of float and of fixed point: systems hold no code of one scalar alone.
+using SystemScalars = ::testing::Types<float, Q32_32>;
 
-template <class S> struct Rooms {
-  explicit Rooms(const World<S>& world) { loader.load(world.state()); }
+template <class S> struct Systems {
+  explicit Systems(const World<S>& world) { loader.load(world.state()); }
 
   void find_pairs() { proxies.update(state.contacts, static_cast<std::size_t>(state.settings.most_pairs)); }
   BodyState<S>& awake(BodyId body) { return state.awake.states[map.location(body.slot).index]; }
