@@ -27,7 +27,8 @@ template <class S> struct OscillatorStep {
 ///          functions, as sums of falling exponentials, so that nothing grows; near it their series.
 ///          dd = C + delta Q, dv = Q, vv = C - delta Q, vd = -kappa Q / h.
 /// Source:  Millington, ch. 6.3 gives the case below critical damping.
-/// Error:   the coefficients are those of the next wider format, rounded; tests/unit/particles/stiff_spring_test.cpp.
+/// Error:   the coefficients are those of the next wider format, rounded. Motions are measured against the exact one in
+///          tests/laws/particle_springs_test.cpp.
 /// Limits:  delta counts up to 1024: beyond, the ends only creep.
 template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate);
 

@@ -30,16 +30,16 @@ class CommandJournal {
     OneAtATime::Entry entry_;
   };
 
-  /// Executes a command of the closed list Engine::Command. Returns what `execute` returns: an id of what was made, or
-  /// whether it was accepted. What is refused changes nothing and is not recorded.
-  template <class Engine, class C> ISO_INLINE auto run(const char* name, Engine& engine, const C& command) {
-    using Result = decltype(engine.execute(command));
+  /// Has a command of the closed list Executor::Command executed. Returns what `execute` returns: an id of what was
+  /// made, or whether it was accepted. What is refused changes nothing and is not recorded.
+  template <class Executor, class C> ISO_INLINE auto run(const char* name, Executor& executor, const C& command) {
+    using Result = decltype(executor.execute(command));
     const Call call(*this, name);
     if (!call.allowed()) return Result{};
     fault_ = {};
-    const Result result = engine.execute(command);
+    const Result result = executor.execute(command);
     sign(name);
-    if (static_cast<bool>(result)) record<typename Engine::Command>(command);
+    if (static_cast<bool>(result)) record<typename Executor::Command>(command);
     return result;
   }
 

@@ -28,15 +28,25 @@
 
 namespace isostep {
 
-/// A step calls the systems in the order of its stages. Each system is a class that is read and tested alone; its header
-/// says what comes in, what goes out and what it keeps. A system knows those that it names in its constructor and no
-/// others, never the engine:
+/// A step calls the systems in the order of its stages. Each system is a class that is read and tested alone; its
+/// header says what comes in, what goes out and what it keeps. Each but Proxies and Carriers knows the state; besides it
+/// a system knows those that it names in its constructor and no others, never the engine:
 ///
-///   CommandExecutor -> Destruction -> IslandWake -> BodyMap, Proxies
-///   CommandExecutor -> RenderPoses
-///   IslandSleep, StateLoader, BodyFinisher, Queries -> BodyMap, Proxies
-///   NarrowPhase (with PartPairs inside), StepSolver, SensorOverlaps -> BodyMap
-///   Carriers, ContactEvents -> no other
+///   BodyMap         -> no other
+///   Proxies         -> no other (has a Crowd inside)
+///   IslandWake      -> BodyMap, Proxies
+///   IslandSleep     -> BodyMap, Proxies
+///   NarrowPhase     -> BodyMap (as PartPairs inside of it)
+///   Carriers        -> no other
+///   StepSolver      -> BodyMap
+///   BodyFinisher    -> BodyMap, Proxies
+///   SensorOverlaps  -> BodyMap
+///   ContactEvents   -> no other
+///   RenderPoses     -> no other
+///   Destruction     -> BodyMap, Proxies, IslandWake
+///   CommandExecutor -> BodyMap, Proxies, IslandWake, Destruction, RenderPoses; the journal, the assets
+///   Queries         -> BodyMap, Proxies; the journal
+///   StateLoader     -> BodyMap, Proxies
 ///
 /// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one system needs of another,
 /// the step passes from call to call.

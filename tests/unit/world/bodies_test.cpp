@@ -539,10 +539,10 @@ TYPED_TEST(WorldBodies, a_body_new_since_the_last_step_is_drawn_where_it_is) {
   World<S> w(settings<S>(0));
   const ShapeId ball = add_ball(w, 0.5);
   const BodyId old = w.create(moving<S>(ball, {0, 0, 0}, {6, 0, 0}));
-  const BodyId doomed = w.create(moving<S>(ball, {100, 0, 0}, {6, 0, 0}));
+  const BodyId gone = w.create(moving<S>(ball, {100, 0, 0}, {6, 0, 0}));
   w.step();
   w.step();
-  ASSERT_TRUE(w.destroy(doomed));
+  ASSERT_TRUE(w.destroy(gone));
   const BodyId fresh = w.create(moving<S>(ball, {-100, 0, 0}));
   const std::vector<RenderPose> poses = w.poses_float(0.5f);
   ASSERT_EQ(poses.size(), 2u);

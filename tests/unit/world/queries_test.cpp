@@ -1,4 +1,4 @@
-// Queries alone: what a ray and a box meet. Worlds' own answers: questions_test.cpp.
+// Queries alone: what a ray and a box meet. Worlds' own answers: world_queries_test.cpp.
 // SPDX-License-Identifier: MIT
 
 #include "isostep/world/queries.hpp"

@@ -8,7 +8,7 @@ namespace {
 
 template <class S> class StateLoaders : public ::testing::Test {
  protected:
-  /// A stack that sleeps, one that is awake, and the ground.
+  /// A box that sleeps, one that is awake, and the ground.
   StateLoaders() {
     ground = add_ground(world);
     box = add_box(world, 0.5, 0.5, 0.5);

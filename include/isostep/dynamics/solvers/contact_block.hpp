@@ -32,7 +32,7 @@ template <class S, int W> struct AngularRow {
 
 template <class S, int W> struct NormalRow {
   AngularRow<S, W> row;
-  Velocity<S> separation[W];     // [m] when the step began; overlaps deepened, see Schedule::lift
+  Velocity<S> separation[W];     // [m] when the step began; overlaps deepened by Schedule::penetration_bias
   Velocity<S> approach[W];       // [m/s] normal speed when the step began, for restitution
   Velocity<S> total_impulse[W];  // [m/s] given over the step, but for the sub-step that runs
 

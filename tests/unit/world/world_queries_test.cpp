@@ -1,4 +1,4 @@
-// Questions about space, against a search of every body; and worlds that move and tell their stages.
+// What worlds answer about space, against a search of every body; and worlds that move and tell their stages.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace isostep::test {
 namespace {
 
-template <class S> class WorldQuestions : public ::testing::Test {
+template <class S> class WorldQueries : public ::testing::Test {
  protected:
-  WorldQuestions() : world(settings<S>(-10, 60, 4)), mess(build_mess(world)) {
+  WorldQueries() : world(settings<S>(-10, 60, 4)), mess(build_mess(world)) {
     for (int i = 0; i < 200; ++i) world.step();
     EXPECT_GT(world.counts().asleep, 0u);
     EXPECT_GT(world.counts().awake, 10u);
@@ -54,9 +54,9 @@ template <class S> class WorldQuestions : public ::testing::Test {
   World<S> world;
   Mess<S> mess;
 };
-TYPED_TEST_SUITE(WorldQuestions, AllScalars);
+TYPED_TEST_SUITE(WorldQueries, AllScalars);
 
-TYPED_TEST(WorldQuestions, a_ray_meets_what_a_search_of_every_body_says_it_meets_first) {
+TYPED_TEST(WorldQueries, a_ray_meets_what_a_search_of_every_body_says_it_meets_first) {
   using S = TypeParam;
   World<S>& w = this->world;
   Dice dice(3);
@@ -89,7 +89,7 @@ TYPED_TEST(WorldQuestions, a_ray_meets_what_a_search_of_every_body_says_it_meets
   EXPECT_GT(misses, 20);
 }
 
-TYPED_TEST(WorldQuestions, all_hits_of_a_ray_are_those_of_a_search_of_every_body_nearest_first) {
+TYPED_TEST(WorldQueries, all_hits_of_a_ray_are_those_of_a_search_of_every_body_nearest_first) {
   using S = TypeParam;
   World<S>& w = this->world;
   Dice dice(7);
@@ -126,7 +126,7 @@ TYPED_TEST(WorldQuestions, all_hits_of_a_ray_are_those_of_a_search_of_every_body
   EXPECT_GE(most, 3u);
 }
 
-TYPED_TEST(WorldQuestions, a_query_does_not_see_who_is_to_be_ignored) {
+TYPED_TEST(WorldQueries, a_query_does_not_see_who_is_to_be_ignored) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
@@ -152,7 +152,7 @@ TYPED_TEST(WorldQuestions, a_query_does_not_see_who_is_to_be_ignored) {
   EXPECT_EQ(w.cast_ray(here, along, filter)->body, eye) << "a stale id ignores nobody";
 }
 
-TYPED_TEST(WorldQuestions, hits_of_bodies_in_one_place_come_by_slot) {
+TYPED_TEST(WorldQueries, hits_of_bodies_in_one_place_come_by_slot) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
@@ -163,7 +163,7 @@ TYPED_TEST(WorldQuestions, hits_of_bodies_in_one_place_come_by_slot) {
   for (std::uint32_t k = 0; k < 70; ++k) EXPECT_EQ(hits[k].body.slot, k / 10 + 7 * (k % 10));
 }
 
-TYPED_TEST(WorldQuestions, of_two_bodies_in_one_place_a_ray_and_a_point_find_the_lower_slot) {
+TYPED_TEST(WorldQueries, of_two_bodies_in_one_place_a_ray_and_a_point_find_the_lower_slot) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
@@ -178,7 +178,7 @@ TYPED_TEST(WorldQuestions, of_two_bodies_in_one_place_a_ray_and_a_point_find_the
   EXPECT_EQ(w.closest_point(vec<S>(3, 3, 0), S(4))->body, late);
 }
 
-TYPED_TEST(WorldQuestions, the_closest_body_is_the_closest_of_all) {
+TYPED_TEST(WorldQueries, the_closest_body_is_the_closest_of_all) {
   using S = TypeParam;
   World<S>& w = this->world;
   Dice dice(4);
@@ -206,7 +206,7 @@ TYPED_TEST(WorldQuestions, the_closest_body_is_the_closest_of_all) {
   EXPECT_GT(found_any, 40);
 }
 
-TYPED_TEST(WorldQuestions, an_overlap_names_every_body_it_meets_once_in_order) {
+TYPED_TEST(WorldQueries, an_overlap_names_every_body_it_meets_once_in_order) {
   using S = TypeParam;
   World<S>& w = this->world;
   Dice dice(6);
@@ -234,7 +234,7 @@ TYPED_TEST(WorldQuestions, an_overlap_names_every_body_it_meets_once_in_order) {
   EXPECT_GT(total, 150u);
 }
 
-TYPED_TEST(WorldQuestions, masks_and_sensors_decide_what_is_seen) {
+TYPED_TEST(WorldQueries, masks_and_sensors_decide_what_is_seen) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   BodyDefinition<S> d = still<S>(add_ball(w, 0.5), {0, 0, 0});
@@ -256,7 +256,7 @@ TYPED_TEST(WorldQuestions, masks_and_sensors_decide_what_is_seen) {
   EXPECT_EQ(found, (std::vector<BodyId>{tagged, sensor}));
 }
 
-TYPED_TEST(WorldQuestions, questions_that_cannot_be_answered_find_nothing) {
+TYPED_TEST(WorldQueries, questions_that_cannot_be_answered_find_nothing) {
   using S = TypeParam;
   World<S>& w = this->world;
   const Vec3<S> outside = {Limits<S>::position() + S(1), S(0), S(0)};
@@ -269,7 +269,7 @@ TYPED_TEST(WorldQuestions, questions_that_cannot_be_answered_find_nothing) {
   EXPECT_TRUE(found.empty());
 }
 
-TYPED_TEST(WorldQuestions, a_created_or_teleported_body_is_found_before_any_step) {
+TYPED_TEST(WorldQueries, a_created_or_teleported_body_is_found_before_any_step) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
@@ -281,7 +281,7 @@ TYPED_TEST(WorldQuestions, a_created_or_teleported_body_is_found_before_any_step
   EXPECT_FALSE(w.cast_ray(vec<S>(9, 5, 0), vec<S>(0, -10, 0)).has_value());
 }
 
-TYPED_TEST(WorldQuestions, a_moved_world_goes_on_as_it_was) {
+TYPED_TEST(WorldQueries, a_moved_world_goes_on_as_it_was) {
   using S = TypeParam;
   World<S> w(settings<S>()), twin(settings<S>());
   build_mess(w);
@@ -297,7 +297,7 @@ TYPED_TEST(WorldQuestions, a_moved_world_goes_on_as_it_was) {
   EXPECT_EQ(w.hash(), twin.hash());
 }
 
-TYPED_TEST(WorldQuestions, a_trace_is_the_hash_before_a_step_and_after_each_stage) {
+TYPED_TEST(WorldQueries, a_trace_is_the_hash_before_a_step_and_after_each_stage) {
   std::vector<std::uint64_t> trace;
   this->world.trace_to(&trace);
   struct Seen {
@@ -317,7 +317,7 @@ TYPED_TEST(WorldQuestions, a_trace_is_the_hash_before_a_step_and_after_each_stag
   EXPECT_EQ(trace.size(), kTraceHashes);
 }
 
-TYPED_TEST(WorldQuestions, the_stages_of_a_step_are_reported_once_each_in_order) {
+TYPED_TEST(WorldQueries, the_stages_of_a_step_are_reported_once_each_in_order) {
   std::vector<Stage> seen;
   StageObserver observer;
   observer.user = &seen;
@@ -331,7 +331,7 @@ TYPED_TEST(WorldQuestions, the_stages_of_a_step_are_reported_once_each_in_order)
   for (std::uint32_t i = 0; i < kStages; ++i) EXPECT_EQ(seen[i], static_cast<Stage>(i));
 }
 
-TYPED_TEST(WorldQuestions, a_portable_form_with_a_force_on_a_sleeper_is_refused) {
+TYPED_TEST(WorldQueries, a_portable_form_with_a_force_on_a_sleeper_is_refused) {
   using S = TypeParam;
   World<S> w(settings<S>());
   add_ground(w);
@@ -354,7 +354,7 @@ TYPED_TEST(WorldQuestions, a_portable_form_with_a_force_on_a_sleeper_is_refused)
   EXPECT_EQ(other.counts().bodies, 0u);
 }
 
-TYPED_TEST(WorldQuestions, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_and_a_view_shows_them) {
+TYPED_TEST(WorldQueries, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_and_a_view_shows_them) {
   using S = TypeParam;
   World<S> w(settings<S>());
   const ShapeId ball = add_ball(w, 0.5);
