@@ -46,7 +46,7 @@ TYPED_TEST(Executors, a_body_that_is_created_is_in_the_state_the_map_and_the_bro
   EXPECT_FALSE(this->systems.proxies.present(body.slot));
 }
 
-/// In a state where much could be changed: a body that sleeps on a joint to the world, and one that is awake and pushed.
+/// In a state where much could be changed: a body that sleeps on a joint to the world, one that is awake and pushed.
 TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   using S = TypeParam;
   const BodyId asleep = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {0, 0, 0})});

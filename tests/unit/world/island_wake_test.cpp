@@ -8,8 +8,8 @@
 namespace isostep::test {
 namespace {
 
-/// Three stacks of two boxes on the ground, asleep. Slots of the stacks alternate. Joints tie the boxes of the first and
-/// of the last stack.
+/// Three stacks of two boxes on the ground, asleep. Slots of the stacks alternate. Joints tie the boxes of the first
+/// and of the last stack.
 template <class S> class IslandWakes : public ::testing::Test {
  protected:
   IslandWakes() : systems(asleep()) {}
