@@ -53,7 +53,7 @@ const std::map<std::string, std::string> kRigidOwners = {
     {"bodies", "body slot "},
     {"properties", "body slot "},
     {"static_bodies", "body slot "},
-    {"fixed_properties", "body slot "},
+    {"static_properties", "body slot "},
     {"contacts", "body slots "},
     {"joints", "joint slot "},
     {"joint_properties", "joint slot "},

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "determinism/mess.hpp"
+#include "isostep/world/world_kinds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -20,6 +21,18 @@ template <class S> std::vector<std::uint8_t> sample() {
   EXPECT_GT(w.counts().joints, 0u);
   w.apply_force(w.bodies()[3], vec<S>(1, 1, 1));
   return bytes_of(w);
+}
+
+TYPED_TEST(PortableWorlds, its_first_word_says_whose_it_is_with_blobs_and_without) {
+  using S = TypeParam;
+  const auto word = load_le<std::uint32_t>(bytes_of(World<S>()).data());
+  for (const std::uint32_t blobs : {0u, kPortableBlobsBit}) {
+    bool same = false;
+    EXPECT_TRUE(with_portable_world(word | blobs,
+                                    [&](auto tag) { same = std::is_same_v<typename decltype(tag)::Type, World<S>>; }));
+    EXPECT_TRUE(same) << blobs;
+  }
+  EXPECT_FALSE(with_portable_world(word ^ 1u << 24, [](auto) {}));
 }
 
 TYPED_TEST(PortableWorlds, a_form_cut_short_anywhere_is_refused_and_changes_nothing) {
