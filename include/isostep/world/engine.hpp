@@ -29,8 +29,8 @@
 namespace isostep {
 
 /// A step calls the systems in the order of its stages. Each system is a class that is read and tested alone; its
-/// header says what comes in, what goes out and what it keeps. Each but Proxies and Carriers knows the state; besides it
-/// a system knows those that it names in its constructor and no others, never the engine:
+/// header says what comes in, what goes out and what it keeps. Each but Proxies and Carriers knows the state; besides
+/// it a system knows those that it names in its constructor and no others, never the engine:
 ///
 ///   BodyMap         -> no other
 ///   Proxies         -> no other (has a Crowd inside)

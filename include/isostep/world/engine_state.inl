@@ -56,8 +56,6 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   render_poses_.forget();
 }
 
-namespace detail {}  // namespace detail
-
 template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
   writer.write(ScalarTraits<S>::kId | (state_.geometry->empty() ? 0 : kPortableBlobsBit));
   WorldState<S>::members(detail::StateWriter(writer), state_);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/body_frames.inl"
 #include "isostep/world/part_pairs.hpp"
