@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "scenes/build.hpp"
 #include "scenes/shapes.hpp"
@@ -142,7 +143,7 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.a = of.a;
   joint.b = of.b;
   joint.on_a = end(of.a, of.anchor);
-  joint.on_b = end(of.b, of.type == JointType::distance ? of.anchor_b : of.anchor);
+  joint.on_b = end(of.b, holds_point(of.type) ? of.anchor : of.anchor_b);
   joint.is_limited = of.type == JointType::hinge && (of.flags & joint_flag::kLimit) != 0;
   joint.lower = real(of.lower);
   joint.upper = real(of.upper);

@@ -9,7 +9,8 @@
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 4, "an oracle knows each shape by itself: see core_distance() and signed_distance()");
+static_assert(kShapeTypes == 4,
+              "an oracle knows each shape by itself: see reach(), core_distance(), signed_distance()");
 
 using V = Vec3<double>;
 

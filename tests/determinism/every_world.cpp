@@ -53,11 +53,10 @@ template <class S> void build(World<S>& world) {
     }
     world.create(joint);
   };
-  const JointType types[] = {JointType::ball, JointType::hinge, JointType::fixed, JointType::distance};
   BodyId last;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < static_cast<int>(kJointTypes); ++i) {
     const BodyId link = add(i % 3, place<S>(-6000, 5000 - i * 900, i * 200));
-    join(types[i], last, link, place<S>(-6000, 5400 - i * 900, i * 200));
+    join(static_cast<JointType>(i), last, link, place<S>(-6000, 5400 - i * 900, i * 200));
     last = link;
   }
   const BodyId trunk = add(2, place<S>(6000, 2000, 0));

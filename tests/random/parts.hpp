@@ -1,6 +1,6 @@
 // What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
-// What is new joins here, once, and is in every random world: a shape in draw_shape, a joint in draw_joint, a property
-// of bodies in draw_body. A command joins random/world.hpp, energy that is held or given random/energy_book.hpp.
+// What is new joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a
+// property of bodies in draw_body. A command joins random/world.hpp, energy that is held or given random/energy_book.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,6 +20,7 @@ struct DrawnShape {
   double reach;  // [m]
 };
 
+static_assert(kShapeTypes == 4, "random worlds have every shape that moves: see draw_primitive()");
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
   switch (dice.below(3)) {

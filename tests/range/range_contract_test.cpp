@@ -143,8 +143,8 @@ TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
   BodyId last = {};
   for (int i = 0; i < 12; ++i) {
     const BodyId body = this->add(i < 11 ? link : weight, {S(i), S(10), 0}, i < 11 ? S(1) : S(20));
-    JointProperties<S> joint = this->world.joint_at(static_cast<JointType>(i % 4), last, body,
-                                                    {{S(i) - S(0.5), S(10), 0}, Quat<Unit<S>>::identity()});
+    JointProperties<S> joint = this->world.joint_at(static_cast<JointType>(i % static_cast<int>(kJointTypes)), last,
+                                                    body, {{S(i) - S(0.5), S(10), 0}, Quat<Unit<S>>::identity()});
     if (joint.type == JointType::distance) joint.upper = S(0.5);
     EXPECT_TRUE(this->world.create(joint)) << describe(this->world.fault());
     last = body;

@@ -106,8 +106,10 @@ TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");
   EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "cone"}])")),
             "/bodies/1/shapes/0/type: expected sphere, box, capsule or half_space, found \"cone\"");
-  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")),
-            "/joints/0/type: expected ball, hinge, fixed or distance, found \"rope\"");
+  std::string joints = kJointNames[0];
+  for (std::uint32_t i = 1; i < kJointTypes; ++i)
+    joints += (i + 1 < kJointTypes ? ", " : " or ") + std::string(kJointNames[i]);
+  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")), "/joints/0/type: expected " + joints + ", found \"rope\"");
 }
 
 TEST(SceneFile, WithABodyThatIsNotThereIsRefused) {

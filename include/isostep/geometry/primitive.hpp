@@ -13,7 +13,7 @@ template <class S> struct Primitive {
   ShapeType type;
   std::uint32_t blob;    // 1 + the place of its blob, for shapes that have one; else 0
   Vec3<S> half;          // [m] half extents of the core
-  S radius;              // [m] added around the core
+  S radius;              // [m] added around the core, which then holds the whole shape
   Vec3<Unit<S>> normal;  // [1] half-space only
   S offset;              // [m] half-space only
 

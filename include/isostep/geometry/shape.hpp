@@ -35,7 +35,7 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
 };
 #define ISO_COMPLETE(name, Shape)                                        \
   static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member"); \
-  static_assert(Shape<float>::kType == ShapeType::name);
+  static_assert(Shape<float>::kType == ShapeType::name, "a shape's kType is not its own");
 ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 #undef ISO_COMPLETE
 

@@ -8,7 +8,7 @@
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 4, "a judge knows each shape by itself: see volume_of() and gyration_of()");
+static_assert(kShapeTypes == 4, "a judge knows each shape by itself: see volume_of(), gyration_of(), least_reach()");
 
 double volume_of(const ScenePart& part) {
   const Vec3<double> half = value(part.half_extents);

@@ -125,9 +125,10 @@ class View {
       }
       for (const part of actor.parts || []) {
         const r = part.radius;
-        if (part.type === 'box') add(index, 'box', part.at, part.turn, part.half.map((h) => 2 * h));
+        if (part.type === 'half_space') continue;  // drawn with the ground
         if (part.type === 'sphere') add(index, 'ball', part.at, part.turn, [r, r, r]);
-        if (part.type === 'capsule') {
+        else if (part.type !== 'capsule') add(index, 'box', part.at, part.turn, part.half.map((h) => 2 * (h + r)));
+        else {
           add(index, 'tube', part.at, part.turn, [r, 2 * part.half[1], r]);
           const along = new THREE.Vector3(0, part.half[1], 0).applyQuaternion(new THREE.Quaternion(...part.turn));
           for (const sign of [1, -1]) {

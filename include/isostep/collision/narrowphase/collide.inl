@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-static_assert(detail::kShapePairs<float>.is_complete(), "two shapes have no function in ShapePairs");
+static_assert(detail::kShapePairs<float>.is_complete(), "two shapes have no function in ShapePairs, in list order");
 
 template <class S>
 void collide(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb, S margin,

@@ -15,7 +15,7 @@ template <class S>
 using CollideShapes = void (*)(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                const Transform<S>& tb, S margin, Manifold<S>& out);
 
-/// Of pairs that never meet: both are for static bodies alone.
+/// Of pairs that pass through each other, for queries too: those that only static bodies have.
 template <class S>
 void collide_never(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, const Transform<S>&, S,
                    Manifold<S>& out) {

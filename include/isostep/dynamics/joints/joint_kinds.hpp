@@ -29,7 +29,7 @@ concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> so
 };
 #define ISO_COMPLETE(name, Joint)                                        \
   static_assert(JointOf<Joint, float>, "a joint's file lacks a member"); \
-  static_assert(Joint<float>::kType == JointType::name);
+  static_assert(Joint<float>::kType == JointType::name, "a joint's kType is not its own");
 ISO_FOR_EACH_JOINT(ISO_COMPLETE)
 #undef ISO_COMPLETE
 
