@@ -23,6 +23,7 @@
 #include "isostep/session/match_recorder.hpp"
 #include "isostep/session/session.hpp"
 #include "isostep/state/composite.hpp"
+#include "isostep/state/fields.hpp"
 #include "isostep/state/replay_seek.hpp"
 #include "isostep/world/debug_draw.hpp"
 #include "isostep/world/desync_bundle.hpp"

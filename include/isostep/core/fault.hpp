@@ -45,7 +45,7 @@ struct FaultReport {
 };
 
 /// A callback for every refused call, on the calling thread: a game writes its log there or stops its debugger. It
-/// must not change the world.
+/// must not change the world; what it is refused itself calls no handler.
 struct FaultHandler {
   void (*refused)(void* user, const FaultReport& report) = nullptr;
   void* user = nullptr;

@@ -43,7 +43,7 @@ template <class S> class ParticleWorld final {
 
   explicit ParticleWorld(const ParticleSettings<S>& settings = {});
   ~ParticleWorld();
-  /// `other` is empty then, with its settings, and as usable as a new one.
+  /// `other` is empty then, with its settings, and as usable as a new one. Recording and tracing end, as for World.
   ParticleWorld(ParticleWorld&& other) noexcept;
   ParticleWorld& operator=(ParticleWorld&& other) noexcept;
 

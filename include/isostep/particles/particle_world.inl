@@ -15,11 +15,13 @@ ParticleWorld<S>::ParticleWorld(const ParticleSettings<S>& settings)
     : engine_(std::make_unique<ParticleEngine<S>>(settings)) {}
 template <class S> ParticleWorld<S>::~ParticleWorld() = default;
 template <class S> ParticleWorld<S>::ParticleWorld(ParticleWorld&& other) noexcept : engine_(std::move(other.engine_)) {
+  engine_->journal_.detach();
   other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
 }
 template <class S> auto ParticleWorld<S>::operator=(ParticleWorld&& other) noexcept -> ParticleWorld& {
   if (this == &other) return *this;
   engine_ = std::move(other.engine_);
+  engine_->journal_.detach();
   other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
   return *this;
 }
@@ -194,6 +196,8 @@ template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) 
   return engine_->read_portable(reader);
 }
 template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
+  if (!CommandJournal::Call(engine_->journal_, "step_recorded").allowed())
+    return Error{ErrorCode::invalid, "called while the world steps", "commands"};
   return play_commands<ParticleCommand<S>>(
       input, [&](const ParticleCommand<S>& command) { return apply(command); }, [&] { step(); });
 }

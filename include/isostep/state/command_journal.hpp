@@ -57,7 +57,11 @@ class CommandJournal {
     if (fault_ == Fault::none) return;
     fault_.command = command;
     if (first_fault_ == Fault::none) first_fault_ = fault_;
-    if (handler_.refused != nullptr) handler_.refused(handler_.user, fault_);
+    if (handler_.refused == nullptr || is_handling_) return;  // not of what the handler itself is refused
+    is_handling_ = true;
+    const FaultReport report = fault_;
+    handler_.refused(handler_.user, report);
+    is_handling_ = false;
   }
   /// For calls that are no commands. A query that is accepted leaves the fault as it is, so that any number of threads
   /// may query at once.
@@ -76,6 +80,12 @@ class CommandJournal {
   ISO_INLINE void set_fault_handler(const FaultHandler& handler) { handler_ = handler; }
   ISO_INLINE void clear_fault() { fault_ = {}; }
   ISO_INLINE void forget_faults() { fault_ = first_fault_ = {}; }
+
+  /// Of a world that is moved: who records or traces it refers to the object that it was.
+  ISO_INLINE void detach() {
+    log_ = nullptr;
+    trace_ = nullptr;
+  }
 
   // The command log: see play_commands.
   /// Null: to nothing.
@@ -107,6 +117,7 @@ class CommandJournal {
  private:
   FaultReport fault_, first_fault_;
   FaultHandler handler_;
+  bool is_handling_ = false;
   OneAtATime one_at_a_time_;
   std::vector<std::uint8_t>* log_ = nullptr;
   std::vector<std::uint64_t>* trace_ = nullptr;

@@ -32,7 +32,7 @@ template <class S> class Queries {
 
  private:
   bool accept_ray(const char* name, Vec3<S> origin, Vec3<S> translation) const;
-  bool accept_overlapping(const Primitive<S>& shape, const Pose<S>& pose) const;
+  bool accept_shape(const Primitive<S>& shape, const Pose<S>& pose) const;
   bool accept_box(const Aabb<S>& box) const;
   bool sees(const QueryFilter& filter, std::uint32_t slot) const;
   std::optional<RayCastHit<S>> hit_of(std::uint32_t slot, Vec3<S> origin, Vec3<S> translation, S most) const;

@@ -132,7 +132,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
   return best;
 }
 
-template <class S> bool Queries<S>::accept_overlapping(const Primitive<S>& shape, const Pose<S>& pose) const {
+template <class S> bool Queries<S>::accept_shape(const Primitive<S>& shape, const Pose<S>& pose) const {
   const ShapeFault of_shape = validate(shape), of_pose = validate(pose);
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
   return journal_.accept_call("overlap_shape",
@@ -145,7 +145,7 @@ template <class S> bool Queries<S>::accept_overlapping(const Primitive<S>& shape
 template <class S>
 void Queries<S>::overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                                QueryFilter filter) const {
-  if (!accept_overlapping(shape, pose)) return;
+  if (!accept_shape(shape, pose)) return;
   std::vector<std::uint64_t> found;
   proxies_.tree().query(bounds(shape, Transform<S>::of(pose)), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;

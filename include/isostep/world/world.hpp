@@ -88,7 +88,8 @@ template <class S> class World final {
   /// Settings out of range are brought into it, and that is a fault.
   explicit World(const Settings<S>& settings = {});
   ~World();
-  /// `other` is empty then, with its settings, and as usable as a new one.
+  /// `other` is empty then, with its settings, and as usable as a new one. Recording and tracing end, for who does that
+  /// refers to `other`.
   World(World&& other) noexcept;
   World& operator=(World&& other) noexcept;
 

@@ -33,11 +33,13 @@ namespace isostep {
 template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
 template <class S> World<S>::~World() = default;
 template <class S> World<S>::World(World&& other) noexcept : engine_(std::move(other.engine_)) {
+  engine_->journal_.detach();
   other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
 }
 template <class S> World<S>& World<S>::operator=(World&& other) noexcept {
   if (this == &other) return *this;
   engine_ = std::move(other.engine_);
+  engine_->journal_.detach();
   other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
   return *this;
 }
@@ -345,6 +347,8 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
 }
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
+  if (!CommandJournal::Call(engine_->journal_, "step_recorded").allowed())
+    return Error{ErrorCode::invalid, "called while the world steps", "commands"};
   return play_commands<Command>(
       input, [&](const Command& command) { return apply(command); }, [&] { step(); });
 }

@@ -96,11 +96,11 @@ std::vector<Regenerated> regenerate_all() {
 }
 
 int record(const RegenerateOptions& options) {
+  Directory directory(options.directory.empty() ? ISOSTEP_SELFCHECK_DIR : options.directory);
   std::vector<Regenerated> all;  // or nothing: half a set renewed is none
   record_selfcheck([&](const std::string& name, const std::vector<std::uint8_t>& bytes) {
     all.push_back({name, {bytes.begin(), bytes.end()}});
   });
-  Directory directory(options.directory.empty() ? ISOSTEP_SELFCHECK_DIR : options.directory);
   for (const Regenerated& file : all) directory.put(file.name, file.text);
   directory.tell("recordings");
   return exit_status::kOk;
@@ -110,8 +110,8 @@ int record(const RegenerateOptions& options) {
 
 int command_regenerate(const RegenerateOptions& options) {
   if (options.record) return record(options);
-  const std::vector<Regenerated> all = regenerate_all();  // all or nothing
   Directory directory(options.directory.empty() ? ISOSTEP_GOLDENS_DIR : options.directory);
+  const std::vector<Regenerated> all = regenerate_all();  // all or nothing
   for (const Regenerated& file : all) directory.put(file.name, file.text);
   directory.tell("lists");
   if (directory.is_changed())

@@ -201,6 +201,44 @@ TYPED_TEST(CommandLogs, a_recording_takes_pauses_and_several_steps_and_verifies)
   EXPECT_EQ(again.tick(), 3u + kFrameStepCap);
 }
 
+TYPED_TEST(CommandLogs, a_world_that_is_moved_is_recorded_and_traced_no_longer) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  std::vector<std::uint8_t> log;
+  std::vector<std::uint64_t> trace;
+  const auto attach = [&](World<S>& world) {
+    world.record_to(&log);
+    world.trace_to(&trace);
+    world.step();
+  };
+  attach(w);
+  const std::size_t size = log.size(), hashes = trace.size();
+  ASSERT_GT(hashes, 0u);
+  World<S> moved(std::move(w));
+  moved.step();
+  EXPECT_FALSE(moved.records_to(&log));
+  EXPECT_EQ(log.size(), size);
+  EXPECT_EQ(trace.size(), hashes);
+  attach(moved);
+  w = std::move(moved);
+  w.step();
+  EXPECT_EQ(log.size(), 2 * size);
+  EXPECT_EQ(trace.size(), 2 * hashes);
+}
+
+TYPED_TEST(CommandLogs, no_log_is_played_while_the_world_steps) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  const StageObserver observer = {[](void* user, Stage, const StageView&) {
+                                    const std::uint8_t step[] = {kStepMarker};
+                                    EXPECT_FALSE(static_cast<World<S>*>(user)->step_recorded(step).ok());
+                                  },
+                                  &w};
+  w.step(observer);
+  EXPECT_EQ(w.tick(), 1u);
+  EXPECT_EQ(w.fault(), Fault::called_in_step);
+}
+
 TYPED_TEST(CommandLogs, a_recording_ends_before_a_frame_of_more_steps_than_the_cap) {
   using S = TypeParam;
   World<S> w;

@@ -75,6 +75,27 @@ TYPED_TEST(WorldFaults, a_handler_is_told_of_each_refusal_and_of_nothing_else) {
   EXPECT_EQ(told.size(), 3u);
 }
 
+TYPED_TEST(WorldFaults, what_a_handler_is_refused_itself_calls_no_handler_and_its_report_stays) {
+  struct Meddler {
+    World<TypeParam>* world;
+    int calls = 0;
+  } meddler{&this->world};
+  this->world.set_fault_handler({[](void* user, const FaultReport& report) {
+                                   Meddler& m = *static_cast<Meddler*>(user);
+                                   ++m.calls;
+                                   EXPECT_FALSE(m.world->destroy(m.world->bodies()[0]));
+                                   EXPECT_EQ(m.world->fault(), Fault::called_in_step);
+                                   m.world->forget_faults();
+                                   EXPECT_EQ(report, Fault::null_id);
+                                 },
+                                 &meddler});
+  for (int call = 1; call <= 2; ++call) {
+    EXPECT_FALSE(this->world.destroy(BodyId{}));
+    EXPECT_EQ(meddler.calls, call);
+  }
+  this->world.set_fault_handler({});
+}
+
 TYPED_TEST(WorldFaults, a_joint_takes_no_flag_that_its_kind_does_not_know) {
   using S = TypeParam;
   using namespace joint_flag;

@@ -1,4 +1,4 @@
-// A prepared contact as leaves: its lane of a block of any width, laid out as a block of one.
+// A prepared contact as fields: its lane of a block of any width, laid out as a block of one.
 // SPDX-License-Identifier: MIT
 #pragma once
 
