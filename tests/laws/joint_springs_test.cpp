@@ -53,7 +53,8 @@ TYPED_TEST(JointSprings, undamped_keep_their_swing_for_ten_seconds) {
     const bool coarse = std::is_same_v<TypeParam, Q16_16> && solver == SolverName::direct;
     EXPECT_NEAR(this->kept(solver, 8, JointType::distance, 1), 1, coarse ? 0.3 : 0.01);
     EXPECT_NEAR(this->kept(solver, 8, JointType::hinge, 1), 1, coarse ? 0.3 : 0.05);
-    if (!coarse) EXPECT_NEAR(this->kept(solver, 8, JointType::distance, 5), 1, 0.05);
+    if (coarse) continue;
+    EXPECT_NEAR(this->kept(solver, 8, JointType::distance, 5), 1, 0.05);
   }
   EXPECT_NEAR(this->kept(SolverName::soft_step, 8, JointType::hinge, 5), 1, 0.05);
   EXPECT_NEAR(this->kept(SolverName::soft_step, 4, JointType::distance, 5), 1, 0.05);

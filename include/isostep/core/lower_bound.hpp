@@ -1,8 +1,10 @@
-// Binary search over indices.
+// Binary search: over indices, and of records that ascend by slot.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "isostep/scalar/platform.hpp"
 
@@ -17,6 +19,18 @@ template <class Before> ISO_INLINE constexpr std::size_t lower_bound(std::size_t
     else high = middle;
   }
   return low;
+}
+
+/// Where the record of a slot stands or belongs. `records` ascend by their field `slot`.
+template <class Records> ISO_INLINE std::size_t place_of_slot(const Records& records, std::uint32_t slot) {
+  return lower_bound(records.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return records[i].slot < slot; });
+}
+/// The record of the slot of `fresh`; where there is none yet, that is `fresh`, at its place.
+template <class Record> ISO_INLINE Record& find_or_insert(std::vector<Record>& records, const Record& fresh) {
+  const std::size_t at = place_of_slot(records, fresh.slot);
+  if (at == records.size() || records[at].slot != fresh.slot)
+    records.insert(records.begin() + static_cast<std::ptrdiff_t>(at), fresh);
+  return records[at];
 }
 
 }  // namespace isostep

@@ -75,6 +75,20 @@ class SlotMap {
   ISO_INLINE bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
   template <class AnyId> ISO_INLINE AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
 
+  /// Ascending by slot.
+  template <class AnyId> ISO_INLINE std::vector<AnyId> ids() const {
+    std::vector<AnyId> ids;
+    for (std::uint32_t slot = 0; slot < entries_.size(); ++slot) {
+      if (is_taken(slot)) ids.push_back(id_of<AnyId>(slot));
+    }
+    return ids;
+  }
+  ISO_INLINE std::uint32_t count_taken() const {
+    std::uint32_t count = 0;
+    for (std::uint32_t slot = 0; slot < entries_.size(); ++slot) count += is_taken(slot) ? 1u : 0u;
+    return count;
+  }
+
   ISO_INLINE const Entries& entries() const { return entries_; }
   ISO_INLINE std::uint32_t first_free() const { return first_free_; }
   /// What was computed of the whole table.

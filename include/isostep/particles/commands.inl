@@ -2,22 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/lower_bound.hpp"
 #include "isostep/particles/commands.hpp"
 
 namespace isostep {
-
-namespace detail {
-/// Where a slot's record belongs in an array that ascends by slot.
-template <class Record> std::size_t place_of(const std::vector<Record>& records, std::uint32_t slot) {
-  std::size_t low = 0, high = records.size();
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (records[middle].slot < slot) low = middle + 1;
-    else high = middle;
-  }
-  return low;
-}
-}  // namespace detail
 
 // ---- particles
 
@@ -46,9 +34,7 @@ void ParticleCommands<S>::place_new(ParticleId id, const ParticleDefinition<S>& 
   state_.inverse_mass[id.slot] = d.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), d.mass);
   state_.material[id.slot] = material.slot;
   if (d.lifetime == 0) return;
-  const std::size_t at = detail::place_of(state_.lifetimes, id.slot);
-  state_.lifetimes.insert(state_.lifetimes.begin() + static_cast<std::ptrdiff_t>(at),
-                          ParticleLifetime{state_.tick + d.lifetime, id.slot, 0});
+  find_or_insert(state_.lifetimes, ParticleLifetime{state_.tick + d.lifetime, id.slot, 0});
 }
 
 template <class S> bool ParticleCommands<S>::execute(const DestroyParticle& command) {
@@ -100,12 +86,7 @@ template <class S> bool ParticleCommands<S>::execute(const PushParticle<S>& comm
 }
 /// What is asked of a particle until the next step.
 template <class S> ParticlePush<S>& ParticleCommands<S>::pending_push(std::uint32_t slot) {
-  std::vector<ParticlePush<S>>& pushes = state_.pushes;
-  const std::size_t at = detail::place_of(pushes, slot);
-  if (at == pushes.size() || pushes[at].slot != slot) {
-    pushes.insert(pushes.begin() + static_cast<std::ptrdiff_t>(at), ParticlePush<S>{slot, 0, Vec3<S>::zero()});
-  }
-  return pushes[at];
+  return find_or_insert(state_.pushes, ParticlePush<S>{slot, 0, Vec3<S>::zero()});
 }
 template <class S> bool ParticleCommands<S>::execute(const KickParticle<S>& command) {
   if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);

@@ -34,48 +34,32 @@ template <class Visit, class S> void visit_spring_rows(const Visit& visit, Sprin
 
 }  // namespace
 
-template <class S> template <class Visit> void FreeFlight<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage == ParticleStage::find_contacts) visit("flight_rows", rows_);
+template <class S> template <class Visit> void FreeFlight<S>::visit_scratch(const Visit& visit) {
+  visit("flight_rows", rows_);
 }
-
-template <class S> template <class Visit> void PairSearch<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage != ParticleStage::find_contacts) return;
+template <class S> template <class Visit> void PairSearch<S>::visit_scratch(const Visit& visit) {
   visit("colliding", slots_);
   visit("reaches", reaches_);
 }
-
-template <class S>
-template <class Visit>
-void ParticleContacts<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage != ParticleStage::find_contacts) return;
+template <class S> template <class Visit> void ParticleContacts<S>::visit_scratch(const Visit& visit) {
   visit("pairs", pairs_);
   visit("old_contacts", old_contacts_);
 }
-
-template <class S> template <class Visit> void ParticleRows<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage == ParticleStage::find_contacts) {
-    visit("first_contact", first_contact_);
-    visit("first_touch", first_touch_);
-  }
+template <class S> template <class Visit> void ParticleRows<S>::visit_kinds(const Visit& visit) {
+  visit("first_contact", first_contact_);
+  visit("first_touch", first_touch_);
+}
+template <class S> template <class Visit> void ParticleRows<S>::visit_scratch(const Visit& visit) {
   visit("rows", rows_);
 }
-
-template <class S>
-template <class Visit>
-void ParticleSprings<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage != ParticleStage::solve_substeps) return;
+template <class S> template <class Visit> void ParticleSprings<S>::visit_scratch(const Visit& visit) {
   visit.within("spring_rows", [&](const auto& of_rows) { visit_spring_rows(of_rows, rows_); });
   visit("springs_yield", may_yield_);
 }
-
-template <class S> template <class Visit> void StiffSprings<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage == ParticleStage::solve_substeps) visit("oscillators", oscillators_);
+template <class S> template <class Visit> void StiffSprings<S>::visit_scratch(const Visit& visit) {
+  visit("oscillators", oscillators_);
 }
-
-template <class S>
-template <class Visit>
-void ParticleSoftStep<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
-  if (stage != ParticleStage::find_contacts) return;
+template <class S> template <class Visit> void ParticleSoftStep<S>::visit_scratch(const Visit& visit) {
   visit("contact_softness", contact_softness_);
   visit("link_softness", link_softness_);
 }
@@ -87,17 +71,18 @@ void ParticleEngine<S>::visit_scratch(const Visit& visit, ParticleStage stage) {
     case ParticleStage::find_contacts:
       visit("h", step_.h);
       visit("rate", step_.rate);
-      soft_step_.visit_scratch(visit, stage);
-      flight_.visit_scratch(visit, stage);
-      search_.visit_scratch(visit, stage);
-      contacts_.visit_scratch(visit, stage);
-      return rows_.visit_scratch(visit, stage);
+      soft_step_.visit_scratch(visit);
+      flight_.visit_scratch(visit);
+      search_.visit_scratch(visit);
+      contacts_.visit_scratch(visit);
+      rows_.visit_kinds(visit);
+      return rows_.visit_scratch(visit);
     case ParticleStage::solve_substeps:
       visit.within("displacement", [&](const auto& of_axes) { visit_axes(of_axes, step_.displacement); });
-      springs_.visit_scratch(visit, stage);
-      stiff_springs_.visit_scratch(visit, stage);
-      return rows_.visit_scratch(visit, stage);
-    case ParticleStage::restitution: return rows_.visit_scratch(visit, stage);
+      springs_.visit_scratch(visit);
+      stiff_springs_.visit_scratch(visit);
+      return rows_.visit_scratch(visit);
+    case ParticleStage::restitution: return rows_.visit_scratch(visit);
     case ParticleStage::store_impulses:
       visit("contact_begin", step_.events.contact_begin);
       return visit("touch_impulses", step_.events.touch_impulses);

@@ -29,6 +29,9 @@ template <class S> struct ParticleContact {
   Vec3<Velocity<S>> friction_impulse;  // [m/s] across it
 
   ISO_INLINE std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
+  /// Whether b is a collider, and the slot of what it is.
+  ISO_INLINE bool with_collider() const { return (b & kCollider) != 0; }
+  ISO_INLINE std::uint32_t other_slot() const { return b & ~kCollider; }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("a", self.a);
     visit("b", self.b);

@@ -128,10 +128,10 @@ template <class S> class ParticleValidator {
     for (const ParticleContact<S>& contact : state_.contacts) {
       const bool ascends = &contact == state_.contacts.data() || key < contact.key();
       key = contact.key();
-      const std::uint32_t collider = contact.b & ~ParticleContact<S>::kCollider;
-      const bool scenery = collider != contact.b;
-      const bool other = scenery ? collider < state_.colliders.all().size() && state_.colliders.is_taken(collider)
-                                 : contact.a < contact.b && is_particle(contact.b);
+      const std::uint32_t collider = contact.other_slot();
+      const bool other = contact.with_collider()
+                             ? collider < state_.colliders.all().size() && state_.colliders.is_taken(collider)
+                             : contact.a < contact.b && is_particle(contact.b);
       if (!ascends || !is_particle(contact.a) || !other) return "contacts are not of what is there, ascending";
       if (!is_finite(contact.impulse) || !is_finite(contact.friction_impulse) || contact.impulse < V(0))
         return "a contact's impulse is no number";

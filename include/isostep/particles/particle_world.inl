@@ -130,29 +130,19 @@ template <class S> ParticleMaterialId ParticleWorld<S>::material(ParticleId part
   return engine_->state_.materials.slots().template id_of<ParticleMaterialId>(engine_->state_.material[particle.slot]);
 }
 template <class S> std::vector<ParticleId> ParticleWorld<S>::particles() const {
-  std::vector<ParticleId> ids;
-  const SlotMap& slots = engine_->state_.particles;
-  for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
-    if (slots.is_taken(slot)) ids.push_back(slots.id_of<ParticleId>(slot));
-  }
-  return ids;
+  return engine_->state_.particles.template ids<ParticleId>();
 }
 template <class S> ParticleCounts ParticleWorld<S>::counts() const {
   const ParticleState<S>& state = engine_->state_;
-  const auto taken = [](const SlotMap& slots) {
-    std::uint32_t count = 0;
-    for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) count += slots.is_taken(slot) ? 1u : 0u;
-    return count;
-  };
   ParticleCounts counts = {};
-  counts.particles = taken(state.particles);
+  counts.particles = state.particles.count_taken();
   for (std::uint32_t slot = 0; slot < state.material.size(); ++slot) {
     counts.pinned += state.particles.is_taken(slot) && state.inverse_mass[slot] == InverseMass<S>(0) ? 1u : 0u;
   }
-  counts.springs = taken(state.springs.slots());
-  counts.forces = taken(state.forces.slots()) + taken(state.cohesions.slots());
-  counts.links = taken(state.links.slots());
-  counts.colliders = taken(state.colliders.slots());
+  counts.springs = state.springs.slots().count_taken();
+  counts.forces = state.forces.slots().count_taken() + state.cohesions.slots().count_taken();
+  counts.links = state.links.slots().count_taken();
+  counts.colliders = state.colliders.slots().count_taken();
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   return counts;
 }
@@ -196,10 +186,7 @@ template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) 
   return engine_->read_portable(reader);
 }
 template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
-  if (!CommandJournal::Call(engine_->journal_, "step_recorded").allowed())
-    return Error{ErrorCode::invalid, "called while the world steps", "commands"};
-  return play_commands<ParticleCommand<S>>(
-      input, [&](const ParticleCommand<S>& command) { return apply(command); }, [&] { step(); });
+  return engine_->journal_.template play<ParticleCommand<S>>(*this, input);
 }
 template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }
 template <class S> StageView ParticleWorld<S>::state_fields() const { return engine_->view(kParticleStages); }

@@ -16,15 +16,15 @@ template <class S> struct SceneryDistance {
 template <class S> ISO_INLINE SceneryDistance<S> distance_to(const Collider<S>& collider, Vec3<S> p) {
   if (collider.type == ColliderType::plane) return {dot(p, collider.normal) - collider.offset, collider.normal};
   const Vec3<S> span = collider.end - collider.start;
-  const Direction<S> along = direction_of(span.x, span.y, span.z);
-  const Vec3<Unit<S>> u = {along.x, along.y, along.z};
+  const Heading<S> along = heading_of(span);
+  const Vec3<Unit<S>> u = along.direction;
   const Vec3<S> d = p - collider.start;
   const S t = clamp(dot(d, u), S(0), along.length);
   const Vec3<S> off = d - u * t;
-  const Direction<S> way = direction_of(off.x, off.y, off.z);
+  const Heading<S> way = heading_of(off);
   const bool on_axis = way.length == S(0);
   const Vec3<Unit<S>> up = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
-  return {way.length - collider.radius, on_axis ? up : Vec3<Unit<S>>{way.x, way.y, way.z}};
+  return {way.length - collider.radius, on_axis ? up : way.direction};
 }
 
 }  // namespace isostep

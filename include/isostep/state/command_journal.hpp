@@ -43,6 +43,15 @@ class CommandJournal {
     return result;
   }
 
+  /// Has a world play a command log: see play_commands. An error from inside one of its own calls.
+  template <class Command, class World> ISO_INLINE Result<void> play(World& world, Bytes log) {
+    if (!Call(*this, "step_recorded").allowed())
+      return Error{ErrorCode::invalid, "called while the world steps", "commands"};
+    return play_commands<Command>(
+        log, [&](const Command& command) ISO_INLINE_LAMBDA { return world.apply(command); },
+        [&]() ISO_INLINE_LAMBDA { world.step(); });
+  }
+
   // Faults.
   /// While a command executes. Returns false, for the command to return it.
   ISO_INLINE bool refuse(const FaultReport& report) {

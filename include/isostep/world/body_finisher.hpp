@@ -24,7 +24,7 @@ template <class S> class BodyFinisher {
 
  private:
   static void stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report);
-  void clamp_speed(BodyState<S>& state, StepReport& report) const;
+  static void clamp_speed(BodyState<S>& state, Velocity<S> angular_limit, StepReport& report);
   static void clamp_position(BodyState<S>& state, StepReport& report);
   void discard_bad_impulses();
 

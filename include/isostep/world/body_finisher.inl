@@ -10,11 +10,14 @@
 namespace isostep {
 
 template <class S> void BodyFinisher<S>::finish(std::span<const Pose<S>> start, StepReport& report) {
+  const Settings<S>& settings = state_.settings;
+  const Velocity<S> angular_limit =
+      angular_speed_limit<S>(integration_rate(settings.solver, settings.hz, settings.substeps));
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
     stop_if_not_finite(state, start[i], report);
-    clamp_speed(state, report);
+    clamp_speed(state, angular_limit, report);
     clamp_position(state, report);
     detail::renew_fat_box(map_, state, body, false);
     proxies_.place(state, body, true);
@@ -52,19 +55,18 @@ template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
 }
 }  // namespace detail
 
-template <class S> ISO_INLINE void BodyFinisher<S>::clamp_speed(BodyState<S>& state, StepReport& report) const {
+template <class S>
+ISO_INLINE void BodyFinisher<S>::clamp_speed(BodyState<S>& state, Velocity<S> angular_limit, StepReport& report) {
   using V = Velocity<S>;
   const V speed = convert<V>(Limits<S>::speed());
-  const V angular_speed =
-      angular_speed_limit<S>(integration_rate(state_.settings.solver, state_.settings.hz, state_.settings.substeps));
   const bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, state.fat);
-  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_speed) ||
+  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_limit) ||
         rotates_too_fast))
     return;
   const S most = rotates_too_fast ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low)
                                   : Limits<S>::angular_speed();
   state.velocity = detail::shortened(state.velocity, speed);
-  state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_speed, convert<V>(most)));
+  state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_limit, convert<V>(most)));
   ++report.clamped_speed;
 }
 

@@ -72,26 +72,17 @@ template <class S> void BodyMap<S>::relabel(const JointSet<S>& joints, std::uint
     joint_locations_[joints.states[i].slot] = {set, static_cast<std::uint32_t>(i)};
 }
 
-namespace detail {
-/// Where a record of that slot stands or belongs.
-template <class Set> ISO_INLINE std::ptrdiff_t place_of_slot(const Set& set, std::uint32_t slot) {
-  const std::size_t at =
-      lower_bound(set.states.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return set.states[i].slot < slot; });
-  return static_cast<std::ptrdiff_t>(at);
-}
-}  // namespace detail
-
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
   const bool is_static = body.type == BodyType::static_;
   BodySet<S>& set = is_static ? state_.static_bodies.change() : state_.awake;
-  const std::ptrdiff_t at = detail::place_of_slot(set, state.slot);
+  const auto at = static_cast<std::ptrdiff_t>(place_of_slot(set.states, state.slot));
   set.states.insert(set.states.begin() + at, state);
   set.properties.insert(set.properties.begin() + at, body);
   make_room();
   relabel(set, is_static ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
 }
 template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
-  const std::ptrdiff_t at = detail::place_of_slot(state_.joints, state.slot);
+  const auto at = static_cast<std::ptrdiff_t>(place_of_slot(state_.joints.states, state.slot));
   state_.joints.states.insert(state_.joints.states.begin() + at, state);
   state_.joints.properties.insert(state_.joints.properties.begin() + at, joint);
   make_room();

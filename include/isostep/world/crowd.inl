@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/collision/broadphase/pairs.hpp"
+#include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/crowd.hpp"
 
@@ -55,7 +56,8 @@ template <class S> void Crowd<S>::build(std::span<const Proxy<S>> proxies) {
     if ((proxies[slot].traits.kinds & proxy_kind::kAllAwake) != 0) awake_.push_back(slot);
   }
   tree_.rebuild();
-  tree_.fold(traits_, [&](std::uint32_t slot) { return proxies_[slot].traits; }, ProxyTraits::of_both);
+  tree_.fold(
+      traits_, [&](std::uint32_t slot) { return proxies_[slot].traits; }, ProxyTraits::of_both);
 }
 
 /// Every awake body's partners on one side, so many each and with those that are there at most so many together. False:
@@ -94,13 +96,9 @@ template <class S> void Crowd<S>::keep_contacts(std::span<const Contact<S>> cont
   contacts_end_ = keys_.size();
 }
 template <class S> bool Crowd<S>::has_contacts(std::uint64_t key) const {
-  std::size_t low = contacts_begin_, high = contacts_end_;
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (keys_[middle] < key) low = middle + 1;
-    else high = middle;
-  }
-  return low < contacts_end_ && keys_[low] == key;
+  const std::span contacts = std::span(keys_).subspan(contacts_begin_, contacts_end_ - contacts_begin_);
+  const std::size_t at = lower_bound(contacts.size(), [&](std::size_t i) { return contacts[i] < key; });
+  return at < contacts.size() && contacts[at] == key;
 }
 
 template <class S> void Crowd<S>::forget(std::size_t all_but) {

@@ -116,12 +116,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyImpulse<S>& comma
 
 /// What is asked of a body until the next step.
 template <class S> PendingForce<S>& CommandExecutor<S>::pending_force(std::uint32_t slot) {
-  std::vector<PendingForce<S>>& forces = state_.forces;
-  const std::size_t at = lower_bound(forces.size(), [&](std::size_t i) { return forces[i].slot < slot; });
-  if (at == forces.size() || forces[at].slot != slot) {
-    forces.insert(forces.begin() + static_cast<std::ptrdiff_t>(at), {slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
-  }
-  return forces[at];
+  return find_or_insert(state_.forces, PendingForce<S>{slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
 }
 
 }  // namespace isostep

@@ -55,8 +55,8 @@ template <class S> class IslandWake {
   };
 
   bool is_touched(std::uint64_t pair) const;
-  void unlist(std::uint32_t island);
-  void merge_unlisted();
+  void start_waking(std::uint32_t island);
+  void merge_woken();
   void merge_contacts();
   template <class ArrayOf, class KeyOf> std::size_t sort_records(const ArrayOf& array_of, const KeyOf& key_of);
   template <class Set, class SetOf> void merge_set(Set& into, const SetOf& set_of);
@@ -64,8 +64,7 @@ template <class S> class IslandWake {
   WorldState<S>& state_;
   BodyMap<S>& map_;
   Proxies<S>& proxies_;
-  std::vector<std::shared_ptr<const SleepingIsland<S>>>
-      unlisted_;  // off the state's list, not yet among the awake ones
+  std::vector<std::shared_ptr<const SleepingIsland<S>>> woken_;  // off the state's list, not yet among the awake ones
   std::vector<Record> records_, scratch_;
   std::vector<std::uint32_t> touched_;
 };

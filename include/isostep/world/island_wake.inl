@@ -23,13 +23,13 @@ template <class S> void IslandWake<S>::wake(std::uint32_t slot) { wake({&slot, 1
 template <class S> void IslandWake<S>::wake(std::span<const std::uint32_t> slots) {
   for (const std::uint32_t slot : slots) {
     const Location at = map_.location(slot);
-    if (at.is_asleep()) unlist(at.set);
+    if (at.is_asleep()) start_waking(at.set);
   }
-  merge_unlisted();
+  merge_woken();
 }
 template <class S> void IslandWake<S>::wake_all() {
-  while (!state_.sleeping.empty()) unlist(static_cast<std::uint32_t>(state_.sleeping.size() - 1));
-  merge_unlisted();
+  while (!state_.sleeping.empty()) start_waking(static_cast<std::uint32_t>(state_.sleeping.size() - 1));
+  merge_woken();
   for (BodyState<S>& state : state_.awake.states) state.sleep_clock = 0;
 }
 
@@ -78,16 +78,16 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
       held = held || joint.body_a == slot || joint.body_b == slot;
     for (const Contact<S>& contact : island.contacts)
       held = held || contact.key.body_a == slot || contact.key.body_b == slot;
-    if (held) unlist(i);
+    if (held) start_waking(i);
   }
-  merge_unlisted();
+  merge_woken();
 }
 
 template <class S> std::uint32_t IslandWake<S>::wake_joint(std::uint32_t slot) {
   const Location at = map_.joint_location(slot);
   if (at.is_asleep()) {
-    unlist(at.set);
-    merge_unlisted();
+    start_waking(at.set);
+    merge_woken();
   }
   const std::uint32_t index = map_.joint_location(slot).index;
   const JointProperties<S>& properties = state_.joints.properties[index];
@@ -109,8 +109,8 @@ template <class S> void IslandWake<S>::reset_clock(std::uint32_t slot) {
 }
 
 /// Takes an island off the list; the last one takes its place. Its bodies count as awake but are nowhere until
-/// `merge_unlisted`.
-template <class S> void IslandWake<S>::unlist(std::uint32_t index) {
+/// `merge_woken`.
+template <class S> void IslandWake<S>::start_waking(std::uint32_t index) {
   const std::shared_ptr<const SleepingIsland<S>> island = state_.sleeping[index];
   const std::size_t last = state_.sleeping.size() - 1;
   if (index != last) {
@@ -122,13 +122,13 @@ template <class S> void IslandWake<S>::unlist(std::uint32_t index) {
   state_.sleeping.pop_back();
   map_.count_names(*island, ~0u);
   for (const BodyState<S>& body : island->bodies.states) map_.place(body.slot, {Location::kAwake, 0});
-  unlisted_.push_back(island);
+  woken_.push_back(island);
 }
 
-/// Moves the bodies, joints and contacts of unlisted islands among the awake ones, in canonical order and in one pass
+/// Moves the bodies, joints and contacts of woken islands among the awake ones, in canonical order and in one pass
 /// over each array.
-template <class S> void IslandWake<S>::merge_unlisted() {
-  if (unlisted_.empty()) return;
+template <class S> void IslandWake<S>::merge_woken() {
+  if (woken_.empty()) return;
   merge_set(
       state_.awake, [](const SleepingIsland<S>& island) -> const auto& { return island.bodies; });
   merge_set(
@@ -136,7 +136,7 @@ template <class S> void IslandWake<S>::merge_unlisted() {
   merge_contacts();
   map_.relabel(state_.awake, Location::kAwake, 0);
   map_.relabel(state_.joints, Location::kAwake, 0);
-  for (const auto& island : unlisted_) {
+  for (const auto& island : woken_) {
     for (const BodyState<S>& asleep : island->bodies.states) {
       const std::uint32_t index = map_.location(asleep.slot).index;
       state_.awake.states[index].sleep_clock = 0;
@@ -144,15 +144,15 @@ template <class S> void IslandWake<S>::merge_unlisted() {
       state_.untold.woke.push_back(state_.body_slots.template id_of<BodyId>(asleep.slot));
     }
   }
-  unlisted_.clear();
+  woken_.clear();
 }
 
-/// Fills `records_` with one array of every unlisted island, in order. Returns how many records there are.
+/// Fills `records_` with one array of every woken island, in order. Returns how many records there are.
 template <class S>
 template <class ArrayOf, class KeyOf>
 std::size_t IslandWake<S>::sort_records(const ArrayOf& array_of, const KeyOf& key_of) {
   records_.clear();
-  for (const auto& island : unlisted_) {
+  for (const auto& island : woken_) {
     const auto& array = array_of(*island);
     for (std::size_t i = 0; i < array.size(); ++i) records_.push_back({key_of(array[i]), island.get(), i});
   }

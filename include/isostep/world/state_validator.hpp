@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/lower_bound.hpp"
+#include "isostep/world/body_map.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
 #include "isostep/world/state.hpp"
@@ -24,24 +26,24 @@ template <class S> class StateValidator {
         s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs) {
       return "settings out of range";
     }
-    set_of_body_.assign(state_.body_slots.entries().size(), kNowhere);
+    set_of_body_.assign(state_.body_slots.entries().size(), Location::kNone);
     type_of_body_.assign(set_of_body_.size(), BodyType::static_);
     joint_met_.assign(state_.joint_slots.entries().size(), 0);
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
       if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
     }
     if (const char* rule = shapes()) return rule;
-    if (const char* rule = bodies(*state_.static_bodies, kStatic)) return rule;
-    if (const char* rule = bodies(state_.awake, kAwake)) return rule;
+    if (const char* rule = bodies(*state_.static_bodies, Location::kStatic)) return rule;
+    if (const char* rule = bodies(state_.awake, Location::kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = bodies(state_.sleeping[i]->bodies, i)) return rule;
       if (state_.sleeping[i]->bodies.states.empty()) return "a sleeping island has no bodies";
     }
     for (std::uint32_t slot = 0; slot < set_of_body_.size(); ++slot) {
-      if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != kNowhere))
+      if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != Location::kNone))
         return "a body's slot is taken but has no body";
     }
-    if (const char* rule = links(state_.contacts, state_.joints, kAwake)) return rule;
+    if (const char* rule = links(state_.contacts, state_.joints, Location::kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = links(state_.sleeping[i]->contacts, state_.sleeping[i]->joints, i)) return rule;
     }
@@ -53,15 +55,13 @@ template <class S> class StateValidator {
   }
 
  private:
-  static constexpr std::uint32_t kNowhere = 0xffffffffu, kStatic = 0xfffffffeu, kAwake = 0xfffffffdu;
-
   static bool lie_in(const SlotMap& slots, std::uint32_t space) {
     bool all = true;
     for (std::uint32_t i = 0; i < slots.entries().size(); ++i)
       all = all && SlotMap::space_of(slots.id_of<BodyId>(i)) == space;
     return all;
   }
-  bool is_body(std::uint32_t slot) const { return slot < set_of_body_.size() && set_of_body_[slot] != kNowhere; }
+  bool is_body(std::uint32_t slot) const { return slot < set_of_body_.size() && set_of_body_[slot] != Location::kNone; }
 
   /// The taken shapes' parts fill the pool without gap or overlap.
   const char* shapes() const {
@@ -116,7 +116,7 @@ template <class S> class StateValidator {
     if (set.states.size() != set.properties.size()) return "as many bodies as properties";
     for (std::size_t i = 0; i < set.states.size(); ++i) {
       const BodyState<S>& b = set.states[i];
-      if (b.slot >= set_of_body_.size() || set_of_body_[b.slot] != kNowhere)
+      if (b.slot >= set_of_body_.size() || set_of_body_[b.slot] != Location::kNone)
         return "a body's slot is unknown or twice used";
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
       set_of_body_[b.slot] = name;
@@ -130,8 +130,8 @@ template <class S> class StateValidator {
     constexpr std::uint32_t kKnown =
         body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
-    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == kStatic) ||
-        (name < kAwake && !dynamic_body)) {
+    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == Location::kStatic) ||
+        (name < Location::kAwake && !dynamic_body)) {
       return "a body's type does not fit its set";
     }
     if ((p.flags & ~kKnown) != 0) return "a body has an unknown flag";
@@ -176,16 +176,10 @@ template <class S> class StateValidator {
 
   std::uint32_t parts_of_body(std::uint32_t slot) const {
     const std::uint32_t set = set_of_body_[slot];
-    const BodySet<S>& bodies = set == kStatic  ? *state_.static_bodies
-                               : set == kAwake ? state_.awake
-                                               : state_.sleeping[set]->bodies;
-    std::size_t low = 0, high = bodies.states.size();
-    while (high - low > 1) {
-      const std::size_t middle = (low + high) / 2;
-      if (slot < bodies.states[middle].slot) high = middle;
-      else low = middle;
-    }
-    return (*state_.shapes)[bodies.properties[low].shape].child_count;
+    const BodySet<S>& bodies = set == Location::kStatic  ? *state_.static_bodies
+                               : set == Location::kAwake ? state_.awake
+                                                         : state_.sleeping[set]->bodies;
+    return (*state_.shapes)[bodies.properties[place_of_slot(bodies.states, slot)].shape].child_count;
   }
   /// A link of set `name` ties no body of another island, and at least one of its own.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {
@@ -247,7 +241,7 @@ template <class S> class StateValidator {
     const std::vector<PendingForce<S>>& forces = state_.forces;
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const std::uint32_t slot = forces[i].slot;
-      if (!is_body(slot) || set_of_body_[slot] != kAwake || type_of_body_[slot] != BodyType::dynamic) {
+      if (!is_body(slot) || set_of_body_[slot] != Location::kAwake || type_of_body_[slot] != BodyType::dynamic) {
         return "a force acts on no dynamic body that is awake";
       }
       const std::int32_t hz = state_.settings.hz;
@@ -293,9 +287,10 @@ template <class S> class StateValidator {
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint32_t> set_of_body_;  // by slot: kNowhere, kStatic, kAwake or a sleeping island
-  std::vector<BodyType> type_of_body_;      // by slot
-  std::vector<std::uint8_t> joint_met_;     // by slot
+  std::vector<std::uint32_t>
+      set_of_body_;  // by slot: Location::kNone, Location::kStatic, Location::kAwake or a sleeping island
+  std::vector<BodyType> type_of_body_;   // by slot
+  std::vector<std::uint8_t> joint_met_;  // by slot
 };
 
 }  // namespace isostep

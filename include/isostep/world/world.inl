@@ -230,20 +230,10 @@ template <class S> std::uint64_t World<S>::user_data(BodyId body) const {
   return properties == nullptr ? 0 : properties->user_data;
 }
 template <class S> std::vector<BodyId> World<S>::bodies() const {
-  std::vector<BodyId> ids;
-  const SlotMap& slots = engine_->state_.body_slots;
-  for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
-    if (slots.is_taken(slot)) ids.push_back(slots.id_of<BodyId>(slot));
-  }
-  return ids;
+  return engine_->state_.body_slots.template ids<BodyId>();
 }
 template <class S> std::vector<JointId> World<S>::joints() const {
-  std::vector<JointId> ids;
-  const SlotMap& slots = engine_->state_.joint_slots;
-  for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
-    if (slots.is_taken(slot)) ids.push_back(slots.id_of<JointId>(slot));
-  }
-  return ids;
+  return engine_->state_.joint_slots.template ids<JointId>();
 }
 template <class S> WorldCounts World<S>::counts() const {
   const WorldState<S>& state = engine_->state_;
@@ -260,8 +250,7 @@ template <class S> WorldCounts World<S>::counts() const {
   }
   counts.joints += static_cast<std::uint32_t>(state.joints.states.size());
   counts.bodies = counts.static_bodies + counts.awake + counts.asleep;
-  for (std::uint32_t i = 0; i < state.shape_slots.entries().size(); ++i)
-    counts.shapes += state.shape_slots.is_taken(i) ? 1u : 0u;
+  counts.shapes = state.shape_slots.count_taken();
   return counts;
 }
 
@@ -347,10 +336,7 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
 }
 
 template <class S> Result<void> World<S>::step_recorded(Bytes input) {
-  if (!CommandJournal::Call(engine_->journal_, "step_recorded").allowed())
-    return Error{ErrorCode::invalid, "called while the world steps", "commands"};
-  return play_commands<Command>(
-      input, [&](const Command& command) { return apply(command); }, [&] { step(); });
+  return engine_->journal_.template play<Command>(*this, input);
 }
 
 template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }

@@ -97,7 +97,7 @@ TYPED_TEST(SparseCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsRefused) {
 
 /// Three vectors in a ring with blocks that are not symmetric, and some components held; against dense elimination.
 TYPED_TEST(SparseCholeskyOf, GeneralBlocksAndHeldUnknownsAgreeWithEigen) {
-  using Number = typename TestFixture::Number;
+  using N = typename TestFixture::Number;
   std::mt19937 random(5);
   const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
   for (int trial = 0; trial < 50; ++trial) {
@@ -107,7 +107,7 @@ TYPED_TEST(SparseCholeskyOf, GeneralBlocksAndHeldUnknownsAgreeWithEigen) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       this->cholesky_.add_diagonal(i, this->diagonal(0.875));
       for (int c = 0; c < 3; ++c) a(static_cast<int>(3 * i) + c, static_cast<int>(3 * i) + c) = 0.875;
-      GeneralBlock<Number> block;
+      GeneralBlock<N> block;
       for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) {
           const double entry = 0.125 * draw();
@@ -118,7 +118,7 @@ TYPED_TEST(SparseCholeskyOf, GeneralBlocksAndHeldUnknownsAgreeWithEigen) {
       this->cholesky_.add_pair(i, block);
     }
     std::vector<std::uint8_t> held(3);
-    std::vector<Vec3<Number>> b(3), x;
+    std::vector<Vec3<N>> b(3), x;
     Eigen::VectorXd right(9);
     for (std::uint32_t i = 0; i < 3; ++i) {
       held[i] = trial == 0 ? 0 : static_cast<std::uint8_t>(random() % 8);

@@ -1,4 +1,4 @@
-// What bodies do in a world: kinds of body, compounds, surfaces, filters, sensors, contacts' events, locks and damping.
+// What bodies do in a world: kinds of body, compounds, gravity, damping, locks, filters, and where the world ends.
 // SPDX-License-Identifier: MIT
 
 #include "unit/world/worlds.hpp"
@@ -8,15 +8,6 @@ namespace {
 
 template <class S> class WorldBodies : public ::testing::Test {};
 TYPED_TEST_SUITE(WorldBodies, AllScalars);
-
-template <class S> Child<S> part(const Primitive<S>& primitive, D3 at) {
-  return {primitive, {vec<S>(at), Quat<Unit<S>>::identity()}};
-}
-template <class S> ShapeId add_two_boxes(World<S>& w, D3 half_a, D3 at_a, D3 half_b, D3 at_b) {
-  const Child<S> parts[] = {part(primitive_of(Box<S>{vec<S>(half_a)}), at_a),
-                            part(primitive_of(Box<S>{vec<S>(half_b)}), at_b)};
-  return w.add_shape(std::span<const Child<S>>(parts));
-}
 
 TYPED_TEST(WorldBodies, a_fixed_body_never_moves_whatever_falls_on_it) {
   using S = TypeParam;
@@ -201,85 +192,6 @@ TYPED_TEST(WorldBodies, a_body_that_may_not_turn_slides_down_upright) {
   EXPECT_NEAR(0.6 * to_double(w.center_of_mass(id).x) + 0.8 * to_double(w.center_of_mass(id).y), 0.7, 0.03);
 }
 
-TYPED_TEST(WorldBodies, of_two_restitutions_the_larger_counts) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w);
-  const ShapeId ball = add_ball(w, 0.5);
-  int index = 0;
-  for (const double e : {0.0, 0.5, 1.0}) {
-    BodyDefinition<S> d = moving<S>(ball, {4.0 * index++, 0.75, 0}, {0, -6, 0});
-    d.material.restitution = num<S>(e);
-    const BodyId id = w.create(d);
-    w.set_motion(id, S(0), S(0), S(0), 0);
-    EXPECT_EQ(w.velocity(id).y, S(-6));
-  }
-  run(w, 6);
-  const std::vector<BodyId> ids = w.bodies();
-  EXPECT_NEAR(to_double(w.velocity(ids[1]).y), 0, 0.01);
-  EXPECT_NEAR(to_double(w.velocity(ids[2]).y), 3, 0.01);
-  EXPECT_NEAR(to_double(w.velocity(ids[3]).y), 6, 0.01);
-}
-
-TYPED_TEST(WorldBodies, of_two_frictions_the_root_of_the_product_counts) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w, 0.2);
-  BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.25, 0.5), {0, 0.25, 0}, {4, 0, 0});
-  d.material.friction = num<S>(0.8);
-  const BodyId id = w.create(d);
-  run(w, 30);
-  EXPECT_NEAR(to_double(w.velocity(id).x), 4 - 0.4 * 10 * 0.5, 0.05);
-}
-
-TYPED_TEST(WorldBodies, rolling_resistance_stops_a_ball_where_its_lever_arm_says) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w);
-  const double r = 0.5, arm = 0.05, v = 2;
-  BodyDefinition<S> d = moving<S>(add_ball(w, r), {0, r, 0}, {v * 0.6, 0, v * 0.8});
-  d.angular_velocity = vec<S>(v * 0.8 / r, 0, -v * 0.6 / r);
-  d.material.rolling_resistance = num<S>(arm);
-  const BodyId id = w.create(d);
-  ASSERT_TRUE(settle(w, 60 * 5));
-  // (m + I / r^2) a = arm m g / r with I = 2/5 m r^2.
-  const double distance = v * v / (2 * 5.0 / 7 * 10 * arm / r);
-  const D3 at = real(w.center_of_mass(id));
-  EXPECT_NEAR(at.x, 0.6 * distance, 0.03 * distance);
-  EXPECT_NEAR(at.z, 0.8 * distance, 0.03 * distance);
-}
-
-TYPED_TEST(WorldBodies, without_rolling_resistance_a_ball_rolls_on) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w);
-  BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 0.5, 0}, {2, 0, 0});
-  d.angular_velocity = vec<S>(0, 0, -4);
-  const BodyId id = w.create(d);
-  run(w, 300);
-  EXPECT_NEAR(to_double(w.velocity(id).x), 2, pick<S>(0.01, 0.01, 0.05, 0.01));
-}
-
-TYPED_TEST(WorldBodies, a_conveyor_brings_a_box_to_its_own_speed_and_never_lets_it_sleep) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  BodyDefinition<S> belt = still<S>(add_box(w, 20, 0.5, 20), {0, -0.5, 0});
-  belt.material.surface_velocity = vec<S>(1.2, 0, -1.6);
-  const BodyId carrier = w.create(belt);
-  const BodyId box = w.create(moving<S>(add_box(w, 0.5, 0.25, 0.5), {0, 0.25, 0}));
-  // 2 m/s at 6 m/s^2 takes a third of a second.
-  run(w, 12);
-  EXPECT_NEAR(to_double(w.velocity(box).x), 0.6 * 6 * 0.2, 0.1);
-  EXPECT_NEAR(to_double(w.velocity(box).z), -0.8 * 6 * 0.2, 0.1);
-  run(w, 88);
-  expect_near(real(w.velocity(box)), {1.2, 0, -1.6}, 0.01);
-  EXPECT_EQ(w.velocity(carrier), Vec3<S>::zero());
-  EXPECT_TRUE(w.is_awake(box));
-  Material<S> stopped;
-  ASSERT_TRUE(w.set_material(carrier, stopped));
-  EXPECT_TRUE(settle(w));
-}
-
 TYPED_TEST(WorldBodies, filters_part_bodies_by_category_mask_and_group) {
   using S = TypeParam;
   const auto collide = [](Filter a, Filter b) {
@@ -330,158 +242,6 @@ TYPED_TEST(WorldBodies, a_body_that_does_not_collide_falls_through_everything) {
   EXPECT_EQ(w.counts().contacts, 0u);
 }
 
-TYPED_TEST(WorldBodies, a_sensor_tells_of_coming_and_going_once_each_and_pushes_nothing) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0)), without(settings<S>(0));
-  const BodyId flier = w.create(moving<S>(add_ball(w, 0.5), {-3, 0, 0}, {6, 0, 0}));
-  const BodyId twin = without.create(moving<S>(add_ball(without, 0.5), {-3, 0, 0}, {6, 0, 0}));
-  BodyDefinition<S> d = still<S>(add_box(w, 0.5, 0.5, 0.5), {0, 0, 0});
-  d.sensor = true;
-  const BodyId sensor = w.create(d);
-  int begins = 0, ends = 0, begin_step = 0, end_step = 0;
-  for (int i = 1; i <= 60; ++i) {
-    w.step();
-    without.step();
-    for (const SensorEvent& e : w.events().sensor_begin) {
-      EXPECT_EQ(e.sensor, sensor);
-      EXPECT_EQ(e.other, flier);
-      ++begins;
-      begin_step = i;
-    }
-    for (const SensorEvent& e : w.events().sensor_end) {
-      EXPECT_EQ(e.sensor, sensor);
-      EXPECT_EQ(e.other, flier);
-      ++ends;
-      end_step = i;
-    }
-    EXPECT_TRUE(w.events().contact_begin.empty());
-  }
-  EXPECT_EQ(begins, 1);
-  EXPECT_EQ(ends, 1);
-  // Surfaces meet at x = -1 and part at x = 1: 20 steps and 40 steps of 1/10 m, seen when the next step begins.
-  EXPECT_NEAR(begin_step, 21, 1);
-  EXPECT_NEAR(end_step, 41, 1);
-  EXPECT_EQ(w.center_of_mass(flier), without.center_of_mass(twin));
-  EXPECT_EQ(w.velocity(flier), without.velocity(twin));
-}
-
-TYPED_TEST(WorldBodies, what_sleeps_inside_a_sensor_stays_inside_until_either_is_moved) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w);
-  const ShapeId box = add_box(w, 0.5, 0.5, 0.5);
-  BodyDefinition<S> d = still<S>(box, {0, 0.5, 0});
-  d.sensor = true;
-  const BodyId sensor = w.create(d);
-  const BodyId sleeper = w.create(moving<S>(box, {0, 0.5, 0}));
-  int begins = 0, ends = 0;
-  const auto step = [&] {
-    w.step();
-    begins += static_cast<int>(w.events().sensor_begin.size());
-    ends += static_cast<int>(w.events().sensor_end.size());
-  };
-  for (int i = 0; i < 90; ++i) step();
-  EXPECT_FALSE(w.is_awake(sleeper));
-  EXPECT_EQ(begins, 1);
-  EXPECT_EQ(ends, 0);
-  ASSERT_TRUE(w.set_pose(sensor, {vec<S>(5, 0.5, 0), Quat<Unit<S>>::identity()}));
-  for (int i = 0; i < 90; ++i) step();
-  EXPECT_EQ(begins, 1);
-  EXPECT_EQ(ends, 1);
-  EXPECT_FALSE(w.is_awake(sleeper));
-  ASSERT_TRUE(w.set_pose(sensor, {vec<S>(0, 0.5, 0), Quat<Unit<S>>::identity()}));
-  for (int i = 0; i < 3; ++i) step();
-  EXPECT_EQ(begins, 2);
-  EXPECT_TRUE(w.destroy(sleeper));
-  for (int i = 0; i < 3; ++i) step();
-  EXPECT_TRUE(w.state().overlaps.empty());
-}
-
-TYPED_TEST(WorldBodies, a_contact_begins_once_with_the_impulse_that_stopped_the_body) {
-  using S = TypeParam;
-  for (const double e : {0.0, 0.5}) {
-    World<S> w(settings<S>(0));
-    const BodyId ground = add_ground(w);
-    BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 1, 0}, {0, -4, 0});
-    d.mass = S(3);
-    d.material.restitution = num<S>(e);
-    const BodyId ball = w.create(d);
-    int begins = 0, ends = 0;
-    for (int i = 0; i < 30; ++i) {
-      w.step();
-      for (const ContactBegin<S>& c : w.events().contact_begin) {
-        ++begins;
-        EXPECT_EQ(c.a, ground);
-        EXPECT_EQ(c.b, ball);
-        expect_near(real(c.normal), {0, 1, 0}, 1e-4);
-        // The push out of the overlap that the ball arrived with comes on top.
-        EXPECT_GE(to_double(c.impulse), 0.99 * 3 * 4 * (1 + e));
-        EXPECT_LE(to_double(c.impulse), 1.2 * 3 * 4 * (1 + e));
-      }
-      ends += static_cast<int>(w.events().contact_end.size());
-    }
-    EXPECT_EQ(begins, 1);
-    EXPECT_GE(ends, e > 0 ? 1 : 0);
-    EXPECT_LE(ends, 1);
-  }
-}
-
-TYPED_TEST(WorldBodies, the_impulse_between_two_moving_bodies_is_that_of_their_reduced_mass) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  const ShapeId ball = add_ball(w, 0.5);
-  BodyDefinition<S> d = moving<S>(ball, {-1, 0, 0}, {3, 0, 0});
-  d.mass = S(2);
-  const BodyId a = w.create(d);
-  d = moving<S>(ball, {1, 0, 0}, {-3, 0, 0});
-  d.mass = S(6);
-  const BodyId b = w.create(d);
-  double impulse = 0;
-  for (int i = 0; i < 20; ++i) {
-    w.step();
-    for (const ContactBegin<S>& c : w.events().contact_begin) impulse = to_double(c.impulse);
-  }
-  EXPECT_NEAR(impulse, 1.5 * 6, 0.05 * 9);
-  EXPECT_NEAR(to_double(w.velocity(a).x), -1.5, 0.05);
-  EXPECT_NEAR(to_double(w.velocity(b).x), -1.5, 0.05);
-}
-
-TYPED_TEST(WorldBodies, contact_events_ascend_by_bodies_and_pair_up) {
-  using S = TypeParam;
-  World<S> w(settings<S>());
-  add_ground(w);
-  const ShapeId ball = add_ball(w, 0.5);
-  for (int i = 0; i < 30; ++i)
-    w.create(moving<S>(ball, {0.7 * (i % 5) + 0.01 * i, 1.0 + 1.1 * (i / 5), 0.6 * (i % 3)}));
-  std::vector<std::pair<BodyId, BodyId>> touching;
-  std::size_t total = 0;
-  const auto slots = [](auto& e) { return std::uint64_t{e.a.slot} << 32 | e.b.slot; };
-  for (int i = 0; i < 240; ++i) {
-    w.step();
-    const Events<S>& events = w.events();
-    for (std::size_t k = 0; k < events.contact_begin.size(); ++k) {
-      EXPECT_LT(events.contact_begin[k].a.slot, events.contact_begin[k].b.slot);
-      if (k > 0) {
-        EXPECT_LT(slots(events.contact_begin[k - 1]), slots(events.contact_begin[k]));
-      }
-      EXPECT_GE(to_double(events.contact_begin[k].impulse), 0) << "less than the format shows is none";
-      touching.emplace_back(events.contact_begin[k].a, events.contact_begin[k].b);
-    }
-    total += events.contact_begin.size();
-    for (std::size_t k = 0; k < events.contact_end.size(); ++k) {
-      if (k > 0) {
-        EXPECT_LT(slots(events.contact_end[k - 1]), slots(events.contact_end[k]));
-      }
-      const std::pair<BodyId, BodyId> pair(events.contact_end[k].a, events.contact_end[k].b);
-      std::size_t at = 0;
-      while (at < touching.size() && touching[at] != pair) ++at;
-      ASSERT_LT(at, touching.size()) << "a contact ended that never began";
-      touching.erase(touching.begin() + static_cast<std::ptrdiff_t>(at));
-    }
-  }
-  EXPECT_GT(total, 40u);
-}
-
 TYPED_TEST(WorldBodies, speed_beyond_the_limit_is_cut_and_reported) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
@@ -505,60 +265,6 @@ TYPED_TEST(WorldBodies, a_body_stops_at_the_edge_of_the_world_and_that_is_report
   EXPECT_EQ(w.velocity(id).x, S(0));
   EXPECT_NEAR(to_double(w.velocity(id).y), 1, 1e-3);
   EXPECT_TRUE(w.step().clean());
-}
-
-TYPED_TEST(WorldBodies, render_poses_lie_between_the_last_two_steps) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  BodyDefinition<S> d =
-      moving<S>(add_two_boxes(w, {0.5, 0.5, 0.5}, {0, 0, 0}, {0.5, 0.5, 0.5}, {3, 0, 0}), {1, 2, 3}, {6, 0, 0});
-  d.angular_velocity = vec<S>(0, 3, 0);
-  const BodyId id = w.create(d);
-  w.create(still<S>(add_ball(w, 1), {20, 0, 0}));
-  ASSERT_EQ(w.poses_float(0).size(), 1u);
-  EXPECT_FLOAT_EQ(w.poses_float(0)[0].position[0], 1);
-  w.step();
-  const Pose<S> first = w.pose(id);
-  w.step();
-  const Pose<S> second = w.pose(id);
-  const auto expect_at = [&](float alpha, D3 at) {
-    const RenderPose pose = w.poses_float(alpha)[0];
-    EXPECT_EQ(pose.body, id);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(pose.position[i], at[i], 2e-4);
-    double norm = 0;
-    for (const float q : pose.orientation) norm += static_cast<double>(q) * q;
-    EXPECT_NEAR(norm, 1, 1e-6);
-  };
-  expect_at(0, real(first.position));
-  expect_at(1, real(second.position));
-  expect_at(0.5f, (real(first.position) + real(second.position)) * 0.5);
-}
-
-TYPED_TEST(WorldBodies, a_body_new_since_the_last_step_is_drawn_where_it_is) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  const ShapeId ball = add_ball(w, 0.5);
-  const BodyId old = w.create(moving<S>(ball, {0, 0, 0}, {6, 0, 0}));
-  const BodyId gone = w.create(moving<S>(ball, {100, 0, 0}, {6, 0, 0}));
-  w.step();
-  w.step();
-  ASSERT_TRUE(w.destroy(gone));
-  const BodyId fresh = w.create(moving<S>(ball, {-100, 0, 0}));
-  const std::vector<RenderPose> poses = w.poses_float(0.5f);
-  ASSERT_EQ(poses.size(), 2u);
-  for (const RenderPose& pose : poses) {
-    EXPECT_TRUE(pose.body == fresh || pose.body == old);
-    EXPECT_NEAR(pose.position[0], pose.body == fresh ? -100 : 0.15, 1e-3);
-  }
-}
-
-TYPED_TEST(WorldBodies, a_teleported_body_is_not_drawn_on_the_way) {
-  using S = TypeParam;
-  World<S> w(settings<S>(0));
-  const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
-  w.step();
-  ASSERT_TRUE(w.set_pose(id, {vec<S>(100, 0, 0), Quat<Unit<S>>::identity()}));
-  EXPECT_FLOAT_EQ(w.poses_float(0.5f)[0].position[0], 100);
 }
 
 }  // namespace

@@ -67,6 +67,14 @@ template <class S> ShapeId add_box(World<S>& world, double x, double y, double z
 template <class S> ShapeId add_ball(World<S>& world, double radius) {
   return world.add_shape(Sphere<S>{num<S>(radius)});
 }
+template <class S> Child<S> part_at(const Primitive<S>& primitive, D3 at) {
+  return {primitive, {vec<S>(at), Quat<Unit<S>>::identity()}};
+}
+template <class S> ShapeId add_two_boxes(World<S>& w, D3 half_a, D3 at_a, D3 half_b, D3 at_b) {
+  const Child<S> parts[] = {part_at(primitive_of(Box<S>{vec<S>(half_a)}), at_a),
+                            part_at(primitive_of(Box<S>{vec<S>(half_b)}), at_b)};
+  return w.add_shape(std::span<const Child<S>>(parts));
+}
 
 /// All points below y = 0.
 template <class S> BodyId add_ground(World<S>& world, double friction = 0.6) {

@@ -28,7 +28,7 @@ template <class S> class ParticleSoftStep {
   /// What came fast goes back as its restitution says, once, after the step.
   void apply_restitution();
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   void warm_start();

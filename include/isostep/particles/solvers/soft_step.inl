@@ -138,8 +138,8 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::solve_friction(Row& row)
   // So that it has a length in the format.
   Vec3<V> next = held_within(saturating_subtract(old, slip), passing_speed<S>());
   const V limit = saturate_to<V>(product(row.impulse, row.friction));
-  const Direction<V> way = direction_of(next.x, next.y, next.z);
-  if (limit < way.length) next = Vec3<U>{way.x, way.y, way.z} * limit;
+  const Heading<V> way = heading_of(next);
+  if (limit < way.length) next = way.direction * limit;
   row.friction_impulse = next;
   detail::give(row, state_.velocity, saturating_subtract(next, old));
 }

@@ -11,8 +11,8 @@ namespace isostep::detail {
 /// Lengths along and across the way, so that nothing is squared that might not fit.
 template <class S> ISO_INLINE Unit<S> time_to_sphere(Vec3<S> p, Vec3<S> way, S radius) {
   using U = Unit<S>;
-  const Direction<S> along = direction_of(way.x, way.y, way.z);
-  const Vec3<U> u = {along.x, along.y, along.z};
+  const Heading<S> along = heading_of(way);
+  const Vec3<U> u = along.direction;
   const S ahead = -dot(p, u);  // to the nearest point
   if (along.length == S(0) || ahead <= S(0)) return U(1);
   const Vec3<S> off = p + u * ahead;
@@ -34,8 +34,8 @@ template <class S> ISO_INLINE Unit<S> time_to_line(const Collider<S>& line, Vec3
   const S reach = line.radius + radius;
   U first = min(time_to_sphere(p - line.start, way, reach), time_to_sphere(p - line.end, way, reach));
   const Vec3<S> span = line.end - line.start;
-  const Direction<S> axis = direction_of(span.x, span.y, span.z);
-  const Vec3<U> u = {axis.x, axis.y, axis.z};
+  const Heading<S> axis = heading_of(span);
+  const Vec3<U> u = axis.direction;
   const Vec3<S> d = p - line.start;
   const S at = dot(d, u), goes = dot(way, u);
   const U when = time_to_sphere(d - u * at, way - u * goes, reach);

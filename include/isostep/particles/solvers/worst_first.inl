@@ -46,9 +46,9 @@ ISO_INLINE Vec3<Velocity<S>> WorstFirst<S>::friction_change(const Row& row, Side
   // Held, so that it has a length in the format.
   const Vec3<V> wanted = held_within(saturating_subtract(row.friction_impulse, slip), passing_speed<S>());
   const V limit = saturate_to<V>(product(row.friction, row.impulse));
-  const Direction<V> way = direction_of(wanted.x, wanted.y, wanted.z);
+  const Heading<V> way = heading_of(wanted);
   if (!(limit < way.length)) return wanted - row.friction_impulse;
-  return Vec3<V>{way.x * limit, way.y * limit, way.z * limit} - row.friction_impulse;
+  return way.direction * limit - row.friction_impulse;
 }
 
 template <class S> void WorstFirst<S>::look(const Row& row, std::uint32_t index) {

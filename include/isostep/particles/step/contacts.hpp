@@ -25,7 +25,7 @@ template <class S> class ParticleContacts {
   /// step; events tell those that began, and what touched bodies got. Touches and pushes are used up.
   void store(bool keeps_impulses);
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   void add_links();

@@ -71,9 +71,7 @@ template <class S> void ParticleContacts<S>::add_links() {
 template <class S> void ParticleContacts<S>::find_pairs() {
   pairs_.clear();
   search_.clear();
-  bool any = false;
-  for (const ParticleMaterial<S>& material : state_.materials.all()) any = any || material.collides;
-  if (!any) return;
+  if (!search_.any_collides()) return;
   const bool divides = state_.settings.stepping == Stepping::time_division;
   for (std::uint32_t slot = 0; slot < state_.material.size(); ++slot) {
     const ParticleMaterial<S>& material = material_of(slot);
@@ -112,17 +110,17 @@ ISO_INLINE bool ParticleContacts<S>::is_old(const ParticleContact<S>& contact, s
 template <class S>
 void ParticleContacts<S>::add_contact(std::uint32_t a, std::uint32_t b, S radius, const ParticleMaterial<S>& material,
                                       std::size_t& old) {
-  const bool scenery = (b & ParticleContact<S>::kCollider) != 0;
+  const ParticleContact<S> contact = {a, b, V(0), Vec3<V>::zero()};
+  const bool scenery = contact.with_collider();
   Row row = {};
   row.kind = ConstraintKind::contact;
   row.a = a;
   row.b = scenery ? kNoParticle : b;
-  row.other = scenery ? b & ~ParticleContact<S>::kCollider : kNoParticle;
+  row.other = scenery ? contact.other_slot() : kNoParticle;
   row.radius = radius;
   detail::set_shares(row, state_.inverse_mass[a], scenery ? InverseMass<S>(0) : state_.inverse_mass[b]);
   row.friction = material.friction;
   row.restitution = material.restitution;
-  const ParticleContact<S> contact = {a, b, V(0), Vec3<V>::zero()};
   if (is_old(contact, old)) {
     row.impulse = old_contacts_[old].impulse;
     row.friction_impulse = old_contacts_[old].friction_impulse;
@@ -179,9 +177,8 @@ template <class S> void ParticleContacts<S>::store_contacts(bool keeps_impulses)
 template <class S> void ParticleContacts<S>::tell_contact(const ParticleContact<S>& contact, const Row& row) {
   ParticleContactBegin<S> begin = {};
   begin.a = state_.particles.template id_of<ParticleId>(contact.a);
-  const bool scenery = (contact.b & ParticleContact<S>::kCollider) != 0;
-  const std::uint32_t slot = contact.b & ~ParticleContact<S>::kCollider;
-  if (scenery) begin.collider = state_.colliders.slots().template id_of<ColliderId>(slot);
+  const std::uint32_t slot = contact.other_slot();
+  if (contact.with_collider()) begin.collider = state_.colliders.slots().template id_of<ColliderId>(slot);
   else begin.b = state_.particles.template id_of<ParticleId>(slot);
   begin.speed = convert<S>(-row.approach);
   step_.events.contact_begin.push_back(begin);

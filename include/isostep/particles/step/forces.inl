@@ -66,15 +66,15 @@ template <class S> void ParticleForces<S>::add(const ParticleForce<S>& force) {
   }
   if (force.type == ForceType::drag) {
     const Vec3<S> v = convert<S>(state_.velocity[slot]);
-    const Direction<S> way = direction_of(v.x, v.y, v.z);
+    const Heading<S> way = heading_of(v);
     const S coefficient = saturating_add(force.linear_drag, saturate_to<S>(product(force.quadratic_drag, way.length)));
     const S drag = saturate_to<S>(product(coefficient, way.length));
-    push(slot, w, -Vec3<U>{way.x, way.y, way.z}, drag);
+    push(slot, w, -way.direction, drag);
   }
   if (force.type == ForceType::buoyancy) {
     const Vec3<S> g = state_.settings.gravity;
-    const Direction<S> down = direction_of(g.x, g.y, g.z);
-    const Vec3<U> up = -Vec3<U>{down.x, down.y, down.z};
+    const Heading<S> down = heading_of(g);
+    const Vec3<U> up = -down.direction;
     const S sunk = force.surface_height + force.max_depth - dot(step_.now[slot], up);
     const S share = clamp(sunk / (force.max_depth + force.max_depth), S(0), S(1));
     const S displaced = saturate_to<S>(product(saturate_to<S>(product(force.density, force.volume)), share));
@@ -109,7 +109,7 @@ template <class S> void ParticleForces<S>::add_cohesions() {
 }
 template <class S> void ParticleForces<S>::add(const Cohesion<S>& cohesion, std::uint32_t i, std::uint32_t k) {
   const Vec3<S> d = step_.now[k] - step_.now[i];
-  const Direction<S> way = direction_of(d.x, d.y, d.z);
+  const Heading<S> way = heading_of(d);
   if (!(way.length <= cohesion.attract_end)) return;  // NaN is nowhere near
   S force = S(0);                                     // towards each other
   if (way.length < cohesion.repel_distance) {
@@ -118,7 +118,7 @@ template <class S> void ParticleForces<S>::add(const Cohesion<S>& cohesion, std:
     const S part = (way.length - cohesion.attract_start) / (cohesion.attract_end - cohesion.attract_start);
     force = cohesion.attract_force * part;
   }
-  const Vec3<U> u = {way.x, way.y, way.z};
+  const Vec3<U> u = way.direction;
   push(i, state_.inverse_mass[i], u, force);
   push(k, state_.inverse_mass[k], -u, force);
 }

@@ -7,7 +7,6 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/flight.hpp"
-#include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/step/step.hpp"
 
@@ -43,7 +42,7 @@ template <class S> class FreeFlight {
     state_.velocity.set(slot, {velocity.x * keep, velocity.y * keep, velocity.z * keep});
   }
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   FlightRun<S> run(std::uint32_t first = 0);

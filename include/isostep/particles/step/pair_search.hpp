@@ -7,7 +7,6 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/grid.hpp"
-#include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/step/step.hpp"
 
@@ -37,6 +36,8 @@ template <class S> class PairSearch {
     return pulls_.empty() ? way : min(saturating_add(way, pulls_[slot]), ParticleLimits<S>::position());
   }
 
+  /// Whether any material has particles that collide with each other.
+  bool any_collides() const;
   void clear();
   /// In ascending order of slots; `reach` [m] from where the particle is as the step begins.
   ISO_INLINE void add(std::uint32_t slot, S reach) {
@@ -46,7 +47,7 @@ template <class S> class PairSearch {
   /// Appends a << 32 | b of each pair a < b, ascending. Pairs beyond what settings allow are passed over and reported.
   void find(std::vector<std::uint64_t>& pairs);
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   bool may_meet() const;

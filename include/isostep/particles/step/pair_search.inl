@@ -9,11 +9,15 @@ namespace isostep {
 template <class S>
 PairSearch<S>::PairSearch(const ParticleState<S>& state, ParticleStep<S>& step) : state_(state), step_(step) {}
 
+template <class S> bool PairSearch<S>::any_collides() const {
+  for (const ParticleMaterial<S>& material : state_.materials.all()) {
+    if (material.collides) return true;
+  }
+  return false;
+}
 /// Whether any particle may meet anything but touches and links.
 template <class S> bool PairSearch<S>::may_meet() const {
-  bool collides = false;
-  for (const ParticleMaterial<S>& material : state_.materials.all()) collides = collides || material.collides;
-  return collides || !state_.colliders.all().empty() || !state_.cohesions.all().empty();
+  return any_collides() || !state_.colliders.all().empty() || !state_.cohesions.all().empty();
 }
 /// How far springs may carry their ends in a step beside their velocity: k h^2 / m of the extension, and to its other
 /// side at most.

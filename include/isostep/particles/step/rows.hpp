@@ -8,7 +8,6 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/constraint.hpp"
-#include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/step/step.hpp"
 
@@ -43,7 +42,8 @@ template <class S> class ParticleRows {
   /// What is touched goes on at its own pace, as the impulses changed it.
   void move_surfaces();
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_kinds(const Visit& visit);  // where each kind of row begins
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   ISO_INLINE void look_at_link(Row& row) const;

@@ -25,10 +25,10 @@ template <class S> ISO_INLINE void ParticleRows<S>::look_at_link(Row& row) const
   const Link<S>& link = state_.links.all()[row.other];
   const Vec3<S> b = row.b == kNoParticle ? link.anchor : step_.now[row.b];
   const Vec3<S> d = b - step_.now[row.a];
-  const Direction<S> way = direction_of(d.x, d.y, d.z);
+  const Heading<S> way = heading_of(d);
   const bool rod = row.kind == ConstraintKind::rod;
   // Upwards a rod opens whose ends are in one place, as particles part that are.
-  const Vec3<U> n = rod && way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : Vec3<U>{way.x, way.y, way.z};
+  const Vec3<U> n = rod && way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : way.direction;
   row.normal = rod ? n : -n;
   row.separation = rod ? way.length - link.length : link.length - way.length;
 }
@@ -41,9 +41,9 @@ template <class S> ISO_INLINE void ParticleRows<S>::look_at_contact(Row& row) co
     return;
   }
   const Vec3<S> d = step_.now[row.b] - a;
-  const Direction<S> way = direction_of(d.x, d.y, d.z);
+  const Heading<S> way = heading_of(d);
   // Particles in one place go apart upwards: any direction does, if it is the same everywhere.
-  row.normal = way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : Vec3<U>{way.x, way.y, way.z};
+  row.normal = way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : way.direction;
   row.separation = way.length - row.radius;
 }
 /// What is touched keeps its face for the step.

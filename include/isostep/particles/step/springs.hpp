@@ -4,7 +4,6 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/flight.hpp"
-#include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/spring_rows.hpp"
 #include "isostep/particles/step/step.hpp"
@@ -22,7 +21,7 @@ template <class S> class ParticleSprings {
   /// Beyond its elastic limit a spring stays deformed: its rest length follows (Millington, ch. 6.1.2). Events tell.
   void yield();
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   ParticleState<S>& state_;

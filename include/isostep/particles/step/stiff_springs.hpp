@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/step/rows.hpp"
 #include "isostep/particles/step/step.hpp"
@@ -32,7 +31,7 @@ template <class S> class StiffSprings {
   /// Adds them as forces, which they otherwise are not.
   void pull();
 
-  template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
+  template <class Visit> void visit_scratch(const Visit& visit);
 
  private:
   void count_holds(std::span<const ParticleConstraint<S>> rows);
