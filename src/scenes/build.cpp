@@ -189,5 +189,6 @@ template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   template BodyId add_body<S>(World<S>&, const SceneBody&, std::uint64_t, const std::string&); \
   template S value_of<S>(const Number&, const std::string&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

@@ -7,7 +7,6 @@ namespace isostep::scenes {
 namespace {
 
 /// Local y to world +x: -90 degrees about z.
-const double kHalfRoot = sqrt(0.5);
 
 SceneJoint ball_joint(int a, int b, Point anchor) {
   SceneJoint joint;

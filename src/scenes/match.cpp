@@ -116,5 +116,6 @@ MatchInput bot_input(std::uint64_t seed, int player, Frame frame) {
 
 #define ISO_INSTANTIATE(S) template class Match<S>;
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

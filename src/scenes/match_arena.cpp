@@ -7,9 +7,8 @@
 namespace isostep::scenes {
 namespace {
 
-constexpr double kPitch = 1.25;       // [m] between neighbours in the pile
-constexpr double kPuckRadius = 0.45;  // [m]
-const double kHalfRoot = sqrt(0.5);
+constexpr double kPilePitch = 1.25;                      // [m] between neighbours in the pile
+constexpr double kPuckRadius = 0.45;                     // [m]
 const Rotation kAxisUp = {-kHalfRoot, 0, 0, kHalfRoot};  // z, a joint's axis, to y
 
 /// Two spheres on a capsule, or two boxes: the pile's compounds.
@@ -36,8 +35,9 @@ void add_pile(Scene& scene, int count, int edge, std::uint32_t seed) {
   Draws draws(seed);
   for (int n = 0; n < count; ++n) {
     const int layer = n / (edge * edge), column = n % (edge * edge);
-    const double x = (column % edge - (edge - 1) * 0.5) * kPitch, z = (column / edge - (edge - 1) * 0.5) * kPitch;
-    const Point at = {x, 1.3 + kPitch * layer, z};
+    const double x = (column % edge - (edge - 1) * 0.5) * kPilePitch,
+                 z = (column / edge - (edge - 1) * 0.5) * kPilePitch;
+    const Point at = {x, 1.3 + kPilePitch * layer, z};
     const int kind = n % 5;
     SceneBody body = kind < 3 ? drawn_body(kind, at, draws, 1.2) : compound_body(kind == 3, at);
     body.angular_damping = 1;
@@ -61,7 +61,7 @@ int add_mill(Scene& scene) {
 }
 
 /// Links of capsules and a ball at the end.
-void add_rope(Scene& scene, Point top) {
+void add_weighted_rope(Scene& scene, Point top) {
   constexpr int kLinks = 4;
   constexpr double kLength = 0.5;  // [m]
   int last = -1;
@@ -104,7 +104,7 @@ MatchSettings within_range(MatchSettings settings) {
 MatchPlan plan_match(const MatchSettings& settings) {
   int edge = 4;
   while (edge * edge * edge < settings.pile) ++edge;
-  const double half = edge * kPitch / 2 + 2.5;
+  const double half = edge * kPilePitch / 2 + 2.5;
   MatchPlan plan = {{}, 0, 0, 0, 0, half};
   Scene& scene = plan.scene;
   scene.name = "match";
@@ -116,7 +116,7 @@ MatchPlan plan_match(const MatchSettings& settings) {
   add_pile(scene, settings.pile, edge, static_cast<std::uint32_t>(settings.seed));
   plan.mill_joint = add_mill(scene);
   plan.first_rope = static_cast<int>(scene.bodies.size());
-  for (const double side : {-1.0, 1.0}) add_rope(scene, {side * (half - 1.2), 3.8, side});
+  for (const double side : {-1.0, 1.0}) add_weighted_rope(scene, {side * (half - 1.2), 3.8, side});
   plan.first_puck = static_cast<int>(scene.bodies.size());
   add_pucks(scene, settings.players, half - 0.8);
   return plan;

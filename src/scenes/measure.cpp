@@ -170,5 +170,6 @@ template <class S> double largest_joint_error(const World<S>& world) {
   template Energy measure_energy<S>(const World<S>&);   \
   template double largest_joint_error<S>(const World<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

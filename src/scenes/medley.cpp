@@ -72,8 +72,6 @@ class Arm {
   int last_ = -1;
 };
 
-constexpr double kHalfRoot = 0.70710678118654752440;
-
 /// Motor, limits, springs, cone, rod, rope and weld; sideways from the vertical by their motor and spring.
 void add_arms(Scene& scene) {
   using namespace joint_flag;

@@ -6,8 +6,6 @@
 namespace isostep::scenes {
 namespace {
 
-const double kHalfRoot = sqrt(0.5);
-
 struct RagdollPart {
   ScenePart part;
   double x, y;    // [m] from the ragdoll's origin

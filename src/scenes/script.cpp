@@ -197,5 +197,6 @@ template <class S> void before_step(Script script, World<S>& world) {
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

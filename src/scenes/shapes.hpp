@@ -22,7 +22,8 @@ class Draws {
   std::uint32_t x_;
 };
 
-inline constexpr double kTurn = 6.28318530717958647692;  // [rad]
+inline constexpr double kTurn = 6.28318530717958647692;      // [rad]
+inline constexpr double kHalfRoot = 0.70710678118654752440;  // sine and cosine of an eighth of a turn
 
 struct Point {
   double x, y, z;
@@ -63,6 +64,20 @@ inline SceneBody fixed_box(Point at, Point half) {
 inline Rotation yaw(double angle) {
   const SinCos<double> half = sin_cos(angle / 2);
   return {0, half.sin, 0, half.cos};
+}
+
+/// An empty scene in which nobody falls asleep.
+inline Scene awake(int frames) {
+  Scene scene;
+  scene.allow_sleep = false;
+  scene.frames = frames;
+  return scene;
+}
+/// And nobody falls.
+inline Scene weightless(int frames) {
+  Scene scene = awake(frames);
+  scene.gravity = zero_vector();
+  return scene;
 }
 
 /// Top face at y = 0.

@@ -32,5 +32,6 @@ template <class S> Sight sight_of(const World<S>& world, int faults) {
 
 #define ISO_INSTANTIATE(S) template Sight sight_of<S>(const World<S>&, int);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

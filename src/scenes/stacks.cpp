@@ -6,7 +6,7 @@
 namespace isostep::scenes {
 namespace {
 
-constexpr double kPitch = 1.05;  // [m] no contact between neighbours
+constexpr double kBoxPitch = 1.05;  // [m] no contact between neighbours
 constexpr Point kUnitBox = {0.5, 0.5, 0.5};
 
 Scene on_floor(int frames) {
@@ -29,7 +29,7 @@ Scene wall() {
   Scene scene = on_floor(600);
   for (int row = 0; row < 20; ++row) {
     for (int i = 0; i < 20 - row; ++i) {
-      const double x = (i - (19 - row) * 0.5) * kPitch;
+      const double x = (i - (19 - row) * 0.5) * kBoxPitch;
       scene.bodies.push_back(body_of(box_part(kUnitBox), {x, 0.5 + row, 0}));
     }
   }
@@ -42,7 +42,7 @@ Scene pyramid() {
     const int n = 15 - layer;
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < n; ++k) {
-        const double x = (i - (n - 1) * 0.5) * kPitch, z = (k - (n - 1) * 0.5) * kPitch;
+        const double x = (i - (n - 1) * 0.5) * kBoxPitch, z = (k - (n - 1) * 0.5) * kBoxPitch;
         scene.bodies.push_back(body_of(box_part(kUnitBox), {x, 0.5 + layer, z}));
       }
     }

@@ -1,9 +1,9 @@
-// The rigid world of one scalar, compiled once more: src/isostep/instantiate/world.cpp for double alone.
+// The step of the rigid world, compiled once more: src/isostep/instantiate/world_step.cpp for double alone.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/world.inl"
+#include "isostep/world/engine_step.inl"
 
 namespace isostep {
 
-template class World<double>;
+ISO_INSTANTIATE_WORLD_STEP(double)
 
 }  // namespace isostep

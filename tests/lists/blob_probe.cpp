@@ -9,6 +9,7 @@
 #include "isostep/collision/broadphase/tree.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
+#include "isostep/world/engine_step.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/contact.hpp"
@@ -28,5 +29,9 @@ template <class S> class Carriers {
   std::vector<Carrier<S>> carriers_;  // by row
   std::vector<Carried<S>> carried_;
 };
+
+#define ISO_EXTERN(S) extern template class Carriers<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -12,6 +12,14 @@ namespace isostep {
 template <class T> struct Axes {
   std::vector<T> x, y, z;
 
+  // As the compiler makes them, but no weak functions in each of the files that copy them.
+  ISO_INLINE Axes() = default;
+  ISO_INLINE Axes(const Axes&) = default;
+  ISO_INLINE Axes(Axes&&) = default;
+  ISO_INLINE Axes& operator=(const Axes&) = default;
+  ISO_INLINE Axes& operator=(Axes&&) = default;
+  ISO_INLINE ~Axes() = default;
+
   ISO_INLINE std::size_t size() const { return x.size(); }
   ISO_INLINE Vec3<T> operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
   ISO_INLINE void set(std::size_t i, Vec3<T> value) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/particles/checks.hpp"
 #include "isostep/particles/particle_command.hpp"
 #include "isostep/particles/removal.hpp"
@@ -44,5 +45,9 @@ template <class S> class ParticleCommands {
   CommandJournal& journal_;
   ParticleRemoval<S>& removal_;
 };
+
+#define ISO_EXTERN(S) extern template class ParticleCommands<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

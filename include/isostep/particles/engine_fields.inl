@@ -108,4 +108,9 @@ void ParticleEngine<S>::walk_fields(void* engine, FieldGroup group, std::uint32_
   static_cast<ParticleEngine*>(engine)->visit_fields(group, stage, FieldVisitor(nullptr, reading));
 }
 
+template <class S> StageView ParticleEngine<S>::view(std::uint32_t stage) {
+  const auto hash = [](const void* engine) { return static_cast<const ParticleEngine*>(engine)->hash(); };
+  return {{this, hash, &ParticleEngine::walk_fields}, stage};
+}
+
 }  // namespace isostep

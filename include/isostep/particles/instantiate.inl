@@ -4,6 +4,7 @@
 
 #include "isostep/particles/bodies/instantiate.inl"
 #include "isostep/particles/engine_fields.inl"
+#include "isostep/particles/engine_step.inl"
 #include "isostep/particles/flight_kernel.inl"
 #include "isostep/particles/grid.inl"
 #include "isostep/particles/implicit_springs.inl"
@@ -23,5 +24,6 @@
   template class WorstFirst<S>;                                                     \
   template class ImplicitSprings<S>;                                                \
   template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);           \
+  ISO_INSTANTIATE_PARTICLE_STEP(S)                                                  \
   ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                 \
   ISO_INSTANTIATE_PARTICLE_BODIES(S)

@@ -21,13 +21,15 @@ template <class S> class ParticleEngine {
   ParticleEngine(const ParticleEngine&) = delete;  // its members refer to each other
   ParticleEngine& operator=(const ParticleEngine&) = delete;
 
+  // engine_step.inl
   ParticleReport step(const ParticleStageObserver& observer);
-  StageView view(std::uint32_t stage);
 
   // engine_fields.inl
+  StageView view(std::uint32_t stage);
   static void walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink);
   template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
+  // engine_state.inl
   void load(const ParticleState<S>& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
@@ -60,5 +62,10 @@ template <class S> class ParticleEngine {
   void solve_substeps();
   template <class Visit> void visit_scratch(const Visit& visit, ParticleStage stage);
 };
+
+/// The step is compiled apart from what is called between steps: instantiate/particle_step.cpp.
+#define ISO_EXTERN(S) extern template ParticleReport ParticleEngine<S>::step(const ParticleStageObserver&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -5,7 +5,10 @@
 #include <utility>
 #include <variant>
 
-#include "isostep/particles/particle_engine.inl"
+#include "isostep/particles/commands.inl"
+#include "isostep/particles/engine_state.inl"
+#include "isostep/particles/particle_engine.hpp"
+#include "isostep/particles/removal.inl"
 #include "isostep/state/command_log.hpp"
 
 namespace isostep {
@@ -193,8 +196,8 @@ template <class S> StageView ParticleWorld<S>::state_fields() const { return eng
 
 }  // namespace isostep
 
-/// ParticleWorld<S>, the systems behind it, and what each command does: a command of the list without `execute` does
-/// not compile.
+/// ParticleWorld<S>, and the systems that work between its steps (those of a step: engine_step.inl). What each command
+/// does: a command of the list without `execute` does not compile.
 #define ISO_INSTANTIATE_PARTICLE_EXECUTE(name, Type, Result, S) \
   template Result ParticleCommands<S>::execute(const Type&);
 #define ISO_INSTANTIATE_PARTICLE_RECORD(name, Record, Id, S)                \
@@ -202,17 +205,8 @@ template <class S> StageView ParticleWorld<S>::state_fields() const { return eng
   template bool ParticleCommands<S>::execute(const SetRecord<Record, Id>&); \
   template bool ParticleCommands<S>::execute(const RemoveRecord<Id>&);
 #define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                             \
-  template class FreeFlight<S>;                                                                       \
-  template class PairSearch<S>;                                                                       \
-  template class ParticleRows<S>;                                                                     \
-  template class ParticleContacts<S>;                                                                 \
-  template class ParticleSprings<S>;                                                                  \
-  template class StiffSprings<S>;                                                                     \
-  template class ParticleForces<S>;                                                                   \
-  template class ParticleIntegration<S>;                                                              \
-  template class ParticleSoftStep<S>;                                                                 \
-  template class WorstFirstStep<S>;                                                                   \
-  template class ParticleFinish<S>;                                                                   \
   template class ParticleRemoval<S>;                                                                  \
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_INSTANTIATE_PARTICLE_RECORD, S) \
+  template class ParticleCommands<S>;                                                                 \
+  template std::uint64_t ParticleEngine<S>::hash() const;                                             \
   template class ParticleWorld<S>;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/proxies.hpp"
@@ -32,5 +33,9 @@ template <class S> class BodyFinisher {
   const BodyMap<S>& map_;
   Proxies<S>& proxies_;
 };
+
+#define ISO_EXTERN(S) extern template class BodyFinisher<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

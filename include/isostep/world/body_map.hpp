@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -85,5 +86,9 @@ template <class S> class BodyMap {
   std::vector<Location> locations_, joint_locations_;
   std::vector<std::uint32_t> names_;  // by body slot
 };
+
+#define ISO_EXTERN(S) extern template class BodyMap<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

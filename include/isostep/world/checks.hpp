@@ -180,7 +180,7 @@ template <class S> bool overreaches(Vec3<S> kappa, const Quat<Unit<S>>& principa
 }
 
 /// Turning so fast that points of the body leave the range of velocities. `box` is the body's.
-template <class S> bool rotates_too_fast(Vec3<Velocity<S>> angular_velocity, const Aabb<S>& box) {
+template <class S> ISO_INLINE bool rotates_too_fast(Vec3<Velocity<S>> angular_velocity, const Aabb<S>& box) {
   const S reach = max_abs(box.high - box.low);  // twice the arm, roughly
   return product(convert<S>(Limits<S>::surface_speed()), S(1)) < product(reach, convert<S>(max_abs(angular_velocity)));
 }
@@ -198,7 +198,7 @@ template <class S> S most_acceleration(std::int32_t hz, S limit) {
   return product(half, S(1)) < product(S(hz), limit) ? half : S(hz) * limit;
 }
 
-template <class S> FaultReport fault_of_place(Vec3<S> point, const char* field) {
+template <class S> ISO_INLINE FaultReport fault_of_place(Vec3<S> point, const char* field) {
   return Checklist()
       .finite(point, field)
       .in_range(within(point, Limits<S>::position()), field, kWithinPosition)

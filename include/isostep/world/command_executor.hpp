@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/state/command_journal.hpp"
 #include "isostep/world/checks.hpp"
@@ -72,5 +73,9 @@ template <class S> class CommandExecutor {
   const AssetSource& assets_;
   CommandJournal& journal_;
 };
+
+#define ISO_EXTERN(S) extern template class CommandExecutor<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/state.hpp"
 
@@ -37,5 +38,9 @@ template <class S> class ContactEvents {
   const WorldState<S>& state_;
   std::vector<ContactEnd> end_scratch_;
 };
+
+#define ISO_EXTERN(S) extern template class ContactEvents<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

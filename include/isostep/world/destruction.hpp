@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/core/bitset.hpp"
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/island_wake.hpp"
 
 namespace isostep {
@@ -43,5 +44,9 @@ template <class S> class Destruction {
   std::vector<ContactEnd> contact_end_scratch_;
   std::vector<SensorEvent> sensor_end_scratch_;
 };
+
+#define ISO_EXTERN(S) extern template class Destruction<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

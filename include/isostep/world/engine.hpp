@@ -58,9 +58,9 @@ template <class S> class WorldEngine {
 
   // engine_step.inl
   StepReport step(const StageObserver& observer);
-  StageView view(std::uint32_t stage);
 
   // engine_fields.inl
+  StageView view(std::uint32_t stage);
   static void walk_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink);
   template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
@@ -102,5 +102,10 @@ template <class S> class WorldEngine {
   // engine_fields.inl
   template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
 };
+
+/// The step is compiled apart from what is called between steps: instantiate/world_step.cpp.
+#define ISO_EXTERN(S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -54,4 +54,9 @@ void WorldEngine<S>::walk_fields(void* engine, FieldGroup group, std::uint32_t s
   static_cast<WorldEngine*>(engine)->visit_fields(group, stage, FieldVisitor(nullptr, reading));
 }
 
+template <class S> StageView WorldEngine<S>::view(std::uint32_t stage) {
+  const auto hash = [](const void* engine) { return static_cast<const WorldEngine*>(engine)->hash(); };
+  return {{this, hash, &WorldEngine::walk_fields}, stage};
+}
+
 }  // namespace isostep

@@ -2,7 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/carriers.inl"
+#include "isostep/world/body_finisher.inl"
+#include "isostep/world/body_map.inl"
+#include "isostep/world/contact_events.inl"
 #include "isostep/world/engine.hpp"
+#include "isostep/world/island_sleep.inl"
+#include "isostep/world/island_wake.inl"
+#include "isostep/world/narrow_phase.inl"
+#include "isostep/world/proxies.inl"
+#include "isostep/world/queries.inl"
+#include "isostep/world/render_poses.inl"
+#include "isostep/world/sensor_overlaps.inl"
+#include "isostep/world/step_solver.inl"
 
 namespace isostep {
 
@@ -37,11 +49,6 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_sleep);
   ++state_.tick;
   return report_;
-}
-
-template <class S> StageView WorldEngine<S>::view(std::uint32_t stage) {
-  const auto hash = [](const void* engine) { return static_cast<const WorldEngine*>(engine)->hash(); };
-  return {{this, hash, &WorldEngine::walk_fields}, stage};
 }
 
 /// Until nothing that moves touches a sleeping island.
@@ -79,3 +86,21 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 }
 
 }  // namespace isostep
+
+/// What a game calls every frame: the step, the systems that it calls, and queries.
+#define ISO_INSTANTIATE_WORLD_STEP(S)                                                                       \
+  template class BodyMap<S>;                                                                                \
+  template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
+  template class Proxies<S>;                                                                                \
+  template class IslandWake<S>;                                                                             \
+  template class IslandSleep<S>;                                                                            \
+  template class PartPairs<S>;                                                                              \
+  template class NarrowPhase<S>;                                                                            \
+  template class Carriers<S>;                                                                               \
+  template class StepSolver<S>;                                                                             \
+  template class BodyFinisher<S>;                                                                           \
+  template class SensorOverlaps<S>;                                                                         \
+  template class ContactEvents<S>;                                                                          \
+  template class RenderPoses<S>;                                                                            \
+  template class Queries<S>;                                                                                \
+  template StepReport WorldEngine<S>::step(const StageObserver&);

@@ -18,7 +18,7 @@ struct EndKey {
     return std::uint64_t{end.sensor.slot} << 32 | end.other.slot;
   }
 };
-template <class End> void sort_ends(std::vector<End>& ends, std::vector<End>& scratch) {
+template <class End> ISO_INLINE void sort_ends(std::vector<End>& ends, std::vector<End>& scratch) {
   scratch.resize(ends.size());
   stable_sort(ends.data(), scratch.data(), static_cast<std::uint32_t>(ends.size()), EndKey{});
 }

@@ -4,7 +4,7 @@
 
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/world/command_executor.hpp"
-#include "isostep/world/fat_box.inl"
+#include "isostep/world/fat_box.hpp"
 
 namespace isostep {
 

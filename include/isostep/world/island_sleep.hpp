@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/core/disjoint_sets.hpp"
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -50,5 +51,9 @@ template <class S> class IslandSleep {
   std::vector<std::uint32_t> clock_;  // by island: the least of its bodies', then 1 if it falls asleep and 0 if not
   std::vector<std::shared_ptr<SleepingIsland<S>>> asleep_;  // by island
 };
+
+#define ISO_EXTERN(S) extern template class IslandSleep<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -68,5 +69,9 @@ template <class S> class IslandWake {
   std::vector<Record> records_, scratch_;
   std::vector<std::uint32_t> touched_;
 };
+
+#define ISO_EXTERN(S) extern template class IslandWake<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

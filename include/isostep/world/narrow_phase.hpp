@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 
@@ -75,5 +76,9 @@ template <class S> class NarrowPhase {
   std::vector<ContactGeometry<S>> geometry_;
   std::vector<SensorOverlap> overlaps_;
 };
+
+#define ISO_EXTERN(S) extern template class NarrowPhase<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_frames.hpp"
 
 namespace isostep {
@@ -89,5 +90,9 @@ template <class S> class PartPairs {
   std::vector<std::uint32_t> spheres_, boxes_, others_;  // places in their groups
   std::uint32_t cut_compounds_ = 0;
 };
+
+#define ISO_EXTERN(S) extern template class PartPairs<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -9,6 +9,7 @@
 
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/collision/broadphase/tree.hpp"
+#include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/world/crowd.hpp"
 #include "isostep/world/proxy.hpp"
@@ -50,5 +51,9 @@ template <class S> class Proxies {
   std::uint32_t left_out_ = 0;
   std::vector<Proxy<S>> proxies_;  // by slot
 };
+
+#define ISO_EXTERN(S) extern template class Proxies<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

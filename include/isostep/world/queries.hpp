@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/state/command_journal.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
@@ -44,5 +45,9 @@ template <class S> class Queries {
   const Proxies<S>& proxies_;
   CommandJournal& journal_;
 };
+
+#define ISO_EXTERN(S) extern template class Queries<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

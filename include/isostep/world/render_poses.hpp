@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/world.hpp"
 
@@ -46,5 +47,9 @@ template <class S> class RenderPoses {
   std::vector<std::uint32_t> start_slots_;  // of the same bodies, ascending
   std::vector<RenderPose> poses_;
 };
+
+#define ISO_EXTERN(S) extern template class RenderPoses<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/events.hpp"
 
@@ -27,5 +28,9 @@ template <class S> class SensorOverlaps {
   std::vector<SensorOverlap> sort_scratch_;
   std::vector<SensorEvent> end_scratch_;
 };
+
+#define ISO_EXTERN(S) extern template class SensorOverlaps<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -72,7 +72,7 @@ struct SensorOverlap {
   friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
     return a.sensor == b.sensor && a.other == b.other;
   }
-  friend constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
+  friend ISO_INLINE constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
     return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
   }
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {

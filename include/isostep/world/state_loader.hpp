@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -34,5 +35,9 @@ template <class S> class StateLoader {
   std::vector<std::uint32_t> other_islands_;  // indices at which the two states differ
   std::vector<std::uint32_t> forgotten_;      // slots of bodies
 };
+
+#define ISO_EXTERN(S) extern template class StateLoader<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

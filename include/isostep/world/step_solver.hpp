@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/events.hpp"
@@ -18,7 +19,7 @@ namespace isostep {
 /// Keeps:   nothing from step to step but memory.
 template <class S> class StepSolver {
  public:
-  ISO_INLINE StepSolver(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+  StepSolver(WorldState<S>& state, const BodyMap<S>& map);
 
   /// Takes the forces that commands left in the state.
   void take_forces(StepReport& report);
@@ -51,5 +52,9 @@ template <class S> class StepSolver {
   std::vector<JointEnds<S>> joint_ends_;
   std::vector<Velocity<S>> impulses_;
 };
+
+#define ISO_EXTERN(S) extern template class StepSolver<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

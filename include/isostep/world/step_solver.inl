@@ -7,6 +7,8 @@
 
 namespace isostep {
 
+template <class S> StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
 template <class S> void StepSolver<S>::take_forces(StepReport& report) {
   accelerations_.clear();
   if (state_.forces.empty()) return;

@@ -5,28 +5,15 @@
 #include <utility>
 #include <variant>
 
-#include "isostep/dynamics/carriers.inl"
 #include "isostep/state/command_log.hpp"
-#include "isostep/world/body_finisher.inl"
-#include "isostep/world/body_map.inl"
-#include "isostep/world/contact_events.inl"
 #include "isostep/world/destruction.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
-#include "isostep/world/engine_step.inl"
 #include "isostep/world/execute_bodies.inl"
 #include "isostep/world/execute_forces.inl"
 #include "isostep/world/execute_joints.inl"
 #include "isostep/world/execute_shapes.inl"
-#include "isostep/world/island_sleep.inl"
-#include "isostep/world/island_wake.inl"
-#include "isostep/world/narrow_phase.inl"
-#include "isostep/world/proxies.inl"
-#include "isostep/world/queries.inl"
-#include "isostep/world/render_poses.inl"
-#include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/state_loader.inl"
-#include "isostep/world/step_solver.inl"
 
 namespace isostep {
 
@@ -344,25 +331,13 @@ template <class S> StageView World<S>::state_fields() const { return engine_->vi
 
 }  // namespace isostep
 
-/// World<S>, the systems behind it, each a class that links alone, and what each command does: a command of the list
-/// without `execute` does not compile.
+/// World<S>, and the systems that work between its steps (those of a step: engine_step.inl). What each command does: a
+/// command of the list without `execute` does not compile.
 #define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);
-#define ISO_INSTANTIATE_WORLD(S)                   \
-  template class BodyMap<S>;                       \
-  template class Proxies<S>;                       \
-  template class IslandWake<S>;                    \
-  template class IslandSleep<S>;                   \
-  template class PartPairs<S>;                     \
-  template class NarrowPhase<S>;                   \
-  template class Carriers<S>;                      \
-  template class StepSolver<S>;                    \
-  template class BodyFinisher<S>;                  \
-  template class SensorOverlaps<S>;                \
-  template class ContactEvents<S>;                 \
-  template class RenderPoses<S>;                   \
-  template class Destruction<S>;                   \
-  template class Queries<S>;                       \
-  template class StateLoader<S>;                   \
-  ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S) \
-  template class CommandExecutor<S>;               \
+#define ISO_INSTANTIATE_WORLD(S)                       \
+  template class Destruction<S>;                       \
+  template class StateLoader<S>;                       \
+  ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S)     \
+  template class CommandExecutor<S>;                   \
+  template std::uint64_t WorldEngine<S>::hash() const; \
   template class World<S>;

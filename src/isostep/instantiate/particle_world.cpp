@@ -1,16 +1,9 @@
-// ParticleWorld<S> and what it draws on, for every shipped scalar.
+// ParticleWorld<S> and its commands for every shipped scalar; its step: particle_step.cpp.
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/particle_world.inl"
 
-#include "isostep/particles/stiff_spring.inl"
-
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)                                                         \
-  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);          \
-  template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S); \
-  ISO_INSTANTIATE_PARTICLE_WORLD(S)
-ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
-#undef ISO_INSTANTIATE
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_PARTICLE_WORLD)
 
 }  // namespace isostep

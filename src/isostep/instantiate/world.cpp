@@ -1,4 +1,4 @@
-// World<S> for every shipped scalar.
+// World<S> and its commands for every shipped scalar; its step: world_step.cpp.
 // SPDX-License-Identifier: MIT
 #include "isostep/world/world.inl"
 

@@ -4,8 +4,9 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) \
-  template void WorldEngine<S>::walk_fields(void*, FieldGroup, std::uint32_t, const FieldSink&);
+#define ISO_INSTANTIATE(S)                                                                       \
+  template void WorldEngine<S>::walk_fields(void*, FieldGroup, std::uint32_t, const FieldSink&); \
+  template StageView WorldEngine<S>::view(std::uint32_t);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -10,7 +10,7 @@
 namespace isostep::scenes::particle_scripts {
 namespace {
 
-constexpr std::uint64_t kSeed = 3;
+constexpr std::uint64_t kBlobSeed = 3;
 constexpr int kPlatforms = 10;
 
 template <class S> Vec3<S> shaken(Pcg32& random, int x, int y) {
@@ -19,7 +19,7 @@ template <class S> Vec3<S> shaken(Pcg32& random, int x, int y) {
 }
 /// Source:  Millington, ch. 8.3; its blob demo. Every second platform is to the right; all slope towards the middle.
 template <class S> void build_blob(ParticleWorld<S>& world) {
-  Pcg32 random = Pcg32::seeded(kSeed);
+  Pcg32 random = Pcg32::seeded(kBlobSeed);
   Vec3<S> middle = {S(0), S(0), S(0)};
   for (int i = 0; i < kPlatforms; ++i) {
     const int left = i % 2 * 10 - 5;
@@ -77,5 +77,6 @@ template <class S> ParticleScript<S> blob() {
 
 #define ISO_INSTANTIATE(S) template ParticleScript<S> blob();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

@@ -90,5 +90,6 @@ template <class S> ParticleScript<S> small_cloth(Integrator integrator) {
   template ParticleScript<S> soft_box(); \
   template ParticleScript<S> small_cloth(Integrator);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

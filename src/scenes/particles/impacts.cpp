@@ -38,12 +38,12 @@ template <class S> void build_cradle(ParticleWorld<S>& world) {
   }
 }
 
-constexpr std::uint64_t kSeed = 11;
+constexpr std::uint64_t kBilliardsSeed = 11;
 
 /// 5 x 8 x 5 into a pit of 3 m by 3 m, every second layer above the gaps of the one below.
 template <class S> void build_billiards(ParticleWorld<S>& world) {
   const ParticleMaterialId ivory = ball(world, S(0.2), S(0.4), S(0.3));
-  Pcg32 random = Pcg32::seeded(kSeed);
+  Pcg32 random = Pcg32::seeded(kBilliardsSeed);
   for (int i = 0; i < 200; ++i) {
     const S x = uniform(random, S(-0.04), S(0.04)), z = uniform(random, S(-0.04), S(0.04));
     const S aside = i / 25 % 2 == 0 ? S(-0.1) : S(0.1);
@@ -93,5 +93,6 @@ template <class S> ParticleScript<S> bullets() {
   template ParticleScript<S> billiards(); \
   template ParticleScript<S> bullets();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

@@ -98,5 +98,6 @@ template <class S> double largest_speed(const ParticleWorld<S>& world) {
   template double largest_overlap<S>(const ParticleWorld<S>&);        \
   template double largest_speed<S>(const ParticleWorld<S>&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

@@ -67,5 +67,6 @@ template <class S> ParticleScript<S> script_of(ParticleSceneId id) {
 
 #define ISO_INSTANTIATE(S) template ParticleScript<S> script_of<S>(ParticleSceneId);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes

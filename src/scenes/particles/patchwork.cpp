@@ -37,7 +37,8 @@ template <class S> void add_cloth(ParticleWorld<S>& world, ParticleMaterialId ma
   hang(world, kSide * (kSide - 1), LinkType::rod);
   hang(world, kSide * kSide - 1, LinkType::cable);
 }
-template <class S> ParticleId add_ball(ParticleWorld<S>& world, ParticleMaterialId material, Vec3<S> at, Vec3<S> v) {
+template <class S>
+ParticleId add_light_ball(ParticleWorld<S>& world, ParticleMaterialId material, Vec3<S> at, Vec3<S> v) {
   ParticleDefinition<S> d;
   d.material = material;
   d.position = at;
@@ -55,11 +56,11 @@ template <class S> void build_patchwork(ParticleWorld<S>& world) {
   wool.collides = true;
   const ParticleMaterialId material = world.add(wool);
   add_cloth(world, material);
-  add_ball(world, material, {S(0.25), S(3.5), S(0.25)}, {S(0), S(-1), S(0)});
-  add_ball(world, material, {S(-0.125), S(3), S(-0.0625)}, {S(0), S(0), S(0)});
-  add_ball(world, material, {S(2), S(1.5), S(0)}, {S(-1), S(0), S(0.25)});
+  add_light_ball(world, material, {S(0.25), S(3.5), S(0.25)}, {S(0), S(-1), S(0)});
+  add_light_ball(world, material, {S(-0.125), S(3), S(-0.0625)}, {S(0), S(0), S(0)});
+  add_light_ball(world, material, {S(2), S(1.5), S(0)}, {S(-1), S(0), S(0.25)});
   Link<S> tether;  // to the ball that strikes the bar
-  tether.a = add_ball(world, material, {S(1.5), S(2), S(0.0625)}, {S(0), S(0), S(0)});
+  tether.a = add_light_ball(world, material, {S(1.5), S(2), S(0.0625)}, {S(0), S(0), S(0)});
   tether.b = particle_at(world, kSide * kSide + 2);
   tether.length = S(0.75);
   world.add(tether);
@@ -82,5 +83,6 @@ template <class S> ParticleScript<S> patchwork() {
 
 #define ISO_INSTANTIATE(S) template ParticleScript<S> patchwork();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

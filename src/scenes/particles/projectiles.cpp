@@ -152,5 +152,6 @@ template <class S> ParticleScript<S> fireworks() {
   template ParticleScript<S> ballistic(); \
   template ParticleScript<S> fireworks();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

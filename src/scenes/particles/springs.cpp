@@ -171,5 +171,6 @@ template <class S> ParticleScript<S> springs() { return {{}, build_springs<S>, c
 
 #define ISO_INSTANTIATE(S) template ParticleScript<S> springs();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

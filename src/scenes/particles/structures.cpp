@@ -95,5 +95,6 @@ template <class S> ParticleScript<S> platform() {
   template ParticleScript<S> bridge(ParticleSolver); \
   template ParticleScript<S> platform();
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::scenes::particle_scripts

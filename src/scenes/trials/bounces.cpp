@@ -8,8 +8,6 @@
 namespace isostep::scenes {
 namespace {
 
-constexpr double kGravity = 10;  // [m/s^2]
-
 /// [%] Largest change of a group's energy of motion and height above `floor`, a kilogram, over that of the start.
 class EnergyKept : public Judge {
  public:
@@ -100,17 +98,18 @@ std::unique_ptr<Judge> judge_cradle(const Scene&) {
   return std::make_unique<EnergyKept>(kHook - kString, kGravity, true);
 }
 
-const Trial kTrials[] = {
-    {"bouncing_balls", "24", "balls of restitution 1 bounce on a floor for ten seconds", "change of energy", "%", 2,
-     bouncing_balls, judge_bouncing},
-    {"rallies", "24", "balls of restitution 1 fly to and fro between walls at up to 50 m/s", "change of energy", "%", 2,
-     rallies, judge_rallies},
-    {"newtons_cradle", "24", "Newton's cradle of five balls for ten knocks", "change of energy", "%", 2, cradle,
-     judge_cradle},
-};
-
 }  // namespace
 
-std::span<const Trial> bounce_trials() { return kTrials; }
+std::span<const Trial> bounce_trials() {
+  static const Trial trials[] = {
+      {"bouncing_balls", "24", "balls of restitution 1 bounce on a floor for ten seconds", "change of energy", "%", 2,
+       bouncing_balls, judge_bouncing},
+      {"rallies", "24", "balls of restitution 1 fly to and fro between walls at up to 50 m/s", "change of energy", "%",
+       2, rallies, judge_rallies},
+      {"newtons_cradle", "24", "Newton's cradle of five balls for ten knocks", "change of energy", "%", 2, cradle,
+       judge_cradle},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -13,7 +13,6 @@ constexpr double kTop = 30;  // [m]
 
 /// The i-th link's middle `x` from the fixed point.
 void add_link(Scene& scene, double x) {
-  constexpr double kHalfRoot = 0.70710678118654752440;
   SceneBody link = body_of(capsule_part(0.05, kLink / 2 - 0.05), {x, kTop, 0});
   link.orientation = {0, 0, -kHalfRoot, kHalfRoot};
   link.mass = 1;
@@ -135,24 +134,24 @@ class EnergyRise : public Judge {
 std::unique_ptr<Judge> rise_from_start(const Scene& scene) { return std::make_unique<EnergyRise>(scene, 0); }
 std::unique_ptr<Judge> rise_when_contracted(const Scene& scene) { return std::make_unique<EnergyRise>(scene, 1); }
 
-constexpr char kStretch[] = "peak separation of a joint, of a link's length";
 constexpr char kRise[] = "rise of energy above earlier peaks over 10 000 steps, of that of the fall";
-
-const Trial kTrials[] = {
-    {"chain_16_ball_1000", "5", "16 links of 1 kg swing with a ball of 1000 kg", kStretch, "%", 5, thousandfold_ball,
-     judge_of<Stretch>},
-    {"chain_32_ball_600", "5", "32 links of 1 kg swing with a ball of 600 kg", kStretch, "%", 5, sixhundredfold_ball,
-     judge_of<Stretch>},
-    {"stretched_chain", "7", "20 links on rods that start 3.5 times too long", "largest speed over 10 000 steps", "m/s",
-     100, stretched_chain, judge_of<TopSpeed>},
-    {"stretched_chain_energy", "7", "the same chain, once its rods have had a second", kRise, "%", 1, stretched_chain,
-     rise_when_contracted},
-    {"limited_chain", "7", "16 links on hinges with limits, for there are no sliders", kRise, "%", 1, limited_chain,
-     rise_from_start},
-};
 
 }  // namespace
 
-std::span<const Trial> chain_trials() { return kTrials; }
+std::span<const Trial> chain_trials() {
+  static const Trial trials[] = {
+      {"chain_16_ball_1000", "5", "16 links of 1 kg swing with a ball of 1000 kg", kStretch, "%", 5, thousandfold_ball,
+       judge_of<Stretch>},
+      {"chain_32_ball_600", "5", "32 links of 1 kg swing with a ball of 600 kg", kStretch, "%", 5, sixhundredfold_ball,
+       judge_of<Stretch>},
+      {"stretched_chain", "7", "20 links on rods that start 3.5 times too long", "largest speed over 10 000 steps",
+       "m/s", 100, stretched_chain, judge_of<TopSpeed>},
+      {"stretched_chain_energy", "7", "the same chain, once its rods have had a second", kRise, "%", 1, stretched_chain,
+       rise_when_contracted},
+      {"limited_chain", "7", "16 links on hinges with limits, for there are no sliders", kRise, "%", 1, limited_chain,
+       rise_from_start},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -124,18 +124,19 @@ Scene confined_crowd() {
   return scene;
 }
 
-const Trial kTrials[] = {
-    {"dominoes", "11", "200 dominoes in a line",
-     "spread of the front's speed over the second half; 100 where not all fall", "%", 2, dominoes,
-     judge_of<FrontSpread>},
-    {"woken_crowd", "25", "10 000 spheres asleep in a pit, one is hit with 20 m/s (by a script)", "largest speed",
-     "m/s", 20, woken_crowd, judge_of<TopSpeed>},
-    {"confined_crowd", "25", "729 spheres between walls with room for fewer", "largest speed", "m/s", 3, confined_crowd,
-     judge_of<TopSpeed>},
-};
-
 }  // namespace
 
-std::span<const Trial> crowd_trials() { return kTrials; }
+std::span<const Trial> crowd_trials() {
+  static const Trial trials[] = {
+      {"dominoes", "11", "200 dominoes in a line",
+       "spread of the front's speed over the second half; 100 where not all fall", "%", 2, dominoes,
+       judge_of<FrontSpread>},
+      {"woken_crowd", "25", "10 000 spheres asleep in a pit, one is hit with 20 m/s (by a script)", "largest speed",
+       "m/s", 20, woken_crowd, judge_of<TopSpeed>},
+      {"confined_crowd", "25", "729 spheres between walls with room for fewer", "largest speed", "m/s", 3,
+       confined_crowd, judge_of<TopSpeed>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -60,26 +60,26 @@ constexpr char kStack[] = "10 unit boxes stacked, far from the origin", kDrift[]
 constexpr char kPyramid[] = "a wall of ten rows, far from the origin",
                kDisplaced[] = "boxes displaced by more than half their size";
 constexpr char kRagdoll[] = "a ragdoll falls, far from the origin", kJoints[] = "peak separation of a joint";
-constexpr char kChain[] = "16 links of 1 kg swing with a ball of 100 kg, far from the origin",
-               kStretch[] = "peak separation of a joint, of a link's length";
-
-const Trial kTrials[] = {
-    {"far_stack_10km", "20", kStack, kDrift, "%", 1, far_stack<10>, judge_of<Drift>},
-    {"far_stack_100km", "20", kStack, kDrift, "%", 1, far_stack<100>, judge_of<Drift>},
-    {"far_stack_1000km", "20", kStack, kDrift, "%", 1, far_stack<1000>, judge_of<Drift>},
-    {"far_pyramid_10km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<10>, displaced_by_half},
-    {"far_pyramid_100km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<100>, displaced_by_half},
-    {"far_pyramid_1000km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<1000>, displaced_by_half},
-    {"far_ragdoll_10km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<10>, in_millimetres},
-    {"far_ragdoll_100km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<100>, in_millimetres},
-    {"far_ragdoll_1000km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<1000>, in_millimetres},
-    {"far_chain_10km", "20", kChain, kStretch, "%", 5, far_chain<10>, in_links},
-    {"far_chain_100km", "20", kChain, kStretch, "%", 5, far_chain<100>, in_links},
-    {"far_chain_1000km", "20", kChain, kStretch, "%", 5, far_chain<1000>, in_links},
-};
+constexpr char kChain[] = "16 links of 1 kg swing with a ball of 100 kg, far from the origin";
 
 }  // namespace
 
-std::span<const Trial> far_trials() { return kTrials; }
+std::span<const Trial> far_trials() {
+  static const Trial trials[] = {
+      {"far_stack_10km", "20", kStack, kDrift, "%", 1, far_stack<10>, judge_of<Drift>},
+      {"far_stack_100km", "20", kStack, kDrift, "%", 1, far_stack<100>, judge_of<Drift>},
+      {"far_stack_1000km", "20", kStack, kDrift, "%", 1, far_stack<1000>, judge_of<Drift>},
+      {"far_pyramid_10km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<10>, displaced_by_half},
+      {"far_pyramid_100km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<100>, displaced_by_half},
+      {"far_pyramid_1000km", "20", kPyramid, kDisplaced, "", 0, far_pyramid<1000>, displaced_by_half},
+      {"far_ragdoll_10km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<10>, in_millimetres},
+      {"far_ragdoll_100km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<100>, in_millimetres},
+      {"far_ragdoll_1000km", "20", kRagdoll, kJoints, "mm", 120, far_ragdoll<1000>, in_millimetres},
+      {"far_chain_10km", "20", kChain, kStretch, "%", 5, far_chain<10>, in_links},
+      {"far_chain_100km", "20", kChain, kStretch, "%", 5, far_chain<100>, in_links},
+      {"far_chain_1000km", "20", kChain, kStretch, "%", 5, far_chain<1000>, in_links},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

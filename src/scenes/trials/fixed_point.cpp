@@ -9,18 +9,6 @@
 namespace isostep::scenes {
 namespace {
 
-Scene awake(int frames) {
-  Scene scene;
-  scene.allow_sleep = false;
-  scene.frames = frames;
-  return scene;
-}
-Scene weightless(int frames) {
-  Scene scene = awake(frames);
-  scene.gravity = zero_vector();
-  return scene;
-}
-
 constexpr double kGiant = 50, kDie = 0.005;  // [m] half of a side
 
 /// Dice of a gram lie on a cube of a thousand tonnes, and beside it.
@@ -202,23 +190,24 @@ std::unique_ptr<Judge> judge_soak(const Scene& scene) {
   return std::make_unique<FurthestWay>(duration_of(scene) - 60, 0.001);
 }
 
-const Trial kTrials[] = {
-    {"sizes_apart", "f1", "dice of a gram on and beside a cube of 100 m and a thousand tonnes", "furthest way", "mm", 5,
-     sizes_apart, judge_sizes},
-    {"coincident_pairs", "f2", "pairs whose centres or faces coincide, weightless",
-     "exit speed over 3 m/s, or overlap left over 5 % of the width", "", 1, coincident_pairs, judge_of<PairsApart>},
-    {"long_lever", "f3", "a shot at 8 km/s hits the end of a beam of 100 m", "error of linear and angular velocity",
-     "%", 2, long_lever, judge_of<LeverError>},
-    {"spin_hour", "f4", "a box turns for an hour, weightless", "error of norm, axis or angle", "ppm", 100,
-     spin_for_an_hour, judge_of<HourOfSpin>},
-    {"slow_drift", "f5", "bodies at rest and at 1 mm/s, weightless, for ten minutes", "drift, of 1 mm/s", "%", 1,
-     slow_drift, judge_of<DriftSpeed>},
-    {"soak", "f6", "40 boxes heaped in a pit, never asleep, for three minutes", "furthest creep in the last minute",
-     "mm/min", 10, soak, judge_soak},
-};
-
 }  // namespace
 
-std::span<const Trial> fixed_point_trials() { return kTrials; }
+std::span<const Trial> fixed_point_trials() {
+  static const Trial trials[] = {
+      {"sizes_apart", "f1", "dice of a gram on and beside a cube of 100 m and a thousand tonnes", "furthest way", "mm",
+       5, sizes_apart, judge_sizes},
+      {"coincident_pairs", "f2", "pairs whose centres or faces coincide, weightless",
+       "exit speed over 3 m/s, or overlap left over 5 % of the width", "", 1, coincident_pairs, judge_of<PairsApart>},
+      {"long_lever", "f3", "a shot at 8 km/s hits the end of a beam of 100 m", "error of linear and angular velocity",
+       "%", 2, long_lever, judge_of<LeverError>},
+      {"spin_hour", "f4", "a box turns for an hour, weightless", "error of norm, axis or angle", "ppm", 100,
+       spin_for_an_hour, judge_of<HourOfSpin>},
+      {"slow_drift", "f5", "bodies at rest and at 1 mm/s, weightless, for ten minutes", "drift, of 1 mm/s", "%", 1,
+       slow_drift, judge_of<DriftSpeed>},
+      {"soak", "f6", "40 boxes heaped in a pit, never asleep, for three minutes", "furthest creep in the last minute",
+       "mm/min", 10, soak, judge_soak},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -8,8 +8,6 @@
 namespace isostep::scenes {
 namespace {
 
-constexpr double kGravity = 10;  // [m/s^2]
-
 /// Both surfaces have `friction`.
 Scene with_ground(double friction, int frames, SceneBody ground) {
   Scene scene;
@@ -150,19 +148,20 @@ std::unique_ptr<Judge> judge_rolling_stop(const Scene&) {
   return std::make_unique<Travel>(kRollSpeed * kRollSpeed / (2 * slowing), 0, kRollSpeed);
 }
 
-const Trial kTrials[] = {
-    {"resting_slope", "17", "boxes on a slope of 0.9 of their friction, for a minute", "furthest creep", "mm/min", 1,
-     resting_slope, judge_creep},
-    {"sliding_slope", "17", "boxes slide down a slope of 1.1 of their friction", "error of acceleration", "%", 2,
-     sliding_slope, judge_of<SlopeSlide>},
-    {"conveyor", "23", "a belt takes a box along", "error of way or speed", "%", 2, conveyor, judge_conveyor},
-    {"billiard", "23", "a ball slides, then rolls", "error of way or speed", "%", 2, billiard, judge_billiard},
-    {"rolling_stop", "23", "a ball rolls to a stop by rolling resistance", "error of way or speed", "%", 2,
-     rolling_stop, judge_rolling_stop},
-};
-
 }  // namespace
 
-std::span<const Trial> friction_trials() { return kTrials; }
+std::span<const Trial> friction_trials() {
+  static const Trial trials[] = {
+      {"resting_slope", "17", "boxes on a slope of 0.9 of their friction, for a minute", "furthest creep", "mm/min", 1,
+       resting_slope, judge_creep},
+      {"sliding_slope", "17", "boxes slide down a slope of 1.1 of their friction", "error of acceleration", "%", 2,
+       sliding_slope, judge_of<SlopeSlide>},
+      {"conveyor", "23", "a belt takes a box along", "error of way or speed", "%", 2, conveyor, judge_conveyor},
+      {"billiard", "23", "a ball slides, then rolls", "error of way or speed", "%", 2, billiard, judge_billiard},
+      {"rolling_stop", "23", "a ball rolls to a stop by rolling resistance", "error of way or speed", "%", 2,
+       rolling_stop, judge_rolling_stop},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

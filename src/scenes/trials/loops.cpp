@@ -116,17 +116,18 @@ Scene ring() {
   return scene;
 }
 
-const Trial kTrials[] = {
-    {"four_bar", "22", "a linkage of four hinges, hit by a ball at 100 m/s", "joint error in the last second", "mm", 10,
-     four_bar, judge_of<LoopError>},
-    {"braced_frame", "22", "a cube of twelve beams welded in rings, hit by a ball of 20 kg at 100 m/s",
-     "joint error in the last second", "mm", 10, braced_frame, judge_of<LoopError>},
-    {"ring", "22", "a closed chain of 16 links on the floor, hit by a ball at 100 m/s",
-     "joint error in the last second", "mm", 10, ring, judge_of<LoopError>},
-};
-
 }  // namespace
 
-std::span<const Trial> loop_trials() { return kTrials; }
+std::span<const Trial> loop_trials() {
+  static const Trial trials[] = {
+      {"four_bar", "22", "a linkage of four hinges, hit by a ball at 100 m/s", "joint error in the last second", "mm",
+       10, four_bar, judge_of<LoopError>},
+      {"braced_frame", "22", "a cube of twelve beams welded in rings, hit by a ball of 20 kg at 100 m/s",
+       "joint error in the last second", "mm", 10, braced_frame, judge_of<LoopError>},
+      {"ring", "22", "a closed chain of 16 links on the floor, hit by a ball at 100 m/s",
+       "joint error in the last second", "mm", 10, ring, judge_of<LoopError>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -38,14 +38,6 @@ class FreeTurning : public Judge {
   double worst_ = 0;
 };
 
-Scene weightless(int frames) {
-  Scene scene;
-  scene.gravity = zero_vector();
-  scene.allow_sleep = false;
-  scene.frames = frames;
-  return scene;
-}
-
 /// Moments 1.56, 3.57, 4.76 kg m^2 about x, y, z: about its stem, y, it turns over once in about two seconds.
 Scene t_handle() {
   Scene scene = weightless(600);
@@ -105,17 +97,18 @@ Scene whirling_rods() {
   return scene;
 }
 
-const Trial kTrials[] = {
-    {"t_handle", "12", "a T of two boxes turns over and over, weightless",
-     "change of angular momentum, or energy gained", "%", 2, t_handle, judge_of<FreeTurning>},
-    {"tilted_box", "12", "a flat box tumbles about no axis of its own, weightless",
-     "change of angular momentum, or energy gained", "%", 2, tilted_box, judge_of<FreeTurning>},
-    {"whirling_rods", "13", "thin rods fall onto a thin floor, their tips at 20 m/s",
-     "depth below the floor over a rod's radius, or percent of energy gained", "", 1, whirling_rods, judge_of<Whirl>},
-};
-
 }  // namespace
 
-std::span<const Trial> motion_trials() { return kTrials; }
+std::span<const Trial> motion_trials() {
+  static const Trial trials[] = {
+      {"t_handle", "12", "a T of two boxes turns over and over, weightless",
+       "change of angular momentum, or energy gained", "%", 2, t_handle, judge_of<FreeTurning>},
+      {"tilted_box", "12", "a flat box tumbles about no axis of its own, weightless",
+       "change of angular momentum, or energy gained", "%", 2, tilted_box, judge_of<FreeTurning>},
+      {"whirling_rods", "13", "thin rods fall onto a thin floor, their tips at 20 m/s",
+       "depth below the floor over a rod's radius, or percent of energy gained", "", 1, whirling_rods, judge_of<Whirl>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

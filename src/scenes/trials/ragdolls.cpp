@@ -74,17 +74,18 @@ class RagdollEnergy : public Judge {
   double rise_ = 0;
 };
 
-const Trial kTrials[] = {
-    {"ragdolls_with_limits", "S20", "50 ragdolls with the limits of a body's joints fall into a pit",
-     "joints of 50 mm, 5 mm at the end, limits passed by 0.15 rad, 0.02 rad at the end, or energy gained: the worst, "
-     "of its bar",
-     "%", 100, limited_ragdolls, judge_of<LimitedRagdolls>},
-    {"ragdoll_from_every_tilt", "26", "a ragdoll with limits falls 2 m, at a hundred tilts",
-     "energy that any of them gained", "J/kg", kRise, tilted_ragdolls, judge_of<RagdollEnergy>},
-};
-
 }  // namespace
 
-std::span<const Trial> ragdoll_trials() { return kTrials; }
+std::span<const Trial> ragdoll_trials() {
+  static const Trial trials[] = {
+      {"ragdolls_with_limits", "S20", "50 ragdolls with the limits of a body's joints fall into a pit",
+       "joints of 50 mm, 5 mm at the end, limits passed by 0.15 rad, 0.02 rad at the end, or energy gained: the worst, "
+       "of its bar",
+       "%", 100, limited_ragdolls, judge_of<LimitedRagdolls>},
+      {"ragdoll_from_every_tilt", "26", "a ragdoll with limits falls 2 m, at a hundred tilts",
+       "energy that any of them gained", "J/kg", kRise, tilted_ragdolls, judge_of<RagdollEnergy>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -153,21 +153,22 @@ class TimeToRest : public Judge {
   bool lost_ = false;
 };
 
-const Trial kTrials[] = {
-    {"overlapped_pairs", "18", "pairs begin a quarter and a half inside one another, weightless",
-     "exit speed over 3 m/s, or overlap left over 5 % of the width", "", 1, overlapped_pairs, judge_of<PairsApart>},
-    {"overlapped_wall", "18", "ten boxes of a wall begin a quarter inside one another",
-     "exit speed beyond that of falling", "m/s", 3, overlapped_wall, judge_of<ExitSpeed>},
-    {"overlapped_pile", "18", "27 boxes begin 40 % inside one another", "exit speed beyond that of falling", "m/s", 3,
-     overlapped_pile, judge_of<ExitSpeed>},
-    {"tiny_wall", "19", "a wall of 210 bricks of 5 cm", "furthest way of a brick, of its side", "%", 25, tiny_wall,
-     judge_bricks},
-    {"tiny_dice", "19", "24 dice of a centimetre and a gram fall into a tray", "time until all sleep in it", "s", 5,
-     tiny_dice, judge_of<TimeToRest>},
-};
-
 }  // namespace
 
-std::span<const Trial> recovery_trials() { return kTrials; }
+std::span<const Trial> recovery_trials() {
+  static const Trial trials[] = {
+      {"overlapped_pairs", "18", "pairs begin a quarter and a half inside one another, weightless",
+       "exit speed over 3 m/s, or overlap left over 5 % of the width", "", 1, overlapped_pairs, judge_of<PairsApart>},
+      {"overlapped_wall", "18", "ten boxes of a wall begin a quarter inside one another",
+       "exit speed beyond that of falling", "m/s", 3, overlapped_wall, judge_of<ExitSpeed>},
+      {"overlapped_pile", "18", "27 boxes begin 40 % inside one another", "exit speed beyond that of falling", "m/s", 3,
+       overlapped_pile, judge_of<ExitSpeed>},
+      {"tiny_wall", "19", "a wall of 210 bricks of 5 cm", "furthest way of a brick, of its side", "%", 25, tiny_wall,
+       judge_bricks},
+      {"tiny_dice", "19", "24 dice of a centimetre and a gram fall into a tray", "time until all sleep in it", "s", 5,
+       tiny_dice, judge_of<TimeToRest>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -7,6 +7,8 @@
 
 namespace isostep::scenes {
 
+inline constexpr double kGravity = 10;  // [m/s^2] downwards, of a scene that names no other
+
 inline double value(const Number& number) { return value_of<double>(number, ""); }
 inline Vec3<double> value(const Vector& v) { return {value(v[0]), value(v[1]), value(v[2])}; }
 

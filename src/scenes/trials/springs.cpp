@@ -103,15 +103,17 @@ class SpringEnergy : public Judge {
   double start_ = 0;            // [J]
   double worst_ = 0;
 };
-const Trial kTrials[] = {
-    {"stiff_springs", "21", "balls on springs of 30 and 100 Hz, weightless", "energy gained", "%", 0.1, stiff_springs,
-     judge_of<SpringEnergy>},
-    {"strong_dampers", "21", "balls on dampers that would stop them in a fraction of a step", "energy gained", "%", 0.1,
-     strong_dampers, judge_of<SpringEnergy>},
-};
 
 }  // namespace
 
-std::span<const Trial> spring_trials() { return kTrials; }
+std::span<const Trial> spring_trials() {
+  static const Trial trials[] = {
+      {"stiff_springs", "21", "balls on springs of 30 and 100 Hz, weightless", "energy gained", "%", 0.1, stiff_springs,
+       judge_of<SpringEnergy>},
+      {"strong_dampers", "21", "balls on dampers that would stop them in a fraction of a step", "energy gained", "%",
+       0.1, strong_dampers, judge_of<SpringEnergy>},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -77,23 +77,24 @@ constexpr char kDrift[] = "largest way sideways, of a box";
 constexpr char kSleep[] = "time until all sleep";
 constexpr char kSinking[] = "way of the heavy box after 10 s, of the light one's size";
 
-const Trial kTrials[] = {
-    {"tall_stack", "1", "20 unit boxes stacked, for a minute", kDrift, "%", 1, tall_stack, judge_of<Drift>},
-    {"tall_stack_50", "1", "50 unit boxes stacked, for a minute", kDrift, "%", 1, taller_stack, judge_of<Drift>},
-    {"sleeping_stack", "1", "20 unit boxes stacked, with sleep", kSleep, "s", 5, sleeping_stack,
-     judge_of<Restlessness>},
-    {"sleeping_stack_50", "1", "50 unit boxes stacked, with sleep", kSleep, "s", 5, taller_sleeping_stack,
-     judge_of<Restlessness>},
-    {"heavy_on_light_100", "3", "a box of 100 kg on one of 1 kg", kSinking, "%", 5, hundredfold_on_light,
-     judge_of<Sinking>},
-    {"heavy_on_light_400", "3", "a box of 400 kg on one of 1 kg", kSinking, "%", 20, fourhundredfold_on_light,
-     judge_of<Sinking>},
-    {"heavy_tips", "4", "walls of ten rows of 1 kg under tips of 100, 200 and 300 kg",
-     "boxes displaced by more than half their size", "", 0, heavy_tips, displaced_by_half},
-};
-
 }  // namespace
 
-std::span<const Trial> stacking_trials() { return kTrials; }
+std::span<const Trial> stacking_trials() {
+  static const Trial trials[] = {
+      {"tall_stack", "1", "20 unit boxes stacked, for a minute", kDrift, "%", 1, tall_stack, judge_of<Drift>},
+      {"tall_stack_50", "1", "50 unit boxes stacked, for a minute", kDrift, "%", 1, taller_stack, judge_of<Drift>},
+      {"sleeping_stack", "1", "20 unit boxes stacked, with sleep", kSleep, "s", 5, sleeping_stack,
+       judge_of<Restlessness>},
+      {"sleeping_stack_50", "1", "50 unit boxes stacked, with sleep", kSleep, "s", 5, taller_sleeping_stack,
+       judge_of<Restlessness>},
+      {"heavy_on_light_100", "3", "a box of 100 kg on one of 1 kg", kSinking, "%", 5, hundredfold_on_light,
+       judge_of<Sinking>},
+      {"heavy_on_light_400", "3", "a box of 400 kg on one of 1 kg", kSinking, "%", 20, fourhundredfold_on_light,
+       judge_of<Sinking>},
+      {"heavy_tips", "4", "walls of ten rows of 1 kg under tips of 100, 200 and 300 kg",
+       "boxes displaced by more than half their size", "", 0, heavy_tips, displaced_by_half},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

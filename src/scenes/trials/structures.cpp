@@ -152,19 +152,20 @@ Scene keva() {
 
 std::unique_ptr<Judge> by_a_plank(const Scene&) { return std::make_unique<Displaced>(kPlankHeight); }
 
-const Trial kTrials[] = {
-    {"card_house", "8", "20 cards lean in pairs under three boards, for a minute",
-     "time missing from a minute of standing", "s", 0, card_house, judge_of<Unstanding>},
-    {"arch", "9", "a half circle of 11 wedges without mortar, for a minute",
-     "largest way of the keystone, of its height", "%", 1, arch, judge_of<KeystoneWay>},
-    {"jenga_tower", "10", "18 layers of planks, eight planks taken out",
-     "planks that moved by more than their thickness", "", 0, jenga, by_a_plank},
-    {"keva_tower", "10", "30 layers of two planks on edge", "planks that moved by more than half their height", "", 0,
-     keva, by_a_plank},
-};
-
 }  // namespace
 
-std::span<const Trial> structure_trials() { return kTrials; }
+std::span<const Trial> structure_trials() {
+  static const Trial trials[] = {
+      {"card_house", "8", "20 cards lean in pairs under three boards, for a minute",
+       "time missing from a minute of standing", "s", 0, card_house, judge_of<Unstanding>},
+      {"arch", "9", "a half circle of 11 wedges without mortar, for a minute",
+       "largest way of the keystone, of its height", "%", 1, arch, judge_of<KeystoneWay>},
+      {"jenga_tower", "10", "18 layers of planks, eight planks taken out",
+       "planks that moved by more than their thickness", "", 0, jenga, by_a_plank},
+      {"keva_tower", "10", "30 layers of two planks on edge", "planks that moved by more than half their height", "", 0,
+       keva, by_a_plank},
+  };
+  return trials;
+}
 
 }  // namespace isostep::scenes

@@ -187,5 +187,6 @@ template <class S> scenes::Sight ParticleRun<S>::sight(int faults) const {
 
 #define ISO_INSTANTIATE(S) template class ParticleRun<S>;
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
 
 }  // namespace isostep::tool::lab

@@ -1,0 +1,15 @@
+// The step of ParticleWorld<S>, and stiff springs, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/particles/engine_step.inl"
+#include "isostep/particles/stiff_spring.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S)                                                         \
+  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);          \
+  template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S); \
+  ISO_INSTANTIATE_PARTICLE_STEP(S)
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep

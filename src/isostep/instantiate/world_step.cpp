@@ -1,0 +1,9 @@
+// The step of World<S>, and its queries, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/engine_step.inl"
+
+namespace isostep {
+
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_WORLD_STEP)
+
+}  // namespace isostep
