@@ -6,6 +6,8 @@
 #include "isostep/collision/broadphase/tree.inl"
 #include "isostep/collision/narrowphase/collide.inl"
 #include "isostep/collision/narrowphase/pair_scalar.inl"
+#include "isostep/collision/narrowphase/polyhedra.inl"
+#include "isostep/collision/narrowphase/round_polyhedron.inl"
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
@@ -13,6 +15,7 @@
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/dynamics/solvers/direct.inl"
 #include "isostep/dynamics/solvers/worst_first.inl"
+#include "isostep/geometry/baked/polyhedron.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/particles/instantiate.inl"
@@ -46,6 +49,9 @@
                                     Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
   template ClosestPoint<OwnScalar> closest_point<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, \
                                                             Vec3<OwnScalar>);                                         \
+  template class HullSolid<OwnScalar>;                                                                                \
+  ISO_POLYHEDRA_OF(, OwnScalar)                                                                                       \
+  ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                                \
   template class AabbTree<OwnScalar>;                                                                                 \
   template class PairSet<OwnScalar>;                                                                                  \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \

@@ -20,7 +20,8 @@ struct HullTriangle {
 /// Huhdanpaa, The quickhull algorithm for convex hulls, ACM TOMS 22, 1996.
 class Quickhull {
  public:
-  explicit Quickhull(std::span<const GridPoint> points) : points_(points) {}
+  ISO_INLINE explicit Quickhull(std::span<const GridPoint> points) : points_(points) {}
+  ISO_INLINE ~Quickhull() = default;
 
   /// Empty: the points are one, lie on a line or in a plane.
   std::vector<HullTriangle> run();

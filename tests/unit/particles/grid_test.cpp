@@ -279,20 +279,5 @@ TYPED_TEST(Grid, TestsFewDistancesInAUniformCloud) {
   }
 }
 
-TYPED_TEST(Grid, CountsFloorsOfEverySign) {
-  using S = TypeParam;
-  EXPECT_EQ(floor_scaled(S(2.75), 0), 2);
-  EXPECT_EQ(floor_scaled(S(-2.75), 0), -3);
-  EXPECT_EQ(floor_scaled(S(-3), 0), -3);
-  EXPECT_EQ(floor_scaled(S(-3), -1), -2);
-  EXPECT_EQ(floor_scaled(S(-2.75), 2), -11);
-  EXPECT_EQ(floor_scaled(S(0.75), 20), 786432);
-  EXPECT_EQ(floor_scaled(S(-500), -12), -1);
-  EXPECT_EQ(exponent_above(S(1)), 1);
-  EXPECT_EQ(exponent_above(S(0.75)), 0);
-  EXPECT_EQ(exponent_above(S(-500)), 9);
-  EXPECT_LE(exponent_above(S(0)), exponent_above(resolution<S>()));
-}
-
 }  // namespace
 }  // namespace isostep

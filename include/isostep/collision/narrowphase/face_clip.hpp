@@ -41,8 +41,8 @@ template <class S> struct ClipPoint {
 
 /// A quadrilateral gains at most one corner from each of four sides; what rounding might add beyond that is dropped.
 inline constexpr int kClipPoints = 8;
-template <class S> struct ClipPolygon {
-  ClipPoint<S> points[kClipPoints];
+template <class S, int kCapacity = kClipPoints> struct ClipPolygon {
+  ClipPoint<S> points[kCapacity];
   int count;
 };
 
@@ -87,10 +87,10 @@ template <class S> ISO_INLINE Sum<S> distance2(const ClipPoint<S>& a, const Clip
   return product(b.u - a.u, b.u - a.u) + product(b.v - a.v, b.v - a.v);
 }
 
-/// Four of up to eight corners: the deepest (within `tie` the first); the one furthest from it; the one that spans the
+/// Four of the corners: the deepest (within `tie` the first); the one furthest from it; the one that spans the
 /// largest triangle with these; the one that adds most area outside it. Kept in the polygon's order; ties go to the
 /// lowest index.
-template <class S> ISO_INLINE void reduce_to_four(ClipPolygon<S>& polygon, S tie) {
+template <class S, int kCapacity> ISO_INLINE void reduce_to_four(ClipPolygon<S, kCapacity>& polygon, S tie) {
   const ClipPoint<S>* p = polygon.points;
   S lowest = p[0].height;
   for (int i = 1; i < polygon.count; ++i) lowest = min(lowest, p[i].height);

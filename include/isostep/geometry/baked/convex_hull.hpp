@@ -32,6 +32,14 @@ struct ConvexHull {
   std::vector<HalfEdge> half_edges;  // edges ascend by their vertices
   std::vector<std::uint8_t> faces;   // of each, its half-edge that starts at its lowest vertex; ascending
 
+  // As the compiler makes them, but no weak functions in each of the files that hold hulls.
+  ISO_INLINE ConvexHull() = default;
+  ISO_INLINE ConvexHull(const ConvexHull&) = default;
+  ISO_INLINE ConvexHull(ConvexHull&&) = default;
+  ISO_INLINE ConvexHull& operator=(const ConvexHull&) = default;
+  ISO_INLINE ConvexHull& operator=(ConvexHull&&) = default;
+  ISO_INLINE ~ConvexHull() = default;
+
   ISO_INLINE std::uint8_t destination(std::uint8_t half_edge) const { return half_edges[half_edge ^ 1u].origin; }
   /// [steps^2] Outward, of one face; its length says nothing.
   GridVector normal(std::uint8_t face) const;

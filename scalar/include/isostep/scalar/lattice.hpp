@@ -42,4 +42,19 @@ template <class S> ISO_INLINE constexpr std::int64_t floor_scaled(S a, int expon
   }
 }
 
+/// whole 2^-exponent, to nearest, ties of fixed point upwards: exact where S has the digits. It must fit S, and the
+/// exponent lie within 0..62.
+template <class S> ISO_INLINE constexpr S from_lattice(std::int64_t whole, int exponent) {
+  if constexpr (kIsFixed<S>) {
+    const int right = exponent - S::kFracBits;
+    const std::int64_t raw = right <= 0 ? static_cast<std::int64_t>(static_cast<std::uint64_t>(whole) << -right)
+                                        : (whole >> right) + ((whole >> (right - 1)) & 1);
+    return S::from_raw(static_cast<typename S::Raw>(raw));
+  } else {
+    constexpr int kMantissa = std::same_as<S, float> ? 23 : 52;
+    constexpr int kBias = std::same_as<S, float> ? 127 : 1023;
+    return static_cast<S>(whole) * from_bits<S>(static_cast<RawBits<S>>(kBias - exponent) << kMantissa);
+  }
+}
+
 }  // namespace isostep

@@ -1,0 +1,182 @@
+// Bodies of polyhedra.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/face_clip.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
+#include "isostep/collision/narrowphase/polyhedron_axes.hpp"
+#include "isostep/collision/narrowphase/segment.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// A face has at most half as many corners as there are edges; cutting by a convex polygon adds at most its corners.
+inline constexpr int kFacePoints = ConvexHull::kMaxEdges;
+template <class S> using FacePolygon = ClipPolygon<S, kFacePoints>;
+
+/// A reference face and the solid that touches it, in the frame of the face's own.
+template <class S> struct FaceContact {
+  const Polyhedron<S>& reference;
+  const Polyhedron<S>& incident;
+  std::span<const Vec3<S>> vertices;  // [m] of the incident solid
+  Mat3<Unit<S>> turn;                 // from its frame
+  FaceAxis<S> axis;
+  Tangents<Unit<S>> across;  // of the face's normal
+};
+
+/// Of the faces around the deepest vertex the one that looks most against the reference; of equals the first.
+template <class S> ISO_INLINE std::uint32_t incident_face(const FaceContact<S>& contact) {
+  const Polyhedron<S>& solid = contact.incident;
+  const Vec3<Unit<S>> normal = transposed_times(contact.turn, contact.reference.normals[contact.axis.face]);
+  std::uint32_t best = 0xffffffffu;
+  Unit<S> least = Unit<S>(0);
+  for (std::uint32_t e = 0; e < solid.half_edges.size(); ++e) {
+    if (solid.half_edges[e].origin != contact.axis.vertex) continue;
+    const std::uint32_t face = solid.half_edges[e].face;
+    const Unit<S> facing = dot(solid.normals[face], normal);
+    if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) continue;
+    least = facing;
+    best = face;
+  }
+  return best;
+}
+
+/// The face's corners over the reference face. Edges of the incident face are named by their numbers.
+template <class S>
+ISO_INLINE void project_face(const FaceContact<S>& contact, std::uint32_t face, FacePolygon<S>& polygon) {
+  const Polyhedron<S>& solid = contact.incident;
+  const Vec3<Unit<S>> normal = contact.reference.normals[contact.axis.face];
+  const S offset = contact.reference.offsets[contact.axis.face];
+  std::uint32_t edge = solid.faces[face];
+  polygon.count = 0;
+  do {
+    const std::uint32_t next = solid.half_edges[edge].next;
+    const Vec3<S> p = contact.vertices[solid.origin(next)];
+    polygon.points[polygon.count++] = {dot(contact.across.t, p), dot(contact.across.u, p), dot(normal, p) - offset,
+                                       edge / 2, next / 2};
+    edge = next;
+  } while (edge != solid.faces[face]);
+}
+
+/// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number. A corner on the line stays.
+template <class S>
+ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_edge, const FacePolygon<S>& from,
+                            FacePolygon<S>& to) {
+  const Polyhedron<S>& solid = contact.reference;
+  const Vec3<Unit<S>> along = negate_if((half_edge & 1u) != 0, solid.directions[half_edge / 2]);
+  const Vec3<S> corner = solid.vertices[solid.origin(half_edge)];
+  const Unit<S> du = dot(contact.across.t, along), dv = dot(contact.across.u, along);
+  const S u = dot(contact.across.t, corner), v = dot(contact.across.u, corner);
+  S beyond[kFacePoints];
+  bool cuts = false;
+  for (int i = 0; i < from.count; ++i) {
+    beyond[i] = round_to<S>(product(from.points[i].u - u, dv) - product(from.points[i].v - v, du));
+    cuts = cuts || beyond[i] > S(0);
+  }
+  if (!cuts) return false;
+  const std::uint32_t name = 128 + half_edge / 2;
+  to.count = 0;
+  for (int i = 0; i < from.count; ++i) {
+    const int next = i + 1 < from.count ? i + 1 : 0;
+    const ClipPoint<S>&p = from.points[i], &q = from.points[next];
+    const bool p_out = beyond[i] > S(0), q_out = beyond[next] > S(0);
+    if (!p_out && to.count < kFacePoints) to.points[to.count++] = p;
+    if (p_out == q_out || !((p_out ? beyond[next] : beyond[i]) < S(0)) || to.count == kFacePoints) continue;
+    const Unit<S> t = divide_to<Unit<S>>(beyond[i], beyond[i] - beyond[next]);
+    to.points[to.count++] = {p.u + (q.u - p.u) * t, p.v + (q.v - p.v) * t, p.height + (q.height - p.height) * t,
+                             q_out ? p.after : name, q_out ? name : p.after};
+  }
+  return true;
+}
+
+/// Where rounding, or a face that is preferred to a better axis, leaves nothing above the reference face of solids that
+/// overlap. Named by the vertex, twice, as no corner is.
+template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
+  const Vec3<S> p = contact.vertices[contact.axis.vertex];
+  polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
+                       contact.axis.vertex};
+  polygon.count = 1;
+}
+
+template <class S>
+ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& frame, S margin, S tie, bool of_a,
+                            Manifold<S>& out) {
+  FacePolygon<S> polygons[2];
+  const std::uint32_t face = incident_face(contact);
+  project_face(contact, face, polygons[0]);
+  unsigned now = 0;
+  const Polyhedron<S>& reference = contact.reference;
+  std::uint32_t edge = reference.faces[contact.axis.face];
+  do {
+    now ^= clip_beyond(contact, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+    edge = reference.half_edges[edge].next;
+  } while (edge != reference.faces[contact.axis.face]);
+  FacePolygon<S>& polygon = polygons[now];
+  int kept = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    if (polygon.points[i].height <= margin) polygon.points[kept++] = polygon.points[i];
+  }
+  polygon.count = kept;
+  if (kept == 0 && contact.axis.separation <= S(0)) take_deepest(contact, polygon);
+  if (polygon.count == 0) return;
+  if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
+
+  const Vec3<Unit<S>> normal = reference.normals[contact.axis.face], outward = frame.rotation * normal;
+  out.normal = of_a ? outward : -outward;
+  const std::uint32_t name = 1u << 31 | (of_a ? 0u : 1u) << 30 | contact.axis.face << 23 | face << 16;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipPoint<S>& p = polygon.points[i];
+    const S level = reference.offsets[contact.axis.face] + p.height * S(0.5);
+    const Vec3<S> local = contact.across.t * p.u + contact.across.u * p.v + normal * level;
+    out.add(to_world(frame, local), p.height, name | p.before << 8 | p.after);
+  }
+}
+
+/// Edge k from its lower vertex to its higher.
+template <class S>
+ISO_INLINE Segment<S> segment_of(const Polyhedron<S>& solid, std::uint32_t k, const Vec3<S>* vertices,
+                                 Vec3<Unit<S>> direction) {
+  const Vec3<S> from = vertices[solid.origin(2 * k)], half = (vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
+  return {from + half, direction, dot(half, direction)};
+}
+
+template <class S>
+ISO_INLINE void touch_edges(const PolyhedronPair<S>& pair, const EdgeAxis<S>& best, const Transform<S>& ta,
+                            Manifold<S>& out) {
+  const Segment<S> of_a = segment_of(pair.a, best.edge_a, pair.a.vertices.data(), pair.a.directions[best.edge_a]);
+  const Segment<S> of_b =
+      segment_of(pair.b, best.edge_b, pair.vertices_b, pair.b_in_a.rotation * pair.b.directions[best.edge_b]);
+  const ClosestPair<S> closest = closest_points(of_a, of_b);
+  out.normal = ta.rotation * best.normal;
+  out.add(to_world(ta, (of_a.at(closest.s) + of_b.at(closest.t)) * S(0.5)), best.separation,
+          best.edge_a << 7 | best.edge_b);
+}
+
+}  // namespace detail
+
+template <class S>
+void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
+                       S margin, Manifold<S>& out) {
+  using namespace detail;
+  out.clear();
+  const PolyhedronPair<S> pair(a, ta, b, tb);
+  const std::span<const Vec3<S>> vertices_a(pair.vertices_a, a.vertices.size());
+  const std::span<const Vec3<S>> vertices_b(pair.vertices_b, b.vertices.size());
+  const FaceAxis<S> face_a = best_face(a, vertices_b, margin);
+  if (face_a.separation > margin) return;
+  const FaceAxis<S> face_b = best_face(b, vertices_a, margin);
+  if (face_b.separation > margin) return;
+  const EdgeAxis<S> edges = EdgeAxes<S>(pair).best(max(face_a.separation, face_b.separation) + pair.tolerance, margin);
+  if (edges.found && edges.separation > margin) return;
+  if (edges.found) return touch_edges(pair, edges, ta, out);
+  const S tie = pair.tolerance * S(0.125);
+  if (face_b.separation > face_a.separation + pair.tolerance) {
+    const Tangents<Unit<S>> across = tangents_of(b.normals[face_b.face]);
+    touch_faces({b, a, vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false, out);
+  } else {
+    const Tangents<Unit<S>> across = tangents_of(a.normals[face_a.face]);
+    touch_faces({a, b, vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, out);
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,253 @@
+// Bodies of round_polyhedron.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/round_polyhedron.hpp"
+#include "isostep/collision/narrowphase/segment.hpp"
+
+namespace isostep {
+namespace detail {
+
+template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std::uint32_t k) {
+  const Vec3<S> from = solid.vertices[solid.origin(2 * k)];
+  const Vec3<S> half = (solid.vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
+  return {from + half, solid.directions[k], dot(half, solid.directions[k])};
+}
+
+/// [m] by how far p is beyond the side of a face at one of its half-edges.
+template <class S>
+ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Vec3<Unit<S>> normal, Vec3<S> p) {
+  const Vec3<Unit<S>> along = negate_if((half_edge & 1u) != 0, solid.directions[half_edge / 2]);
+  return dot(cross(along, normal), p - solid.vertices[solid.origin(half_edge)]);
+}
+
+template <class S> ISO_INLINE bool is_above_face(const Polyhedron<S>& solid, std::uint32_t face, Vec3<S> p) {
+  std::uint32_t e = solid.faces[face];
+  do {
+    if (beyond_side(solid, e, solid.normals[face], p) > S(0)) return false;
+    e = solid.half_edges[e].next;
+  } while (e != solid.faces[face]);
+  return true;
+}
+
+/// A segment and a polyhedron, in the latter's frame: their best axis, as polyhedron_axes.hpp has it.
+template <class S> struct SegmentAxis {
+  std::uint32_t face;    // the best of the faces
+  S face_separation;     // [m]
+  std::uint32_t edge;    // where no face is as good; else kNone
+  S separation;          // [m] of the best
+  Vec3<Unit<S>> normal;  // [1] outward, of the best
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+};
+
+/// What an axis must be better by to replace a face's.
+template <class S> ISO_INLINE S face_preference(const Polyhedron<S>& solid, const Segment<S>& core) {
+  const S rounding = (max_abs(core.centre) + core.half + solid.inner_radius) * resolution<Unit<S>>();
+  return solid.inner_radius * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
+}
+
+template <class S>
+ISO_INLINE SegmentAxis<S> best_axis(const Polyhedron<S>& solid, const Segment<S>& core, S tolerance) {
+  using U = Unit<S>;
+  SegmentAxis<S> best = {0, S(0), SegmentAxis<S>::kNone, S(0), Vec3<U>::zero()};
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const Vec3<U> n = solid.normals[f];
+    const S separation = dot(n, core.centre) - abs(dot(n, core.direction)) * core.half - solid.offsets[f];
+    if (f == 0 || separation > best.face_separation) best.face = f, best.face_separation = separation;
+  }
+  best.separation = best.face_separation + tolerance;
+  best.normal = solid.normals[best.face];
+  for (std::uint32_t k = 0; k < solid.edges(); ++k) {
+    const Vec3<U> left = solid.normals[solid.half_edges[2 * k].face];
+    const Vec3<U> right = solid.normals[solid.half_edges[2 * k + 1].face];
+    const U half = U(0.5), at_left = dot(left, core.direction) * half, at_right = dot(right, core.direction) * half;
+    if (!((at_left > U(0) && at_right < U(0)) || (at_left < U(0) && at_right > U(0)))) continue;
+    const U t = divide_to<U>(at_left, at_left - at_right);
+    const Vec3<U> n = normalise(left * (half - half * t) + right * (half * t));
+    const S separation = dot(n, core.centre - solid.vertices[solid.origin(2 * k)]);
+    if (!(separation > best.separation)) continue;
+    best.edge = k;
+    best.separation = separation;
+    best.normal = n;
+  }
+  if (best.edge == SegmentAxis<S>::kNone) best.separation = best.face_separation;
+  return best;
+}
+
+/// The nearest points of a segment and a polyhedron that are apart: on an edge, or an end over a face.
+template <class S> struct NearestPair {
+  Vec3<S> on_core, on_solid;  // [m]
+  std::uint32_t edge;
+  S distance;  // [m]
+};
+template <class S> ISO_INLINE NearestPair<S> nearest_pair(const Polyhedron<S>& solid, const Segment<S>& core) {
+  NearestPair<S> best = {core.centre, core.centre, 0, highest<S>()};
+  for (std::uint32_t k = 0; k < solid.edges(); ++k) {
+    const Segment<S> edge = edge_of(solid, k);
+    const ClosestPair<S> closest = closest_points(core, edge);
+    const Vec3<S> on_core = core.at(closest.s), on_solid = edge.at(closest.t);
+    const S distance = length(on_core - on_solid);
+    if (distance < best.distance) best = {on_core, on_solid, k, distance};
+  }
+  for (const S end : {-core.half, core.half}) {
+    const NearestPoint<S> nearest = nearest_on(solid, core.at(end));
+    if (nearest.distance < best.distance) best = {core.at(end), nearest.point, best.edge, nearest.distance};
+  }
+  return best;
+}
+
+/// The stretch of a segment over a face, from `low` to `high`, and the edges that cut it.
+template <class S> struct FaceStretch {
+  S at[2];                // [m] along the segment
+  std::uint32_t edge[2];  // kNoEdge: its own end
+  static constexpr std::uint32_t kNoEdge = 255;
+};
+template <class S>
+ISO_INLINE bool stretch_over(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core,
+                             FaceStretch<S>& over) {
+  over = {{-core.half, core.half}, {FaceStretch<S>::kNoEdge, FaceStretch<S>::kNoEdge}};
+  std::uint32_t e = solid.faces[face];
+  do {
+    const S beyond[2] = {beyond_side(solid, e, solid.normals[face], core.at(over.at[0])),
+                         beyond_side(solid, e, solid.normals[face], core.at(over.at[1]))};
+    if (beyond[0] > S(0) && beyond[1] > S(0)) return false;
+    for (int end = 0; end < 2; ++end) {
+      if (!(beyond[end] > S(0))) continue;
+      const Unit<S> t = divide_to<Unit<S>>(beyond[end], beyond[end] - beyond[1 - end]);
+      over.at[end] = over.at[end] + (over.at[1 - end] - over.at[end]) * t;
+      over.edge[end] = e / 2;
+    }
+    e = solid.half_edges[e].next;
+  } while (e != solid.faces[face]);
+  return true;
+}
+
+/// Adds the point of the core over the surface, whose outward normal is `normal`; all in the solid's frame.
+template <class S>
+ISO_INLINE void touch_round(Vec3<S> on_core, S distance, Vec3<Unit<S>> normal, S radius, const Transform<S>& frame,
+                            std::uint32_t feature, Manifold<S>& out) {
+  out.normal = -(frame.rotation * normal);
+  out.add(to_world(frame, on_core - normal * ((distance + radius) * S(0.5))), distance - radius, feature);
+}
+
+/// Both ends of the stretch over a face, where the core lies along it, within 3.6 degrees, and the lower of them is no
+/// higher than `highest`.
+template <class S>
+ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S highest, S radius,
+                            S margin, const Transform<S>& frame, Manifold<S>& out) {
+  const Vec3<Unit<S>> normal = solid.normals[face];
+  FaceStretch<S> over;
+  if (abs(dot(normal, core.direction)) > Unit<S>(0.0625) || !stretch_over(solid, face, core, over)) return false;
+  const Vec3<S> ends[2] = {core.at(over.at[0]), core.at(over.at[1])};
+  const S heights[2] = {dot(normal, ends[0]) - solid.offsets[face], dot(normal, ends[1]) - solid.offsets[face]};
+  if (!(over.at[0] < over.at[1]) || min(heights[0], heights[1]) > highest) return false;
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    if (heights[end] - radius > margin) continue;
+    touch_round(ends[end], heights[end], normal, radius, frame, 1u << 31 | face << 16 | over.edge[end] << 1 | end, out);
+  }
+  return out.count > 0;
+}
+
+/// An edge that has its nearest point between its ends goes before one that has it at an end: near a vertex their
+/// distances differ by less than they are rounded, their directions by its root.
+template <class S> ISO_INLINE NearestPoint<S> nearest_on_edges(const Polyhedron<S>& solid, Vec3<S> query) {
+  struct Nearest {
+    S distance;
+    Vec3<S> apart;
+    std::uint32_t edge;
+  };
+  Nearest at_end = {highest<S>(), Vec3<S>::zero(), 0}, between = at_end;
+  for (std::uint32_t k = 0; k < solid.edges(); ++k) {
+    const Segment<S> side = edge_of(solid, k);
+    const S along = side.nearest(query);
+    const Vec3<S> apart = query - side.at(along);
+    Nearest& least = abs(along) < side.half ? between : at_end;
+    const S distance = length(apart);
+    if (distance < least.distance) least = {distance, apart, k};
+  }
+  const bool inner = between.distance - gap_noise(max_abs(query)) <= at_end.distance;
+  const Nearest& best = inner ? between : at_end;
+  return {query - best.apart, best.distance, normalise(best.apart), NearestPoint<S>::kEdge + best.edge};
+}
+
+}  // namespace detail
+
+template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S> query) {
+  std::uint32_t highest_face = 0;
+  S most = S(0);
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const S height = dot(solid.normals[f], query) - solid.offsets[f];
+    if (f == 0 || height > most) most = height, highest_face = f;
+    if (height > S(0) && detail::is_above_face(solid, f, query))
+      return {query - solid.normals[f] * height, height, solid.normals[f], f};
+  }
+  const Vec3<Unit<S>> normal = solid.normals[highest_face];
+  if (most <= detail::gap_noise(max_abs(query))) return {query - normal * most, most, normal, highest_face};
+  return detail::nearest_on_edges(solid, query);
+}
+
+template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, const detail::LocalRay<S>& ray) {
+  S entry = S(0), exit = ray.length;
+  std::uint32_t face = 0;
+  bool inside = true;
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const S height = dot(solid.normals[f], ray.origin) - solid.offsets[f];
+    const Unit<S> rise = dot(solid.normals[f], ray.direction);
+    inside = inside && height <= S(0);
+    // Beyond the ray's length either way, the plane decides nothing else, and its distance may not fit S.
+    if (rise < Unit<S>(0)) {
+      if (height > ray.length * -rise) return detail::no_hit<S>();
+      if (!(height > entry * -rise)) continue;
+      entry = divide_to<S>(height, -rise);
+      face = f;
+    } else if (height > S(0)) {
+      return detail::no_hit<S>();
+    } else if (-height < exit * rise) {
+      exit = divide_to<S>(-height, rise);
+    }
+  }
+  if (inside) return detail::inside_hit<S>();
+  if (entry > exit) return detail::no_hit<S>();
+  return {detail::LocalHit<S>::entered, entry / ray.length, solid.normals[face]};
+}
+
+template <class S>
+void collide_sphere_polyhedron(S radius, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
+                               S margin, Manifold<S>& out) {
+  out.clear();
+  const Vec3<S> centre = to_local(tb, ta.position);
+  const NearestPoint<S> nearest = nearest_on(b, centre);
+  if (nearest.distance - radius > margin) return;
+  detail::touch_round(centre, nearest.distance, nearest.normal, radius, tb, nearest.feature, out);
+}
+
+template <class S>
+void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta, const Polyhedron<S>& b,
+                                const Transform<S>& tb, S margin, Manifold<S>& out) {
+  using namespace detail;
+  out.clear();
+  const Segment<S> core = {to_local(tb, ta.position), transposed_times(tb.rotation, ta.rotation.column(1)),
+                           half_height};
+  const S tolerance = face_preference(b, core);
+  const SegmentAxis<S> best = best_axis(b, core, tolerance);
+  if (best.separation - radius > margin) return;
+  if (best.separation <= gap_noise(max_abs(core.centre))) {
+    if (best.edge != SegmentAxis<S>::kNone) {
+      const ClosestPair<S> crossing = closest_points(core, edge_of(b, best.edge));
+      return touch_round(core.at(crossing.s), best.separation, best.normal, radius, tb, best.edge, out);
+    }
+    if (touch_along(b, best.face, core, best.separation + tolerance, radius, margin, tb, out)) return;
+    const bool low = dot(best.normal, core.direction) > Unit<S>(0);
+    return touch_round(core.at(low ? -core.half : core.half), best.separation, best.normal, radius, tb,
+                       1u << 30 | best.face << 1 | (low ? 0u : 1u), out);
+  }
+  const NearestPair<S> pair = nearest_pair(b, core);  // the cores are apart: what is nearest decides
+  if (pair.distance - radius > margin) return;
+  const Vec3<S> gap = pair.on_core - pair.on_solid;
+  const bool over_face = dot(b.normals[best.face], gap) >= pair.distance - tolerance;
+  if (over_face && touch_along(b, best.face, core, pair.distance + tolerance, radius, margin, tb, out)) return;
+  touch_round(pair.on_core, pair.distance, normalise(gap), radius, tb, pair.edge, out);
+}
+
+}  // namespace isostep

@@ -1,0 +1,75 @@
+// Polyhedron<S>: a convex solid of flat faces, as one scalar has it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/baked/convex_hull.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+/// A set of edges.
+struct EdgeSet {
+  std::uint64_t words[2];
+
+  static ISO_INLINE constexpr EdgeSet none() { return {{0, 0}}; }
+  /// Without branches: which edges are in a set is as good as random.
+  static ISO_INLINE constexpr EdgeSet all_if(bool all) {
+    const std::uint64_t word = std::uint64_t{0} - (all ? 1u : 0u);
+    return {{word, word}};
+  }
+  ISO_INLINE constexpr void insert_if(bool in, std::uint32_t k) { words[k / 64] |= std::uint64_t{in} << k % 64; }
+  friend ISO_INLINE constexpr EdgeSet operator&(EdgeSet a, EdgeSet b) {
+    return {{a.words[0] & b.words[0], a.words[1] & b.words[1]}};
+  }
+  friend ISO_INLINE constexpr EdgeSet operator|(EdgeSet a, EdgeSet b) {
+    return {{a.words[0] | b.words[0], a.words[1] | b.words[1]}};
+  }
+};
+
+/// What the collision of polyhedra reads. Directions are rounded from exact integers, so short edges and small faces
+/// have no worse ones than long and large do.
+template <class S> struct Polyhedron {
+  std::span<const Vec3<S>> vertices;           // [m]
+  std::span<const HalfEdge> half_edges;        // see ConvexHull
+  std::span<const std::uint8_t> faces;         // of each, its first half-edge
+  std::span<const Vec3<Unit<S>>> normals;      // [1] outward, of each face
+  std::span<const S> offsets;                  // [m] of each face along its normal: of its vertex furthest out
+  std::span<const Vec3<Unit<S>>> directions;   // [1] of half-edge 2 k, of each edge k
+  std::span<const EdgeSet> left_of, right_of;  // by face: edges k that have it on the left, right of half-edge 2 k
+  S inner_radius;                              // [m] from the mean of the vertices to the nearest face
+
+  ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
+  ISO_INLINE std::uint32_t edges() const { return static_cast<std::uint32_t>(directions.size()); }
+};
+
+/// A hull in a scalar: the memory that its Polyhedron shows.
+template <class S> class HullSolid {
+ public:
+  /// `exponent`: a step of the hull's grid is 2^-exponent m, 0 to 16. Coordinates must fit S.
+  HullSolid(const ConvexHull& hull, int exponent);
+
+  /// Valid as long as this is.
+  ISO_INLINE Polyhedron<S> polyhedron() const {
+    return {vertices_, half_edges_, faces_, normals_, offsets_, directions_, left_of_, right_of_, inner_radius_};
+  }
+
+ private:
+  std::vector<Vec3<S>> vertices_;
+  std::vector<HalfEdge> half_edges_;
+  std::vector<std::uint8_t> faces_;
+  std::vector<Vec3<Unit<S>>> normals_;
+  std::vector<S> offsets_;
+  std::vector<Vec3<Unit<S>>> directions_;
+  std::vector<EdgeSet> left_of_, right_of_;
+  S inner_radius_;
+};
+
+#define ISO_EXTERN(S) extern template class HullSolid<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

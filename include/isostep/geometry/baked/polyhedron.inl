@@ -1,0 +1,49 @@
+// Bodies of polyhedron.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/scalar/lattice.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// To the last digit of U, whatever its length in steps: by way of the finest unit format.
+template <class U> ISO_INLINE Vec3<U> unit_of(GridVector v) {
+  const auto d = direction_of(Q32_32::from_raw(v.x), Q32_32::from_raw(v.y), Q32_32::from_raw(v.z));
+  constexpr int kBits = decltype(d.x)::kFracBits;
+  return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
+}
+}  // namespace detail
+
+template <class S>
+HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull.half_edges), faces_(hull.faces) {
+  using U = Unit<S>;
+  Vec3<S> middle = Vec3<S>::zero();
+  const U share = divide_to<U>(S(1), from_lattice<S>(static_cast<std::int64_t>(hull.vertices.size()), 0));
+  for (const GridPoint p : hull.vertices) {
+    vertices_.push_back(
+        {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)});
+    middle += vertices_.back() * share;
+  }
+  for (std::size_t e = 0; e < half_edges_.size(); e += 2) {
+    directions_.push_back(
+        detail::unit_of<U>(hull.vertices[half_edges_[e + 1].origin] - hull.vertices[half_edges_[e].origin]));
+  }
+  left_of_.assign(faces_.size(), EdgeSet::none());
+  right_of_.assign(faces_.size(), EdgeSet::none());
+  for (std::uint32_t e = 0; e < half_edges_.size(); ++e)
+    ((e & 1u) == 0 ? left_of_ : right_of_)[half_edges_[e].face].insert_if(true, e / 2);
+  inner_radius_ = highest<S>();
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    normals_.push_back(detail::unit_of<U>(hull.normal(static_cast<std::uint8_t>(f))));
+    const Vec3<U> normal = normals_.back();
+    S offset = dot(normal, vertices_[half_edges_[faces_[f]].origin]);
+    for (std::uint8_t e = half_edges_[faces_[f]].next; e != faces_[f]; e = half_edges_[e].next)
+      offset = max(offset, dot(normal, vertices_[half_edges_[e].origin]));
+    offsets_.push_back(offset);
+    inner_radius_ = min(inner_radius_, offset - dot(normal, middle));
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,17 @@
+// Polyhedra and their collision for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/collision/narrowphase/polyhedra.inl"
+
+#include "isostep/collision/narrowphase/round_polyhedron.inl"
+#include "isostep/geometry/baked/polyhedron.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S)     \
+  template class HullSolid<S>; \
+  ISO_POLYHEDRA_OF(, S)        \
+  ISO_ROUND_POLYHEDRON_OF(, S)
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
