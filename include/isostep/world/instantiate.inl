@@ -5,6 +5,7 @@
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
 #include "isostep/collision/narrowphase/collide.inl"
+#include "isostep/collision/narrowphase/gjk.inl"
 #include "isostep/collision/narrowphase/pair_scalar.inl"
 #include "isostep/collision/narrowphase/polyhedra.inl"
 #include "isostep/collision/narrowphase/round_polyhedron.inl"
@@ -51,6 +52,7 @@
                                                             Vec3<OwnScalar>);                                         \
   template class HullSolid<OwnScalar>;                                                                                \
   ISO_POLYHEDRA_OF(, OwnScalar)                                                                                       \
+  ISO_GJK_OF(, OwnScalar)                                                                                             \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                                \
   template class AabbTree<OwnScalar>;                                                                                 \
   template class PairSet<OwnScalar>;                                                                                  \

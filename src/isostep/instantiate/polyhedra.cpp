@@ -1,5 +1,6 @@
 // Polyhedra and their collision for every shipped scalar.
 // SPDX-License-Identifier: MIT
+#include "isostep/collision/narrowphase/gjk.inl"
 #include "isostep/collision/narrowphase/polyhedra.inl"
 
 #include "isostep/collision/narrowphase/round_polyhedron.inl"
@@ -10,6 +11,7 @@ namespace isostep {
 #define ISO_INSTANTIATE(S)     \
   template class HullSolid<S>; \
   ISO_POLYHEDRA_OF(, S)        \
+  ISO_GJK_OF(, S)              \
   ISO_ROUND_POLYHEDRON_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

@@ -17,9 +17,17 @@ template <class S>
 void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
                        S margin, Manifold<S>& out);
 
-#define ISO_POLYHEDRA_OF(extern, S)                                                                          \
-  extern template void collide_polyhedra<S>(const Polyhedron<S>&, const Transform<S>&, const Polyhedron<S>&, \
-                                            const Transform<S>&, S, Manifold<S>&);
+/// A polyhedron on a half-space, dot(normal, p) <= offset in tb's frame: up to four vertices that are nearer than
+/// `margin` [m], the lowest among them. Features: vertices.
+template <class S>
+void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& ta, Vec3<Unit<S>> normal, S offset,
+                                   const Transform<S>& tb, S margin, Manifold<S>& out);
+
+#define ISO_POLYHEDRA_OF(extern, S)                                                                                  \
+  extern template void collide_polyhedra<S>(const Polyhedron<S>&, const Transform<S>&, const Polyhedron<S>&,         \
+                                            const Transform<S>&, S, Manifold<S>&);                                   \
+  extern template void collide_polyhedron_half_space<S>(const Polyhedron<S>&, const Transform<S>&, Vec3<Unit<S>>, S, \
+                                                        const Transform<S>&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_POLYHEDRA_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

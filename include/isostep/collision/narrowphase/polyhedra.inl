@@ -179,4 +179,28 @@ void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Pol
   }
 }
 
+template <class S>
+void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& ta, Vec3<Unit<S>> normal, S offset,
+                                   const Transform<S>& tb, S margin, Manifold<S>& out) {
+  using namespace detail;
+  out.clear();
+  const Vec3<Unit<S>> up = tb.rotation * normal, up_in_a = transposed_times(ta.rotation, up);
+  const S origin = round_to<S>(dot_sum(ta.position - tb.position, up) - widen<SumOf<S, Unit<S>>>(offset));
+  const Tangents<Unit<S>> across = tangents_of(up_in_a);
+  FacePolygon<S> near;  // no polygon, but what is reduced to four alike
+  near.count = 0;
+  for (std::uint32_t i = 0; i < a.vertices.size(); ++i) {
+    const Vec3<S> p = a.vertices[i];
+    const S height = origin + dot(up_in_a, p);
+    if (height <= margin) near.points[near.count++] = {dot(across.t, p), dot(across.u, p), height, i, i};
+  }
+  if (near.count == 0) return;
+  if (near.count > kMaxContactPoints) reduce_to_four(near, a.inner_radius * S(0.0009765625));
+  out.normal = -up;
+  for (int i = 0; i < near.count; ++i) {
+    const ClipPoint<S>& p = near.points[i];
+    out.add(to_world(ta, a.vertices[p.before]) - up * (p.height * S(0.5)), p.height, p.before);
+  }
+}
+
 }  // namespace isostep

@@ -22,6 +22,9 @@ struct EdgeSet {
     return {{word, word}};
   }
   ISO_INLINE constexpr void insert_if(bool in, std::uint32_t k) { words[k / 64] |= std::uint64_t{in} << k % 64; }
+  friend ISO_INLINE constexpr bool operator==(EdgeSet a, EdgeSet b) {
+    return a.words[0] == b.words[0] && a.words[1] == b.words[1];
+  }
   friend ISO_INLINE constexpr EdgeSet operator&(EdgeSet a, EdgeSet b) {
     return {{a.words[0] & b.words[0], a.words[1] & b.words[1]}};
   }

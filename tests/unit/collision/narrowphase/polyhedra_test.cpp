@@ -8,99 +8,15 @@
 #include <memory>
 #include <set>
 
+#include "isostep/geometry/baked/box_solid.hpp"
+#include "unit/collision/narrowphase/placed_solids.hpp"
 #include "unit/geometry/hull_recipes.hpp"
-#include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
 namespace {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
-
-/// A hull in a scalar, and what an oracle knows of it.
-template <class S> struct Solid {
-  Solid(const std::vector<GridPoint>& points, int exponent)
-      : hull(convex_hull(points).value()), solid(hull, exponent), step(std::ldexp(1.0, -exponent)) {}
-  D3 vertex(std::uint32_t i) const {
-    const GridPoint p = hull.vertices[i];
-    return D3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} * step;
-  }
-  std::vector<D3> normals() const {
-    std::vector<D3> normals;
-    for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {
-      const GridVector n = hull.normal(static_cast<std::uint8_t>(f));
-      normals.push_back(oracle::unit({static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)}));
-    }
-    return normals;
-  }
-  std::vector<D3> edges() const {
-    std::vector<D3> edges;
-    for (std::size_t e = 0; e < hull.half_edges.size(); e += 2)
-      edges.push_back(oracle::unit(vertex(hull.half_edges[e + 1].origin) - vertex(hull.half_edges[e].origin)));
-    return edges;
-  }
-  double radius() const {
-    double most = 0;
-    for (std::uint32_t i = 0; i < hull.vertices.size(); ++i) most = std::max(most, oracle::length(vertex(i)));
-    return most;
-  }
-
-  ConvexHull hull;
-  HullSolid<S> solid;
-  double step;  // [m]
-};
-
-constexpr double kLeastSine = 0.005;
-
-/// Two solids where a scalar has them, in double.
-template <class S> class Placed {
- public:
-  Placed(const Solid<S>& a, const Transform<S>& ta, const Solid<S>& b, const Transform<S>& tb)
-      : ta_(oracle::real(ta)), tb_(oracle::real(tb)) {
-    for (std::uint32_t i = 0; i < a.hull.vertices.size(); ++i) vertices_a.push_back(to_world(ta_, a.vertex(i)));
-    for (std::uint32_t i = 0; i < b.hull.vertices.size(); ++i) vertices_b.push_back(to_world(tb_, b.vertex(i)));
-    for (const D3 n : a.normals()) normals_a.push_back(ta_.rotation * n);
-    for (const D3 n : b.normals()) normals_b.push_back(tb_.rotation * n);
-    for (const D3 e : a.edges()) edges_a.push_back(ta_.rotation * e);
-    for (const D3 e : b.edges()) edges_b.push_back(tb_.rotation * e);
-  }
-  /// [m] of the two along n, from a to b.
-  double separation(D3 n) const {
-    double low = 1e300, high = -1e300;
-    for (const D3 p : vertices_b) low = std::min(low, dot(n, p));
-    for (const D3 p : vertices_a) high = std::max(high, dot(n, p));
-    return low - high;
-  }
-  /// Along the best axis there is: their depth where they overlap, at most their distance where they do not.
-  double best() const {
-    double best = -1e300;
-    for (const D3 n : normals_a) best = std::max(best, separation(n));
-    for (const D3 n : normals_b) best = std::max(best, separation(-n));
-    for (const D3 e : edges_a) {
-      for (const D3 f : edges_b) {
-        const D3 n = cross(e, f);
-        if (oracle::length(n) < kLeastSine) continue;  // a face's axis is as good, but for that sine of a length
-        best = std::max({best, separation(oracle::unit(n)), separation(-oracle::unit(n))});
-      }
-    }
-    return best;
-  }
-  /// [m] by how much p is outside of a solid.
-  static double outside(const std::vector<D3>& normals, const std::vector<D3>& vertices, D3 p) {
-    double most = -1e300;
-    for (const D3 n : normals) {
-      double high = -1e300;
-      for (const D3 v : vertices) high = std::max(high, dot(n, v));
-      most = std::max(most, dot(n, p) - high);
-    }
-    return most;
-  }
-
-  std::vector<D3> vertices_a, vertices_b, normals_a, normals_b, edges_a, edges_b;
-
- private:
-  Transform<double> ta_, tb_;
-};
 
 template <class S> class Polyhedra : public testing::Test {
  protected:
@@ -190,6 +106,71 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   EXPECT_GT(tally.faces_b, 1000);
   EXPECT_GT(tally.edges, 1500);
   EXPECT_GT(tally.points, 10000);
+}
+
+template <class T> bool same(std::span<const T> a, std::span<const T> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {
+  using S = TypeParam;
+  const GridPoint half = {40000, 12000, 77000};
+  std::vector<GridPoint> corners;
+  for (int corner = 0; corner < 8; ++corner) {
+    corners.push_back({(corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
+                       (corner & 4) != 0 ? half.z : -half.z});
+  }
+  const HullSolid<S> hull(convex_hull(corners).value(), 16);
+  const BoxSolid<S> box({S(40000.0 / 65536), S(12000.0 / 65536), S(77000.0 / 65536)});
+  const Polyhedron<S> a = hull.polyhedron(), b = box.polyhedron();
+  EXPECT_TRUE(same(a.vertices, b.vertices) && same(a.half_edges, b.half_edges) && same(a.faces, b.faces));
+  EXPECT_TRUE(same(a.normals, b.normals) && same(a.offsets, b.offsets) && same(a.directions, b.directions));
+  EXPECT_TRUE(same(a.left_of, b.left_of) && same(a.right_of, b.right_of));
+  EXPECT_NEAR(to_double(a.inner_radius), to_double(b.inner_radius), 1e-4);
+}
+
+TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
+  using S = TypeParam;
+  HullDraws draws(23);
+  int apart = 0, four = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Solid<S> solid(drawn_hull(n, draws), 16);
+    const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
+    const Transform<S> tb = this->transform(at);
+    const Transform<S> ta = this->transform(at + this->random_.point(0.6));
+    const Vec3<Unit<S>> normal = oracle::made<Unit<S>>(this->random_.direction());
+    const S offset = from_double<S>(this->random_.in(-0.3, 0.3));
+    Manifold<S> m;
+    collide_polyhedron_half_space(solid.solid.polyhedron(), ta, normal, offset, tb, from_double<S>(this->kMargin), m);
+    const Transform<double> a = oracle::real(ta), b = oracle::real(tb);
+    const D3 up = b.rotation * oracle::real(normal);
+    const double error = this->rounding(60);
+    double lowest = 1e300;
+    int near = 0;
+    for (std::uint32_t i = 0; i < solid.hull.vertices.size(); ++i) {
+      const double height = dot(up, to_world(a, solid.vertex(i)) - b.position) - to_double(offset);
+      lowest = std::min(lowest, height);
+      near += height < this->kMargin - error ? 1 : 0;
+    }
+    ASSERT_GE(m.count, std::min(near, 4)) << n;
+    if (m.count == 0) {
+      ++apart;
+      continue;
+    }
+    double least = 1e300;
+    for (int i = 0; i < m.count; ++i) {
+      const D3 vertex = to_world(a, solid.vertex(m.points[i].feature)), on = oracle::real(m.points[i].position);
+      const double height = dot(up, vertex - b.position) - to_double(offset);
+      ASSERT_NEAR(to_double(m.points[i].separation), height, error) << n;
+      ASSERT_LT(oracle::length(vertex - up * (height / 2) - on), 4 * error) << n;
+      least = std::min(least, height);
+    }
+    ASSERT_NEAR(least, lowest, error + to_double(solid.solid.polyhedron().inner_radius) / 512) << n;
+    ASSERT_LT(oracle::length(oracle::real(m.normal) + up), 8 * error);
+    four += m.count == 4 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 200);
+  EXPECT_GT(four, 500);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+// GJK: the distance of two polyhedra, and where they are nearest.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/math/transform.hpp"
+
+namespace isostep {
+
+template <class S> struct GjkDistance {
+  S distance;            // [m] 0 where they overlap
+  Vec3<Unit<S>> normal;  // [1] from a to b; zero where they overlap
+  Vec3<S> on_a, on_b;    // [m] nearest points; where they overlap, where the search ended
+  std::int32_t iterations;
+};
+
+/// All in the frame that both transforms lead to.
+/// Source:  Gilbert, Johnson and Keerthi 1988, A fast procedure for computing the distance between complex objects.
+/// Differs: the nearest point of a simplex is found by unit normals and distances, never by ratios of fourth powers of
+///          lengths, which fixed point has no room for. It ends by counting: where a support is a vertex pair that the
+///          simplex has, where the distance no longer falls, or after 32 rounds.
+/// Limits:  distances up to a few of S's digits may count as overlap, and the other way round.
+template <class S>
+GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                            const Transform<S>& tb);
+
+#define ISO_GJK_OF(extern, S)                                                                                     \
+  extern template GjkDistance<S> gjk_distance<S>(const Polyhedron<S>&, const Transform<S>&, const Polyhedron<S>&, \
+                                                 const Transform<S>&);
+#define ISO_EXTERN(S) ISO_GJK_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

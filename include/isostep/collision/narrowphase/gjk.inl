@@ -1,0 +1,203 @@
+// Bodies of gjk.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/gjk.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// A point of the difference a - b, in a's frame, and what it is made of.
+template <class S> struct SupportPoint {
+  Vec3<S> point;  // [m]
+  std::uint32_t vertex_a, vertex_b;
+};
+
+/// Up to four of them, and the shares that make the point nearest to the origin.
+template <class S> struct Simplex {
+  SupportPoint<S> points[4];
+  Unit<S> shares[4];  // they add up to 1, but for rounding
+  int count;
+  Vec3<S> nearest;  // [m]
+};
+
+template <class S> ISO_INLINE void keep_one(Simplex<S>& simplex, int i) {
+  simplex.points[0] = simplex.points[i];
+  simplex.shares[0] = Unit<S>(1);
+  simplex.count = 1;
+  simplex.nearest = simplex.points[0].point;
+}
+
+/// Of the segment from point i to point j.
+template <class S> ISO_INLINE Simplex<S> nearest_on_segment(const Simplex<S>& from, int i, int j) {
+  Simplex<S> to = {};
+  to.points[0] = from.points[i];
+  to.points[1] = from.points[j];
+  const Vec3<S> p = from.points[i].point;
+  const Heading<S> way = heading_of(from.points[j].point - p);
+  const S along = -dot(way.direction, p);
+  if (!(along > S(0))) {
+    keep_one(to, 0);
+  } else if (!(along < way.length)) {
+    keep_one(to, 1);
+  } else {
+    to.count = 2;
+    to.shares[1] = divide_to<Unit<S>>(along, way.length);
+    to.shares[0] = Unit<S>(1) - to.shares[1];
+    to.nearest = p + way.direction * along;
+  }
+  return to;
+}
+
+template <class S> ISO_INLINE bool is_nearer(const Simplex<S>& a, const Simplex<S>& b) {
+  return dot_sum(a.nearest, a.nearest) < dot_sum(b.nearest, b.nearest);
+}
+
+/// Of the triangle of three of the points. The share of a corner is its edge's distance from the point over that from
+/// the corner itself.
+template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& from, int i, int j, int k) {
+  using U = Unit<S>;
+  const int corners[3] = {i, j, k};
+  const Vec3<S> p = from.points[i].point;
+  const Vec3<U> normal = normalise(cross(normalise(from.points[j].point - p), normalise(from.points[k].point - p)));
+  Simplex<S> inside = {};
+  inside.count = 3;
+  inside.nearest = normal * dot(normal, p);
+  bool is_inside = normal != Vec3<U>::zero();
+  for (int c = 0; c < 3; ++c) {
+    const Vec3<S> corner = from.points[corners[c]].point, begin = from.points[corners[(c + 1) % 3]].point;
+    const Vec3<U> inward = cross(normal, normalise(from.points[corners[(c + 2) % 3]].point - begin));
+    const S height = dot(inward, corner - begin), share = dot(inward, -begin);
+    is_inside = is_inside && share > S(0) && share < height;
+    inside.points[c] = from.points[corners[c]];
+    if (is_inside) inside.shares[c] = divide_to<U>(share, height);
+  }
+  if (is_inside) return inside;
+  Simplex<S> best = nearest_on_segment(from, i, j);
+  for (const Simplex<S>& other : {nearest_on_segment(from, j, k), nearest_on_segment(from, k, i)}) {
+    if (is_nearer(other, best)) best = other;
+  }
+  return best;
+}
+
+/// Three corners, and the one opposite.
+inline constexpr int kTetrahedronFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
+
+/// Of the tetrahedron, by those of its faces that have the origin outside, or that it is too flat to tell. False: none
+/// has.
+template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from, Simplex<S>& best) {
+  S size = S(0);
+  for (const SupportPoint<S>& point : from.points) size = max(size, max_abs(point.point));
+  const S flat = gap_noise(size);
+  bool outside = false;
+  for (const auto& [i, j, k, opposite] : kTetrahedronFaces) {
+    const Vec3<S> p = from.points[i].point;
+    const Vec3<Unit<S>> normal =
+        normalise(cross(normalise(from.points[j].point - p), normalise(from.points[k].point - p)));
+    const S of_origin = -dot(normal, p), of_opposite = dot(normal, from.points[opposite].point - p);
+    const bool inside = of_opposite > flat ? of_origin >= S(0) : of_opposite < -flat && of_origin <= S(0);
+    if (inside) continue;
+    const Simplex<S> face = nearest_on_triangle(from, i, j, k);
+    if (!outside || is_nearer(face, best)) best = face;
+    outside = true;
+  }
+  return outside;
+}
+
+/// The vertex furthest along a direction; of equals the first.
+template <class S> ISO_INLINE std::uint32_t support_of(std::span<const Vec3<S>> vertices, Vec3<Unit<S>> direction) {
+  std::uint32_t best = 0;
+  S most = dot(direction, vertices[0]);
+  for (std::uint32_t i = 1; i < vertices.size(); ++i) {
+    const S along = dot(direction, vertices[i]);
+    if (along > most) most = along, best = i;
+  }
+  return best;
+}
+
+template <class S> class Gjk {
+  using U = Unit<S>;
+  static constexpr int kMostIterations = 32;
+
+ public:
+  ISO_INLINE Gjk(const Polyhedron<S>& a, const Polyhedron<S>& b, const Transform<S>& b_in_a)
+      : a_(a), b_(b), b_in_a_(b_in_a) {}
+
+  /// In a's frame. The direction points from b to a.
+  ISO_INLINE SupportPoint<S> support(Vec3<U> direction) const {
+    const std::uint32_t i = support_of(a_.vertices, direction);
+    const std::uint32_t j = support_of(b_.vertices, transposed_times(b_in_a_.rotation, -direction));
+    return {a_.vertices[i] - to_world(b_in_a_, b_.vertices[j]), i, j};
+  }
+
+  ISO_INLINE GjkDistance<S> run() const {
+    Simplex<S> simplex = {};
+    simplex.points[0] = support(normalise(b_in_a_.position));
+    keep_one(simplex, 0);
+    int iterations = 1;
+    for (; iterations < kMostIterations; ++iterations) {
+      const Heading<S> heading = heading_of(simplex.nearest);
+      if (heading.length <= gap_noise(max_abs(b_in_a_.position))) return witnesses(simplex, iterations);
+      const SupportPoint<S> next = support(-heading.direction);
+      if (has(simplex, next) || !(dot(heading.direction, next.point) < heading.length)) break;
+      Simplex<S> grown = simplex;
+      grown.points[grown.count++] = next;
+      if (!shrink(grown)) return witnesses(simplex, iterations);
+      if (!is_nearer(grown, simplex)) break;
+      simplex = grown;
+    }
+    const Heading<S> heading = heading_of(simplex.nearest);
+    GjkDistance<S> result = witnesses(simplex, iterations);
+    result.distance = heading.length;
+    result.normal = -heading.direction;
+    return result;
+  }
+
+ private:
+  static ISO_INLINE bool has(const Simplex<S>& simplex, const SupportPoint<S>& point) {
+    for (int i = 0; i < simplex.count; ++i) {
+      if (simplex.points[i].vertex_a == point.vertex_a && simplex.points[i].vertex_b == point.vertex_b) return true;
+    }
+    return false;
+  }
+  /// To what is nearest of it to the origin. False: the origin is inside.
+  static ISO_INLINE bool shrink(Simplex<S>& simplex) {
+    if (simplex.count == 2) simplex = nearest_on_segment(simplex, 0, 1);
+    else if (simplex.count == 3) simplex = nearest_on_triangle(simplex, 0, 1, 2);
+    else {
+      Simplex<S> best = simplex;
+      if (!nearest_on_tetrahedron(simplex, best)) return false;
+      simplex = best;
+    }
+    return true;
+  }
+  /// At distance 0, which is overlap.
+  ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
+    Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
+    for (int i = 0; i < simplex.count; ++i) {
+      on_a += a_.vertices[simplex.points[i].vertex_a] * simplex.shares[i];
+      on_b += b_.vertices[simplex.points[i].vertex_b] * simplex.shares[i];
+    }
+    return {S(0), Vec3<U>::zero(), on_a, to_world(b_in_a_, on_b), iterations};
+  }
+
+  const Polyhedron<S>& a_;
+  const Polyhedron<S>& b_;
+  const Transform<S>& b_in_a_;
+};
+
+}  // namespace detail
+
+template <class S>
+GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                            const Transform<S>& tb) {
+  const Transform<S> b_in_a = relative(ta, tb);
+  GjkDistance<S> result = detail::Gjk<S>(a, b, b_in_a).run();
+  result.normal = ta.rotation * result.normal;
+  result.on_a = to_world(ta, result.on_a);
+  result.on_b = to_world(ta, result.on_b);
+  return result;
+}
+
+}  // namespace isostep
