@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/convex_hull.hpp"
 
+#include <algorithm>
+
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/scalar/wide_int.hpp"
@@ -198,16 +200,27 @@ void link(ConvexHull& hull, std::span<const std::vector<std::uint32_t>> loops, s
   }
 }
 
+/// [steps] Of the box around them.
+std::int64_t width_of(std::span<const GridPoint> points) {
+  GridPoint low = points[0], high = points[0];
+  for (const GridPoint p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const GridVector size = high - low;
+  return std::max(size.x, std::max(size.y, size.z));
+}
+
 /// From each face to the vertex furthest below it.
 bool is_thick(const ConvexHull& hull) {
-  constexpr std::int64_t kLeast = ConvexHull::kLeastThickness;
+  const std::int64_t least = std::max(ConvexHull::kLeastThickness, width_of(hull.vertices) / ConvexHull::kMostSlender);
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {
     const GridVector normal = hull.normal(static_cast<std::uint8_t>(f));
     const GridPoint at = hull.vertices[hull.half_edges[hull.faces[f]].origin];
     std::int64_t deepest = 0;
     for (const GridPoint vertex : hull.vertices) deepest = std::max(deepest, dot(normal, at - vertex));
     const Int128 squared = Int128(normal.x) * normal.x + Int128(normal.y) * normal.y + Int128(normal.z) * normal.z;
-    if (Int128(deepest) * deepest < Int128(kLeast * kLeast) * squared) return false;
+    if (Int128(deepest) * deepest < Int128(least * least) * squared) return false;
   }
   return true;
 }
@@ -266,7 +279,8 @@ Result<ConvexHull> convex_hull(std::span<const GridPoint> points) {
   if (edges.size() > ConvexHull::kMaxEdges) return too_many(edges.size(), "edges", ConvexHull::kMaxEdges);
   sort(edges, NumberKey{});
   link(hull, loops, edges);
-  if (!is_thick(hull)) return error(ErrorCode::invalid, "the points are flat, within 4 steps of the grid");
+  if (!is_thick(hull))
+    return error(ErrorCode::invalid, "the points are flat: thinner than 4 steps of the grid or 1/1024 of their width");
   return hull;
 }
 

@@ -232,7 +232,10 @@ TEST(ConvexHull, names_what_it_refuses) {
   EXPECT_EQ(fault_of(line), "the points span no volume");
   EXPECT_EQ(fault_of(sheet), "the points span no volume");
   sheet.push_back({10, 10, 2});  // three steps above the plane, which is not level
-  EXPECT_EQ(fault_of(sheet), "the points are flat, within 4 steps of the grid");
+  constexpr const char* kFlat = "the points are flat: thinner than 4 steps of the grid or 1/1024 of their width";
+  EXPECT_EQ(fault_of(sheet), kFlat);
+  EXPECT_EQ(fault_of({{0, 0, 0}, {9000, 0, 0}, {0, 9000, 0}, {3000, 3000, 9}}), "");
+  EXPECT_EQ(fault_of({{0, 0, 0}, {9000, 0, 0}, {0, 9000, 0}, {3000, 3000, 7}}), kFlat);
   EXPECT_EQ(fault_of({{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, GridPoint::kLimit}}),
             "a coordinate has more than 19 bits");
   EXPECT_EQ(fault_of({{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, -GridPoint::kLimit}}),

@@ -28,7 +28,7 @@ TEST(HullMass, of_blocks_is_the_closed_form) {
   constexpr std::int32_t kFar = GridPoint::kLimit - 1;
   const GridPoint blocks[][2] = {{{0, 0, 0}, {4, 4, 4}},
                                  {{-7, 3, 11}, {12, 8, 400}},
-                                 {{kFar - 4, -kFar, -3}, {kFar, kFar, 2}},
+                                 {{kFar - 2000, -kFar, -1100}, {kFar, kFar, 1000}},
                                  {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}};
   for (const auto& [low, high] : blocks) {
     const HullMass mass = mass_of(block(low, high));

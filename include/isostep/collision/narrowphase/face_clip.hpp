@@ -32,7 +32,8 @@ ISO_INLINE FacePair<S> face_pair(int axis, Vec3<S> half, Vec3<S> incident_half, 
   return pair;
 }
 
-/// A corner of the contact polygon. Its edges name it: 0..3 edges of the incident face, 4..7 sides of the reference.
+/// A corner of the contact polygon. Its edges name it: of boxes 0..3 edges of the incident face, 4..7 sides of the
+/// reference; polyhedra have names of their own.
 template <class S> struct ClipPoint {
   S u, v;                       // [m] in the reference face
   S height;                     // [m] above it

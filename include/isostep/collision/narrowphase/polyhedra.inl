@@ -89,8 +89,8 @@ ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_ed
   return true;
 }
 
-/// Where rounding, or a face that is preferred to a better axis, leaves nothing above the reference face of solids that
-/// overlap. Named by the vertex, twice, as no corner is.
+/// Where rounding leaves nothing above the best face of solids that overlap. Named by the vertex, twice, as no corner
+/// is.
 template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
   const Vec3<S> p = contact.vertices[contact.axis.vertex];
   polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
@@ -100,7 +100,7 @@ template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, F
 
 template <class S>
 ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& frame, S margin, S tie, bool of_a,
-                            Manifold<S>& out) {
+                            bool deepest, Manifold<S>& out) {
   FacePolygon<S> polygons[2];
   const std::uint32_t face = incident_face(contact);
   project_face(contact, face, polygons[0]);
@@ -117,7 +117,7 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
     if (polygon.points[i].height <= margin) polygon.points[kept++] = polygon.points[i];
   }
   polygon.count = kept;
-  if (kept == 0 && contact.axis.separation <= S(0)) take_deepest(contact, polygon);
+  if (kept == 0 && deepest) take_deepest(contact, polygon);
   if (polygon.count == 0) return;
   if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
 
@@ -132,20 +132,11 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   }
 }
 
-/// Edge k from its lower vertex to its higher.
-template <class S>
-ISO_INLINE Segment<S> segment_of(const Polyhedron<S>& solid, std::uint32_t k, const Vec3<S>* vertices,
-                                 Vec3<Unit<S>> direction) {
-  const Vec3<S> from = vertices[solid.origin(2 * k)], half = (vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
-  return {from + half, direction, dot(half, direction)};
-}
-
 template <class S>
 ISO_INLINE void touch_edges(const PolyhedronPair<S>& pair, const EdgeAxis<S>& best, const Transform<S>& ta,
                             Manifold<S>& out) {
-  const Segment<S> of_a = segment_of(pair.a, best.edge_a, pair.a.vertices.data(), pair.a.directions[best.edge_a]);
-  const Segment<S> of_b =
-      segment_of(pair.b, best.edge_b, pair.vertices_b, pair.b_in_a.rotation * pair.b.directions[best.edge_b]);
+  const Segment<S> of_a = edge_of(pair.a, best.edge_a), in_b = edge_of(pair.b, best.edge_b);
+  const Segment<S> of_b = {to_world(pair.b_in_a, in_b.centre), pair.b_in_a.rotation * in_b.direction, in_b.half};
   const ClosestPair<S> closest = closest_points(of_a, of_b);
   out.normal = ta.rotation * best.normal;
   out.add(to_world(ta, (of_a.at(closest.s) + of_b.at(closest.t)) * S(0.5)), best.separation,
@@ -169,14 +160,22 @@ void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Pol
   const EdgeAxis<S> edges = EdgeAxes<S>(pair).best(max(face_a.separation, face_b.separation) + pair.tolerance, margin);
   if (edges.found && edges.separation > margin) return;
   if (edges.found) return touch_edges(pair, edges, ta, out);
-  const S tie = pair.tolerance * S(0.125);
-  if (face_b.separation > face_a.separation + pair.tolerance) {
-    const Tangents<Unit<S>> across = tangents_of(b.normals[face_b.face]);
-    touch_faces({b, a, vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false, out);
-  } else {
-    const Tangents<Unit<S>> across = tangents_of(a.normals[face_a.face]);
-    touch_faces({a, b, vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, out);
-  }
+  const bool prefers_b = face_b.separation > face_a.separation + pair.tolerance;
+  const auto touch = [&](bool of_b, bool deepest) ISO_INLINE_LAMBDA {
+    const S tie = pair.tolerance * S(0.125);
+    if (of_b) {
+      const Tangents<Unit<S>> across = tangents_of(b.normals[face_b.face]);
+      touch_faces({b, a, vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false, deepest,
+                  out);
+    } else {
+      const Tangents<Unit<S>> across = tangents_of(a.normals[face_a.face]);
+      touch_faces({a, b, vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, deepest, out);
+    }
+  };
+  touch(prefers_b, false);
+  // Nothing is above a face that was preferred to a better one: that one decides, and whether they are apart.
+  if (out.count == 0 && max(face_a.separation, face_b.separation) <= S(0))
+    touch(face_b.separation > face_a.separation, true);
 }
 
 template <class S>

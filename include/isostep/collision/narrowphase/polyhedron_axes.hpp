@@ -5,9 +5,23 @@
 #include <bit>
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/segment.hpp"
 #include "isostep/geometry/baked/polyhedron.hpp"
 
 namespace isostep::detail {
+
+/// What an axis must be better by to replace one that is preferred [m]: 1/128 of the inner radius, and what rounding
+/// makes of places `reach` [m] away.
+template <class S> ISO_INLINE S axis_preference(S inner_radius, S reach) {
+  return inner_radius * S(0.0078125) + (reach + inner_radius) * resolution<Unit<S>>() * S(8) + resolution<S>() * S(4);
+}
+
+/// Edge k, from its lower vertex to its higher.
+template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std::uint32_t k) {
+  const Vec3<S> from = solid.vertices[solid.origin(2 * k)];
+  const Vec3<S> half = (solid.vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
+  return {from + half, solid.directions[k], dot(half, solid.directions[k])};
+}
 
 /// Two polyhedra; what belongs to b is also there as a's frame sees it, and a's vertices as b's does.
 template <class S> struct PolyhedronPair {
@@ -25,8 +39,8 @@ template <class S> struct PolyhedronPair {
       : a(of_a), b(of_b), b_in_a(relative(ta, tb)) {
     for (std::size_t i = 0; i < a.vertices.size(); ++i) vertices_a[i] = to_local(b_in_a, a.vertices[i]);
     for (std::size_t i = 0; i < b.vertices.size(); ++i) vertices_b[i] = to_world(b_in_a, b.vertices[i]);
-    const S rounding = (max_abs(b_in_a.position) + a.inner_radius + b.inner_radius) * resolution<Unit<S>>();
-    tolerance = min(a.inner_radius, b.inner_radius) * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
+    tolerance = axis_preference(min(a.inner_radius, b.inner_radius),
+                                max_abs(b_in_a.position) + max(a.inner_radius, b.inner_radius));
   }
 };
 
@@ -100,7 +114,7 @@ template <class S> class EdgeAxes {
       for (std::uint32_t word = 0; word < 2; ++word) {
         for (std::uint64_t left = meeting.words[word]; left != 0; left &= left - 1) {
           examine(i, 64 * word + static_cast<std::uint32_t>(std::countr_zero(left)), best);
-          if (best.separation > reach) return best;
+          if (best.found && best.separation > reach) return best;
         }
       }
     }

@@ -2,18 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/polyhedron_axes.hpp"
 #include "isostep/collision/narrowphase/round_polyhedron.hpp"
-#include "isostep/collision/narrowphase/segment.hpp"
 
 namespace isostep {
 namespace detail {
-
-template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std::uint32_t k) {
-  const Vec3<S> from = solid.vertices[solid.origin(2 * k)];
-  const Vec3<S> half = (solid.vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
-  return {from + half, solid.directions[k], dot(half, solid.directions[k])};
-}
 
 /// [m] by how far p is beyond the side of a face at one of its half-edges.
 template <class S>
@@ -40,12 +33,6 @@ template <class S> struct SegmentAxis {
   Vec3<Unit<S>> normal;  // [1] outward, of the best
   static constexpr std::uint32_t kNone = 0xffffffffu;
 };
-
-/// What an axis must be better by to replace a face's.
-template <class S> ISO_INLINE S face_preference(const Polyhedron<S>& solid, const Segment<S>& core) {
-  const S rounding = (max_abs(core.centre) + core.half + solid.inner_radius) * resolution<Unit<S>>();
-  return solid.inner_radius * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
-}
 
 template <class S>
 ISO_INLINE SegmentAxis<S> best_axis(const Polyhedron<S>& solid, const Segment<S>& core, S tolerance) {
@@ -78,7 +65,8 @@ ISO_INLINE SegmentAxis<S> best_axis(const Polyhedron<S>& solid, const Segment<S>
 /// The nearest points of a segment and a polyhedron that are apart: on an edge, or an end over a face.
 template <class S> struct NearestPair {
   Vec3<S> on_core, on_solid;  // [m]
-  std::uint32_t edge;
+  std::uint32_t feature;      // an edge, or kOverFace + twice a face + the end over it
+  static constexpr std::uint32_t kOverFace = 1u << 28;
   S distance;  // [m]
 };
 template <class S> ISO_INLINE NearestPair<S> nearest_pair(const Polyhedron<S>& solid, const Segment<S>& core) {
@@ -90,27 +78,29 @@ template <class S> ISO_INLINE NearestPair<S> nearest_pair(const Polyhedron<S>& s
     const S distance = length(on_core - on_solid);
     if (distance < best.distance) best = {on_core, on_solid, k, distance};
   }
-  for (const S end : {-core.half, core.half}) {
-    const NearestPoint<S> nearest = nearest_on(solid, core.at(end));
-    if (nearest.distance < best.distance) best = {core.at(end), nearest.point, best.edge, nearest.distance};
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    const Vec3<S> p = core.at(end == 0 ? -core.half : core.half);
+    const NearestPoint<S> nearest = nearest_on(solid, p);
+    if (nearest.feature >= NearestPoint<S>::kEdge || !(nearest.distance < best.distance)) continue;
+    best = {p, nearest.point, NearestPair<S>::kOverFace | nearest.feature << 1 | end, nearest.distance};
   }
   return best;
 }
 
-/// The stretch of a segment over a face, from `low` to `high`, and the edges that cut it.
+/// The stretch of a segment over a face, and the edges that cut it.
 template <class S> struct FaceStretch {
   S at[2];                // [m] along the segment
   std::uint32_t edge[2];  // kNoEdge: its own end
   static constexpr std::uint32_t kNoEdge = 255;
 };
 template <class S>
-ISO_INLINE bool stretch_over(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core,
+ISO_INLINE bool stretch_over(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S slack,
                              FaceStretch<S>& over) {
   over = {{-core.half, core.half}, {FaceStretch<S>::kNoEdge, FaceStretch<S>::kNoEdge}};
   std::uint32_t e = solid.faces[face];
   do {
-    const S beyond[2] = {beyond_side(solid, e, solid.normals[face], core.at(over.at[0])),
-                         beyond_side(solid, e, solid.normals[face], core.at(over.at[1]))};
+    const S beyond[2] = {beyond_side(solid, e, solid.normals[face], core.at(over.at[0])) - slack,
+                         beyond_side(solid, e, solid.normals[face], core.at(over.at[1])) - slack};
     if (beyond[0] > S(0) && beyond[1] > S(0)) return false;
     for (int end = 0; end < 2; ++end) {
       if (!(beyond[end] > S(0))) continue;
@@ -131,20 +121,41 @@ ISO_INLINE void touch_round(Vec3<S> on_core, S distance, Vec3<Unit<S>> normal, S
   out.add(to_world(frame, on_core - normal * ((distance + radius) * S(0.5))), distance - radius, feature);
 }
 
-/// Both ends of the stretch over a face, where the core lies along it, within 3.6 degrees, and the lower of them is no
-/// higher than `highest`.
+inline constexpr double kAlong = 0.0625;  // sine of the angle, 3.6 degrees, within which a core lies along a feature
+
+/// Both ends of the stretch over a face that the core lies along, where the lower of them is no higher than `highest`.
+/// Cores up to `slack` beyond a side are over it.
 template <class S>
-ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S highest, S radius,
-                            S margin, const Transform<S>& frame, Manifold<S>& out) {
+ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S highest, S slack,
+                            S radius, S margin, const Transform<S>& frame, Manifold<S>& out) {
   const Vec3<Unit<S>> normal = solid.normals[face];
   FaceStretch<S> over;
-  if (abs(dot(normal, core.direction)) > Unit<S>(0.0625) || !stretch_over(solid, face, core, over)) return false;
+  if (abs(dot(normal, core.direction)) > Unit<S>(kAlong) || !stretch_over(solid, face, core, slack, over)) return false;
   const Vec3<S> ends[2] = {core.at(over.at[0]), core.at(over.at[1])};
   const S heights[2] = {dot(normal, ends[0]) - solid.offsets[face], dot(normal, ends[1]) - solid.offsets[face]};
   if (!(over.at[0] < over.at[1]) || min(heights[0], heights[1]) > highest) return false;
   for (std::uint32_t end = 0; end < 2; ++end) {
     if (heights[end] - radius > margin) continue;
     touch_round(ends[end], heights[end], normal, radius, frame, 1u << 31 | face << 16 | over.edge[end] << 1 | end, out);
+  }
+  return out.count > 0;
+}
+
+/// Both ends of the stretch beside an edge that the core lies along.
+template <class S>
+ISO_INLINE bool touch_beside(const Polyhedron<S>& solid, std::uint32_t k, const Segment<S>& core, Vec3<Unit<S>> normal,
+                             S radius, S margin, const Transform<S>& frame, Manifold<S>& out) {
+  const Segment<S> edge = edge_of(solid, k);
+  const Vec3<Unit<S>> across = cross(edge.direction, core.direction);
+  if (dot(across, across) > Unit<S>(kAlong * kAlong)) return false;
+  const S middle = dot(edge.centre - core.centre, core.direction);
+  const S reach = edge.half * abs(dot(edge.direction, core.direction));
+  const S low = max(-core.half, middle - reach), high = min(core.half, middle + reach);
+  if (!(low < high)) return false;
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    const Vec3<S> p = core.at(end == 0 ? low : high);
+    const S height = dot(normal, p - edge.at(edge.nearest(p)));
+    if (height - radius <= margin) touch_round(p, height, normal, radius, frame, 1u << 29 | k << 1 | end, out);
   }
   return out.count > 0;
 }
@@ -183,7 +194,8 @@ template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S
       return {query - solid.normals[f] * height, height, solid.normals[f], f};
   }
   const Vec3<Unit<S>> normal = solid.normals[highest_face];
-  if (most <= detail::gap_noise(max_abs(query))) return {query - normal * most, most, normal, highest_face};
+  // Where a gap is a few digits long, so is its direction.
+  if (most <= detail::gap_noise(max_abs(query)) * S(4)) return {query - normal * most, most, normal, highest_face};
   return detail::nearest_on_edges(solid, query);
 }
 
@@ -229,7 +241,7 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
   out.clear();
   const Segment<S> core = {to_local(tb, ta.position), transposed_times(tb.rotation, ta.rotation.column(1)),
                            half_height};
-  const S tolerance = face_preference(b, core);
+  const S tolerance = axis_preference(b.inner_radius, max_abs(core.centre) + core.half);
   const SegmentAxis<S> best = best_axis(b, core, tolerance);
   if (best.separation - radius > margin) return;
   if (best.separation <= gap_noise(max_abs(core.centre))) {
@@ -237,7 +249,7 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
       const ClosestPair<S> crossing = closest_points(core, edge_of(b, best.edge));
       return touch_round(core.at(crossing.s), best.separation, best.normal, radius, tb, best.edge, out);
     }
-    if (touch_along(b, best.face, core, best.separation + tolerance, radius, margin, tb, out)) return;
+    if (touch_along(b, best.face, core, best.separation + tolerance, tolerance, radius, margin, tb, out)) return;
     const bool low = dot(best.normal, core.direction) > Unit<S>(0);
     return touch_round(core.at(low ? -core.half : core.half), best.separation, best.normal, radius, tb,
                        1u << 30 | best.face << 1 | (low ? 0u : 1u), out);
@@ -246,8 +258,12 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
   if (pair.distance - radius > margin) return;
   const Vec3<S> gap = pair.on_core - pair.on_solid;
   const bool over_face = dot(b.normals[best.face], gap) >= pair.distance - tolerance;
-  if (over_face && touch_along(b, best.face, core, pair.distance + tolerance, radius, margin, tb, out)) return;
-  touch_round(pair.on_core, pair.distance, normalise(gap), radius, tb, pair.edge, out);
+  if (over_face && touch_along(b, best.face, core, pair.distance + tolerance, tolerance, radius, margin, tb, out))
+    return;
+  const Vec3<Unit<S>> normal = normalise(gap);
+  const bool at_edge = pair.feature < NearestPair<S>::kOverFace;
+  if (at_edge && touch_beside(b, pair.feature, core, normal, radius, margin, tb, out)) return;
+  touch_round(pair.on_core, pair.distance, normal, radius, tb, pair.feature, out);
 }
 
 }  // namespace isostep

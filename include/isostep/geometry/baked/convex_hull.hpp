@@ -27,6 +27,7 @@ struct HalfEdge {
 struct ConvexHull {
   static constexpr std::uint32_t kMaxVertices = 128, kMaxEdges = 128, kMaxFaces = 128;  // indices are bytes
   static constexpr std::int64_t kLeastThickness = 4;  // [steps] below it, rounding to the grid would shape the faces
+  static constexpr std::int64_t kMostSlender = 1024;  // widths over thickness: beyond it, collisions lose their digits
 
   std::vector<GridPoint> vertices;   // ascending by GridPoint::key
   std::vector<HalfEdge> half_edges;  // edges ascend by their vertices

@@ -173,5 +173,34 @@ TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
   EXPECT_GT(four, 500);
 }
 
+/// A face that is preferred to a better one may have nothing above it: then no vertex far from the other solid touches.
+TYPED_TEST(Polyhedra, touch_where_both_of_them_are) {
+  using S = TypeParam;
+  const BoxSolid<S> small({S(0.05), S(0.05), S(0.05)}), large({S(0.5), S(0.5), S(0.5)}), plate({S(4), S(0.1), S(4)});
+  const auto turned = [](D3 at, D3 axis, double angle) {
+    const D3 v = oracle::unit(axis) * std::sin(angle / 2);
+    using U = Unit<S>;
+    return Transform<S>{oracle::made<S>(at),
+                        to_matrix(Quat<U>{from_double<U>(v.x), from_double<U>(v.y), from_double<U>(v.z),
+                                          from_double<U>(std::cos(angle / 2))})};
+  };
+  const Transform<S> still = turned({0, 0, 0}, {0, 1, 0}, 0);
+  int touching = 0;
+  for (int step = -40; step <= 40; ++step) {
+    for (const double over : {0.0, 0.15}) {  // beside each other, and one above the other
+      Manifold<S> m;
+      const double gap = step * 1e-5;
+      const D3 corner = {-0.45 + over, 0.55 + gap, -0.45 + over}, side = {4.5 - over, 0.6 + gap, 0};
+      collide_polyhedra(small.polyhedron(), still, large.polyhedron(), turned(corner, {0, 1, 0}, 0.3), S(0), m);
+      for (int i = 0; i < m.count; ++i) ASSERT_LT(oracle::length(oracle::real(m.points[i].position)), 0.1) << step;
+      touching += m.count;
+      collide_polyhedra(large.polyhedron(), still, plate.polyhedron(), turned(side, {1, 0, 0.3}, -0.001), S(0), m);
+      for (int i = 0; i < m.count; ++i) ASSERT_LT(std::fabs(to_double(m.points[i].position.z)), 0.51) << step;
+      touching += m.count;
+    }
+  }
+  EXPECT_GT(touching, 100);
+}
+
 }  // namespace
 }  // namespace isostep::test

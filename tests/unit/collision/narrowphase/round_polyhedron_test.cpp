@@ -228,5 +228,31 @@ TYPED_TEST(RoundOnPolyhedron, a_ray_enters_where_it_first_comes_inside) {
   EXPECT_GT(inside, 200);
 }
 
+/// One point would jump from end to end with the last digit of the pitch.
+TYPED_TEST(RoundOnPolyhedron, a_capsule_along_a_ridge_touches_it_at_both_ends) {
+  using S = TypeParam;
+  const HullSolid<S> roof(convex_hull(std::vector<GridPoint>{{-65536, 0, 0},
+                                                             {65536, 0, 0},
+                                                             {-65536, -32768, 40000},
+                                                             {65536, -32768, 40000},
+                                                             {-65536, -32768, -40000},
+                                                             {65536, -32768, -40000}})
+                              .value(),
+                          16);
+  using U = Unit<S>;
+  const Transform<S> still = {Vec3<S>::zero(), Mat3<U>::identity()};
+  for (const double pitch : {0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3}) {
+    const double half_angle = -0.78539816339744830962 + pitch / 2;  // y to x, and up
+    const Quat<U> turn = {U(0), U(0), from_double<U>(std::sin(half_angle)), from_double<U>(std::cos(half_angle))};
+    Manifold<S> m;
+    collide_capsule_polyhedron(S(0.4), S(0.1), {{S(0), S(0.1), S(0)}, to_matrix(turn)}, roof.polyhedron(), still,
+                               S(0.02), m);
+    ASSERT_EQ(m.count, 2) << pitch;
+    EXPECT_NEAR(std::fabs(to_double(m.points[0].position.x)), 0.4, 1e-3);
+    EXPECT_NEAR(to_double(m.points[0].position.x), -to_double(m.points[1].position.x), 1e-3);
+    EXPECT_NEAR(to_double(m.points[0].separation), 0, 5e-4);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test
