@@ -46,8 +46,4 @@ template <class S> class ParticleCommands {
   ParticleRemoval<S>& removal_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleCommands<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
-
 }  // namespace isostep

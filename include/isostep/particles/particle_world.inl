@@ -207,6 +207,5 @@ template <class S> StageView ParticleWorld<S>::state_fields() const { return eng
 #define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                             \
   template class ParticleRemoval<S>;                                                                  \
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_INSTANTIATE_PARTICLE_RECORD, S) \
-  template class ParticleCommands<S>;                                                                 \
   template std::uint64_t ParticleEngine<S>::hash() const;                                             \
   template class ParticleWorld<S>;

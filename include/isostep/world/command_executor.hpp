@@ -74,8 +74,4 @@ template <class S> class CommandExecutor {
   CommandJournal& journal_;
 };
 
-#define ISO_EXTERN(S) extern template class CommandExecutor<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
-
 }  // namespace isostep

@@ -338,6 +338,5 @@ template <class S> StageView World<S>::state_fields() const { return engine_->vi
   template class Destruction<S>;                       \
   template class StateLoader<S>;                       \
   ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S)     \
-  template class CommandExecutor<S>;                   \
   template std::uint64_t WorldEngine<S>::hash() const; \
   template class World<S>;
