@@ -61,6 +61,7 @@ class FaceLoops {
       : points_(points), triangles_(triangles) {
     find_planes();
     find_corners();
+    find_rims();
     for (std::uint32_t plane = 0; plane < planes_; ++plane) loops_.push_back(loop_of(plane));
   }
   const std::vector<std::vector<std::uint32_t>>& loops() const { return loops_; }
@@ -115,6 +116,8 @@ class FaceLoops {
         else seen[kept][p] = plane_[t];
       }
     }
+  }
+  void find_rims() {
     first_triangle_.assign(planes_, kNone);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       if (first_triangle_[plane_[t]] == kNone && has_rim(t)) first_triangle_[plane_[t]] = t;
@@ -157,11 +160,13 @@ class FaceLoops {
 };
 
 std::uint64_t pair_of(std::uint64_t from, std::uint64_t to) { return from << 32 | to; }
+struct LoopKey {
+  std::uint64_t operator()(const std::vector<std::uint32_t>& loop) const { return pair_of(loop[0], loop[1]); }
+};
 
 /// Faces ascend by their first edge, which starts at their lowest vertex.
 std::vector<std::vector<std::uint32_t>> in_order(const FaceLoops& faces, std::span<const std::uint32_t> vertex_of) {
   std::vector<std::vector<std::uint32_t>> loops;
-  std::vector<std::uint64_t> order;
   for (const std::vector<std::uint32_t>& loop : faces.loops()) {
     std::size_t lowest = 0;
     for (std::size_t i = 1; i < loop.size(); ++i) {
@@ -169,17 +174,10 @@ std::vector<std::vector<std::uint32_t>> in_order(const FaceLoops& faces, std::sp
     }
     std::vector<std::uint32_t> turned;
     for (std::size_t i = 0; i < loop.size(); ++i) turned.push_back(vertex_of[loop[(lowest + i) % loop.size()]]);
-    order.push_back(pair_of(turned[0], turned[1]));
     loops.push_back(std::move(turned));
   }
-  std::vector<std::vector<std::uint32_t>> sorted(loops.size());
-  std::vector<std::uint64_t> ascending = order;
-  sort(ascending, NumberKey{});
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    const std::size_t at = lower_bound(ascending.size(), [&](std::size_t k) { return ascending[k] < order[i]; });
-    sorted[at] = std::move(loops[i]);
-  }
-  return sorted;
+  sort(loops, LoopKey{});
+  return loops;
 }
 
 void link(ConvexHull& hull, std::span<const std::vector<std::uint32_t>> loops, std::span<const std::uint64_t> edges) {
@@ -219,8 +217,7 @@ bool is_thick(const ConvexHull& hull) {
     const GridPoint at = hull.vertices[hull.half_edges[hull.faces[f]].origin];
     std::int64_t deepest = 0;
     for (const GridPoint vertex : hull.vertices) deepest = std::max(deepest, dot(normal, at - vertex));
-    const Int128 squared = Int128(normal.x) * normal.x + Int128(normal.y) * normal.y + Int128(normal.z) * normal.z;
-    if (Int128(deepest) * deepest < Int128(least * least) * squared) return false;
+    if (Int128(deepest) * deepest < Int128(least * least) * squared_length(normal)) return false;
   }
   return true;
 }

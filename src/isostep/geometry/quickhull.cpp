@@ -2,14 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "quickhull.hpp"
 
-#include "isostep/scalar/wide_int.hpp"
-
 namespace isostep {
-namespace {
-
-Int128 squared_length(GridVector v) { return Int128(v.x) * v.x + Int128(v.y) * v.y + Int128(v.z) * v.z; }
-
-}  // namespace
 
 std::vector<HullTriangle> Quickhull::run() {
   if (!begin()) return {};

@@ -157,7 +157,7 @@ TEST(ConvexHull, is_what_all_planes_through_three_points_say) {
 
 TEST(ConvexHull, depends_on_the_set_of_points_alone) {
   std::mt19937 random(2);
-  HullDraws draws(7);
+  scenes::Draws draws(7);
   for (int n = 0; n < 200; ++n) {
     const std::vector<GridPoint> drawn = drawn_hull(n, draws);
     const Result<ConvexHull> hull = convex_hull(drawn);
@@ -185,7 +185,7 @@ struct Counts {
 
 /// Against a brute-force hull of integers. Engines that compare floats with a tolerance lose a few faces.
 TEST(ConvexHull, counts_of_two_scenes_are_exact) {
-  HullDraws draws(2025), others(3131);
+  scenes::Draws draws(2025), others(3131);
   Counts pit, terrain;
   for (int n = 0; n < 1000; ++n) pit.add(convex_hull(drawn_hull(n, draws)).value());
   EXPECT_EQ(pit.vertices, 14007u);
@@ -285,7 +285,7 @@ TEST(ConvexHull, simplified_keeps_the_furthest_points) {
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
   EXPECT_EQ(simplified(shuffled, 40).value(), few.value());
 
-  HullDraws draws(9);
+  scenes::Draws draws(9);
   for (int n = 0; n < 40; ++n) {
     const std::vector<GridPoint> points = drawn_hull(n, draws);
     const std::vector<GridPoint> all = simplified(points, 1000).value();

@@ -114,7 +114,7 @@ Sums by_slices(const ConvexHull& hull) {
 }
 
 TEST(HullMass, of_rocks_prisms_frusta_and_pyramids_is_what_slices_add_up_to) {
-  HullDraws draws(11);
+  scenes::Draws draws(11);
   for (int n = 0; n < 400; ++n) {
     std::vector<GridPoint> points = drawn_hull(n, draws);
     for (GridPoint& p : points)

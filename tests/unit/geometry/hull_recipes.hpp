@@ -7,22 +7,9 @@
 #include <vector>
 
 #include "isostep/geometry/baked/grid_point.hpp"
+#include "scenes/shapes.hpp"
 
 namespace isostep::test {
-
-/// x = 1664525 x + 1013904223 mod 2^32. Doubles hold every draw exactly.
-class HullDraws {
- public:
-  explicit HullDraws(std::uint32_t seed) : x_(seed) {}
-  double unit() {
-    x_ = x_ * 1664525u + 1013904223u;
-    return static_cast<double>(x_ >> 8) * 0x1p-24;
-  }
-  double between(double low, double high) { return low + (high - low) * unit(); }
-
- private:
-  std::uint32_t x_;
-};
 
 /// 64 steps of the grid of hulls, of 2^-16 m, are one of 1/1024 m.
 inline GridPoint in_steps(double x, double y, double z) {
@@ -31,7 +18,7 @@ inline GridPoint in_steps(double x, double y, double z) {
 }
 
 /// Points near an ellipsoid.
-inline std::vector<GridPoint> rock(double a, double b, double c, HullDraws& draws) {
+inline std::vector<GridPoint> rock(double a, double b, double c, scenes::Draws& draws) {
   std::vector<GridPoint> points;
   const int count = 12 + static_cast<int>(std::floor(20 * a));
   const double radius = 0.25 + 0.25 * b;
@@ -44,9 +31,8 @@ inline std::vector<GridPoint> rock(double a, double b, double c, HullDraws& draw
   return points;
 }
 inline void add_ring(std::vector<GridPoint>& points, int corners, double radius, double y) {
-  constexpr double kTurn = 6.28318530717958647692;  // [rad]
   for (int i = 0; i < corners; ++i) {
-    const double angle = kTurn * i / corners;
+    const double angle = scenes::kTurn * i / corners;
     points.push_back(in_steps(radius * std::cos(angle), y, radius * std::sin(angle)));
   }
 }
@@ -76,7 +62,7 @@ inline std::vector<GridPoint> pyramid(double a, double b, double c) {
 }
 
 /// The n-th of a scene: draws a, b, c and a yaw, then the rock's points.
-inline std::vector<GridPoint> drawn_hull(int n, HullDraws& draws) {
+inline std::vector<GridPoint> drawn_hull(int n, scenes::Draws& draws) {
   const double a = draws.unit(), b = draws.unit(), c = draws.unit();
   draws.unit();
   switch (n % 4) {

@@ -16,12 +16,14 @@ template <class S> ISO_INLINE constexpr Unit<S> near_parallel() {
 }
 
 /// What an axis must be better by to replace one that is preferred [m]: 1/128 of the smallest half extent, so that
-/// small rocking of a stack does not change its reference face, and what rounding makes of the largest.
+/// small rocking of a stack does not change its reference face, and what rounding makes of `extent` [m].
+template <class S> ISO_INLINE constexpr S axis_tolerance(S smallest, S extent) {
+  const S rounding = extent * resolution<Unit<S>>();
+  return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
+}
 template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S> half_b) {
   const Vec3<S> low = min(half_a, half_b);
-  const S smallest = min(low.x, min(low.y, low.z));
-  const S rounding = (max_abs(half_a) + max_abs(half_b)) * resolution<Unit<S>>();
-  return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
+  return axis_tolerance(min(low.x, min(low.y, low.z)), max_abs(half_a) + max_abs(half_b));
 }
 
 /// A gap between cores up to this has no direction worth the name: rounding where shapes are `extent` apart or long.

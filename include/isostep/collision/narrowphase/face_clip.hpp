@@ -47,16 +47,14 @@ template <class S, int kCapacity = kClipPoints> struct ClipPolygon {
   int count;
 };
 
-/// Cuts off what lies beyond `side` (0: u < -half, 1: u > half, 2, 3: v). A corner on the line stays, not doubled.
-/// The result is in `to` if something was cut, which it returns, else still in `from`.
-template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigned side, S half, ClipPolygon<S>& to) {
-  S beyond[kClipPoints];
+/// Cuts off what lies beyond a line, whose name is `side`; a corner on it stays, not doubled. `beyond` [m] of each
+/// corner; cut(p, q, t, at) sets u and v on the line between corners p and q. Returns whether something was cut: then
+/// the result is in `to`, else it is still in `from`.
+template <class S, int kCapacity, class Cut>
+ISO_INLINE bool clip(const ClipPolygon<S, kCapacity>& from, const S* beyond, std::uint32_t side, const Cut& cut,
+                     ClipPolygon<S, kCapacity>& to) {
   bool cuts = false;
-  for (int i = 0; i < from.count; ++i) {
-    const S w = side < 2 ? from.points[i].u : from.points[i].v;
-    beyond[i] = ((side & 1u) ? w : -w) - half;
-    cuts = cuts || beyond[i] > S(0);
-  }
+  for (int i = 0; i < from.count; ++i) cuts = cuts || beyond[i] > S(0);
   if (!cuts) return false;
   int count = 0;
   for (int i = 0; i < from.count; ++i) {
@@ -64,19 +62,32 @@ template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigne
     const ClipPoint<S>& p = from.points[i];
     const ClipPoint<S>& q = from.points[next];
     const bool p_out = beyond[i] > S(0), q_out = beyond[next] > S(0);
-    if (!p_out && count < kClipPoints) to.points[count++] = p;
-    if (p_out == q_out || !((p_out ? beyond[next] : beyond[i]) < S(0)) || count == kClipPoints) continue;
+    if (!p_out && count < kCapacity) to.points[count++] = p;
+    if (p_out == q_out || !((p_out ? beyond[next] : beyond[i]) < S(0)) || count == kCapacity) continue;
     const Unit<S> t = divide_to<Unit<S>>(beyond[i], beyond[i] - beyond[next]);
-    ClipPoint<S>& cut = to.points[count++];
-    const S border = (side & 1u) ? half : -half;
-    cut.u = side < 2 ? border : p.u + (q.u - p.u) * t;
-    cut.v = side < 2 ? p.v + (q.v - p.v) * t : border;
-    cut.height = p.height + (q.height - p.height) * t;
-    cut.before = q_out ? p.after : 4 + side;
-    cut.after = q_out ? 4 + side : p.after;
+    ClipPoint<S>& corner = to.points[count++];
+    cut(p, q, t, corner);
+    corner.height = p.height + (q.height - p.height) * t;
+    corner.before = q_out ? p.after : side;
+    corner.after = q_out ? side : p.after;
   }
   to.count = count;
   return true;
+}
+
+/// The same for one side of a box's face (0: u < -half, 1: u > half, 2, 3: v).
+template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigned side, S half, ClipPolygon<S>& to) {
+  S beyond[kClipPoints];
+  for (int i = 0; i < from.count; ++i) {
+    const S w = side < 2 ? from.points[i].u : from.points[i].v;
+    beyond[i] = ((side & 1u) ? w : -w) - half;
+  }
+  const S border = (side & 1u) ? half : -half;
+  const auto cut = [&](const ClipPoint<S>& p, const ClipPoint<S>& q, Unit<S> t, ClipPoint<S>& at) ISO_INLINE_LAMBDA {
+    at.u = side < 2 ? border : p.u + (q.u - p.u) * t;
+    at.v = side < 2 ? p.v + (q.v - p.v) * t : border;
+  };
+  return clip(from, beyond, 4 + side, cut, to);
 }
 
 /// Twice the signed area of a triangle in the face [m^2], exact for fixed point.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/collision/narrowphase/gjk.hpp"
+#include "isostep/collision/narrowphase/polyhedron_axes.hpp"
 
 namespace isostep {
 namespace detail {
@@ -54,16 +54,21 @@ template <class S> ISO_INLINE bool is_nearer(const Simplex<S>& a, const Simplex<
   return dot_sum(a.nearest, a.nearest) < dot_sum(b.nearest, b.nearest);
 }
 
+/// [1] Across the triangle of three of the points; zero where they lie on a line.
+template <class S> ISO_INLINE Vec3<Unit<S>> normal_of(const Simplex<S>& of, int i, int j, int k) {
+  const Vec3<S> p = of.points[i].point;
+  return normalise(cross(normalise(of.points[j].point - p), normalise(of.points[k].point - p)));
+}
+
 /// Of the triangle of three of the points. The share of a corner is its edge's distance from the point over that from
 /// the corner itself.
 template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& from, int i, int j, int k) {
   using U = Unit<S>;
   const int corners[3] = {i, j, k};
-  const Vec3<S> p = from.points[i].point;
-  const Vec3<U> normal = normalise(cross(normalise(from.points[j].point - p), normalise(from.points[k].point - p)));
+  const Vec3<U> normal = normal_of(from, i, j, k);
   Simplex<S> inside = {};
   inside.count = 3;
-  inside.nearest = normal * dot(normal, p);
+  inside.nearest = normal * dot(normal, from.points[i].point);
   bool is_inside = normal != Vec3<U>::zero();
   for (int c = 0; c < 3; ++c) {
     const Vec3<S> corner = from.points[corners[c]].point, begin = from.points[corners[(c + 1) % 3]].point;
@@ -93,8 +98,7 @@ template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from
   bool outside = false;
   for (const auto& [i, j, k, opposite] : kTetrahedronFaces) {
     const Vec3<S> p = from.points[i].point;
-    const Vec3<Unit<S>> normal =
-        normalise(cross(normalise(from.points[j].point - p), normalise(from.points[k].point - p)));
+    const Vec3<Unit<S>> normal = normal_of(from, i, j, k);
     const S of_origin = -dot(normal, p), of_opposite = dot(normal, from.points[opposite].point - p);
     const bool inside = of_opposite > flat ? of_origin >= S(0) : of_opposite < -flat && of_origin <= S(0);
     if (inside) continue;
@@ -103,17 +107,6 @@ template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from
     outside = true;
   }
   return outside;
-}
-
-/// The vertex furthest along a direction; of equals the first.
-template <class S> ISO_INLINE std::uint32_t support_of(std::span<const Vec3<S>> vertices, Vec3<Unit<S>> direction) {
-  std::uint32_t best = 0;
-  S most = dot(direction, vertices[0]);
-  for (std::uint32_t i = 1; i < vertices.size(); ++i) {
-    const S along = dot(direction, vertices[i]);
-    if (along > most) most = along, best = i;
-  }
-  return best;
 }
 
 template <class S> class Gjk {
@@ -126,8 +119,8 @@ template <class S> class Gjk {
 
   /// In a's frame. The direction points from b to a.
   ISO_INLINE SupportPoint<S> support(Vec3<U> direction) const {
-    const std::uint32_t i = support_of(a_.vertices, direction);
-    const std::uint32_t j = support_of(b_.vertices, transposed_times(b_in_a_.rotation, -direction));
+    const std::uint32_t i = lowest_of(a_.vertices, -direction).vertex;
+    const std::uint32_t j = lowest_of(b_.vertices, transposed_times(b_in_a_.rotation, direction)).vertex;
     return {a_.vertices[i] - to_world(b_in_a_, b_.vertices[j]), i, j};
   }
 

@@ -58,7 +58,7 @@ ISO_INLINE void project_face(const FaceContact<S>& contact, std::uint32_t face, 
   } while (edge != solid.faces[face]);
 }
 
-/// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number. A corner on the line stays.
+/// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number.
 template <class S>
 ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_edge, const FacePolygon<S>& from,
                             FacePolygon<S>& to) {
@@ -68,25 +68,13 @@ ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_ed
   const Unit<S> du = dot(contact.across.t, along), dv = dot(contact.across.u, along);
   const S u = dot(contact.across.t, corner), v = dot(contact.across.u, corner);
   S beyond[kFacePoints];
-  bool cuts = false;
-  for (int i = 0; i < from.count; ++i) {
+  for (int i = 0; i < from.count; ++i)
     beyond[i] = round_to<S>(product(from.points[i].u - u, dv) - product(from.points[i].v - v, du));
-    cuts = cuts || beyond[i] > S(0);
-  }
-  if (!cuts) return false;
-  const std::uint32_t name = 128 + half_edge / 2;
-  to.count = 0;
-  for (int i = 0; i < from.count; ++i) {
-    const int next = i + 1 < from.count ? i + 1 : 0;
-    const ClipPoint<S>&p = from.points[i], &q = from.points[next];
-    const bool p_out = beyond[i] > S(0), q_out = beyond[next] > S(0);
-    if (!p_out && to.count < kFacePoints) to.points[to.count++] = p;
-    if (p_out == q_out || !((p_out ? beyond[next] : beyond[i]) < S(0)) || to.count == kFacePoints) continue;
-    const Unit<S> t = divide_to<Unit<S>>(beyond[i], beyond[i] - beyond[next]);
-    to.points[to.count++] = {p.u + (q.u - p.u) * t, p.v + (q.v - p.v) * t, p.height + (q.height - p.height) * t,
-                             q_out ? p.after : name, q_out ? name : p.after};
-  }
-  return true;
+  const auto cut = [](const ClipPoint<S>& p, const ClipPoint<S>& q, Unit<S> t, ClipPoint<S>& at) ISO_INLINE_LAMBDA {
+    at.u = p.u + (q.u - p.u) * t;
+    at.v = p.v + (q.v - p.v) * t;
+  };
+  return clip(from, beyond, 128 + half_edge / 2, cut, to);
 }
 
 /// Where rounding leaves nothing above the best face of solids that overlap. Named by the vertex, twice, as no corner

@@ -10,17 +10,38 @@
 
 namespace isostep::detail {
 
-/// What an axis must be better by to replace one that is preferred [m]: 1/128 of the inner radius, and what rounding
-/// makes of places `reach` [m] away.
-template <class S> ISO_INLINE S axis_preference(S inner_radius, S reach) {
-  return inner_radius * S(0.0078125) + (reach + inner_radius) * resolution<Unit<S>>() * S(8) + resolution<S>() * S(4);
-}
-
 /// Edge k, from its lower vertex to its higher.
 template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std::uint32_t k) {
   const Vec3<S> from = solid.vertices[solid.origin(2 * k)];
   const Vec3<S> half = (solid.vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
   return {from + half, solid.directions[k], dot(half, solid.directions[k])};
+}
+
+/// The point of the arc between the normals of an edge's faces that looks across a direction, which one of them looks
+/// along and the other against. Of short edges it is as exact as of long ones; a cross of the two is not.
+template <class S>
+ISO_INLINE Vec3<Unit<S>> point_of_arc(const Polyhedron<S>& solid, std::uint32_t k, Vec3<Unit<S>> direction) {
+  using U = Unit<S>;
+  const Vec3<U> left = solid.normals[solid.half_edges[2 * k].face];
+  const Vec3<U> right = solid.normals[solid.half_edges[2 * k + 1].face];
+  const U half = U(0.5);  // so that their difference fits U
+  const U at_left = dot(left, direction) * half, at_right = dot(right, direction) * half;
+  const U t = divide_to<U>(at_left, at_left - at_right);
+  return normalise(left * (half - half * t) + right * (half * t));
+}
+
+/// The vertex lowest along a direction; of equals the first.
+template <class S> struct Lowest {
+  std::uint32_t vertex;
+  S height;  // [m]
+};
+template <class S> ISO_INLINE Lowest<S> lowest_of(std::span<const Vec3<S>> vertices, Vec3<Unit<S>> up) {
+  Lowest<S> lowest = {0, dot(up, vertices[0])};
+  for (std::uint32_t i = 1; i < vertices.size(); ++i) {
+    const S height = dot(up, vertices[i]);
+    if (height < lowest.height) lowest = {i, height};
+  }
+  return lowest;
 }
 
 /// Two polyhedra; what belongs to b is also there as a's frame sees it, and a's vertices as b's does.
@@ -39,8 +60,8 @@ template <class S> struct PolyhedronPair {
       : a(of_a), b(of_b), b_in_a(relative(ta, tb)) {
     for (std::size_t i = 0; i < a.vertices.size(); ++i) vertices_a[i] = to_local(b_in_a, a.vertices[i]);
     for (std::size_t i = 0; i < b.vertices.size(); ++i) vertices_b[i] = to_world(b_in_a, b.vertices[i]);
-    tolerance = axis_preference(min(a.inner_radius, b.inner_radius),
-                                max_abs(b_in_a.position) + max(a.inner_radius, b.inner_radius));
+    tolerance =
+        axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
   }
 };
 
@@ -54,18 +75,10 @@ template <class S> struct FaceAxis {
 template <class S> ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, std::span<const Vec3<S>> others, S reach) {
   FaceAxis<S> best = {0, 0, S(0)};
   for (std::uint32_t f = 0; f < of.faces.size(); ++f) {
-    const Vec3<Unit<S>> normal = of.normals[f];
-    std::uint32_t deepest = 0;
-    S lowest = dot(normal, others[0]);
-    for (std::uint32_t i = 1; i < others.size(); ++i) {
-      const S height = dot(normal, others[i]);
-      if (!(height < lowest)) continue;
-      lowest = height;
-      deepest = i;
-    }
-    const S separation = lowest - of.offsets[f];
+    const Lowest<S> lowest = lowest_of(others, of.normals[f]);
+    const S separation = lowest.height - of.offsets[f];
     if (f != 0 && !(separation > best.separation)) continue;
-    best = {f, deepest, separation};
+    best = {f, lowest.vertex, separation};
     if (separation > reach) break;
   }
   return best;
@@ -138,16 +151,11 @@ template <class S> class EdgeAxes {
     const Sides &left = sides_of_a_[a.half_edges[2 * i].face], &right = sides_of_a_[a.half_edges[2 * i + 1].face];
     return (left_plus & right_minus & left.plus & right.minus) | (left_minus & right_plus & left.minus & right.plus);
   }
-  /// The axis is the point of a's arc across which b's edge lies: short edges have it as exactly as long ones.
   ISO_INLINE void examine(std::uint32_t i, std::uint32_t j, EdgeAxis<S>& best) const {
     const Polyhedron<S>& a = pair_.a;
     const Vec3<U> across = cross(a.directions[i], directions_b_[j]);
     if (dot(across, across) < U(kLeastSine * kLeastSine)) return;
-    const Vec3<U> left = a.normals[a.half_edges[2 * i].face], right = a.normals[a.half_edges[2 * i + 1].face];
-    const U half = U(0.5);
-    const U at_left = dot(left, directions_b_[j]) * half, at_right = dot(right, directions_b_[j]) * half;
-    const U t = divide_to<U>(at_left, at_left - at_right);
-    const Vec3<U> n = normalise(left * (half - half * t) + right * (half * t));
+    const Vec3<U> n = point_of_arc(a, i, directions_b_[j]);
     const S separation = dot(n, pair_.vertices_b[pair_.b.origin(2 * j)] - a.vertices[a.origin(2 * i)]);
     if (separation > best.separation) best = {i, j, n, separation, true};
   }

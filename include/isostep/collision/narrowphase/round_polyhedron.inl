@@ -46,12 +46,11 @@ ISO_INLINE SegmentAxis<S> best_axis(const Polyhedron<S>& solid, const Segment<S>
   best.separation = best.face_separation + tolerance;
   best.normal = solid.normals[best.face];
   for (std::uint32_t k = 0; k < solid.edges(); ++k) {
-    const Vec3<U> left = solid.normals[solid.half_edges[2 * k].face];
-    const Vec3<U> right = solid.normals[solid.half_edges[2 * k + 1].face];
-    const U half = U(0.5), at_left = dot(left, core.direction) * half, at_right = dot(right, core.direction) * half;
+    const U half = U(0.5);  // as the point of the arc is found: what is nothing then has no sign
+    const U at_left = dot(solid.normals[solid.half_edges[2 * k].face], core.direction) * half;
+    const U at_right = dot(solid.normals[solid.half_edges[2 * k + 1].face], core.direction) * half;
     if (!((at_left > U(0) && at_right < U(0)) || (at_left < U(0) && at_right > U(0)))) continue;
-    const U t = divide_to<U>(at_left, at_left - at_right);
-    const Vec3<U> n = normalise(left * (half - half * t) + right * (half * t));
+    const Vec3<U> n = point_of_arc(solid, k, core.direction);
     const S separation = dot(n, core.centre - solid.vertices[solid.origin(2 * k)]);
     if (!(separation > best.separation)) continue;
     best.edge = k;
@@ -241,7 +240,7 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
   out.clear();
   const Segment<S> core = {to_local(tb, ta.position), transposed_times(tb.rotation, ta.rotation.column(1)),
                            half_height};
-  const S tolerance = axis_preference(b.inner_radius, max_abs(core.centre) + core.half);
+  const S tolerance = axis_tolerance(b.inner_radius, max_abs(core.centre) + core.half + b.inner_radius);
   const SegmentAxis<S> best = best_axis(b, core, tolerance);
   if (best.separation - radius > margin) return;
   if (best.separation <= gap_noise(max_abs(core.centre))) {

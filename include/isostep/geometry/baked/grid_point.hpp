@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "isostep/scalar/platform.hpp"
+#include "isostep/scalar/wide_int.hpp"
 
 namespace isostep {
 
@@ -38,6 +38,10 @@ struct GridVector {
     return a.x == b.x && a.y == b.y && a.z == b.z;
   }
 };
+/// Up to 2^83.6 of a face's normal.
+ISO_INLINE constexpr Int128 squared_length(GridVector v) {
+  return Int128(v.x) * v.x + Int128(v.y) * v.y + Int128(v.z) * v.z;
+}
 ISO_INLINE constexpr GridVector operator-(GridPoint a, GridPoint b) {
   return {static_cast<std::int64_t>(a.x) - b.x, static_cast<std::int64_t>(a.y) - b.y,
           static_cast<std::int64_t>(a.z) - b.z};

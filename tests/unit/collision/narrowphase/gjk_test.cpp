@@ -4,43 +4,20 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
-#include "isostep/geometry/baked/box_solid.hpp"
 #include "unit/collision/narrowphase/placed_solids.hpp"
-#include "unit/geometry/hull_recipes.hpp"
 
 namespace isostep::test {
 namespace {
 
 using oracle::D3;
 
-template <class S> class Gjk : public testing::Test {
- protected:
-  Transform<S> transform(D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
-  /// [m] of what is computed this far from the origin.
-  static double rounding(double reach) {
-    return 8 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 1 + reach) +
-           reach * to_double(resolution<Unit<S>>()) * 16;
-  }
-
-  oracle::Random random_{1};
-};
+template <class S> using Gjk = SolidTest<S>;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 TYPED_TEST_SUITE(Gjk, Scalars);
 
 TYPED_TEST(Gjk, points_in_the_solids_and_a_plane_between_them_agree_on_the_distance) {
   using S = TypeParam;
-  HullDraws draws(41);
-  std::vector<std::unique_ptr<Solid<S>>> solids;
-  for (int n = 0; n < 40; ++n) {
-    std::vector<GridPoint> points = drawn_hull(n, draws);
-    for (GridPoint& p : points) {
-      if (n >= 24 && n < 28) p = {p.x / 16, p.y / 16, p.z / 16};
-      if (n >= 32) p.y = p.y / 64;
-    }
-    solids.push_back(std::make_unique<Solid<S>>(points, n >= 20 && n < 24 ? 12 : 16));
-  }
+  const auto solids = solids_of_many_sizes<S>(41);
   int apart = 0, overlapping = 0, most_iterations = 0;
   for (int n = 0; n < 10000; ++n) {
     const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "isostep/geometry/baked/polyhedron.hpp"
+#include "unit/geometry/hull_recipes.hpp"
 #include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
@@ -94,5 +98,33 @@ template <class S> class Placed {
  private:
   Transform<double> ta_, tb_;
 };
+
+/// Places solids, and tells what to expect of a scalar's digits.
+template <class S> class SolidTest : public testing::Test {
+ protected:
+  Transform<S> transform(oracle::D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
+  /// [m] of what is computed this far from the origin.
+  static double rounding(double reach) {
+    return 8 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 1 + reach) +
+           reach * to_double(resolution<Unit<S>>()) * 16;
+  }
+
+  oracle::Random random_{1};
+};
+
+/// 40 hulls of 20 to 50 cm; among them some of 5 m, some of 3 cm, and chips a hundred times as wide as thick.
+template <class S> std::vector<std::unique_ptr<Solid<S>>> solids_of_many_sizes(std::uint32_t seed) {
+  scenes::Draws draws(seed);
+  std::vector<std::unique_ptr<Solid<S>>> solids;
+  for (int n = 0; n < 40; ++n) {
+    std::vector<GridPoint> points = drawn_hull(n, draws);
+    for (GridPoint& p : points) {
+      if (n >= 24 && n < 28) p = {p.x / 16, p.y / 16, p.z / 16};
+      if (n >= 32) p.y = p.y / 64;
+    }
+    solids.push_back(std::make_unique<Solid<S>>(points, n >= 20 && n < 24 ? 12 : 16));
+  }
+  return solids;
+}
 
 }  // namespace isostep::test

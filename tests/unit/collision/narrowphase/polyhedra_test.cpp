@@ -10,7 +10,6 @@
 
 #include "isostep/geometry/baked/box_solid.hpp"
 #include "unit/collision/narrowphase/placed_solids.hpp"
-#include "unit/geometry/hull_recipes.hpp"
 
 namespace isostep::test {
 namespace {
@@ -18,15 +17,9 @@ namespace {
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 
-template <class S> class Polyhedra : public testing::Test {
+template <class S> class Polyhedra : public SolidTest<S> {
  protected:
   static constexpr double kMargin = 0.02;  // [m]
-
-  Transform<S> transform(D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
-  static double rounding(double reach) {
-    return 8 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 1 + reach) +
-           reach * to_double(resolution<Unit<S>>()) * 16;
-  }
 
   struct Tally {
     int apart = 0, beside = 0, faces_a = 0, faces_b = 0, edges = 0, points = 0;
@@ -40,7 +33,8 @@ template <class S> class Polyhedra : public testing::Test {
     const double best = placed.best();
     const double inner = to_double(min(a.solid.polyhedron().inner_radius, b.solid.polyhedron().inner_radius));
     const double reach = std::max(oracle::length(oracle::real(ta.position)), a.radius() + b.radius());
-    const double error = rounding(reach), tolerance = 2 * inner / 128 + 2 * error;  // faces go before edges, a before b
+    const double error = this->rounding(reach),
+                 tolerance = 2 * inner / 128 + 2 * error;  // faces go before edges, a before b
     if (m.count == 0) {
       ASSERT_GT(best, -error);
       ++(best < kMargin - error ? tally.beside : tally.apart);
@@ -73,24 +67,12 @@ template <class S> class Polyhedra : public testing::Test {
     else ++((m.points[0].feature >> 30 & 1) == 0 ? tally.faces_a : tally.faces_b);
     tally.points += m.count;
   }
-
-  oracle::Random random_{1};
 };
 TYPED_TEST_SUITE(Polyhedra, Scalars);
 
 TYPED_TEST(Polyhedra, agree_with_every_axis) {
   using S = TypeParam;
-  // Of 20 to 50 cm; among them some of 5 m, some of 3 cm, and chips a hundred times as wide as thick.
-  HullDraws draws(21);
-  std::vector<std::unique_ptr<Solid<S>>> solids;
-  for (int n = 0; n < 40; ++n) {
-    std::vector<GridPoint> points = drawn_hull(n, draws);
-    for (GridPoint& p : points) {
-      if (n >= 24 && n < 28) p = {p.x / 16, p.y / 16, p.z / 16};
-      if (n >= 32) p.y = p.y / 64;
-    }
-    solids.push_back(std::make_unique<Solid<S>>(points, n >= 20 && n < 24 ? 12 : 16));
-  }
+  const auto solids = solids_of_many_sizes<S>(21);
   typename TestFixture::Tally tally;
   for (int n = 0; n < 10000; ++n) {
     const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
@@ -131,7 +113,7 @@ TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {
 
 TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
   using S = TypeParam;
-  HullDraws draws(23);
+  scenes::Draws draws(23);
   int apart = 0, four = 0;
   for (int n = 0; n < 2000; ++n) {
     const Solid<S> solid(drawn_hull(n, draws), 16);

@@ -9,8 +9,7 @@
 #include <memory>
 #include <set>
 
-#include "unit/geometry/hull_recipes.hpp"
-#include "unit/geometry/oracle.hpp"
+#include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
 namespace {
@@ -57,7 +56,7 @@ struct Oracle {
   std::vector<D3> vertices, normals, edges;
 };
 
-template <class S> class RoundOnPolyhedron : public testing::Test {
+template <class S> class RoundOnPolyhedron : public SolidTest<S> {
  protected:
   static constexpr double kMargin = 0.02, kRadius = 0.11;  // [m]
   static constexpr double kDigit = kIsFixed<S> ? 1 : 4;
@@ -68,21 +67,20 @@ template <class S> class RoundOnPolyhedron : public testing::Test {
     Oracle oracle;
   };
   RoundOnPolyhedron() {
-    HullDraws draws(31);
+    this->random_ = oracle::Random(5);
+    scenes::Draws draws(31);
     for (int n = 0; n < 24; ++n) {
       const ConvexHull hull = convex_hull(drawn_hull(n, draws)).value();
       solids_.push_back(std::make_unique<Solid>(hull));
       exact_.push_back(std::make_unique<HullSolid<double>>(hull, 16));
     }
   }
-  Transform<S> transform(D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
   static double error(double reach) {
     return (12 * kDigit + reach) * to_double(resolution<S>()) + reach * to_double(resolution<Unit<S>>()) * 32;
   }
 
   std::vector<std::unique_ptr<Solid>> solids_;
   std::vector<std::unique_ptr<HullSolid<double>>> exact_;
-  oracle::Random random_{5};
 };
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 TYPED_TEST_SUITE(RoundOnPolyhedron, Scalars);
