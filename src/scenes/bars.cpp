@@ -36,6 +36,9 @@ constexpr Bar kBars[] = {
     {"S8", Measure::asleep_at, 2, 1},
     {"S8", Measure::asleep_ms, 0.002, 0.001},
     {"S9", Measure::penetration, 0.03, 0.015},
+    {"S10", Measure::penetration, 0.06, 0.03},
+    {"S10", Measure::penetration_mean, 0.004, 0.002},
+    {"S10", Measure::unrest, 1e-4, 1e-5},
     {"S20", Measure::joint_error, 0.05, 0.02},
     {"S20", Measure::joint_end, 0.005, 0.001},
     {"S20", Measure::limit_passed, 0.15, 0.05},
@@ -119,7 +122,7 @@ std::vector<Bar> bars_of(std::string_view scene, bool small) {
 
 int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) {
   int outside = 0;
-  const bool pit = starts_with(scene, "S4") || scene == "S5" || scene == "S7" || scene == "S20";
+  const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" || scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
   for (const BodySight& body : bodies) {
     if (!body.dynamic) continue;
@@ -133,6 +136,7 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
 }
 
 Measure own_measure(std::string_view scene) {
+  if (starts_with(scene, "S10")) return Measure::outside;
   if (starts_with(scene, "S1")) return Measure::top;
   if (scene == "S2" || scene == "S3" || scene == "S8") return Measure::moved;
   if (starts_with(scene, "S6")) return Measure::stretch;
@@ -142,7 +146,7 @@ Measure own_measure(std::string_view scene) {
 
 std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
   constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
-                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S20"};
+                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S20"};
   if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
   return std::make_unique<OwnFigure>(scene);
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "hull_points.hpp"
 #include "isostep/geometry/validate.hpp"
 #include "shape_keys.hpp"
 
@@ -33,34 +34,41 @@ template <class U> Quat<U> read(const Rotation& q, const std::string& place) {
 /// See shape_of().
 template <class S> struct ReadSizes {
   std::string place;
+  std::vector<BlobRef>& blobs;
   S size(const char* key, const Number& number) const { return read<S>(number, place + "/" + key); }
   Vec3<S> sizes(const char* key, const Vector& v) const { return read<S>(v, place + "/" + key); }
   Vec3<Unit<S>> direction(const char* key, const Vector& v) const { return read<Unit<S>>(v, place + "/" + key); }
+  std::uint32_t hull(const char* key, const std::vector<Vector>& points) const {
+    blobs.push_back(hull_of_points(points, place + "/" + key));
+    return static_cast<std::uint32_t>(blobs.size());
+  }
 };
-template <class S> Primitive<S> primitive(const ScenePart& part, const std::string& place) {
+template <class S>
+Primitive<S> primitive(const ScenePart& part, std::vector<BlobRef>& blobs, const std::string& place) {
   return visit_shape_type(part.type,
-                          [&](auto tag) { return primitive_of(shape_of<S>(tag, part, ReadSizes<S>{place})); });
+                          [&](auto tag) { return primitive_of(shape_of<S>(tag, part, ReadSizes<S>{place, blobs})); });
 }
 
 template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, const std::string& place) {
   std::vector<Child<S>> children;
+  std::vector<BlobRef> blobs;
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     const std::string at = place + "/shapes/" + std::to_string(i);
-    const Primitive<S> shape = primitive<S>(body.parts[i], at);
+    const Primitive<S> shape = primitive<S>(body.parts[i], blobs, at);
     const Vec3<S> position = read<S>(body.parts[i].position, at + "/position");
     children.push_back({shape, {position, read<Unit<S>>(body.parts[i].orientation, at + "/orientation")}});
     if (!is_bounded(shape.type) && body.type == BodyType::dynamic) {
       throw SceneError(at,
                        std::string("a ") + kShapeNames[static_cast<std::size_t>(shape.type)] + " is for static bodies");
     }
-    const ShapeFault fault = validate(std::span<const Child<S>>(&children.back(), 1));
+    const ShapeFault fault = validate(std::span<const Child<S>>(&children.back(), 1), blobs);
     if (fault != ShapeFault::none) throw SceneError(at, describe(fault));
   }
-  const ShapeId shape = world.add_shape(std::span<const Child<S>>(children));
-  if (!shape)
-    throw SceneError(place + "/shapes", validate(std::span<const Child<S>>(children)) == ShapeFault::none
-                                            ? describe(world.fault())
-                                            : describe(validate(std::span<const Child<S>>(children))));
+  const ShapeId shape = world.add_shape(std::span<const Child<S>>(children), blobs);
+  if (!shape) {
+    const ShapeFault fault = validate(std::span<const Child<S>>(children), blobs);
+    throw SceneError(place + "/shapes", fault == ShapeFault::none ? describe(world.fault()) : describe(fault));
+  }
   return shape;
 }
 
@@ -103,6 +111,11 @@ std::string text_of(const Number& number) { return ' ' + number.text(); }
 template <std::size_t N> std::string text_of(const std::array<Number, N>& numbers) {
   std::string text;
   for (const Number& number : numbers) text += text_of(number);
+  return text;
+}
+std::string text_of(const std::vector<Vector>& vectors) {
+  std::string text;
+  for (const Vector& v : vectors) text += text_of(v);
   return text;
 }
 /// Bodies of equal parts share one shape.

@@ -4,12 +4,13 @@
 
 #include <limits>
 
+#include "hull_distance.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 4,
+static_assert(kShapeTypes == 5,
               "an oracle knows each shape by itself: see reach(), core_distance(), signed_distance()");
 
 using V = Vec3<double>;
@@ -95,6 +96,7 @@ double core_distance(const Solid& a, const Solid& b) {
 }  // namespace
 
 double signed_distance(const Solid& a, const Solid& b) {
+  if (a.type == ShapeType::hull || b.type == ShapeType::hull) return hull_distance(a, b);
   if (a.type == ShapeType::half_space && b.type == ShapeType::half_space)
     return std::numeric_limits<double>::infinity();
   if (a.type == ShapeType::half_space) return signed_distance(b, a);

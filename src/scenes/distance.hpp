@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
+#include "hull_points.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/math/transform.hpp"
 
@@ -10,16 +13,18 @@ namespace isostep::scenes {
 /// A primitive where it lies in the world.
 struct Solid {
   ShapeType type;
-  Vec3<double> centre;  // [m]
+  Vec3<double> centre;  // [m] of its frame
   Mat3<double> axes;    // [1] to world
   Vec3<double> half;    // [m] of the core: box, or (0, half height, 0) of a capsule
   double radius;        // [m] around the core
   Vec3<double> normal;  // [1] half-space, world
   double offset;        // [m] half-space, world: normal . p <= offset is inside
+  std::shared_ptr<const SolidHull> hull;
 };
 
 /// Greater than 0: the gap [m], or less than it where no axis shows all of it; less than 0: the overlap, the shortest
-/// way out. Exact for every overlap, and for every gap but box against box, where it is the widest of the 15 axes.
+/// way out. Exact for every overlap, and for every gap but of two boxes or hulls, where it is the widest of the axes that
+/// can separate them.
 double signed_distance(const Solid& a, const Solid& b);
 
 }  // namespace isostep::scenes

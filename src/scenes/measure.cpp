@@ -36,13 +36,22 @@ struct Part {
   Vec3<double> low, high;
 };
 
-Part part_of(Solid solid) {
+Part part_of(const Solid& solid) {
   Part part = {};
   part.solid = solid;
   if (solid.type == ShapeType::half_space) {
     const double far = std::numeric_limits<double>::infinity();
     part.low = {-far, -far, -far};
     part.high = {far, far, far};
+    return part;
+  }
+  if (solid.type == ShapeType::hull) {
+    part.low = part.high = solid.centre + solid.axes * solid.hull->vertices[0];
+    for (const Vec3<double> vertex : solid.hull->vertices) {
+      const Vec3<double> p = solid.centre + solid.axes * vertex;
+      part.low = min(part.low, p);
+      part.high = max(part.high, p);
+    }
     return part;
   }
   const Mat3<double>& m = solid.axes;
@@ -59,6 +68,11 @@ Part part_of(Solid solid) {
 
 template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
   std::vector<Part> parts;
+  std::vector<std::shared_ptr<const SolidHull>> hulls;  // by place
+  for (const BlobRef& blob : state.geometry->contents()) {
+    const bool is_hull = blob != nullptr && blob->type() == ShapeType::hull;
+    hulls.push_back(is_hull ? solid_hull(*blob) : nullptr);
+  }
   each_body(state, [&](const BodyState<S>& body, const BodyProperties<S>& properties) {
     if ((properties.flags & body_flag::kCollide) == 0 || (properties.flags & body_flag::kSensor) != 0) return;
     const Mat3<double> axes = to_matrix(unit_in_double(body.orientation));
@@ -74,6 +88,7 @@ template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
       solid.radius = to_double(child.primitive.radius);
       solid.normal = solid.axes * in_double(child.primitive.normal);
       solid.offset = to_double(child.primitive.offset) + dot(solid.normal, solid.centre);
+      if (child.primitive.blob != 0) solid.hull = hulls[child.primitive.blob - 1];
       Part part = part_of(solid);
       part.slot = body.slot;
       part.dynamic = properties.type == BodyType::dynamic;

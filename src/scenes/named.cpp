@@ -17,6 +17,8 @@ Scene tall_stack() { return stack(20); }
 Scene sleeping_stack() { return sleeping(stack(20)); }
 Scene full_pile() { return pile(1000); }
 Scene small_pile() { return pile(200); }
+Scene full_hull_pile() { return hull_pile(1000); }
+Scene small_hull_pile() { return hull_pile(200); }
 Scene swinging_chain() { return chain(false); }
 Scene hanging_chain() { return chain(true); }
 Scene sleeping_pyramid() {
@@ -49,6 +51,8 @@ constexpr NamedScene kScenes[] = {
     {"S7", "50 ragdolls fall into a pit", ragdolls},
     {"S8", "S3 with sleep", sleeping_pyramid},
     {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
+    {"S10", "1000 hulls fall into a pit", full_hull_pile},
+    {"S10s", "the first 200 bodies of S10", small_hull_pile},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},

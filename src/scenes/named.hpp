@@ -24,6 +24,8 @@ Scene stack(int boxes);
 Scene wall();
 Scene pyramid();
 Scene pile(int bodies);
+/// The same of hulls.
+Scene hull_pile(int bodies);
 Scene rain();
 Scene chain(bool hanging);
 Scene ragdolls();

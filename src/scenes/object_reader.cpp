@@ -61,20 +61,28 @@ void ObjectReader::positive(const char* key, Number& to) {
   }
 }
 
-template <std::size_t N> void ObjectReader::numbers(const char* key, std::array<Number, N>& to) {
-  const JsonNode* node = find(key, JsonKind::array);
-  if (node == nullptr) return;
-  if (node->items.size() != N) {
-    throw SceneError(place_of(key), "expected " + std::to_string(N) + " numbers, found " +
-                                        std::to_string(node->items.size()) + " items");
+template <std::size_t N>
+void ObjectReader::numbers(const JsonNode& node, const std::string& place, std::array<Number, N>& to) {
+  if (node.kind != JsonKind::array) wrong_kind(place, JsonKind::array, node.kind);
+  if (node.items.size() != N) {
+    throw SceneError(place, "expected " + std::to_string(N) + " numbers, found " + std::to_string(node.items.size()) +
+                                " items");
   }
   for (std::size_t i = 0; i < N; ++i) {
-    const JsonNode& item = node->items[i];
-    if (item.kind != JsonKind::number) wrong_kind(place_of(key) + "/" + std::to_string(i), JsonKind::number, item.kind);
+    const JsonNode& item = node.items[i];
+    if (item.kind != JsonKind::number) wrong_kind(place + "/" + std::to_string(i), JsonKind::number, item.kind);
     to[i] = Number(item.text);
   }
 }
+template <std::size_t N> void ObjectReader::numbers(const char* key, std::array<Number, N>& to) {
+  if (const JsonNode* node = find(key, JsonKind::array)) numbers(*node, place_of(key), to);
+}
 void ObjectReader::vector(const char* key, Vector& to) { numbers(key, to); }
+void ObjectReader::vectors(const char* key, std::vector<Vector>& to) {
+  const std::span<const JsonNode> items = array(key);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    numbers(items[i], place_of(key) + "/" + std::to_string(i), to.emplace_back(zero_vector()));
+}
 void ObjectReader::rotation(const char* key, Rotation& to) { numbers(key, to); }
 
 void ObjectReader::flag(const char* key, bool& to) {

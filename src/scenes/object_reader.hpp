@@ -20,6 +20,7 @@ class ObjectReader {
   void number(const char* key, Number& to);
   void positive(const char* key, Number& to);
   void vector(const char* key, Vector& to);
+  void vectors(const char* key, std::vector<Vector>& to);
   void rotation(const char* key, Rotation& to);
   void flag(const char* key, bool& to);
   void text(const char* key, std::string& to);
@@ -41,6 +42,8 @@ class ObjectReader {
  private:
   const JsonNode* find(const char* key, JsonKind kind);
   template <std::size_t N> void numbers(const char* key, std::array<Number, N>& to);
+  template <std::size_t N>
+  static void numbers(const JsonNode& node, const std::string& place, std::array<Number, N>& to);
 
   const JsonNode& node_;
   std::string place_;

@@ -1,9 +1,18 @@
-// S4, S5, S9: many bodies that fall, settle or are stirred.
+// S4, S5, S9, S10: many bodies that fall, settle or are stirred.
 // SPDX-License-Identifier: MIT
+#include "hull_recipes.hpp"
 #include "named.hpp"
 #include "shapes.hpp"
 
 namespace isostep::scenes {
+
+namespace {
+/// Layers of 7 x 7.
+Point place_in_pit(int n) {
+  const int layer = n / 49, column = n % 49;
+  return {(column % 7 - 3) * 1.4, 1.0 + 1.2 * layer, (column / 7 - 3) * 1.4};
+}
+}  // namespace
 
 Scene pile(int bodies) {
   Scene scene;
@@ -11,9 +20,20 @@ Scene pile(int bodies) {
   add_pit(scene, 10);
   Draws draws(12345);
   for (int n = 0; n < bodies; ++n) {
-    const int layer = n / 49, column = n % 49;
-    const Point at = {(column % 7 - 3) * 1.4, 1.0 + 1.2 * layer, (column / 7 - 3) * 1.4};
-    scene.bodies.push_back(drawn_body(n, at, draws, 1));
+    scene.bodies.push_back(drawn_body(n, place_in_pit(n), draws, 1));
+  }
+  return scene;
+}
+
+Scene hull_pile(int bodies) {
+  Scene scene;
+  scene.allow_sleep = false;
+  add_pit(scene, 10);
+  Draws draws(2025);
+  for (int n = 0; n < bodies; ++n) {
+    const DrawnHull hull = drawn_hull(n, draws);
+    scene.bodies.push_back(body_of(hull_part(hull.points), place_in_pit(n)));
+    scene.bodies.back().orientation = yaw(hull.yaw);
   }
   return scene;
 }

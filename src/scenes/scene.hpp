@@ -45,6 +45,7 @@ struct ScenePart {
   Number half_height = 0;               // [m] capsule
   Vector normal = {0, 1, 0};            // [1] half-space
   Number offset = 0;                    // [m] half-space
+  std::vector<Vector> points;           // [m] hull
   Vector position = zero_vector();      // [m] in the body's frame
   Rotation orientation = no_rotation();
 };

@@ -19,7 +19,8 @@ ScenePart read_part(const JsonNode& node, const std::string& place) {
   part.type = static_cast<ShapeType>(reader.choice("type", kShapeNames));
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if (rule != SizeRule::optional) reader.require(key);
-    if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
+    if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
+    else if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
     else if (rule == SizeRule::positive) reader.positive(key, size);
     else reader.number(key, size);
   });

@@ -12,6 +12,11 @@ template <std::size_t N> std::string list(const std::array<Number, N>& numbers) 
   for (std::size_t i = 0; i < N; ++i) text += (i == 0 ? "" : ", ") + numbers[i].text();
   return text + "]";
 }
+std::string list(const std::vector<Vector>& vectors) {
+  std::string text = "[";
+  for (const Vector& v : vectors) text += (text.size() == 1 ? "" : ", ") + list(v);
+  return text + "]";
+}
 std::string list(const Number& number) { return number.text(); }
 std::string list(bool flag) { return flag ? "true" : "false"; }
 

@@ -25,11 +25,15 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<HalfSpace>, Part&
   visit("normal", part.normal, SizeRule::required);
   visit("offset", part.offset, SizeRule::optional);
 }
+template <class Part, class Visit> void visit_sizes(ShapeClass<Hull>, Part& part, const Visit& visit) {
+  visit("points", part.points, SizeRule::required);
+}
 template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
   visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
 }
 
-// shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>.
+// shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>,
+// read.hull(key, vectors) the number that a Primitive has of the blob of their hull.
 
 template <class S, class Read> Sphere<S> shape_of(ShapeClass<Sphere>, const ScenePart& part, const Read& read) {
   return {read.size("radius", part.radius)};
@@ -42,6 +46,9 @@ template <class S, class Read> Capsule<S> shape_of(ShapeClass<Capsule>, const Sc
 }
 template <class S, class Read> HalfSpace<S> shape_of(ShapeClass<HalfSpace>, const ScenePart& part, const Read& read) {
   return {read.direction("normal", part.normal), read.size("offset", part.offset)};
+}
+template <class S, class Read> Hull<S> shape_of(ShapeClass<Hull>, const ScenePart& part, const Read& read) {
+  return {read.hull("points", part.points)};
 }
 
 }  // namespace isostep::scenes

@@ -27,11 +27,9 @@ void check(bool good, const char* what) {
   std::printf("not so: %s\n", what);
   std::exit(1);
 }
-Child<float> part_of(const BlobRef& blob, std::uint32_t name = 1) {
-  return {Probe<float>{name, Probe<float>::half_of(*blob)}.primitive(), Pose<float>::identity()};
-}
+Child<float> part_named(std::uint32_t name) { return {Probe<float>{name}.primitive(), Pose<float>::identity()}; }
 ShapeId add(World<float>& world, const BlobRef& blob) {
-  const Child<float> part = part_of(blob);
+  const Child<float> part = part_named(1);
   return world.add_shape(std::span<const Child<float>>(&part, 1), std::span<const BlobRef>(&blob, 1));
 }
 Buffer portable(const World<float>& world) {
@@ -97,7 +95,7 @@ void refusals() {
   World<float> world;
   const std::uint64_t empty = world.hash();
   const BlobRef blob = Probe<float>::bake(500, 250, 125), wrong = Blob::make(ShapeType::box, {1, 2, 3});
-  const Child<float> part = part_of(blob), nameless = part_of(blob, 0), beyond = part_of(blob, 2);
+  const Child<float> part = part_named(1), nameless = part_named(0), beyond = part_named(2);
   const auto refused = [&](const Child<float>& child, std::vector<BlobRef> blobs, const char* what) {
     const bool taken = static_cast<bool>(world.add_shape(std::span<const Child<float>>(&child, 1), blobs));
     check(!taken && world.fault() == Fault::bad_shape && world.hash() == empty, what);
@@ -109,7 +107,7 @@ void refusals() {
   refused(part, {wrong}, "another type's blob");
   refused(part, {blob, wrong}, "a blob that nobody names");
   refused(part, {nullptr}, "null");
-  refused(part, {Probe<float>::bake(250, 250, 125)}, "fields that the blob does not make so");
+  refused(part, {Blob::make(ShapeType::probe, {1, 2, 3})}, "bytes that make no shape");
   check(!world.apply(AddShape<float>{{part}, {{blob->id(), nullptr}}}), "a name that nobody knows");
   check(!world.apply(AddShape<float>{{part}, {{wrong->id(), blob}}}), "content of another name");
 }

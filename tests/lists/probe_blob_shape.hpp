@@ -14,9 +14,21 @@ template <class S = Literal> struct Probe {
   static constexpr ShapeType kType = ShapeType::probe;
   static constexpr bool kBounded = true;
   static constexpr bool kHasBlob = true;
+  static constexpr bool kPrincipal = true;
 
-  std::uint32_t blob;  // as Primitive has it
-  Vec3<S> half;        // [m] as the blob has it
+  struct Content {
+    bool well_formed;
+    Vec3<S> half;  // [m]
+
+    static std::shared_ptr<const void> make(Bytes bytes) {
+      if (bytes.size() != 12) return std::make_shared<Content>(Content{false, Vec3<S>::zero()});
+      const auto side = [&](std::size_t at) { return S(load_le<std::uint32_t>(&bytes[at])) / S(1000); };
+      return std::make_shared<Content>(Content{true, {side(0), side(4), side(8)}});
+    }
+  };
+
+  std::uint32_t blob;                // as Primitive has it
+  const Content* content = nullptr;  // of a shape of a world
 
   static BlobRef bake(std::uint32_t x, std::uint32_t y, std::uint32_t z, BlobHome home = BlobHome::carried) {  // [mm]
     std::vector<std::uint8_t> bytes(12);
@@ -25,22 +37,18 @@ template <class S = Literal> struct Probe {
     store_le(&bytes[8], z);
     return Blob::make(kType, bytes, home);
   }
-  static Vec3<S> half_of(const Blob& blob) {
-    const auto side = [&](std::size_t at) { return S(load_le<std::uint32_t>(&blob.bytes()[at])) / S(1000); };
-    return {side(0), side(4), side(8)};
-  }
-  ISO_INLINE ShapeFault fault_of(const Blob& from) const {
-    return from.bytes().size() == 12 && half_of(from) == half ? ShapeFault::none : ShapeFault::blob_not_valid;
+  static ISO_INLINE ShapeFault fault_of(const Content& content) {
+    return content.well_formed ? Box<S>{content.half}.fault() : ShapeFault::blob_not_valid;
   }
 
-  static ISO_INLINE constexpr Probe of(const Primitive<S>& p) { return {p.blob, p.half}; }
-  static ISO_INLINE constexpr Probe of(const Probe<Literal>& p) {
-    return {p.blob, {from_literal<S>(p.half.x), from_literal<S>(p.half.y), from_literal<S>(p.half.z)}};
+  static ISO_INLINE constexpr Probe of(const Primitive<S>& p, const Content* content) { return {p.blob, content}; }
+  static ISO_INLINE constexpr Probe of(const Probe<Literal>& p) { return {p.blob}; }
+  ISO_INLINE constexpr Primitive<S> primitive() const {
+    return {kType, blob, Vec3<S>::zero(), S(0), Vec3<Unit<S>>::zero(), S(0)};
   }
-  ISO_INLINE constexpr Primitive<S> primitive() const { return {kType, blob, half, S(0), Vec3<Unit<S>>::zero(), S(0)}; }
-  ISO_INLINE constexpr ShapeFault fault() const { return box().fault(); }
+  ISO_INLINE constexpr ShapeFault fault() const { return ShapeFault::none; }
   ISO_INLINE constexpr Probe normalised() const { return *this; }
-  ISO_INLINE constexpr Aabb<S> bounds(const Transform<S>& t) const { return box().bounds(t); }
+  ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const { return box().bounds(t); }
   ISO_INLINE S mass(S density) const { return box().mass(density); }
   ISO_INLINE Vec3<S> kappa() const { return box().kappa(); }
   ISO_INLINE Unit<S> relative_volume(S scale) const { return box().relative_volume(scale); }
@@ -51,7 +59,7 @@ template <class S = Literal> struct Probe {
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const { return box().closest(t, query); }
   template <class Line> ISO_INLINE void visit_lines(const Line& line) const { box().visit_lines(line); }
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
-  ISO_INLINE constexpr Box<S> box() const { return {half}; }
+  ISO_INLINE Box<S> box() const { return {content->half}; }
 };
 
 }  // namespace isostep

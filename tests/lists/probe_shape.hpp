@@ -10,6 +10,7 @@ template <class S = Literal> struct Probe {
   static constexpr ShapeType kType = ShapeType::probe;
   static constexpr bool kBounded = true;
   static constexpr bool kHasBlob = false;
+  static constexpr bool kPrincipal = true;
 
   S half_side;  // [m]
 

@@ -9,8 +9,7 @@ namespace {
 class ShapeList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/geometry/shape_type.hpp", "X(half_space, HalfSpace)",
-         "X(half_space, HalfSpace) X(probe, Probe)");
+    edit("include/isostep/geometry/shape_type.hpp", "X(hull, Hull)", "X(hull, Hull) X(probe, Probe)");
   }
   void add_file() {
     copy("tests/lists/probe_shape.hpp", "include/isostep/geometry/shapes/probe.hpp");
@@ -18,11 +17,12 @@ class ShapeList : public ListProbe {
          "#include \"isostep/geometry/shapes/sphere.hpp\"\n#include \"isostep/geometry/shapes/probe.hpp\"");
   }
   void add_pairs() {
-    edit("include/isostep/collision/narrowphase/shape_pairs.hpp", "    add(half_space, half_space, collide_never<S>);",
-         "    add(half_space, half_space, collide_never<S>);\n"
-         "    add(sphere, probe, collide_sphere_box<S>);\n    add(box, probe, collide_box_box<S>);\n"
+    edit("include/isostep/collision/narrowphase/shape_pairs.hpp", "    add(hull, hull, collide_hull_hull<S>);",
+         "    add(hull, hull, collide_hull_hull<S>);\n"
+         "    add(sphere, probe, collide_records<S, collide_sphere_box<S>>);\n"
+         "    add(box, probe, collide_records<S, collide_box_box<S>>);\n"
          "    add(capsule, probe, collide_never<S>);\n    add(half_space, probe, collide_never<S>);\n"
-         "    add(probe, probe, collide_box_box<S>);");
+         "    add(hull, probe, collide_never<S>);\n    add(probe, probe, collide_records<S, collide_box_box<S>>);");
   }
   void add_keys() {
     edit("src/scenes/shape_keys.hpp", "// shape_of:",

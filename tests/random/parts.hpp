@@ -21,7 +21,7 @@ struct DrawnShape {
   double reach;  // [m]
 };
 
-static_assert(kShapeTypes == 4, "random worlds have every shape that moves: see draw_primitive()");
+static_assert(kShapeTypes == 5, "random worlds have every shape that moves: see draw_primitive()");
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
   switch (dice.below(3)) {

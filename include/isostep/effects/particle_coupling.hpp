@@ -109,7 +109,7 @@ template <class S> class ParticleCoupling {
   };
   struct Part {
     Transform<S> at;  // to world
-    Primitive<S> primitive;
+    ShapeView<S> shape;
   };
   /// A particle on its way.
   struct Flier {

@@ -132,7 +132,8 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   const Transform<S> placed = Transform<S>::of(view.pose);
   for (const Child<S>& child : view.children)
     parts_.push_back(
-        {child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)), child.primitive});
+        {child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)),
+         view.contents.view(child.primitive)});
   met_.push_back(met);
   met_of_slot_[body.slot] = static_cast<std::uint32_t>(met_.size());
   return met_of_slot_[body.slot] - 1;
@@ -143,7 +144,7 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
 template <class S>
 bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const Flier& flier, Meeting& meeting) const {
   const S radius = flier.material->radius;
-  ClosestPoint<S> nearest = closest_point(part.primitive, part.at, flier.position);
+  ClosestPoint<S> nearest = closest_point(part.shape, part.at, flier.position);
   S gap = nearest.distance - radius;
   if (margin_ < gap) {
     const Vec3<S> way = (flier.velocity - velocity_at(met, flier.position - met.centre)) * step_;
@@ -155,7 +156,7 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
     for (int i = 0; i < detail::kTraceSteps && touching < gap; ++i) {
       if (gone == along.length) return false;
       gone = min(gone + gap, along.length);
-      nearest = closest_point(part.primitive, part.at, flier.position + u * gone);
+      nearest = closest_point(part.shape, part.at, flier.position + u * gone);
       gap = nearest.distance - radius;
       if (gone == along.length && gap <= margin_) break;
     }

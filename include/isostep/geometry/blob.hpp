@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -26,6 +27,10 @@ enum class BlobHome : std::uint8_t {
 class Blob;
 using BlobRef = std::shared_ptr<const Blob>;
 
+/// Makes of a blob's bytes what a shape needs of them; whatever the bytes are, for what is wrong with them is content
+/// too. One function for each scalar.
+using ContentMaker = std::shared_ptr<const void> (*)(const Blob&);
+
 /// Immutable, and shared by all that name it: worlds, snapshots, commands. Its name is the hash of its type and its
 /// bytes, so equal content has one name on every machine. The bytes are little-endian integers; what they mean, the
 /// shape's file says.
@@ -37,18 +42,31 @@ class Blob {
   ISO_INLINE ShapeType type() const { return type_; }
   ISO_INLINE BlobHome home() const { return home_; }
   ISO_INLINE Bytes bytes() const { return bytes_; }
+  /// What `make` makes of it: when it is first asked for, from any thread, and kept as long as the blob.
+  const void* content(ContentMaker make) const;
+
+  Blob(const Blob&) = delete;
+  Blob& operator=(const Blob&) = delete;
+  ~Blob();
 
   void write(Writer& writer) const;
   /// What `write` wrote of a blob with that name; null, and a reader that has failed, for anything else.
   static BlobRef read(Reader& reader, const ContentId& id);
 
  private:
+  struct Made {
+    ContentMaker maker;
+    std::shared_ptr<const void> content;
+    const Made* next;
+  };
+
   Blob(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home);
 
   ContentId id_;
   ShapeType type_;
   BlobHome home_;
   std::vector<std::uint8_t> bytes_;
+  mutable std::atomic<const Made*> made_ = nullptr;  // a list that only grows
 };
 
 /// Whether a blob is carried, and its content if so; null is not carried.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "isostep/geometry/blob.hpp"
@@ -35,6 +36,8 @@ class GeometryStore {
   ISO_INLINE bool is_taken(std::uint32_t place) const { return place < names_.size() && names_[place].uses != 0; }
   /// Of a place that is taken.
   ISO_INLINE const BlobRef& content(std::uint32_t place) const { return contents_[place]; }
+  /// By place; null where none is taken.
+  ISO_INLINE std::span<const BlobRef> contents() const { return contents_; }
   /// kNone: the store does not have it.
   std::uint32_t find(const ContentId& id) const;
   /// The blob of that name: the store's own, so that one content stands in memory once and an asset stays one; else

@@ -18,8 +18,8 @@ template <class S> struct MassProperties {
   Quat<Unit<S>> principal;  // rotates from the principal frame to the body frame; w >= 0 for several children
 };
 
-/// Properties of homogeneous children; overlaps count twice. One child keeps its own frame: centre and principal are
-/// its pose, kappa its closed form. Several are added by the parallel-axis theorem and diagonalised by rotations from
+/// Properties of homogeneous children; overlaps count twice. One child whose frame is its own principal one keeps it:
+/// centre and principal are its pose, kappa its closed form. Others are added by the parallel-axis theorem and diagonalised by rotations from
 /// the body axes, none above 45 degrees, so a compound that is already principal keeps them.
 /// Units:  density [kg/m^3] > 0.
 /// Limits: shapes pass validate(). Mass saturates at Limits<S>::mass() and is at least one resolution step. No
@@ -27,7 +27,8 @@ template <class S> struct MassProperties {
 /// Error:  of kappa, relative, beside its rounding to S: one child 1e-5 (Q16.16, 0.1 m .. 10 m), 1e-10 (Q32.32), 3e-7,
 ///         1e-14 (float, double, 0.02 m .. 20 m); several 1e-4, 2e-9, 1e-6, 1e-13. Measured in
 ///         tests/unit/geometry/mass_properties_test.cpp.
-template <class S> MassProperties<S> mass_properties(std::span<const Child<S>> children, S density);
+template <class S>
+MassProperties<S> mass_properties(std::span<const Child<S>> children, S density, Contents<S> contents = {});
 
 namespace detail {
 template <class S> ISO_INLINE constexpr S kappa_of_axis(S mass, S inertia) {
@@ -50,7 +51,8 @@ template <class S> ISO_INLINE constexpr MassProperties<S> with_mass(MassProperti
   return properties;
 }
 
-#define ISO_EXTERN(S) extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S);
+#define ISO_EXTERN(S) \
+  extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/mass_properties.hpp"
@@ -11,27 +13,68 @@ namespace detail {
 
 // ---- several children, everything relative to a scale so that it fits Unit<S>
 
+/// A child with what its shape says of it.
+template <class S> class Parts {
+ public:
+  ISO_INLINE Parts(std::span<const Child<S>> children, Contents<S> contents)
+      : children_(children), contents_(contents) {}
+
+  ISO_INLINE std::size_t size() const { return children_.size(); }
+  ISO_INLINE const Child<S>& operator[](std::size_t i) const { return children_[i]; }
+  template <class Ask> ISO_INLINE auto ask(std::size_t i, const Ask& of_shape) const {
+    return visit_shape(contents_.view(children_[i].primitive), of_shape);
+  }
+  ISO_INLINE Aabb<S> box(std::size_t i, const Transform<S>& at) const {
+    return bounds(contents_.view(children_[i].primitive), at);
+  }
+  /// [m] in the body's frame.
+  ISO_INLINE Vec3<S> centre(std::size_t i) const {
+    const Pose<S>& pose = children_[i].pose;
+    return ask(i, [&](const auto& shape) ISO_INLINE_LAMBDA {
+      if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return pose.position;
+      else return pose.position + rotate(pose.orientation, shape.centre_of_mass());
+    });
+  }
+  /// Inertia over mass and scale^2, about its centre, along the body's axes.
+  ISO_INLINE Mat3<Unit<S>> inertia(std::size_t i, S scale) const {
+    const Mat3<Unit<S>> turn = to_matrix(children_[i].pose.orientation);
+    return ask(i, [&](const auto& shape) ISO_INLINE_LAMBDA {
+      const auto own = shape.relative_inertia(scale);
+      if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return rotate_diagonal(turn, own);
+      else return turn * (own * transpose(turn));
+    });
+  }
+
+ private:
+  std::span<const Child<S>> children_;
+  Contents<S> contents_;
+};
+
 /// Volume fractions of a list; they add up to one within half a step of S.
 template <class S> class Weights {
   using U = Unit<S>;
   static constexpr int kMostDoublings = 62;  // of the smallest volume that Unit<S> holds
 
  public:
-  ISO_INLINE explicit Weights(std::span<const Child<S>> children) : children_(children), scale_(0), doublings_(0) {
-    for (const Child<S>& child : children) scale_ = max(scale_, max_abs(child.primitive.half) + child.primitive.radius);
+  ISO_INLINE explicit Weights(const Parts<S>& parts) : parts_(parts), scale_(0), doublings_(0) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Aabb<S> box = parts.box(i, Transform<S>::of(Pose<S>::identity()));
+      scale_ = max(scale_, max(max_abs(box.low), max_abs(box.high)));
+    }
     U most = U(0);
-    for (std::size_t i = 0; i < children.size(); ++i) most = max(most, relative_volume(i));
+    for (std::size_t i = 0; i < parts.size(); ++i) most = max(most, relative_volume(i));
     for (; doublings_ < kMostDoublings && most < U(0.5); ++doublings_) most = most + most;
     SumOf<S, U> total = product(S(0), U(0));  // exact
-    for (std::size_t i = 0; i < children.size(); ++i) total += product(S(1), scaled_volume(i));
+    for (std::size_t i = 0; i < parts.size(); ++i) total += product(S(1), scaled_volume(i));
     total_ = round_to<S>(total);
   }
-  ISO_INLINE U operator[](std::size_t i) const { return divide_to<U>(scaled_volume(i), total_); }
+  ISO_INLINE U operator[](std::size_t i) const {
+    return parts_.size() == 1 ? U(1) : divide_to<U>(scaled_volume(i), total_);
+  }
 
  private:
   ISO_INLINE U relative_volume(std::size_t i) const {
-    return visit_shape(children_[i].primitive,
-                       [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.relative_volume(scale_); });
+    return parts_.ask(i, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.relative_volume(scale_); });
   }
   ISO_INLINE U scaled_volume(std::size_t i) const {
     U volume = relative_volume(i);
@@ -39,18 +82,18 @@ template <class S> class Weights {
     return volume;
   }
 
-  std::span<const Child<S>> children_;
+  const Parts<S>& parts_;
   S scale_;
   int doublings_;  // powers of two that bring the largest volume to one half or more: thin rods keep their digits
   S total_;
 };
 
-template <class S> ISO_INLINE Vec3<S> centre_of(std::span<const Child<S>> children, const Weights<S>& weights) {
-  const Vec3<S> origin = children[0].pose.position;
+template <class S> ISO_INLINE Vec3<S> centre_of(const Parts<S>& parts, const Weights<S>& weights) {
+  const Vec3<S> origin = parts.centre(0);
   const SumOf<S, Unit<S>> zero = product(S(0), Unit<S>(0));
   SumOf<S, Unit<S>> x = zero, y = zero, z = zero;
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    const Vec3<S> arm = children[i].pose.position - origin;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Vec3<S> arm = parts.centre(i) - origin;
     const Unit<S> w = weights[i];
     x += product(arm.x, w);
     y += product(arm.y, w);
@@ -62,16 +105,13 @@ template <class S> ISO_INLINE Vec3<S> centre_of(std::span<const Child<S>> childr
 /// The specific inertia tensor about `centre` over scale^2, where scale is at least twice every coordinate from there:
 /// all entries below 1/2.
 template <class S>
-ISO_INLINE Mat3<Unit<S>> tensor_of(std::span<const Child<S>> children, const Weights<S>& weights, Vec3<S> centre,
-                                   S scale) {
+ISO_INLINE Mat3<Unit<S>> tensor_of(const Parts<S>& parts, const Weights<S>& weights, Vec3<S> centre, S scale) {
   using U = Unit<S>;
   const Sum<U> zero = product(U(0), U(0));
   Sum<U> xx = zero, yy = zero, zz = zero, xy = zero, xz = zero, yz = zero;
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    const Vec3<U> principal = visit_shape(
-        children[i].primitive, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.relative_inertia(scale); });
-    const Mat3<U> own = rotate_diagonal(to_matrix(children[i].pose.orientation), principal);
-    const Vec3<S> arm = children[i].pose.position - centre;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Mat3<U> own = parts.inertia(i, scale);
+    const Vec3<S> arm = parts.centre(i) - centre;
     const U x = divide_to<U>(arm.x, scale), y = divide_to<U>(arm.y, scale), z = divide_to<U>(arm.z, scale);
     const U w = weights[i];
     xx += product(w, own.rows[0].x + (y * y + z * z));
@@ -127,16 +167,16 @@ template <class S> ISO_INLINE S kappa_from(Unit<S> value, S scale) {
   return inverse_radius * inverse_radius;
 }
 
-template <class S> ISO_INLINE MassProperties<S> combined(std::span<const Child<S>> children, S mass) {
-  const Weights<S> weights(children);
-  const Vec3<S> centre = centre_of(children, weights);
+template <class S> ISO_INLINE MassProperties<S> combined(const Parts<S>& parts, S mass) {
+  const Weights<S> weights(parts);
+  const Vec3<S> centre = centre_of(parts, weights);
   S reach = S(0);
-  for (const Child<S>& child : children) {
-    const Aabb<S> box = bounds(child.primitive, Transform<S>::of(child.pose));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Aabb<S> box = parts.box(i, Transform<S>::of(parts[i].pose));
     reach = max(reach, max(max_abs(box.low - centre), max_abs(box.high - centre)));
   }
   const S scale = reach + reach;
-  const Mat3<Unit<S>> tensor = tensor_of(children, weights, centre, scale);
+  const Mat3<Unit<S>> tensor = tensor_of(parts, weights, centre, scale);
   const Quat<Unit<S>> axes = principal_axes(tensor);
   const Mat3<Unit<S>> principal = seen_from(tensor, axes);
   return {mass,
@@ -148,19 +188,26 @@ template <class S> ISO_INLINE MassProperties<S> combined(std::span<const Child<S
 
 }  // namespace detail
 
-template <class S> MassProperties<S> mass_properties(std::span<const Child<S>> children, S density) {
+template <class S>
+MassProperties<S> mass_properties(std::span<const Child<S>> children, S density, Contents<S> contents) {
+  const detail::Parts<S> parts(children, contents);
   S mass = S(0);
   bool immovable = children.empty();
-  for (const Child<S>& child : children) {
-    immovable = immovable || !is_bounded(child.primitive.type);
-    const S part = visit_shape(child.primitive, [&](const auto& shape) { return shape.mass(density); });
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    immovable = immovable || !is_bounded(children[i].primitive.type);
+    const S part = parts.ask(i, [&](const auto& shape) { return shape.mass(density); });
     mass = min(mass + part, Limits<S>::mass());
   }
   if (immovable) return {S(0), Vec3<S>::zero(), Vec3<S>::zero(), Quat<Unit<S>>::identity()};
   mass = max(mass, resolution<S>());
-  if (children.size() > 1) return detail::combined(children, mass);
+  const bool principal = visit_shape_type(
+      children[0].primitive.type, [](auto tag) { return decltype(tag)::template Of<S>::kPrincipal; });
+  if (children.size() > 1 || !principal) return detail::combined(parts, mass);
   const Pose<S>& pose = children[0].pose;
-  const Vec3<S> kappa = visit_shape(children[0].primitive, [](const auto& shape) { return shape.kappa(); });
+  const Vec3<S> kappa = parts.ask(0, [](const auto& shape) {
+    if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return shape.kappa();
+    else return Vec3<S>::zero();
+  });
   return {mass, pose.position, kappa, pose.orientation};
 }
 

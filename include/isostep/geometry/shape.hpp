@@ -4,9 +4,11 @@
 
 #include <concepts>
 
+#include "isostep/geometry/shape_view.hpp"
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
 #include "isostep/geometry/shapes/half_space.hpp"
+#include "isostep/geometry/shapes/hull.hpp"
 #include "isostep/geometry/shapes/sphere.hpp"
 
 namespace isostep {
@@ -18,23 +20,47 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
   { Shape<S>::kType } -> std::convertible_to<ShapeType>;
   { Shape<S>::kBounded } -> std::convertible_to<bool>;           // else for static bodies alone
   { Shape<S>::kHasBlob } -> std::convertible_to<bool>;           // its content is too large for a record: blob.hpp
-  { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;            // the inverse of primitive()
+  { Shape<S>::kPrincipal } -> std::convertible_to<bool>;         // centre of mass and principal axes are its frame's
   { Shape<S>::of(literal) } -> std::same_as<Shape<S>>;           // rounded once
   { shape.primitive() } -> std::same_as<Primitive<S>>;           // unused fields are 0
   { shape.fault() } -> std::same_as<ShapeFault>;                 // of finite numbers
   { shape.normalised() } -> std::same_as<Shape<S>>;              // directions of unit length; bit for bit what was
   { shape.bounds(t) } -> std::same_as<Aabb<S>>;                  // see bounds.hpp
   { shape.mass(s) } -> std::same_as<S>;                          // [kg] of a density [kg/m^3]
-  { shape.kappa() } -> std::same_as<Vec3<S>>;                    // [1/m^2] see MassProperties, about its own axes
-  { shape.relative_volume(s) } -> std::same_as<Unit<S>>;         // [1] over (2 s)^3, s at least its half size [m]
-  { shape.relative_inertia(s) } -> std::same_as<Vec3<Unit<S>>>;  // [1] inertia over mass and s^2, about its own axes
+  { shape.relative_volume(s) } -> std::same_as<Unit<S>>;         // [1] over (2 s)^3; s [m]: no point is further away
   { shape.cast(t, v, v) } -> std::same_as<detail::LocalHit<S>>;  // from origin v along translation v
   { shape.closest(t, v) } -> std::same_as<ClosestPoint<S>>;      // see closest_point.hpp
   shape.visit_lines(detail::NoLine{});                           // for debug drawing: line(from, to), its own frame
   { shape.drawn_at(pose, pose) } -> std::same_as<Pose<S>>;  // of body's origin and shape's frame: its middle, world
 };
-#define ISO_COMPLETE(name, Shape)                                        \
-  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member"); \
+/// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it.
+template <template <class> class Shape, class S>
+concept MadeOfPrimitive = requires(Primitive<S> stored) {
+  { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;
+};
+template <template <class> class Shape, class S>
+concept MadeOfBlob = requires(Primitive<S> stored, const typename Shape<S>::Content* content, Bytes bytes) {
+  { Shape<S>::of(stored, content) } -> std::same_as<Shape<S>>;
+  { Shape<S>::Content::make(bytes) } -> std::same_as<std::shared_ptr<const void>>;
+  { Shape<S>::fault_of(*content) } -> std::same_as<ShapeFault>;
+};
+/// Inertia over mass and s^2 [1] about the centre of mass, s as above.
+template <template <class> class Shape, class S>
+concept HasPrincipalInertia = requires(Shape<S> shape, S s) {
+  { shape.kappa() } -> std::same_as<Vec3<S>>;  // [1/m^2] see MassProperties
+  { shape.relative_inertia(s) } -> std::same_as<Vec3<Unit<S>>>;
+};
+template <template <class> class Shape, class S>
+concept HasInertiaTensor = requires(Shape<S> shape, S s) {
+  { shape.centre_of_mass() } -> std::same_as<Vec3<S>>;  // [m]
+  { shape.relative_inertia(s) } -> std::same_as<Mat3<Unit<S>>>;
+};
+#define ISO_COMPLETE(name, Shape)                                                                                     \
+  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member");                                              \
+  static_assert(Shape<float>::kHasBlob ? MadeOfBlob<Shape, float> : MadeOfPrimitive<Shape, float>,                    \
+                "a shape's file lacks `of`, Content or fault_of");                                                    \
+  static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>,        \
+                "a shape's file lacks kappa, centre_of_mass or relative_inertia");                                    \
   static_assert(Shape<float>::kType == ShapeType::name, "a shape's kType is not its own");
 ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 #undef ISO_COMPLETE
@@ -55,10 +81,19 @@ template <class Visit> ISO_INLINE constexpr decltype(auto) visit_shape_type(Shap
 
 /// visit(Sphere<S>), visit(Box<S>) ...: the shape that a valid record holds, as its file declares it.
 template <class S, class Visit>
-ISO_INLINE constexpr decltype(auto) visit_shape(const Primitive<S>& primitive, Visit&& visit) {
-  return visit_shape_type(primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> decltype(auto) {
-    return visit(decltype(tag)::template Of<S>::of(primitive));
+ISO_INLINE constexpr decltype(auto) visit_shape(const ShapeView<S>& view, Visit&& visit) {
+  return visit_shape_type(view.primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> decltype(auto) {
+    using Shape = typename decltype(tag)::template Of<S>;
+    if constexpr (Shape::kHasBlob) {
+      return visit(Shape::of(view.primitive, static_cast<const typename Shape::Content*>(view.content)));
+    } else {
+      return visit(Shape::of(view.primitive));
+    }
   });
+}
+template <class S, class Visit>
+ISO_INLINE constexpr decltype(auto) visit_shape(const Primitive<S>& primitive, Visit&& visit) {
+  return visit_shape(ShapeView<S>(primitive), visit);
 }
 
 /// Whether a dynamic body may have it.

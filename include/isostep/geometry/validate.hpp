@@ -14,9 +14,8 @@ namespace isostep {
 /// The first fault found, in a fixed order of checks.
 template <class S> ShapeFault validate(const Primitive<S>& primitive);
 template <class S> ShapeFault validate(const Pose<S>& pose);
-template <class S> ShapeFault validate(std::span<const Child<S>> children);
-/// Of the blob that a valid primitive names, null where it names none.
-template <class S> ShapeFault validate_blob(const Primitive<S>& primitive, const Blob* blob);
+/// `blobs`: what the children name, as Primitive::blob counts them.
+template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
 
 /// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
@@ -24,8 +23,7 @@ template <class S> Child<S> normalised(const Child<S>& child);
 #define ISO_EXTERN(S)                                                            \
   extern template ShapeFault validate<S>(const Primitive<S>&);                   \
   extern template ShapeFault validate<S>(const Pose<S>&);                        \
-  extern template ShapeFault validate<S>(std::span<const Child<S>>);             \
-  extern template ShapeFault validate_blob<S>(const Primitive<S>&, const Blob*); \
+  extern template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>); \
   extern template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -12,6 +12,9 @@ namespace detail {
 template <class S> ISO_INLINE Transform<S> placed(const Transform<S>& origin, const Child<S>& child) {
   return child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
 }
+template <class S> ISO_INLINE ShapeView<S> part(const BodyFrame<S>& frame, std::uint32_t index) {
+  return frame.contents.view(frame.children[index].primitive);
+}
 }  // namespace detail
 
 template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
@@ -26,6 +29,7 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
           state.centre,
           {-(turn * body.local_centre), turn},
           children.data(),
+          map.contents(),
           static_cast<std::uint32_t>(children.size()),
           state.slot,
           at.set == Location::kAwake ? at.index + 1 : 0,
@@ -43,13 +47,13 @@ ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S marg
   constexpr std::uint32_t kFew = 8;
   const Transform<S> origin_b = origin_beside(a, b);
   const auto box_of_b = [&](std::uint32_t j) {
-    return bounds(b.children[j].primitive, detail::placed(origin_b, b.children[j]));
+    return bounds(detail::part(b, j), detail::placed(origin_b, b.children[j]));
   };
   Aabb<S> boxes_b[kFew];
   for (std::uint32_t j = 0; j < min(b.child_count, kFew); ++j) boxes_b[j] = box_of_b(j);
   for (std::uint32_t i = 0; i < a.child_count; ++i) {
     const Transform<S> ta = detail::placed(a.origin, a.children[i]);
-    const Aabb<S> box_a = grow(bounds(a.children[i].primitive, ta), margin);
+    const Aabb<S> box_a = grow(bounds(detail::part(a, i), ta), margin);
     for (std::uint32_t j = 0; j < b.child_count; ++j) {
       if (looks == 0) return false;
       --looks;
@@ -65,9 +69,9 @@ void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b
   const Child<S>&part_a = a.children[i], &part_b = b.children[j];
   const Transform<S> origin_b = origin_beside(a, b);
   if (a.plain && b.plain) {
-    collide(part_a.primitive, a.origin, part_b.primitive, origin_b, margin, out);
+    collide(detail::part(a, i), a.origin, detail::part(b, j), origin_b, margin, out);
   } else {
-    collide(part_a.primitive, detail::placed(a.origin, part_a), part_b.primitive, detail::placed(origin_b, part_b),
+    collide(detail::part(a, i), detail::placed(a.origin, part_a), detail::part(b, j), detail::placed(origin_b, part_b),
             margin, out);
   }
 }

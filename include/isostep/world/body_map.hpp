@@ -30,7 +30,7 @@ struct Location {
 /// From a slot to the record, in O(1). A cache: all of it follows from the state.
 /// Input:   the state, and calls from whatever moves records between its arrays.
 /// Output:  locations, and the records that lie there.
-/// Keeps:   a location for each slot; how often sleeping islands name a body.
+/// Keeps:   a location for each slot; how often sleeping islands name a body; the content of blobs.
 template <class S> class BodyMap {
  public:
   ISO_INLINE explicit BodyMap(WorldState<S>& state) : state_(state) {}
@@ -53,6 +53,8 @@ template <class S> class BodyMap {
   /// Of a body that does not sleep, to be changed.
   BodyProperties<S>& change_properties(std::uint32_t slot);
   std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  /// Of the blobs that children name.
+  ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
   /// Pose of the centre of mass, or for kNoBody of the world itself.
   Pose<S> centre_pose_at(std::uint32_t slot) const;
@@ -73,6 +75,8 @@ template <class S> class BodyMap {
   void count_names(const SleepingIsland<S>& island, std::uint32_t by);
   /// For every slot that the state has handed out.
   void make_room();
+  /// After the state's blobs have changed.
+  void renew_contents();
 
   template <class Visit> void visit_scratch(const Visit& visit) {
     visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
@@ -84,7 +88,8 @@ template <class S> class BodyMap {
 
   WorldState<S>& state_;
   std::vector<Location> locations_, joint_locations_;
-  std::vector<std::uint32_t> names_;  // by body slot
+  std::vector<std::uint32_t> names_;   // by body slot
+  std::vector<const void*> contents_;  // by place in the geometry store
 };
 
 #define ISO_EXTERN(S) extern template class BodyMap<S>;

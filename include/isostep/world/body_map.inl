@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/lower_bound.hpp"
+#include "isostep/geometry/content.hpp"
 #include "isostep/world/body_map.hpp"
 
 namespace isostep {
@@ -107,6 +108,8 @@ template <class S> void BodyMap<S>::count_names(const SleepingIsland<S>& island,
     if (joint.body_b != kNoBody) names_[joint.body_b] += by;
   }
 }
+
+template <class S> void BodyMap<S>::renew_contents() { find_contents<S>(state_.geometry->contents(), contents_); }
 
 template <class S> void BodyMap<S>::make_room() {
   const std::size_t bodies = state_.body_slots.entries().size(), joints = state_.joint_slots.entries().size();

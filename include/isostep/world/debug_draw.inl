@@ -72,26 +72,27 @@ template <class S> class BodySketch {
     sketch_.vector(state.angular_velocity, body.angular_velocity);
     to_.body(body);
     for (std::uint32_t child = 0; child < view.children.size(); ++child)
-      draw_part(body, view.pose, view.children[child], child);
+      draw_part(body, view, child);
   }
 
-  ISO_INLINE void draw_part(const DrawnBody& body, const Pose<S>& origin, const Child<S>& child,
-                            std::uint32_t index) const {
+  ISO_INLINE void draw_part(const DrawnBody& body, const BodyView<S>& view, std::uint32_t index) const {
+    const Child<S>& child = view.children[index];
     const Primitive<S>& primitive = child.primitive;
-    const Pose<S> pose = child.pose.is_identity() ? origin : compose(origin, child.pose);
+    const ShapeView<S> shape_view = view.contents.view(primitive);
+    const Pose<S> pose = child.pose.is_identity() ? view.pose : compose(view.pose, child.pose);
     DrawnPart part = {};
     part.type = primitive.type;
     part.child = index;
     part.pose = sketch_.pose(
-        visit_shape(primitive, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.drawn_at(origin, pose); }));
+        visit_shape(shape_view, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.drawn_at(view.pose, pose); }));
     sketch_.vector(primitive.half, part.half);
     part.radius = sketch_.number(primitive.radius);
     sketch_.vector(rotate(pose.orientation, primitive.normal), part.normal);
     to_.part(body, part);
-    if (options_.lines) draw_lines(body, primitive, Transform<S>::of(pose));
+    if (options_.lines) draw_lines(body, shape_view, Transform<S>::of(pose));
   }
-  ISO_INLINE void draw_lines(const DrawnBody& body, const Primitive<S>& primitive, const Transform<S>& at) const {
-    visit_shape(primitive, [&](const auto& shape) ISO_INLINE_LAMBDA {
+  ISO_INLINE void draw_lines(const DrawnBody& body, ShapeView<S> view, const Transform<S>& at) const {
+    visit_shape(view, [&](const auto& shape) ISO_INLINE_LAMBDA {
       shape.visit_lines([&](Vec3<S> from, Vec3<S> to) ISO_INLINE_LAMBDA {
         DrawnLine line = {body.body, {}, {}};
         sketch_.point(to_world(at, from), line.from);
@@ -141,8 +142,9 @@ template <class S> class BodySketch {
     if (a.state == nullptr || b.state == nullptr) return;
     const Vec3<S> centre = a.state->centre;
     Manifold<S> manifold;
-    collide(a.children[key.child_a].primitive, part_beside(a, key.child_a, centre), b.children[key.child_b].primitive,
-            part_beside(b, key.child_b, centre), kSpeculativeDistance<S>, manifold);
+    collide(a.contents.view(a.children[key.child_a].primitive), part_beside(a, key.child_a, centre),
+            b.contents.view(b.children[key.child_b].primitive), part_beside(b, key.child_b, centre),
+            kSpeculativeDistance<S>, manifold);
     if (manifold.count == 0) return;
     DrawnContact drawn = {};
     drawn.a = id_of(key.body_a);

@@ -47,7 +47,7 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyDefinition<S>& 
 template <class S> bool CommandExecutor<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
   const S zero = S(0);
   const std::span<const Child<S>> children = map_.children_of(d.shape.slot);
-  const MassProperties<S> shape = mass_properties(children, d.density > zero ? d.density : S(1));
+  const MassProperties<S> shape = mass_properties(children, d.density > zero ? d.density : S(1), map_.contents());
   body.local_centre = shape.centre;
   body.principal = shape.principal;
   body.mass = zero;

@@ -12,14 +12,14 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     journal_.refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
     return {};
   }
-  const ShapeFault fault = validate(std::span<const Child<S>>(command.children));
+  std::vector<BlobRef> blobs(command.blobs.size());
+  if (!find_blobs(command, blobs)) return {};
+  const ShapeFault fault = validate(std::span<const Child<S>>(command.children), blobs);
   if (fault != ShapeFault::none) {
     const bool finite = fault != ShapeFault::not_finite;
     journal_.refuse({finite ? Fault::bad_shape : Fault::not_finite, "", describe(fault), ""});
     return {};
   }
-  std::vector<BlobRef> blobs(command.blobs.size());
-  if (!find_blobs(command, blobs)) return {};
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
   std::vector<ShapeRecord>& shapes = state_.shapes.change();
   std::vector<Child<S>>& pool = state_.children.change();
@@ -30,10 +30,11 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     std::uint32_t& blob = pool.back().primitive.blob;
     if (blob != 0) blob = 1 + state_.geometry.change().take(blobs[blob - 1]);
   }
+  if (!blobs.empty()) map_.renew_contents();
   return id;
 }
 
-/// The content of what a command names, and whether each part names a blob of its type and each blob is named.
+/// The content of what a command names, each of which a part must name.
 template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs) {
   const GeometryStore& known = *state_.geometry;
   for (std::size_t i = 0; i < blobs.size(); ++i) {
@@ -46,10 +47,7 @@ template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& comman
   std::vector<std::uint8_t> named(blobs.size(), 0);
   for (const Child<S>& child : command.children) {
     const std::uint32_t blob = child.primitive.blob;
-    const bool exists = blob != 0 && blob <= blobs.size();
-    const ShapeFault fault = validate_blob(child.primitive, exists ? blobs[blob - 1].get() : nullptr);
-    if (fault != ShapeFault::none) return journal_.refuse({Fault::bad_shape, "", describe(fault), ""});
-    if (exists) named[blob - 1] = 1;
+    if (blob != 0 && blob <= blobs.size()) named[blob - 1] = 1;
   }
   for (const std::uint8_t is_named : named) {
     if (is_named == 0) return journal_.refuse({Fault::bad_shape, "", "blobs", "each named by a part"});
@@ -72,6 +70,7 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
   for (auto child = first; child != first + static_cast<std::ptrdiff_t>(gone.child_count); ++child) {
     if (child->primitive.blob != 0) state_.geometry.change().give_back(child->primitive.blob - 1);
   }
+  map_.renew_contents();
   pool.erase(first, first + static_cast<std::ptrdiff_t>(gone.child_count));
   for (ShapeRecord& record : shapes) {
     if (record.first_child > gone.first_child) record.first_child -= gone.child_count;

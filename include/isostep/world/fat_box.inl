@@ -11,7 +11,7 @@ namespace isostep::detail {
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always) {
   const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state, body));
-  const Aabb<S> tight = bounds(map.children_of(body.shape), origin);
+  const Aabb<S> tight = bounds(map.children_of(body.shape), origin, map.contents());
   if (always || !contains(state.fat, tight)) state.fat = grow(tight, kFatMargin<S>);
 }
 

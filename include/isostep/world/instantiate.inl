@@ -16,7 +16,9 @@
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/dynamics/solvers/direct.inl"
 #include "isostep/dynamics/solvers/worst_first.inl"
+#include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/baked/polyhedron.inl"
+#include "isostep/geometry/baked/polyhedron_surface.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/particles/instantiate.inl"
@@ -37,20 +39,23 @@
   static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");                   \
   ISO_SCALAR_MATH_OF(, OwnScalar)                                                                                     \
   ISO_SCALAR_MATH_BETWEEN(, OwnScalar)                                                                                \
-  template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar);        \
+  template struct HullContent<OwnScalar>;                                                                             \
+  ISO_CONTENT_OF(, OwnScalar)                                                                                         \
+  template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar,         \
+                                                                Contents<OwnScalar>);                                 \
   template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
-  template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>);                                         \
-  template ShapeFault validate_blob<OwnScalar>(const Primitive<OwnScalar>&, const Blob*);                             \
+  template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);               \
   template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                           \
-  template void collide<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&,                          \
-                                   const Primitive<OwnScalar>&, const Transform<OwnScalar>&, OwnScalar,               \
-                                   Manifold<OwnScalar>&);                                                             \
-  template bool ray_cast<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, Vec3<OwnScalar>,        \
+  template void collide<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, ShapeView<OwnScalar>,           \
+                                   const Transform<OwnScalar>&, OwnScalar, Manifold<OwnScalar>&);                     \
+  ISO_HULL_PAIRS_OF(, OwnScalar)                                                                                      \
+  template bool ray_cast<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, Vec3<OwnScalar>,               \
                                     Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
-  template ClosestPoint<OwnScalar> closest_point<OwnScalar>(const Primitive<OwnScalar>&, const Transform<OwnScalar>&, \
+  template ClosestPoint<OwnScalar> closest_point<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&,        \
                                                             Vec3<OwnScalar>);                                         \
   template class HullSolid<OwnScalar>;                                                                                \
+  ISO_POLYHEDRON_SURFACE_OF(, OwnScalar)                                                                              \
   ISO_POLYHEDRA_OF(, OwnScalar)                                                                                       \
   ISO_GJK_OF(, OwnScalar)                                                                                             \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                                \

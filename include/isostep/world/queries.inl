@@ -47,7 +47,7 @@ std::optional<RayCastHit<S>> Queries<S>::hit_of(std::uint32_t slot, Vec3<S> orig
   for (const Child<S>& child : map_.children_of(body.shape)) {
     RayHit<S> hit;
     const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
-    if (!ray_cast(child.primitive, at, origin, translation, first ? first->fraction : most, hit)) continue;
+    if (!ray_cast(map_.contents().view(child.primitive), at, origin, translation, first ? first->fraction : most, hit)) continue;
     if (first && !(hit.fraction < first->fraction)) continue;
     first = RayCastHit<S>{id_of(slot), origin + translation * hit.fraction, hit.normal, hit.fraction};
   }
@@ -120,8 +120,8 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
     if (!sees(filter, slot)) return true;
     const Transform<S> placed = Transform<S>::of(pose_of(slot));
     for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
-      const ClosestPoint<S> found =
-          isostep::closest_point(child.primitive, compose(placed, Transform<S>::of(child.pose)), point);
+      const ClosestPoint<S> found = isostep::closest_point(map_.contents().view(child.primitive),
+                                                           compose(placed, Transform<S>::of(child.pose)), point);
       if (max_distance < found.distance) continue;
       const bool nearer =
           !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
@@ -133,7 +133,8 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
 }
 
 template <class S> bool Queries<S>::accept_shape(const Primitive<S>& shape, const Pose<S>& pose) const {
-  const ShapeFault of_shape = validate(shape), of_pose = validate(pose);
+  const Child<S> part = {shape, Pose<S>::identity()};
+  const ShapeFault of_shape = validate(std::span<const Child<S>>(&part, 1)), of_pose = validate(pose);
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
   return journal_.accept_call("overlap_shape",
                               detail::Checklist()
@@ -154,7 +155,8 @@ void Queries<S>::overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, s
     const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation}), there = Transform<S>::of(placed);
     for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
       Manifold<S> manifold;
-      collide(shape, here, child.primitive, compose(there, Transform<S>::of(child.pose)), S(0), manifold);
+      collide(shape, here, map_.contents().view(child.primitive), compose(there, Transform<S>::of(child.pose)), S(0),
+              manifold);
       if (manifold.count == 0) continue;
       found.push_back(slot);
       break;

@@ -19,8 +19,10 @@ template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
   state_.sleeping.each_difference(from.sleeping,
                                   [&](std::size_t i) { other_islands_.push_back(static_cast<std::uint32_t>(i)); });
   const bool other_static = !state_.static_bodies.is_same(from.static_bodies);
+  const bool other_blobs = !state_.geometry.is_same(from.geometry);
   forget_places(other_static);
   state_ = from;
+  if (other_blobs) map_.renew_contents();
   renew_places(other_static);
 }
 

@@ -46,6 +46,7 @@ template <class S> struct BodyView {
   const BodyState<S>* state = nullptr;  // null: a stale id
   const BodyProperties<S>* properties = nullptr;
   std::span<const Child<S>> children;  // in the body's frame
+  Contents<S> contents;                // of the blobs that they name
   Pose<S> pose = Pose<S>::identity();  // of the body's origin
 };
 /// A query sees bodies whose category meets the mask, sensors only when asked, and not the one to be ignored: who looks

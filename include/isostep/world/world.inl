@@ -273,7 +273,7 @@ template <class S> BodyView<S> World<S>::view(BodyId body) const {
   const FloatEnvironment environment;
   const BodyState<S>* state = engine_->map_.state_of(body);
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);
-  return {state, properties, engine_->map_.children_of(properties->shape),
+  return {state, properties, engine_->map_.children_of(properties->shape), engine_->map_.contents(),
           BodyMap<S>::origin_pose(*state, *properties)};
 }
 

@@ -22,6 +22,25 @@ BlobRef Blob::make(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome hom
   return BlobRef(new Blob(type, std::move(bytes), home));
 }
 
+Blob::~Blob() {
+  for (const Made* made = made_.load(); made != nullptr;) {
+    const Made* next = made->next;
+    delete made;
+    made = next;
+  }
+}
+
+/// Two threads that ask at once may both make it; they are alike, and both are kept.
+const void* Blob::content(ContentMaker make) const {
+  for (const Made* made = made_.load(std::memory_order_acquire); made != nullptr; made = made->next) {
+    if (made->maker == make) return made->content.get();
+  }
+  Made* made = new Made{make, make(*this), made_.load(std::memory_order_relaxed)};
+  while (!made_.compare_exchange_weak(made->next, made, std::memory_order_release, std::memory_order_relaxed)) {
+  }
+  return made->content.get();
+}
+
 void Blob::write(Writer& writer) const {
   writer.write(type_);
   writer.write_bytes(bytes_);

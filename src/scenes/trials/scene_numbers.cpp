@@ -5,12 +5,20 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scenes/hull_points.hpp"
+
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 4, "a judge knows each shape by itself: see volume_of(), gyration_of(), least_reach()");
+static_assert(kShapeTypes == 5,
+              "a judge knows each shape by itself: see volume_of(), centre_of(), gyration_of(), least_reach()");
+
+std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {
+  return solid_hull(*hull_of_points(part.points, "points"));
+}
 
 double volume_of(const ScenePart& part) {
+  if (part.type == ShapeType::hull) return hull_of(part)->volume;
   const Vec3<double> half = value(part.half_extents);
   const double r = value(part.radius);
   const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -23,8 +31,20 @@ double volume_of(const SceneBody& body) {
   return volume;
 }
 
+/// [m] of mass, in the body's frame: parts stand as the body does.
+Vec3<double> centre_of(const ScenePart& part) {
+  const Vec3<double> position = value(part.position);
+  return part.type == ShapeType::hull ? position + hull_of(part)->centre : position;
+}
+
 /// [m^2] about the part's own centre, a kilogram of it.
-Vec3<double> gyration_of(const ScenePart& part) {
+Mat3<double> gyration_of_hull(const Mat3<double>& moments) {
+  const double trace = moments.rows[0].x + moments.rows[1].y + moments.rows[2].z;
+  Mat3<double> gyration = Mat3<double>::diagonal({trace, trace, trace});
+  for (int i = 0; i < 3; ++i) gyration.rows[i] = gyration.rows[i] - moments.rows[i];
+  return gyration;
+}
+Vec3<double> principal_gyration_of(const ScenePart& part) {
   if (part.type == ShapeType::sphere) {
     const double r = value(part.radius), square = 0.4 * r * r;
     return {square, square, square};
@@ -40,6 +60,10 @@ Vec3<double> gyration_of(const ScenePart& part) {
   const Vec3<double> square = {half.x * half.x / 3, half.y * half.y / 3, half.z * half.z / 3};
   return {square.y + square.z, square.z + square.x, square.x + square.y};
 }
+Mat3<double> gyration_of(const ScenePart& part) {
+  return part.type == ShapeType::hull ? gyration_of_hull(hull_of(part)->moments)
+                                      : Mat3<double>::diagonal(principal_gyration_of(part));
+}
 
 }  // namespace
 
@@ -52,15 +76,16 @@ double mass_of(const SceneBody& body) {
 Mat3<double> inertia_of(const SceneBody& body) {
   const double density = mass_of(body) / volume_of(body);
   Vec3<double> centre = {0, 0, 0};
-  for (const ScenePart& part : body.parts) centre += value(part.position) * (volume_of(part) / volume_of(body));
+  for (const ScenePart& part : body.parts) centre += centre_of(part) * (volume_of(part) / volume_of(body));
   Mat3<double> inertia = Mat3<double>::diagonal({0, 0, 0});
   for (const ScenePart& part : body.parts) {
     const double mass = density * volume_of(part);
-    const Vec3<double> arm = value(part.position) - centre, own = gyration_of(part);
+    const Vec3<double> arm = centre_of(part) - centre;
+    const Mat3<double> own = gyration_of(part);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
-        const double along = i == k ? own[i] + dot(arm, arm) : 0.0;
-        inertia.rows[i][k] = inertia.rows[i][k] + mass * (along - arm[i] * arm[k]);
+        const double along = i == k ? dot(arm, arm) : 0.0;
+        inertia.rows[i][k] = inertia.rows[i][k] + mass * (own.rows[i][k] + along - arm[i] * arm[k]);
       }
     }
   }
@@ -69,6 +94,7 @@ Mat3<double> inertia_of(const SceneBody& body) {
 
 double least_reach(const SceneBody& body) {
   const ScenePart& part = body.parts.front();
+  if (part.type == ShapeType::hull) return hull_of(part)->inner_radius;
   if (part.type != ShapeType::box) return value(part.radius);
   const Vec3<double> half = value(part.half_extents);
   return std::min({half.x, half.y, half.z});

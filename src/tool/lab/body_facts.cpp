@@ -19,6 +19,7 @@ struct ReadSizes {
   double size(const char*, const scenes::Number& number) const { return value_of(number); }
   Vec3<double> sizes(const char*, const scenes::Vector& v) const { return value_of(v); }
   Vec3<double> direction(const char*, const scenes::Vector& v) const { return value_of(v); }
+  std::uint32_t hull(const char*, const std::vector<scenes::Vector>&) const { return 1; }
 };
 Primitive<double> primitive_in(const scenes::ScenePart& part) {
   return visit_shape_type(part.type,
@@ -35,7 +36,15 @@ scenes::Solid solid_of(const scenes::ScenePart& part, const Primitive<double>& s
   solid.radius = shape.radius;
   solid.normal = solid.axes * shape.normal;
   solid.offset = shape.offset + dot(solid.normal, solid.centre);
+  if (part.type == ShapeType::hull) solid.hull = scenes::solid_hull(*scenes::hull_of_points(part.points, "points"));
   return solid;
+}
+double volume_of(const scenes::Solid& solid, const Primitive<double>& shape) {
+  if (solid.hull != nullptr) return solid.hull->volume;
+  return visit_shape(shape, [](const auto& visited) { return visited.mass(1.0); });
+}
+Vec3<double> middle_of(const scenes::Solid& solid) {
+  return solid.hull == nullptr ? solid.centre : solid.centre + solid.axes * solid.hull->centre;
 }
 
 }  // namespace
@@ -57,9 +66,9 @@ BodyFacts facts_of(const scenes::SceneBody& body) {
   for (const scenes::ScenePart& part : body.parts) {
     const Primitive<double> shape = primitive_in(part);
     facts.solids.push_back(solid_of(part, shape, axes, origin));
-    const double volume = visit_shape(shape, [](const auto& solid) { return solid.mass(1.0); });
+    const double volume = volume_of(facts.solids.back(), shape);
     facts.volume += volume;
-    moment += facts.solids.back().centre * volume;
+    moment += middle_of(facts.solids.back()) * volume;
   }
   const double mass = value_of(body.mass);
   facts.mass = mass > 0 ? mass : value_of(body.density) * facts.volume;

@@ -159,7 +159,7 @@ TEST(ConvexHull, depends_on_the_set_of_points_alone) {
   std::mt19937 random(2);
   scenes::Draws draws(7);
   for (int n = 0; n < 200; ++n) {
-    const std::vector<GridPoint> drawn = drawn_hull(n, draws);
+    const std::vector<GridPoint> drawn = drawn_points(n, draws);
     const Result<ConvexHull> hull = convex_hull(drawn);
     ASSERT_TRUE(hull.ok());
     for (int repeat = 0; repeat < 5; ++repeat) {
@@ -187,12 +187,12 @@ struct Counts {
 TEST(ConvexHull, counts_of_two_scenes_are_exact) {
   scenes::Draws draws(2025), others(3131);
   Counts pit, terrain;
-  for (int n = 0; n < 1000; ++n) pit.add(convex_hull(drawn_hull(n, draws)).value());
+  for (int n = 0; n < 1000; ++n) pit.add(convex_hull(drawn_points(n, draws)).value());
   EXPECT_EQ(pit.vertices, 14007u);
   EXPECT_EQ(pit.edges, 28314u);
   EXPECT_EQ(pit.faces, 16307u);
   for (int n = 0; n < 200; ++n) {
-    if (n % 3 == 0) terrain.add(convex_hull(drawn_hull(n / 3, others)).value());
+    if (n % 3 == 0) terrain.add(convex_hull(drawn_points(n / 3, others)).value());
     else
       for (int i = 0; i < 4; ++i) others.unit();
   }
@@ -287,7 +287,7 @@ TEST(ConvexHull, simplified_keeps_the_furthest_points) {
 
   scenes::Draws draws(9);
   for (int n = 0; n < 40; ++n) {
-    const std::vector<GridPoint> points = drawn_hull(n, draws);
+    const std::vector<GridPoint> points = drawn_points(n, draws);
     const std::vector<GridPoint> all = simplified(points, 1000).value();
     EXPECT_TRUE(same(convex_hull(all).value(), convex_hull(points).value())) << "nothing was left out";
   }

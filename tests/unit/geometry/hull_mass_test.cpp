@@ -116,7 +116,7 @@ Sums by_slices(const ConvexHull& hull) {
 TEST(HullMass, of_rocks_prisms_frusta_and_pyramids_is_what_slices_add_up_to) {
   scenes::Draws draws(11);
   for (int n = 0; n < 400; ++n) {
-    std::vector<GridPoint> points = drawn_hull(n, draws);
+    std::vector<GridPoint> points = drawn_points(n, draws);
     for (GridPoint& p : points)
       p = {p.x + 400000, p.y - 70000, p.z + 3};  // where a hull has its origin does not matter
     const ConvexHull hull = convex_hull(points).value();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/geometry/closest.hpp"
 
 namespace isostep::detail {
 
@@ -24,11 +25,6 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(S smallest, S extent) {
 template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S> half_b) {
   const Vec3<S> low = min(half_a, half_b);
   return axis_tolerance(min(low.x, min(low.y, low.z)), max_abs(half_a) + max_abs(half_b));
-}
-
-/// A gap between cores up to this has no direction worth the name: rounding where shapes are `extent` apart or long.
-template <class S> ISO_INLINE constexpr S gap_noise(S extent) {
-  return extent * resolution<Unit<S>>() * S(8) + resolution<S>() * S(16);
 }
 
 }  // namespace isostep::detail

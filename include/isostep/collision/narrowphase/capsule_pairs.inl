@@ -4,7 +4,7 @@
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/collision/narrowphase/capsule_pairs.hpp"
-#include "isostep/collision/narrowphase/segment.hpp"
+#include "isostep/math/segment.hpp"
 
 namespace isostep {
 namespace detail {

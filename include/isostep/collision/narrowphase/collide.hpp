@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/collision/narrowphase/manifold.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/shape.hpp"
@@ -16,12 +18,12 @@ namespace isostep {
 /// Limits: Q16.16: extents and distances below 100 m; Q32.32: 1000 m. Degenerate sizes (0) are allowed. Two half-spaces
 ///         never touch.
 template <class S>
-void collide(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb, S margin,
-             Manifold<S>& out);
+void collide(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta, std::type_identity_t<ShapeView<S>> b,
+             const Transform<S>& tb, S margin, Manifold<S>& out);
 
-#define ISO_EXTERN(S)                                                                                                 \
-  extern template void collide<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, const Transform<S>&, \
-                                  S, Manifold<S>&);
+#define ISO_EXTERN(S)                                                                                     \
+  extern template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, \
+                                  Manifold<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -25,6 +25,7 @@ template <class S> struct BodyFrame {
   Vec3<S> centre;       // [m] of mass, world
   Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
   const Child<S>* children;
+  Contents<S> contents;  // of their blobs
   std::uint32_t child_count;
   std::uint32_t slot;
   std::uint32_t row;  // of SolverBodies: 0 unless awake

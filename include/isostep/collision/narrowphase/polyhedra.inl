@@ -5,7 +5,7 @@
 #include "isostep/collision/narrowphase/face_clip.hpp"
 #include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/collision/narrowphase/polyhedron_axes.hpp"
-#include "isostep/collision/narrowphase/segment.hpp"
+#include "isostep/math/segment.hpp"
 
 namespace isostep {
 namespace detail {

@@ -5,17 +5,9 @@
 #include <bit>
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
-#include "isostep/collision/narrowphase/segment.hpp"
-#include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/geometry/baked/polyhedron_surface.hpp"
 
 namespace isostep::detail {
-
-/// Edge k, from its lower vertex to its higher.
-template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std::uint32_t k) {
-  const Vec3<S> from = solid.vertices[solid.origin(2 * k)];
-  const Vec3<S> half = (solid.vertices[solid.origin(2 * k + 1)] - from) * S(0.5);
-  return {from + half, solid.directions[k], dot(half, solid.directions[k])};
-}
 
 /// The point of the arc between the normals of an edge's faces that looks across a direction, which one of them looks
 /// along and the other against. Of short edges it is as exact as of long ones; a cross of the two is not.

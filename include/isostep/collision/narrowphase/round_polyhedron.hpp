@@ -1,26 +1,12 @@
-// Spheres and capsules on polyhedra: the nearest point of a polyhedron, and a thick point or segment against it.
+// Spheres and capsules on polyhedra: a thick point or segment against one.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/collision/narrowphase/manifold.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/geometry/baked/polyhedron.hpp"
-#include "isostep/geometry/ray.hpp"
+#include "isostep/geometry/baked/polyhedron_surface.hpp"
 
 namespace isostep {
-
-/// Where a polyhedron's surface is nearest to a point, in its own frame.
-template <class S> struct NearestPoint {
-  Vec3<S> point;          // [m]
-  S distance;             // [m] negative inside
-  Vec3<Unit<S>> normal;   // [1] outward: the query is point + distance normal
-  std::uint32_t feature;  // a face, or kEdge + an edge
-  static constexpr std::uint32_t kEdge = 1u << 8;
-};
-template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S> query);
-
-/// Where a ray enters a polyhedron; it misses what it leaves. In the polyhedron's frame.
-template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, const detail::LocalRay<S>& ray);
 
 /// A sphere of `radius` [m] about ta's position. One point, named as NearestPoint::feature.
 template <class S>
@@ -35,8 +21,6 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
                                 const Transform<S>& tb, S margin, Manifold<S>& out);
 
 #define ISO_ROUND_POLYHEDRON_OF(extern, S)                                                                             \
-  extern template NearestPoint<S> nearest_on<S>(const Polyhedron<S>&, Vec3<S>);                                        \
-  extern template detail::LocalHit<S> cast_ray<S>(const Polyhedron<S>&, const detail::LocalRay<S>&);                   \
   extern template void collide_sphere_polyhedron<S>(S, const Transform<S>&, const Polyhedron<S>&, const Transform<S>&, \
                                                     S, Manifold<S>&);                                                  \
   extern template void collide_capsule_polyhedron<S>(S, S, const Transform<S>&, const Polyhedron<S>&,                  \

@@ -8,22 +8,6 @@
 namespace isostep {
 namespace detail {
 
-/// [m] by how far p is beyond the side of a face at one of its half-edges.
-template <class S>
-ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Vec3<Unit<S>> normal, Vec3<S> p) {
-  const Vec3<Unit<S>> along = negate_if((half_edge & 1u) != 0, solid.directions[half_edge / 2]);
-  return dot(cross(along, normal), p - solid.vertices[solid.origin(half_edge)]);
-}
-
-template <class S> ISO_INLINE bool is_above_face(const Polyhedron<S>& solid, std::uint32_t face, Vec3<S> p) {
-  std::uint32_t e = solid.faces[face];
-  do {
-    if (beyond_side(solid, e, solid.normals[face], p) > S(0)) return false;
-    e = solid.half_edges[e].next;
-  } while (e != solid.faces[face]);
-  return true;
-}
-
 /// A segment and a polyhedron, in the latter's frame: their best axis, as polyhedron_axes.hpp has it.
 template <class S> struct SegmentAxis {
   std::uint32_t face;    // the best of the faces
@@ -159,69 +143,7 @@ ISO_INLINE bool touch_beside(const Polyhedron<S>& solid, std::uint32_t k, const 
   return out.count > 0;
 }
 
-/// An edge that has its nearest point between its ends goes before one that has it at an end: near a vertex their
-/// distances differ by less than they are rounded, their directions by its root.
-template <class S> ISO_INLINE NearestPoint<S> nearest_on_edges(const Polyhedron<S>& solid, Vec3<S> query) {
-  struct Nearest {
-    S distance;
-    Vec3<S> apart;
-    std::uint32_t edge;
-  };
-  Nearest at_end = {highest<S>(), Vec3<S>::zero(), 0}, between = at_end;
-  for (std::uint32_t k = 0; k < solid.edges(); ++k) {
-    const Segment<S> side = edge_of(solid, k);
-    const S along = side.nearest(query);
-    const Vec3<S> apart = query - side.at(along);
-    Nearest& least = abs(along) < side.half ? between : at_end;
-    const S distance = length(apart);
-    if (distance < least.distance) least = {distance, apart, k};
-  }
-  const bool inner = between.distance - gap_noise(max_abs(query)) <= at_end.distance;
-  const Nearest& best = inner ? between : at_end;
-  return {query - best.apart, best.distance, normalise(best.apart), NearestPoint<S>::kEdge + best.edge};
-}
-
 }  // namespace detail
-
-template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S> query) {
-  std::uint32_t highest_face = 0;
-  S most = S(0);
-  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-    const S height = dot(solid.normals[f], query) - solid.offsets[f];
-    if (f == 0 || height > most) most = height, highest_face = f;
-    if (height > S(0) && detail::is_above_face(solid, f, query))
-      return {query - solid.normals[f] * height, height, solid.normals[f], f};
-  }
-  const Vec3<Unit<S>> normal = solid.normals[highest_face];
-  // Where a gap is a few digits long, so is its direction.
-  if (most <= detail::gap_noise(max_abs(query)) * S(4)) return {query - normal * most, most, normal, highest_face};
-  return detail::nearest_on_edges(solid, query);
-}
-
-template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, const detail::LocalRay<S>& ray) {
-  S entry = S(0), exit = ray.length;
-  std::uint32_t face = 0;
-  bool inside = true;
-  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-    const S height = dot(solid.normals[f], ray.origin) - solid.offsets[f];
-    const Unit<S> rise = dot(solid.normals[f], ray.direction);
-    inside = inside && height <= S(0);
-    // Beyond the ray's length either way, the plane decides nothing else, and its distance may not fit S.
-    if (rise < Unit<S>(0)) {
-      if (height > ray.length * -rise) return detail::no_hit<S>();
-      if (!(height > entry * -rise)) continue;
-      entry = divide_to<S>(height, -rise);
-      face = f;
-    } else if (height > S(0)) {
-      return detail::no_hit<S>();
-    } else if (-height < exit * rise) {
-      exit = divide_to<S>(-height, rise);
-    }
-  }
-  if (inside) return detail::inside_hit<S>();
-  if (entry > exit) return detail::no_hit<S>();
-  return {detail::LocalHit<S>::entered, entry / ray.length, solid.normals[face]};
-}
 
 template <class S>
 void collide_sphere_polyhedron(S radius, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,

@@ -6,20 +6,30 @@
 #include "isostep/collision/narrowphase/box_capsule.hpp"
 #include "isostep/collision/narrowphase/capsule_pairs.hpp"
 #include "isostep/collision/narrowphase/half_space_pairs.hpp"
+#include "isostep/collision/narrowphase/hull_pairs.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
 
 namespace isostep::detail {
 
 /// As collide(), for shapes whose types ascend.
 template <class S>
-using CollideShapes = void (*)(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
-                               const Transform<S>& tb, S margin, Manifold<S>& out);
+using CollideShapes = void (*)(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                               Manifold<S>& out);
 
 /// Of pairs that pass through each other, for queries too: those that only static bodies have.
 template <class S>
-void collide_never(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, const Transform<S>&, S,
-                   Manifold<S>& out) {
+void collide_never(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>& out) {
   out.clear();
+}
+
+/// Of shapes that a record holds whole.
+template <class S>
+using CollidePrimitives = void (*)(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
+                                   const Transform<S>& tb, S margin, Manifold<S>& out);
+template <class S, CollidePrimitives<S> Collide>
+void collide_records(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                     Manifold<S>& out) {
+  Collide(a.primitive, ta, b.primitive, tb, margin, out);
 }
 
 /// by_type[a][b], a <= b.
@@ -28,16 +38,21 @@ template <class S> struct ShapePairs {
 
   constexpr ShapePairs() {
     using enum ShapeType;
-    add(sphere, sphere, collide_sphere_sphere<S>);
-    add(sphere, box, collide_sphere_box<S>);
-    add(sphere, capsule, collide_sphere_capsule<S>);
-    add(sphere, half_space, collide_sphere_half_space<S>);
-    add(box, box, collide_box_box<S>);
-    add(box, capsule, collide_box_capsule<S>);
-    add(box, half_space, collide_box_half_space<S>);
-    add(capsule, capsule, collide_capsule_capsule<S>);
-    add(capsule, half_space, collide_capsule_half_space<S>);
+    add(sphere, sphere, collide_records<S, collide_sphere_sphere<S>>);
+    add(sphere, box, collide_records<S, collide_sphere_box<S>>);
+    add(sphere, capsule, collide_records<S, collide_sphere_capsule<S>>);
+    add(sphere, half_space, collide_records<S, collide_sphere_half_space<S>>);
+    add(box, box, collide_records<S, collide_box_box<S>>);
+    add(box, capsule, collide_records<S, collide_box_capsule<S>>);
+    add(box, half_space, collide_records<S, collide_box_half_space<S>>);
+    add(capsule, capsule, collide_records<S, collide_capsule_capsule<S>>);
+    add(capsule, half_space, collide_records<S, collide_capsule_half_space<S>>);
     add(half_space, half_space, collide_never<S>);
+    add(sphere, hull, collide_sphere_hull<S>);
+    add(box, hull, collide_box_hull<S>);
+    add(capsule, hull, collide_capsule_hull<S>);
+    add(half_space, hull, collide_half_space_hull<S>);
+    add(hull, hull, collide_hull_hull<S>);
   }
   ISO_INLINE constexpr CollideShapes<S> of(ShapeType a, ShapeType b) const {
     return by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)];

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
-#include "isostep/collision/narrowphase/segment.hpp"
+#include "isostep/math/segment.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
 
 namespace isostep {

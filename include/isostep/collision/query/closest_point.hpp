@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/shape.hpp"
 
@@ -13,10 +15,10 @@ namespace isostep {
 /// Order:  where several points are closest, a box takes the lowest axis, towards plus from its very centre; a
 ///         sphere's centre and a capsule's segment take local +x.
 template <class S>
-ClosestPoint<S> closest_point(const Primitive<S>& primitive, const Transform<S>& transform, Vec3<S> query);
+ClosestPoint<S> closest_point(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> query);
 
 #define ISO_EXTERN(S) \
-  extern template ClosestPoint<S> closest_point<S>(const Primitive<S>&, const Transform<S>&, Vec3<S>);
+  extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

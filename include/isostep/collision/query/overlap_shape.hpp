@@ -8,9 +8,10 @@ namespace isostep {
 
 /// True when the primitives share a point; touching counts. Two half-spaces never overlap here: they never collide.
 template <class S>
-ISO_INLINE bool overlaps(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb) {
+ISO_INLINE bool overlaps(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta,
+                         std::type_identity_t<ShapeView<S>> b, const Transform<S>& tb) {
   Manifold<S> manifold;
-  collide(a, ta, b, tb, S(0), manifold);
+  collide<S>(a, ta, b, tb, S(0), manifold);
   for (int i = 0; i < static_cast<int>(manifold.count); ++i) {
     if (manifold.points[i].separation <= S(0)) return true;
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/shape.hpp"
 
@@ -22,11 +24,11 @@ template <class S> struct RayHit {
 ///         Rays that pass an edge closer than that may go either way.
 /// Limits: origin within Limits<S>::position(), translation within twice that.
 template <class S>
-bool ray_cast(const Primitive<S>& primitive, const Transform<S>& transform, Vec3<S> origin, Vec3<S> translation,
+bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin, Vec3<S> translation,
               S max_fraction, RayHit<S>& hit);
 
 #define ISO_EXTERN(S) \
-  extern template bool ray_cast<S>(const Primitive<S>&, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&);
+  extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

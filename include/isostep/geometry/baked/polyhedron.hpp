@@ -52,6 +52,7 @@ template <class S> struct Polyhedron {
 /// A hull in a scalar: the memory that its Polyhedron shows.
 template <class S> class HullSolid {
  public:
+  HullSolid() = default;  // of nothing
   /// `exponent`: a step of the hull's grid is 2^-exponent m, 0 to 16. Coordinates must fit S.
   HullSolid(const ConvexHull& hull, int exponent);
 
@@ -68,7 +69,7 @@ template <class S> class HullSolid {
   std::vector<S> offsets_;
   std::vector<Vec3<Unit<S>>> directions_;
   std::vector<EdgeSet> left_of_, right_of_;
-  S inner_radius_;
+  S inner_radius_ = S(0);
 };
 
 #define ISO_EXTERN(S) extern template class HullSolid<S>;

@@ -49,6 +49,7 @@ template <class S = Literal> struct Box {
   static constexpr ShapeType kType = ShapeType::box;
   static constexpr bool kBounded = true;
   static constexpr bool kHasBlob = false;
+  static constexpr bool kPrincipal = true;
 
   Vec3<S> half_extents;  // [m]
 

@@ -46,6 +46,7 @@ template <class S = Literal> struct Capsule {
   static constexpr ShapeType kType = ShapeType::capsule;
   static constexpr bool kBounded = true;
   static constexpr bool kHasBlob = false;
+  static constexpr bool kPrincipal = true;
 
   S radius;       // [m]
   S half_height;  // [m] of the cylinder alone

@@ -11,6 +11,7 @@ template <class S = Literal> struct HalfSpace {
   static constexpr ShapeType kType = ShapeType::half_space;
   static constexpr bool kBounded = false;
   static constexpr bool kHasBlob = false;
+  static constexpr bool kPrincipal = true;
 
   Vec3<Unit<S>> normal;  // [1]
   S offset;              // [m]

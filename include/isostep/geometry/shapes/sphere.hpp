@@ -11,6 +11,7 @@ template <class S = Literal> struct Sphere {
   static constexpr ShapeType kType = ShapeType::sphere;
   static constexpr bool kBounded = true;
   static constexpr bool kHasBlob = false;
+  static constexpr bool kPrincipal = true;
 
   S radius;  // [m]
 

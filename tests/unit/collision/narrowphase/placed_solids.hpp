@@ -117,7 +117,7 @@ template <class S> std::vector<std::unique_ptr<Solid<S>>> solids_of_many_sizes(s
   scenes::Draws draws(seed);
   std::vector<std::unique_ptr<Solid<S>>> solids;
   for (int n = 0; n < 40; ++n) {
-    std::vector<GridPoint> points = drawn_hull(n, draws);
+    std::vector<GridPoint> points = drawn_points(n, draws);
     for (GridPoint& p : points) {
       if (n >= 24 && n < 28) p = {p.x / 16, p.y / 16, p.z / 16};
       if (n >= 32) p.y = p.y / 64;

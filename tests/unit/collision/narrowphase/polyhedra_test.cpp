@@ -116,7 +116,7 @@ TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
   scenes::Draws draws(23);
   int apart = 0, four = 0;
   for (int n = 0; n < 2000; ++n) {
-    const Solid<S> solid(drawn_hull(n, draws), 16);
+    const Solid<S> solid(drawn_points(n, draws), 16);
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const Transform<S> tb = this->transform(at);
     const Transform<S> ta = this->transform(at + this->random_.point(0.6));

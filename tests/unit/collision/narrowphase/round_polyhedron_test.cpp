@@ -70,7 +70,7 @@ template <class S> class RoundOnPolyhedron : public SolidTest<S> {
     this->random_ = oracle::Random(5);
     scenes::Draws draws(31);
     for (int n = 0; n < 24; ++n) {
-      const ConvexHull hull = convex_hull(drawn_hull(n, draws)).value();
+      const ConvexHull hull = convex_hull(drawn_points(n, draws)).value();
       solids_.push_back(std::make_unique<Solid>(hull));
       exact_.push_back(std::make_unique<HullSolid<double>>(hull, 16));
     }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/math/vec3.hpp"
+#include "isostep/scalar/math.hpp"
 
 namespace isostep::detail {
 

@@ -1,0 +1,60 @@
+// Convex hulls as blobs: what their bytes are, and how points become one.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "isostep/geometry/baked/convex_hull.hpp"
+#include "isostep/geometry/blob.hpp"
+#include "isostep/math/vec3.hpp"
+#include "isostep/scalar/lattice.hpp"
+
+namespace isostep {
+
+/// The vertices of a convex hull, ascending, and what a step of their grid is. As bytes: the exponent, the number of
+/// vertices, their coordinates; the rest of the hull follows from them.
+struct GridHull {
+  static constexpr int kFinest = 16;  // [1] exponent: 15 um, below which Q16.16 has no digits
+
+  int exponent;  // a step is 2^-exponent m, 0 to kFinest
+  ConvexHull hull;
+};
+
+/// Errors: of convex_hull; ErrorCode::invalid, whose place is "exponent".
+Result<BlobRef> hull_blob(std::span<const GridPoint> points, int exponent, BlobHome home = BlobHome::carried);
+/// Errors: ErrorCode::corrupt, ::truncated or those above for anything but the bytes that hull_blob makes.
+Result<GridHull> read_hull(Bytes bytes);
+
+namespace detail {
+/// The finest exponent at which magnitudes up to `most` [m] are on the grid; negative: none.
+template <class S> ISO_INLINE int grid_exponent(S most) {
+  int exponent = GridHull::kFinest;
+  while (exponent >= 0 && floor_scaled(most, exponent) + 1 >= GridPoint::kLimit) --exponent;
+  return exponent;
+}
+Error bad_hull_point(std::size_t index, const char* expected);
+}  // namespace detail
+
+/// The hull of points [m]. They are rounded to the finest grid that holds all of them: 2^-16 m up to 8 m from the
+/// origin, 2^-15 m up to 16 m, and so on to 1 m at 524 287 m.
+/// Errors: as above; ErrorCode::invalid for a coordinate that is not finite or beyond the grid, with its point's index.
+template <class S>
+ISO_INLINE Result<BlobRef> hull_blob(std::span<const Vec3<S>> points, BlobHome home = BlobHome::carried) {
+  S most = S(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_finite(points[i])) return detail::bad_hull_point(i, "finite numbers");
+    if (max_abs(points[i]) > from_lattice<S>(static_cast<std::int64_t>(GridPoint::kLimit) - 1, 0))
+      return detail::bad_hull_point(i, "coordinates up to 524287 m");
+    most = max(most, max_abs(points[i]));
+  }
+  const int exponent = detail::grid_exponent(most);
+  const auto steps = [&](S v) ISO_INLINE_LAMBDA {  // to nearest, halves upwards
+    return static_cast<std::int32_t>((floor_scaled(v, exponent + 1) + 1) >> 1);
+  };
+  std::vector<GridPoint> grid;
+  for (const Vec3<S>& p : points) grid.push_back({steps(p.x), steps(p.y), steps(p.z)});
+  return hull_blob(grid, exponent, home);
+}
+
+}  // namespace isostep

@@ -1,0 +1,33 @@
+// HullContent<S>: what a hull's blob is in a scalar: its faces, its mass.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/geometry/shape_fault.hpp"
+#include "isostep/math/mat3.hpp"
+
+namespace isostep {
+
+/// Of a homogeneous solid. Everything is rounded once, from exact integers.
+template <class S> struct HullContent {
+  ShapeFault fault = ShapeFault::none;  // else the rest is empty
+  HullSolid<S> solid;
+  Vec3<S> widths = Vec3<S>::zero();  // [m] of its box
+  S half_width = S(0);               // [m] half the largest of them
+  Unit<S> filled = Unit<S>(0);       // [1] its volume over that of its box
+  Vec3<S> centre_of_mass = Vec3<S>::zero();  // [m]
+  /// [1] inertia over mass and half_width^2, about the centre of mass.
+  Mat3<Unit<S>> inertia = Mat3<Unit<S>>::diagonal(Vec3<Unit<S>>::zero());
+
+  static std::shared_ptr<const void> make(Bytes bytes);
+};
+
+#define ISO_EXTERN(S) extern template struct HullContent<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

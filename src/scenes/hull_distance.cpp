@@ -1,0 +1,118 @@
+// Separating axes for cores that meet a hull, closest points of its triangles for round ones that do not.
+// SPDX-License-Identifier: MIT
+#include "hull_distance.hpp"
+
+#include <limits>
+
+#include "isostep/scalar/math.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+using V = Vec3<double>;
+
+/// A core in the world: a point, a segment, a box or a hull.
+struct Core {
+  std::vector<V> points;
+  std::vector<V> normals;  // axes that its faces give
+  std::vector<V> edges;    // and directions of its edges
+};
+Core core_of(const Solid& s) {
+  Core core;
+  const auto world = [&](V local) { return s.centre + s.axes * local; };
+  if (s.type == ShapeType::hull) {
+    for (const V v : s.hull->vertices) core.points.push_back(world(v));
+    for (const V n : s.hull->normals) core.normals.push_back(s.axes * n);
+    for (const auto& e : s.hull->edges) core.edges.push_back(s.axes * (e[1] - e[0]));
+    return core;
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [&](int axis) { return (corner >> axis & 1) != 0 ? s.half[axis] : -s.half[axis]; };
+    core.points.push_back(world({side(0), side(1), side(2)}));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    V unit = {0, 0, 0};
+    unit[axis] = 1;
+    if (s.half[axis] > 0) core.edges.push_back(s.axes * unit);
+    if (s.type == ShapeType::box) core.normals.push_back(s.axes * unit);
+  }
+  return core;
+}
+
+struct Interval {
+  double low, high;
+};
+Interval along(const Core& core, V axis) {
+  Interval interval = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const V p : core.points) {
+    interval.low = min(interval.low, dot(axis, p));
+    interval.high = max(interval.high, dot(axis, p));
+  }
+  return interval;
+}
+
+double widest_gap(const Core& a, const Core& b) {
+  double widest = -std::numeric_limits<double>::infinity();
+  const auto try_axis = [&](V axis) {
+    const double size = sqrt(dot(axis, axis));
+    if (size < 1e-12) return;  // parallel edges: the faces speak for them
+    const Interval of_a = along(a, axis * (1 / size)), of_b = along(b, axis * (1 / size));
+    widest = max(widest, max(of_b.low - of_a.high, of_a.low - of_b.high));
+  };
+  for (const V n : a.normals) try_axis(n);
+  for (const V n : b.normals) try_axis(n);
+  for (const V e : a.edges) {
+    for (const V f : b.edges) try_axis(cross(e, f));
+  }
+  return widest;
+}
+
+V nearest_on_segment(V p, V from, V to) {
+  const V way = to - from;
+  const double square = dot(way, way);
+  return from + way * (square > 0 ? clamp(dot(p - from, way) / square, 0.0, 1.0) : 0.0);
+}
+
+/// To a triangle: over its inside the plane's distance, else that of its sides.
+double point_to_triangle(V p, const std::array<V, 3>& t) {
+  const V normal = cross(t[1] - t[0], t[2] - t[0]);
+  bool above = true;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V from = t[i], to = t[(i + 1) % 3];
+    above = above && dot(cross(to - from, p - from), normal) >= 0;
+    nearest = min(nearest, length(p - nearest_on_segment(p, from, to)));
+  }
+  return above ? abs(dot(normal, p - t[0])) / length(normal) : nearest;
+}
+
+/// A round core, the two ends of a segment, that is outside of a hull: by halving, since a convex set's distance along
+/// a segment is convex.
+double outside_distance(V from, V to, const SolidHull& hull) {
+  const auto distance = [&](double s) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& t : hull.triangles) nearest = min(nearest, point_to_triangle(from + (to - from) * s, t));
+    return nearest;
+  };
+  double low = 0, high = 1;
+  for (int i = 0; i < 64; ++i) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+  }
+  return distance((low + high) / 2);
+}
+
+}  // namespace
+
+double hull_distance(const Solid& a, const Solid& b) {
+  if (!(a.type == ShapeType::hull)) return hull_distance(b, a);
+  const Core core = core_of(a);
+  if (b.type == ShapeType::half_space) return along(core, b.normal).low - b.offset;
+  const double gap = widest_gap(core, core_of(b));
+  if (gap <= 0 || b.type == ShapeType::box || b.type == ShapeType::hull) return gap - b.radius;
+  const V middle = transposed_times(a.axes, b.centre - a.centre);
+  const V half = transposed_times(a.axes, b.axes * b.half);
+  return outside_distance(middle - half, middle + half, *a.hull) - b.radius;
+}
+
+}  // namespace isostep::scenes
