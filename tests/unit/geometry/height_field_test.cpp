@@ -197,6 +197,8 @@ TEST(HeightField, other_heights_give_the_field_that_they_would_have_made) {
   }
   EXPECT_EQ(fault_text(field.with_heights(30, 0, 8, 1, Heights(8))), "heights: the rectangle leaves the field");
   EXPECT_EQ(fault_text(field.with_heights(0, 20, 1, 4, Heights(4))), "heights: the rectangle leaves the field");
+  EXPECT_EQ(fault_text(field.with_heights(38, 0, 1, 1, Heights(1))), "heights: the rectangle leaves the field");
+  EXPECT_EQ(fault_text(field.with_heights(0, 24, 1, 1, Heights(1))), "heights: the rectangle leaves the field");
   EXPECT_EQ(fault_text(field.with_heights(1, 0, 0xffffffffu, 1, {})), "heights: the rectangle leaves the field");
   EXPECT_EQ(fault_text(field.with_heights(0, 0, 2, 2, Heights(3))), "heights: 3 heights for 4 places");
 }

@@ -176,6 +176,51 @@ TEST(TriangleMesh, queries_find_all_across_the_whole_grid) {
   expect_queries_find_all(far_soup(random, 4000).mesh().value(), 6, 400);
 }
 
+TEST(TriangleMesh, queries_find_what_lies_at_the_ends_of_the_grid) {
+  for (const std::int32_t end : {-kFar, kFar}) {
+    const Points points = {{end, 0, 0}, {end, 9, 0}, {end, 0, 9}, {0, end, 0}, {9, end, 0},
+                           {0, end, 9}, {0, 0, end}, {9, 0, end}, {0, 9, end}};
+    const TriangleMesh mesh = triangle_mesh(points, Triangles{{{0, 1, 2}}, {{3, 4, 5}}, {{6, 7, 8}}}, {}, 0).value();
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      MeshBox box = {{INT64_MIN, INT64_MIN, INT64_MIN}, {INT64_MAX, INT64_MAX, INT64_MAX}};
+      EXPECT_EQ(queried(mesh, box).size(), 3u);
+      (end < 0 ? box.high : box.low)[axis] = end;
+      EXPECT_EQ(queried(mesh, box), std::vector<std::uint32_t>{axis});
+      (end < 0 ? box.high : box.low)[axis] = end < 0 ? end - 1 : end + 1;
+      EXPECT_TRUE(queried(mesh, box).empty());
+    }
+  }
+}
+
+/// Exactly: a node that ended a step too early would lose its last triangle.
+template <class G> void expect_nodes_hold_their_triangles(const G& geometry) {
+  for (std::uint32_t id = 0; id < geometry.triangle_count(); id += 7) {
+    const MeshBox own = geometry.triangle(id).bounds();
+    bool sound = true, found = false;
+    const auto holds = [&](const MeshBox& node) {
+      bool all = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        sound = sound && node.low[axis] <= node.high[axis];
+        all = all && node.low[axis] <= own.low[axis] && own.high[axis] <= node.high[axis];
+      }
+      return all;
+    };
+    geometry.traverse(holds, [&](std::uint32_t reached) {
+      found = found || reached == id;
+      return true;
+    });
+    ASSERT_TRUE(found) << id;
+    ASSERT_TRUE(sound) << "no node is asked for that is not there";
+  }
+}
+
+TEST(TriangleMesh, nodes_hold_their_triangles) {
+  Random random(15);
+  expect_nodes_hold_their_triangles(far_soup(random, 4000).mesh().value());
+  const Surface surface = terrain();
+  expect_nodes_hold_their_triangles(triangle_mesh(surface.points, surface.triangles, {}, 10).value());
+}
+
 TEST(TriangleMesh, traversals_may_shrink_and_end) {
   const Surface surface = terrain();
   const TriangleMesh mesh = triangle_mesh(surface.points, surface.triangles, {}, 10).value();
@@ -340,6 +385,8 @@ TEST(TriangleMesh, names_what_it_refuses) {
   EXPECT_EQ(fault_of({{{3, 2, 1}}, {{0, 1, 4}}, {{1, 3, 2}}}),
             "triangles[2]: the triangle is there already, as triangle 0");
   EXPECT_EQ(fault_of({{{0, 1, 2}}, {{0, 2, 1}}}), "") << "a sheet with two sides";
+  EXPECT_EQ(fault_of({{{0, 1, 2}}, {{0, 2, 1}}, {{1, 4, 2}}}),
+            "triangles[2]: the triangle is the third at an edge of triangle 0: 3 are there, at most 2 are possible");
   for (const std::int32_t out : {MeshPoint::kLimit, -MeshPoint::kLimit, INT32_MIN, INT32_MAX}) {
     for (const MeshPoint p : {MeshPoint{out, 0, 0}, MeshPoint{0, out, 0}, MeshPoint{0, 0, out}}) {
       EXPECT_EQ(fault_of({{{0, 1, 2}}}, {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, p}),
