@@ -1,0 +1,161 @@
+// MeshTree: a tree of boxes over triangles, four children a node, in integers.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/geometry/baked/mesh_point.hpp"
+
+namespace isostep {
+
+/// Bounds are 15 bits of the mesh's box an axis, in lanes of 16: one subtraction of words compares four of them.
+/// A child is a node, or a leaf: kLeaf | count << kCountShift | its first place in the order of the triangles.
+struct MeshNode {
+  static constexpr std::uint32_t kLeaf = 1u << 31, kCountShift = 24, kFirstMask = (1u << 24) - 1u;
+  static constexpr std::uint32_t kNoChild = kLeaf;  // a leaf of no triangles
+
+  std::uint64_t low[3], high[3];  // lane i, bits 16 i and up, is of child i
+  std::uint32_t children[4];
+};
+static_assert(sizeof(MeshNode) == 64);
+
+/// Built from the boxes alone: splits by surface area (MacDonald and Booth 1990) over 16 bins while a node has many
+/// triangles, at the median when it has few or when the tree would become too deep.
+class MeshTree {
+ public:
+  static constexpr std::uint32_t kLeafTriangles = 6;
+  static constexpr std::uint32_t kMaxTriangles = 1u << 22;
+  /// Nodes above one another, at most. 10 hold kMaxTriangles; the others are for uneven splits.
+  static constexpr int kLevels = 16;
+  /// Triangles that fit below so many nodes above one another.
+  static ISO_INLINE constexpr std::uint64_t capacity(int levels) {
+    return std::uint64_t{kLeafTriangles} << (2 * levels);
+  }
+  /// A node leaves three of its children waiting and goes on with the fourth.
+  static constexpr int kStack = 3 * kLevels + 1;
+
+  // As the compiler makes them, but no weak functions in the files that hold trees.
+  ISO_INLINE MeshTree() = default;
+  ISO_INLINE MeshTree(const MeshTree&) = default;
+  ISO_INLINE MeshTree(MeshTree&&) = default;
+  ISO_INLINE MeshTree& operator=(const MeshTree&) = default;
+  ISO_INLINE MeshTree& operator=(MeshTree&&) = default;
+  ISO_INLINE ~MeshTree() = default;
+
+  /// 1 to kMaxTriangles boxes, inside the range of MeshPoint. The tree has at most `levels`, 1 to kLevels, whose
+  /// capacity is not less than the number of boxes.
+  static MeshTree build(std::span<const MeshBox> boxes, int levels = kLevels);
+
+  ISO_INLINE const MeshBox& bounds() const { return bounds_; }
+  ISO_INLINE std::span<const MeshNode> nodes() const { return nodes_; }
+  /// Triangles as the leaves have them.
+  ISO_INLINE std::span<const std::uint32_t> order() const { return order_; }
+  std::size_t memory() const;
+
+  /// visit(triangle) for all triangles of the leaves whose bounds touch the box. Ends when visit returns false.
+  template <class Visit> ISO_INLINE bool query(const MeshBox& box, Visit&& visit) const {
+    Lanes lanes;
+    if (!lanes_of(box, lanes)) return true;
+    std::uint32_t stack[kStack];
+    int size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const std::uint32_t child = stack[--size];
+      if (child & MeshNode::kLeaf) {
+        if (!visit_leaf(child, visit)) return false;
+        continue;
+      }
+      const MeshNode& node = nodes_[child];
+      const std::uint64_t touching = lanes.touching(node);
+      for (int lane = 3; lane >= 0; --lane) {
+        if (touching >> (16 * lane + 15) & 1u) stack[size++] = node.children[lane];
+      }
+    }
+    return true;
+  }
+
+  /// visit(triangle) for all triangles of the leaves that overlaps(box) reaches. Ends when visit returns false.
+  template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
+    std::uint32_t stack[kStack];  // 4 node + lane
+    int size = 0;
+    if (nodes_.empty() || !overlaps(bounds_)) return true;
+    push(0, stack, size);
+    while (size > 0) {
+      const std::uint32_t top = stack[--size], lane = top % 4;
+      const MeshNode& node = nodes_[top / 4];
+      const std::uint32_t child = node.children[lane];
+      if (child == MeshNode::kNoChild || !overlaps(box_of(node, lane))) continue;
+      if (!(child & MeshNode::kLeaf)) push(child, stack, size);
+      else if (!visit_leaf(child, visit)) return false;
+    }
+    return true;
+  }
+
+ private:
+  friend class MeshTreeBuilder;
+
+  /// A box as the lanes of nodes have it, all four alike.
+  struct Lanes {
+    static constexpr std::uint64_t kTops = 0x8000800080008000u;
+
+    std::uint64_t low[3], high[3];
+
+    /// The top bit of each lane: whether the child's bounds and the box have a point in common. A lane with its top
+    /// bit set, less 15 bits, borrows nothing from the next and keeps its top bit exactly if it is not less.
+    ISO_INLINE std::uint64_t touching(const MeshNode& node) const {
+      std::uint64_t all = kTops;
+      for (int axis = 0; axis < 3; ++axis) {
+        all &= ((high[axis] | kTops) - node.low[axis]) & ((node.high[axis] | kTops) - low[axis]);
+      }
+      return all;
+    }
+  };
+
+  /// False: the box misses all triangles, or is empty.
+  ISO_INLINE bool lanes_of(const MeshBox& box, Lanes& lanes) const {
+    if (nodes_.empty() || !bounds_.touches(box)) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box.low[axis] > box.high[axis]) return false;
+      lanes.low[axis] = every_lane(axis, box.low[axis] < bounds_.low[axis] ? bounds_.low[axis] : box.low[axis]);
+      lanes.high[axis] = every_lane(axis, box.high[axis] > bounds_.high[axis] ? bounds_.high[axis] : box.high[axis]);
+    }
+    return true;
+  }
+  /// Rounding down never turns an order round, so both ends of both boxes are rounded down: none that touch are lost.
+  ISO_INLINE std::uint64_t every_lane(int axis, std::int64_t v) const { return 0x0001000100010001u * cell(axis, v); }
+  ISO_INLINE std::uint64_t cell(int axis, std::int64_t v) const {
+    return static_cast<std::uint64_t>(v - bounds_.low[axis]) >> shift_[axis];
+  }
+  ISO_INLINE MeshBox box_of(const MeshNode& node, std::uint32_t lane) const {
+    MeshBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto low = static_cast<std::int64_t>(node.low[axis] >> (16 * lane) & 0x7fffu);
+      const auto high = static_cast<std::int64_t>(node.high[axis] >> (16 * lane) & 0x7fffu);
+      box.low[axis] = bounds_.low[axis] + (low << shift_[axis]);
+      const std::int64_t end = bounds_.low[axis] + ((high + 1) << shift_[axis]) - 1;
+      box.high[axis] = end < bounds_.high[axis] ? end : bounds_.high[axis];
+    }
+    return box;
+  }
+  template <class Visit> ISO_INLINE bool visit_leaf(std::uint32_t leaf, Visit&& visit) const {
+    const std::uint32_t first = leaf & MeshNode::kFirstMask;
+    const std::uint32_t count = (leaf & ~MeshNode::kLeaf) >> MeshNode::kCountShift;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      if (!visit(order_[i])) return false;
+    }
+    return true;
+  }
+  static ISO_INLINE void push(std::uint32_t node, std::uint32_t* stack, int& size) {
+    for (std::uint32_t lane = 4; lane-- > 0;) stack[size++] = 4 * node + lane;
+  }
+
+  MeshBox bounds_ = {};
+  int shift_[3] = {};            // of each axis, from steps to the 15 bits of a node
+  std::vector<MeshNode> nodes_;  // the first is the root; parents come before children
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace isostep

@@ -1,0 +1,230 @@
+// Height fields: what is refused, their pyramid of heights, their triangles and their canonical bytes.
+// SPDX-License-Identifier: MIT
+#include "isostep/geometry/baked/height_field.hpp"
+
+#include <algorithm>
+
+#include "isostep/state/archive.hpp"
+
+namespace isostep {
+namespace {
+
+Error fault(const char* place, ShortText<112> message) { return {ErrorCode::invalid, message, place}; }
+
+Result<void> check_grid(const HeightGrid& grid) {
+  if (grid.exponent > HeightField::kMaxExponent) return fault("exponent", "the exponent of a step is 0 to 16");
+  if (grid.height_shift > HeightField::kMaxHeightShift)
+    return fault("height_shift", "a unit of height is 2^0 to 2^7 steps");
+  if (grid.columns < 2) return fault("columns", "a field has 2 columns or more");
+  if (grid.rows < 2) return fault("rows", "a field has 2 rows or more");
+  if (grid.pitch == 0) return fault("pitch", "the pitch is 0 steps");
+  const std::uint64_t intervals = std::max(grid.columns, grid.rows) - 1;
+  if (intervals * grid.pitch >= std::uint64_t{MeshPoint::kLimit})
+    return fault("pitch", "the last column or row has a coordinate of more than 23 bits");
+  const std::uint64_t cells = std::uint64_t{grid.columns - 1} * (grid.rows - 1);
+  if (cells <= HeightField::kMaxCells) return {};
+  ShortText<112> message;
+  message.append_number(cells).append(" cells, at most ").append_number(HeightField::kMaxCells);
+  return Error{ErrorCode::limit, message.append(" are possible"), "cells"};
+}
+
+Result<void> check_count(const char* list, std::uint64_t count, std::uint64_t expected, const char* places) {
+  if (count == expected) return {};
+  ShortText<112> message;
+  message.append_number(count).append(" ").append(list).append(" for ").append_number(expected);
+  return fault(list, message.append(" ").append(places));
+}
+
+/// From the corner of half 0, in columns and rows; of half 1 from the opposite corner, with the sign turned.
+struct Offset {
+  std::int32_t i, k;
+};
+constexpr Offset kPoints[3] = {{0, 0}, {0, 1}, {1, 0}};
+constexpr Offset kOpposite[3] = {{-1, 1}, {1, 1}, {1, -1}};  // across edge k
+constexpr Offset kCells[3] = {{-1, 0}, {0, 0}, {0, -1}};     // from the cell to the one across edge k
+
+}  // namespace
+
+/// Half 1 is half 0 turned about the middle of the cell.
+HeightField::Place HeightField::place_of(std::uint32_t id) const {
+  const std::uint32_t cell = id / 2, half = id % 2, k = cell / cells_x();
+  return {cell - k * cells_x(), k, half == 0 ? 1 : -1};
+}
+std::uint32_t HeightField::cell_across(Place place, int k) const {
+  const std::uint32_t i = place.i + static_cast<std::uint32_t>(place.sign * kCells[k].i),
+                      row = place.k + static_cast<std::uint32_t>(place.sign * kCells[k].k);
+  if (i >= cells_x() || row >= cells_z()) return kNoTriangle;  // -1 too
+  const std::uint32_t cell = row * cells_x() + i;
+  return materials_[cell] == kHole ? kNoTriangle : cell;
+}
+
+std::uint32_t HeightField::neighbour(std::uint32_t id, int k) const {
+  const std::uint32_t cell = cell_across(place_of(id), k);
+  return cell == kNoTriangle ? kNoTriangle : 2 * cell + (1 - id % 2);
+}
+
+/// The triangles of an edge span a parallelogram of the grid, so the sum of the heights across tells how they lie to
+/// each other when it is compared with the sum along.
+BakedTriangle HeightField::triangle(std::uint32_t id) const {
+  const Place place = place_of(id);
+  const std::uint32_t i = place.i + id % 2, k = place.k + id % 2;
+  const std::int16_t* const corner = heights_.data() + static_cast<std::size_t>(k) * grid_.columns + i;
+  const std::int32_t pitch = place.sign * static_cast<std::int32_t>(grid_.pitch), unit = 1 << grid_.height_shift;
+  const auto x = static_cast<std::int32_t>(i * grid_.pitch), z = static_cast<std::int32_t>(k * grid_.pitch);
+  const std::ptrdiff_t column = place.sign, row = column * static_cast<std::ptrdiff_t>(grid_.columns);
+  const auto at = [&](Offset o) -> MeshPoint {
+    return {x + o.i * pitch, corner[o.i * column + o.k * row] * unit, z + o.k * pitch};
+  };
+  BakedTriangle baked = {{at(kPoints[0]), at(kPoints[1]), at(kPoints[2])}, {}, {}, materials_[id / 2]};
+  for (int e = 0; e < 3; ++e) {
+    if (cell_across(place, e) == kNoTriangle) continue;
+    const MeshPoint a = baked.points[e], b = baked.points[(e + 1) % 3], c = baked.points[(e + 2) % 3];
+    baked.opposite[e] = at(kOpposite[e]);
+    const std::int32_t rise = baked.opposite[e].y + c.y - a.y - b.y;
+    baked.edges[e] = rise < 0 ? EdgeKind::convex : rise > 0 ? EdgeKind::concave : EdgeKind::flat;
+  }
+  return baked;
+}
+
+/// False: no triangle touches the box.
+bool HeightField::range_of(const MeshBox& box, CellRange& range) const {
+  const MeshBox own = bounds();
+  if (!own.touches(box)) return false;
+  const std::int64_t pitch = grid_.pitch, unit = std::int64_t{1} << grid_.height_shift;
+  const std::uint32_t cells[2] = {cells_x(), cells_z()};
+  for (int side = 0; side < 2; ++side) {
+    const int axis = 2 * side;
+    if (box.low[axis] > box.high[axis]) return false;
+    const std::int64_t low = std::max(box.low[axis], own.low[axis]), high = std::min(box.high[axis], own.high[axis]);
+    // A cell ends where the next begins.
+    range.low[side] = low == 0 ? 0 : static_cast<std::uint32_t>((low - 1) / pitch);
+    range.high[side] = std::min(cells[side] - 1, static_cast<std::uint32_t>(high / pitch));
+  }
+  if (box.low[1] > box.high[1]) return false;
+  const std::int64_t low = std::max(box.low[1], own.low[1]), high = std::min(box.high[1], own.high[1]);
+  range.low_height = static_cast<std::int32_t>((low + unit - 1) >> grid_.height_shift);
+  range.high_height = static_cast<std::int32_t>(high >> grid_.height_shift);
+  return true;
+}
+
+void HeightField::lay_out() {
+  std::size_t total = 0;
+  for (levels_ = 0; levels_ == 0 || blocks_x(levels_ - 1) > 1 || blocks_z(levels_ - 1) > 1; ++levels_) {
+    starts_[levels_] = total;
+    total += static_cast<std::size_t>(blocks_x(levels_)) * blocks_z(levels_);
+  }
+  spans_.resize(total);
+}
+
+/// The spans of all blocks that hold the cells.
+void HeightField::refresh(const CellRange& cells) {
+  for (std::uint32_t level = 0; level < levels_; ++level) {
+    const std::uint32_t bits = kBlockBits + level;
+    for (std::uint32_t z = cells.low[1] >> bits; z <= cells.high[1] >> bits; ++z) {
+      for (std::uint32_t x = cells.low[0] >> bits; x <= cells.high[0] >> bits; ++x) {
+        const Block block = {x, z, level};
+        spans_[place_of(block)] = computed_span(block);
+      }
+    }
+  }
+}
+
+HeightField::Span HeightField::computed_span(Block block) const {
+  Span span = {INT16_MAX, INT16_MIN};
+  if (block.level > 0) {
+    Block parts[4];
+    int count = 0;
+    push_parts(block, parts, count);
+    for (int i = 0; i < count; ++i) {
+      const Span part = span_of(parts[i]);
+      span = {std::min(span.low, part.low), std::max(span.high, part.high)};
+    }
+    return span;
+  }
+  for (std::uint32_t k = block.z * kBlock; k < std::min((block.z + 1) * kBlock, cells_z()); ++k) {
+    for (std::uint32_t i = block.x * kBlock; i < std::min((block.x + 1) * kBlock, cells_x()); ++i) {
+      if (materials_[static_cast<std::size_t>(k) * cells_x() + i] != kHole) add_cell(span, i, k);
+    }
+  }
+  return span;
+}
+
+Result<HeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
+                                 std::span<const std::uint8_t> materials) {
+  const Result<void> checked = check_grid(grid);
+  if (!checked) return checked.error();
+  const std::uint32_t cells = (grid.columns - 1) * (grid.rows - 1);
+  const Result<void> places = check_count("heights", heights.size(), std::uint64_t{grid.columns} * grid.rows, "places");
+  if (!places) return places.error();
+  const Result<void> of_cells = check_count("materials", materials.empty() ? cells : materials.size(), cells, "cells");
+  if (!of_cells) return of_cells.error();
+
+  HeightField field;
+  field.grid_ = grid;
+  field.heights_.assign(heights.begin(), heights.end());
+  field.materials_.assign(materials.begin(), materials.end());
+  field.materials_.resize(cells, 0);
+  field.lay_out();
+  field.refresh({{0, 0}, {grid.columns - 2, grid.rows - 2}, 0, 0});
+  const HeightField::Span all = field.spans_.back();
+  if (all.low > all.high) return fault("materials", "every cell is a hole");
+  return field;
+}
+
+Result<HeightField> HeightField::with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
+                                              std::uint32_t rows, std::span<const std::int16_t> heights) const {
+  const bool inside =
+      column <= grid_.columns && columns <= grid_.columns - column && row <= grid_.rows && rows <= grid_.rows - row;
+  if (!inside) return fault("heights", "the rectangle leaves the field");
+  const Result<void> places = check_count("heights", heights.size(), std::uint64_t{columns} * rows, "places");
+  if (!places) return places.error();
+  HeightField field = *this;
+  if (heights.empty()) return field;
+  for (std::uint32_t k = 0; k < rows; ++k) {
+    const std::span<const std::int16_t> from = heights.subspan(static_cast<std::size_t>(k) * columns, columns);
+    const std::size_t to = static_cast<std::size_t>(row + k) * grid_.columns + column;
+    std::copy(from.begin(), from.end(), field.heights_.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+  const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
+  field.refresh({{before(column), before(row)},
+                 {std::min(column + columns - 1, cells_x() - 1), std::min(row + rows - 1, cells_z() - 1)},
+                 0,
+                 0});
+  return field;
+}
+
+std::size_t HeightField::memory() const {
+  return sizeof(*this) + heights_.size() * sizeof(std::int16_t) + materials_.size() + spans_.size() * sizeof(Span);
+}
+
+std::vector<std::uint8_t> HeightField::bytes() const {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(sizeof(HeightGrid) + heights_.size() * sizeof(std::int16_t) + materials_.size());
+  Writer writer(bytes);
+  writer.write(grid_);
+  writer.write_records(heights_.data(), heights_.size());
+  writer.write_raw(materials_);
+  return bytes;
+}
+
+Result<HeightField> read_height_field(Bytes bytes) {
+  Reader reader(bytes);
+  const auto grid = reader.read<HeightGrid>();
+  const Result<void> begun = reader.result("height field");
+  if (!begun) return begun.error();
+  const Result<void> checked = check_grid(grid);
+  if (!checked) return checked.error();
+  const std::size_t places = std::size_t{grid.columns} * grid.rows;  // below 2^26, as cells are at most 2^24
+  std::vector<std::int16_t> heights;
+  if (reader.remaining() / sizeof(std::int16_t) < places)
+    reader.fail(ErrorCode::truncated, "fewer heights than places");
+  else heights.resize(places);
+  reader.read_records(heights.data(), heights.size());
+  const Bytes materials = reader.read_view((grid.columns - 1) * (grid.rows - 1));
+  reader.expect_end();
+  const Result<void> whole = reader.result("height field");
+  if (!whole) return whole.error();
+  return height_field(grid, heights, materials);
+}
+
+}  // namespace isostep
