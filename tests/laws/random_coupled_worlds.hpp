@@ -7,6 +7,7 @@
 
 #include "isostep/effects/particle_coupling.hpp"
 #include "laws/random_particle_laws.hpp"
+#include "random/hull.hpp"
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
@@ -207,9 +208,10 @@ template <class S> class RandomCoupledWorld {
 
   ShapeId draw_shape(double& reach) {
     const double a = chance_.in(0.1, 0.4), b = chance_.in(0.1, 0.4), c = chance_.in(0.1, 0.4);
-    switch (chance_.below(3)) {
+    switch (chance_.below(4)) {
       case 0: reach = a; return add_ball(bodies_, a);
       case 1: reach = length({a, b, c}); return add_box(bodies_, a, b, c);
+      case 2: reach = length({a, b, c}); return bodies_.add_shape(draw_hull(chance_, {a, b, c}));
       default: reach = a + b; return bodies_.add_shape(Capsule<S>{num<S>(a), num<S>(b)});
     }
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "random/dice.hpp"
+#include "random/hull.hpp"
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
@@ -22,22 +23,28 @@ struct DrawnShape {
 };
 
 static_assert(kShapeTypes == 5, "random worlds have every shape that moves: see draw_primitive()");
-template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach) {
+/// `blobs` are those of its shape.
+template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::vector<BlobRef>& blobs) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
-  switch (dice.below(3)) {
+  switch (dice.below(4)) {
     case 0: *reach = a; return primitive_of(Sphere<S>{num<S>(a)});
     case 1: *reach = length({a, b, c}); return primitive_of(Box<S>{vec<S>(a, b, c)});
-    default: *reach = a + b; return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
+    case 2: *reach = a + b; return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
+    default:
+      *reach = length({a, b, c});
+      blobs.push_back(draw_hull(dice, {a, b, c}));
+      return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size())});
   }
 }
 /// A primitive, or two or three of them in one body.
 template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   std::vector<Child<S>> children;
+  std::vector<BlobRef> blobs;
   double reach = 0;
   const std::uint32_t count = dice.one_in(4) ? 2 + dice.below(2) : 1;
   for (std::uint32_t i = 0; i < count; ++i) {
     double own = 0;
-    Child<S> child = {draw_primitive<S>(dice, &own), Pose<S>::identity()};
+    Child<S> child = {draw_primitive<S>(dice, &own, blobs), Pose<S>::identity()};
     if (count > 1) {
       const D3 at = dice.point(0.25);
       child.pose = {vec<S>(at), dice.orientation<S>()};
@@ -46,7 +53,7 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
     reach = std::max(reach, own);
     children.push_back(child);
   }
-  return {w.add_shape(std::span<const Child<S>>(children)), reach};
+  return {w.add_shape(std::span<const Child<S>>(children), blobs), reach};
 }
 
 /// Anything but a pose, a type and a speed.

@@ -105,7 +105,7 @@ TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
   EXPECT_EQ(refusal(with_body(R"("type": "movable")")),
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");
   EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "cone"}])")),
-            "/bodies/1/shapes/0/type: expected sphere, box, capsule or half_space, found \"cone\"");
+            "/bodies/1/shapes/0/type: expected sphere, box, capsule, half_space or hull, found \"cone\"");
   std::string joints = kJointNames[0];
   for (std::uint32_t i = 1; i < kJointTypes; ++i)
     joints += (i + 1 < kJointTypes ? ", " : " or ") + std::string(kJointNames[i]);

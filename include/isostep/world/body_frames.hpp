@@ -22,10 +22,10 @@ template <class S, class Visit>
 ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                             Visit&& visit);
 
-/// Part i of body a and part j of body b.
+/// Part i of body a and part j of body b, the bits of collide(); `polyhedra` is used where it can be.
 template <class S>
-void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, S margin,
-                   Manifold<S>& out);
+void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
+                   std::uint32_t j, S margin, Manifold<S>& out);
 
 /// Whether two bodies have a contact.
 template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b);

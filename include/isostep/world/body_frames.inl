@@ -3,6 +3,9 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
+#include "isostep/collision/narrowphase/hull_pairs.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
+#include "isostep/geometry/baked/box_solid.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/world/body_frames.hpp"
 
@@ -64,15 +67,22 @@ ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S marg
 }
 
 template <class S>
-void collide_parts(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, S margin,
-                   Manifold<S>& out) {
-  const Child<S>&part_a = a.children[i], &part_b = b.children[j];
+void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
+                   std::uint32_t j, S margin, Manifold<S>& out) {
+  const ShapeView<S> part_a = detail::part(a, i), part_b = detail::part(b, j);
   const Transform<S> origin_b = origin_beside(a, b);
-  if (a.plain && b.plain) {
-    collide(detail::part(a, i), a.origin, detail::part(b, j), origin_b, margin, out);
+  const Transform<S> ta = a.plain ? a.origin : detail::placed(a.origin, a.children[i]);
+  const Transform<S> tb = b.plain ? origin_b : detail::placed(origin_b, b.children[j]);
+  const bool hull_a = part_a.primitive.type == ShapeType::hull, hull_b = part_b.primitive.type == ShapeType::hull;
+  if (hull_a && hull_b) {
+    polyhedra(detail::hull_of(part_a), ta, detail::hull_of(part_b), tb, margin, out);
+  } else if (hull_b && part_a.primitive.type == ShapeType::box) {
+    polyhedra(BoxSolid<S>(part_a.primitive.half).polyhedron(), ta, detail::hull_of(part_b), tb, margin, out);
+  } else if (hull_a && part_b.primitive.type == ShapeType::box) {  // the box is a, as in ShapePairs
+    polyhedra(BoxSolid<S>(part_b.primitive.half).polyhedron(), tb, detail::hull_of(part_a), ta, margin, out);
+    out.normal = -out.normal;
   } else {
-    collide(detail::part(a, i), detail::placed(a.origin, part_a), detail::part(b, j), detail::placed(origin_b, part_b),
-            margin, out);
+    collide(part_a, ta, part_b, tb, margin, out);
   }
 }
 
@@ -83,7 +93,7 @@ template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a
   std::uint64_t looks = ~std::uint64_t{0};
   visit_parts(a, b, kMargin, looks, [&](std::uint32_t i, std::uint32_t j) {
     Manifold<S> manifold;
-    collide_parts(a, i, b, j, kMargin, manifold);
+    collide_parts(collide_polyhedra<S>, a, i, b, j, kMargin, manifold);
     touch = manifold.count > 0;
     return !touch;
   });

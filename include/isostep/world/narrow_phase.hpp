@@ -55,7 +55,7 @@ template <class S> class NarrowPhase {
   void update_shared(const TaskRunner& runner);
   static void run_piece(void* phase, std::uint32_t stage, std::uint32_t piece);
   void collide_group(std::size_t group, std::uint8_t* counts, Manifold<S>* manifolds) const;
-  static void collide_others(const PairRun<S>& run);
+  void collide_others(const PairRun<S>& run) const;
   std::size_t place_group(std::size_t group, const std::uint8_t* counts);
   void merge_group(std::size_t group, const std::uint8_t* counts, const Manifold<S>* manifolds, std::size_t next,
                    std::size_t& old_cursor);

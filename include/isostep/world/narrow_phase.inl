@@ -138,13 +138,13 @@ void NarrowPhase<S>::collide_group(std::size_t index, std::uint8_t* counts, Mani
   kernels_->boxes(run_of(group.boxes));
   collide_others(run_of(group.others));
 }
-template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) {
+template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) const {
   for (std::uint32_t i = run.begin; i < run.end; ++i) {
     const PartPair& pair = run.pairs[run.order[i]];
     const BodyFrame<S>&a = run.frames[pair.frame_a], &b = run.frames[pair.frame_b];
     const S margin = a.sensor || b.sensor ? S(0) : run.margin;
     Manifold<S>& out = run.manifolds[run.order[i]];
-    collide_parts(a, pair.child_a, b, pair.child_b, margin, out);
+    collide_parts(kernels_->polyhedra, a, pair.child_a, b, pair.child_b, margin, out);
     run.counts[run.order[i]] = static_cast<std::uint8_t>(out.count);
   }
 }

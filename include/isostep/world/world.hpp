@@ -112,6 +112,8 @@ template <class S> class World final {
   ShapeId add_shape(const Shape<Literal>& shape);
   ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
+  /// What a blob is by itself: a hull.
+  ShapeId add_shape(const BlobRef& blob);
   /// `blobs`: what the children name by Primitive::blob, 1 + its index here.
   ShapeId add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
   bool remove_shape(ShapeId shape);

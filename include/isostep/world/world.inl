@@ -76,6 +76,12 @@ template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& sh
   }
 ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
+template <class S> ShapeId World<S>::add_shape(const BlobRef& blob) {
+  Child<S> child = {Primitive<S>{}, Pose<S>::identity()};
+  child.primitive.type = blob == nullptr ? ShapeType{} : blob->type();
+  child.primitive.blob = 1;
+  return add_shape(std::span<const Child<S>>(&child, 1), std::span<const BlobRef>(&blob, 1));
+}
 /// What the world has already a command names without its content: a recording holds it once.
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
   AddShape<S> command = {{children.begin(), children.end()}};

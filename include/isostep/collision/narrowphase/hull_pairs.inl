@@ -10,12 +10,6 @@
 
 namespace isostep {
 
-namespace detail {
-template <class S> ISO_INLINE Polyhedron<S> hull_of(ShapeView<S> view) {
-  return static_cast<const HullContent<S>*>(view.content)->solid.polyhedron();
-}
-}  // namespace detail
-
 template <class S>
 void collide_sphere_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                          Manifold<S>& out) {

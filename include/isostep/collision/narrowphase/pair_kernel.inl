@@ -7,6 +7,7 @@
 #include "isostep/collision/narrowphase/box_lanes.inl"
 #include "isostep/collision/narrowphase/pair_lanes.inl"
 #include "isostep/collision/narrowphase/pair_scalar.inl"
+#include "isostep/collision/narrowphase/polyhedra.inl"
 
 namespace isostep {
 namespace {
@@ -20,11 +21,18 @@ namespace {
 ///   Q32.32     1140    1340
 enum class BoxWork { alone, axes, polygons };
 
+template <class S, int W, class Isa>
+void polyhedra_in_lanes(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
+                        S margin, Manifold<S>& out) {
+  detail::collide_polyhedra_over<S, W, Isa>(a, ta, b, tb, margin, out);
+}
+
 template <class S, int W, class Isa, BoxWork Boxes> constexpr PairKernels<S> make_pair_kernels() {
   if constexpr (Boxes == BoxWork::alone) {
-    return {PairLanes<S, W, Isa>::spheres, collide_one_by_one<S, collide_box_box<S>>};
+    return {PairLanes<S, W, Isa>::spheres, collide_one_by_one<S, collide_box_box<S>>, polyhedra_in_lanes<S, W, Isa>};
   } else {
-    return {PairLanes<S, W, Isa>::spheres, BoxLanes<S, W, Isa, Boxes == BoxWork::polygons>::boxes};
+    return {PairLanes<S, W, Isa>::spheres, BoxLanes<S, W, Isa, Boxes == BoxWork::polygons>::boxes,
+            polyhedra_in_lanes<S, W, Isa>};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/simd.hpp"
 #include "isostep/geometry/shape.hpp"
@@ -82,6 +83,7 @@ template <class S> struct PairRun {
 template <class S> struct PairKernels {
   void (*spheres)(const PairRun<S>&);
   void (*boxes)(const PairRun<S>&);
+  CollidePolyhedra<S> polyhedra;  // one pair
 };
 
 /// The kernels for `simd`: those of one lane where an instruction set has none of its own, is missing or does not pay.

@@ -4,6 +4,7 @@
 
 #include "isostep/collision/narrowphase/box_box.hpp"
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
 
 namespace isostep {
@@ -20,7 +21,8 @@ template <class S, auto Collide> void collide_one_by_one(const PairRun<S>& run) 
   }
 }
 template <class S> constexpr PairKernels<S> make_scalar_pair_kernels() {
-  return {collide_one_by_one<S, collide_sphere_sphere<S>>, collide_one_by_one<S, collide_box_box<S>>};
+  return {collide_one_by_one<S, collide_sphere_sphere<S>>, collide_one_by_one<S, collide_box_box<S>>,
+          collide_polyhedra<S>};
 }
 
 }  // namespace

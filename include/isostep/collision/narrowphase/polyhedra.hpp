@@ -17,6 +17,10 @@ template <class S>
 void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
                        S margin, Manifold<S>& out);
 
+template <class S>
+using CollidePolyhedra = void (*)(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                                  const Transform<S>& tb, S margin, Manifold<S>& out);
+
 /// A polyhedron on a half-space, dot(normal, p) <= offset in tb's frame: up to four vertices that are nearer than
 /// `margin` [m], the lowest among them. Features: vertices.
 template <class S>

@@ -18,8 +18,8 @@ template <class S> using FacePolygon = ClipPolygon<S, kFacePoints>;
 template <class S> struct FaceContact {
   const Polyhedron<S>& reference;
   const Polyhedron<S>& incident;
-  std::span<const Vec3<S>> vertices;  // [m] of the incident solid
-  Mat3<Unit<S>> turn;                 // from its frame
+  const Columns<S, ConvexHull::kMaxVertices>& vertices;  // [m] of the incident solid
+  Mat3<Unit<S>> turn;  // from its frame
   FaceAxis<S> axis;
   Tangents<Unit<S>> across;  // of the face's normal
 };
@@ -51,7 +51,7 @@ ISO_INLINE void project_face(const FaceContact<S>& contact, std::uint32_t face, 
   polygon.count = 0;
   do {
     const std::uint32_t next = solid.half_edges[edge].next;
-    const Vec3<S> p = contact.vertices[solid.origin(next)];
+    const Vec3<S> p = contact.vertices.at(solid.origin(next));
     polygon.points[polygon.count++] = {dot(contact.across.t, p), dot(contact.across.u, p), dot(normal, p) - offset,
                                        edge / 2, next / 2};
     edge = next;
@@ -80,7 +80,7 @@ ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_ed
 /// Where rounding leaves nothing above the best face of solids that overlap. Named by the vertex, twice, as no corner
 /// is.
 template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
-  const Vec3<S> p = contact.vertices[contact.axis.vertex];
+  const Vec3<S> p = contact.vertices.at(contact.axis.vertex);
   polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
                        contact.axis.vertex};
   polygon.count = 1;
@@ -120,9 +120,8 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   }
 }
 
-template <class S>
-ISO_INLINE void touch_edges(const PolyhedronPair<S>& pair, const EdgeAxis<S>& best, const Transform<S>& ta,
-                            Manifold<S>& out) {
+template <class Pair, class S>
+ISO_INLINE void touch_edges(const Pair& pair, const EdgeAxis<S>& best, const Transform<S>& ta, Manifold<S>& out) {
   const Segment<S> of_a = edge_of(pair.a, best.edge_a), in_b = edge_of(pair.b, best.edge_b);
   const Segment<S> of_b = {to_world(pair.b_in_a, in_b.centre), pair.b_in_a.rotation * in_b.direction, in_b.half};
   const ClosestPair<S> closest = closest_points(of_a, of_b);
@@ -131,21 +130,20 @@ ISO_INLINE void touch_edges(const PolyhedronPair<S>& pair, const EdgeAxis<S>& be
           best.edge_a << 7 | best.edge_b);
 }
 
-}  // namespace detail
-
-template <class S>
-void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
-                       S margin, Manifold<S>& out) {
-  using namespace detail;
+/// collide_polyhedra() with W lanes of Isa.
+template <class S, int W, class Isa>
+ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                                       const Transform<S>& tb, S margin, Manifold<S>& out) {
   out.clear();
-  const PolyhedronPair<S> pair(a, ta, b, tb);
-  const std::span<const Vec3<S>> vertices_a(pair.vertices_a, a.vertices.size());
-  const std::span<const Vec3<S>> vertices_b(pair.vertices_b, b.vertices.size());
-  const FaceAxis<S> face_a = best_face(a, vertices_b, margin);
+  const PolyhedronPair<S, W, Isa> pair(a, ta, b, tb);
+  const auto count_a = static_cast<std::uint32_t>(a.vertices.size());
+  const auto count_b = static_cast<std::uint32_t>(b.vertices.size());
+  const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, count_b, margin);
   if (face_a.separation > margin) return;
-  const FaceAxis<S> face_b = best_face(b, vertices_a, margin);
+  const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, count_a, margin);
   if (face_b.separation > margin) return;
-  const EdgeAxis<S> edges = EdgeAxes<S>(pair).best(max(face_a.separation, face_b.separation) + pair.tolerance, margin);
+  const S limit = max(face_a.separation, face_b.separation) + pair.tolerance;
+  const EdgeAxis<S> edges = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
   if (edges.found && edges.separation > margin) return;
   if (edges.found) return touch_edges(pair, edges, ta, out);
   const bool prefers_b = face_b.separation > face_a.separation + pair.tolerance;
@@ -153,17 +151,25 @@ void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Pol
     const S tie = pair.tolerance * S(0.125);
     if (of_b) {
       const Tangents<Unit<S>> across = tangents_of(b.normals[face_b.face]);
-      touch_faces({b, a, vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false, deepest,
-                  out);
+      touch_faces({b, a, pair.vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false,
+                  deepest, out);
     } else {
       const Tangents<Unit<S>> across = tangents_of(a.normals[face_a.face]);
-      touch_faces({a, b, vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, deepest, out);
+      touch_faces({a, b, pair.vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, deepest, out);
     }
   };
   touch(prefers_b, false);
   // Nothing is above a face that was preferred to a better one: that one decides, and whether they are apart.
   if (out.count == 0 && max(face_a.separation, face_b.separation) <= S(0))
     touch(face_b.separation > face_a.separation, true);
+}
+
+}  // namespace detail
+
+template <class S>
+void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
+                       S margin, Manifold<S>& out) {
+  detail::collide_polyhedra_over<S, 1, isa::Portable>(a, ta, b, tb, margin, out);
 }
 
 template <class S>

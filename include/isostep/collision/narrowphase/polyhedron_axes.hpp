@@ -6,6 +6,7 @@
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/geometry/baked/polyhedron_surface.hpp"
+#include "isostep/math/columns.hpp"
 
 namespace isostep::detail {
 
@@ -36,42 +37,78 @@ template <class S> ISO_INLINE Lowest<S> lowest_of(std::span<const Vec3<S>> verti
   return lowest;
 }
 
-/// Two polyhedra; what belongs to b is also there as a's frame sees it, and a's vertices as b's does.
-template <class S> struct PolyhedronPair {
-  static constexpr std::uint32_t kMost = ConvexHull::kMaxVertices;  // and edges, and faces
+/// Two polyhedra; what belongs to b is also there as a's frame sees it, and a's vertices as b's does. Found W at a time
+/// in lanes of Isa: the bits are those of one at a time.
+template <class S, int W, class Isa> struct PolyhedronPair {
+  static constexpr int kMost = ConvexHull::kMaxVertices;  // and edges, and faces
+  using U = Unit<S>;
+  using L = Lanes<S, W, Isa>;
+  using UL = Lanes<U, W, Isa>;
 
   const Polyhedron<S>& a;
   const Polyhedron<S>& b;
   Transform<S> b_in_a;
-  Vec3<S> vertices_a[kMost];  // [m] in b's frame
-  Vec3<S> vertices_b[kMost];  // [m] in a's frame
-  S tolerance;                // [m] what an axis must be better by to replace one that is preferred
+  Columns<S, kMost> vertices_a;  // [m] in b's frame
+  Columns<S, kMost> vertices_b;  // [m] in a's frame
+  S tolerance;                   // [m] what an axis must be better by to replace one that is preferred
 
   ISO_INLINE PolyhedronPair(const Polyhedron<S>& of_a, const Transform<S>& ta, const Polyhedron<S>& of_b,
                             const Transform<S>& tb)
       : a(of_a), b(of_b), b_in_a(relative(ta, tb)) {
-    for (std::size_t i = 0; i < a.vertices.size(); ++i) vertices_a[i] = to_local(b_in_a, a.vertices[i]);
-    for (std::size_t i = 0; i < b.vertices.size(); ++i) vertices_b[i] = to_world(b_in_a, b.vertices[i]);
+    const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};
+    take(a.vertices, vertices_a);
+    for (std::uint32_t i = 0; i < a.vertices.size(); i += W)
+      vertices_a.store(i, to_local(lanes, vertices_a.template load<L>(i)));
+    take(b.vertices, vertices_b);
+    for (std::uint32_t i = 0; i < b.vertices.size(); i += W)
+      vertices_b.store(i, to_world(lanes, vertices_b.template load<L>(i)));
     tolerance =
         axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
+  }
+  template <class T> static ISO_INLINE void take(std::span<const Vec3<T>> vectors, Columns<T, kMost>& columns) {
+    const auto count = static_cast<std::uint32_t>(vectors.size());
+    for (std::uint32_t i = 0; i < count; ++i) columns.set(i, vectors[i]);
+    columns.template pad<W>(count);
   }
 };
 
 template <class S> struct FaceAxis {
   std::uint32_t face;
-  std::uint32_t vertex;  // of the other, deepest below it
+  std::uint32_t vertex;  // of the other, deepest below it; of equals the first
   S separation;          // [m]
 };
 
-/// The face with the largest separation from the other's vertices; of equals the first. Ends where one exceeds `reach`.
-template <class S> ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, std::span<const Vec3<S>> others, S reach) {
+/// The face with the largest separation from the other's `count` vertices; of equals the first. Ends where one exceeds
+/// `reach`: then which one is open.
+template <class S, int W, class Isa>
+ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, ConvexHull::kMaxVertices>& others,
+                                 std::uint32_t count, S reach) {
+  using Pair = PolyhedronPair<S, W, Isa>;
+  using L = typename Pair::L;
+  const auto faces = static_cast<std::uint32_t>(of.faces.size());
+  Columns<Unit<S>, Pair::kMost> normals;
+  Pair::take(of.normals, normals);
   FaceAxis<S> best = {0, 0, S(0)};
-  for (std::uint32_t f = 0; f < of.faces.size(); ++f) {
-    const Lowest<S> lowest = lowest_of(others, of.normals[f]);
-    const S separation = lowest.height - of.offsets[f];
-    if (f != 0 && !(separation > best.separation)) continue;
-    best = {f, lowest.vertex, separation};
-    if (separation > reach) break;
+  for (std::uint32_t first = 0; first < faces; first += W) {
+    const Vec3<typename Pair::UL> up = normals.template load<typename Pair::UL>(first);
+    L lowest = dot(up, broadcast<L>(others.at(0)));
+    for (std::uint32_t i = 1; i < count; ++i) {
+      const L height = dot(up, broadcast<L>(others.at(i)));
+      lowest = select(less(height, lowest), height, lowest);
+    }
+    alignas(64) S heights[W];
+    lowest.store(heights);
+    for (std::uint32_t f = first; f < min(first + W, faces); ++f) {
+      const S separation = heights[f - first] - of.offsets[f];
+      if (f == 0 || separation > best.separation) best = {f, 0, separation};
+    }
+    if (best.separation > reach) return best;
+  }
+  const Vec3<Unit<S>> up = of.normals[best.face];
+  S least = dot(up, others.at(0));
+  for (std::uint32_t i = 1; i < count; ++i) {
+    const S height = dot(up, others.at(i));
+    if (height < least) least = height, best.vertex = i;
   }
   return best;
 }
@@ -90,25 +127,30 @@ struct Sides {
 
 /// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
 /// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
-/// of one face of the other's and into the other, in the same order.
-template <class S> class EdgeAxes {
+/// of one face of the other's and into the other, in the same order. All of b's edges are looked at W at a time.
+template <class S, int W, class Isa> class EdgeAxes {
+  using Pair = PolyhedronPair<S, W, Isa>;
   using U = Unit<S>;
-  static constexpr std::uint32_t kMost = ConvexHull::kMaxEdges;
+  using UL = typename Pair::UL;
+  static constexpr int kMost = ConvexHull::kMaxEdges;
 
  public:
-  ISO_INLINE explicit EdgeAxes(const PolyhedronPair<S>& pair) : pair_(pair) {
-    for (std::uint32_t f = 0; f < pair.b.faces.size(); ++f) normals_b_[f] = pair.b_in_a.rotation * pair.b.normals[f];
-    for (std::uint32_t j = 0; j < pair.b.edges(); ++j) directions_b_[j] = pair.b_in_a.rotation * pair.b.directions[j];
-    const Sum<U> zero = product(U(0), U(0));
-    for (std::uint32_t f = 0; f < pair.a.faces.size(); ++f) {
-      Sides& sides = sides_of_a_[f];
-      sides = {EdgeSet::none(), EdgeSet::none()};
-      for (std::uint32_t j = 0; j < pair.b.edges(); ++j) {
-        const Sum<U> along = dot_sum(pair.a.normals[f], directions_b_[j]);
-        sides.plus.insert_if(along > zero, j);
-        sides.minus.insert_if(along < zero, j);
-      }
+  ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
+    const Mat3<UL> turn = broadcast<UL>(pair.b_in_a.rotation);
+    const auto faces = static_cast<std::uint32_t>(pair.b.faces.size());
+    Columns<U, kMost> normals;
+    Pair::take(pair.b.normals, normals);
+    for (std::uint32_t f = 0; f < faces; f += W) normals.store(f, turn * normals.template load<UL>(f));
+    Pair::take(pair.b.directions, directions_);
+    for (std::uint32_t j = 0; j < pair.b.edges(); j += W)
+      directions_.store(j, turn * directions_.template load<UL>(j));
+    for (std::uint32_t j = 0; j < pair.b.edges(); ++j) {
+      left_.set(j, normals.at(pair.b.half_edges[2 * j].face));
+      right_.set(j, normals.at(pair.b.half_edges[2 * j + 1].face));
     }
+    left_.template pad<W>(pair.b.edges());
+    right_.template pad<W>(pair.b.edges());
+    for (std::uint32_t f = 0; f < pair.a.faces.size(); ++f) sides_of_a_[f] = sides_of(pair.a.normals[f]);
   }
 
   /// Those better than `limit`; ends where one exceeds `reach`.
@@ -127,36 +169,61 @@ template <class S> class EdgeAxes {
   }
 
  private:
+  ISO_INLINE Sides sides_of(Vec3<U> normal) const {
+    Sides sides = {EdgeSet::none(), EdgeSet::none()};
+    const Vec3<UL> up = broadcast<UL>(normal);
+    const UL zero = UL::zero();
+    for (std::uint32_t j = 0; j < pair_.b.edges(); j += W) {
+      const UL along = dot(up, directions_.template load<UL>(j));
+      sides.plus.insert(j, to_bits(less(zero, along)));
+      sides.minus.insert(j, to_bits(less(along, zero)));
+    }
+    return sides;
+  }
   /// Of b, with edge i of a.
   ISO_INLINE EdgeSet edges_meeting(std::uint32_t i) const {
     const Polyhedron<S>&a = pair_.a, &b = pair_.b;
-    EdgeSet left_plus = EdgeSet::none(), left_minus = left_plus, right_plus = left_plus, right_minus = left_plus;
-    const Sum<U> zero = product(U(0), U(0));
-    for (std::uint32_t f = 0; f < b.faces.size(); ++f) {
-      const Sum<U> along = dot_sum(a.directions[i], normals_b_[f]);
-      const EdgeSet plus = EdgeSet::all_if(along > zero), minus = EdgeSet::all_if(along < zero);
-      left_plus = left_plus | (plus & b.left_of[f]);
-      right_plus = right_plus | (plus & b.right_of[f]);
-      left_minus = left_minus | (minus & b.left_of[f]);
-      right_minus = right_minus | (minus & b.right_of[f]);
-    }
     const Sides &left = sides_of_a_[a.half_edges[2 * i].face], &right = sides_of_a_[a.half_edges[2 * i + 1].face];
-    return (left_plus & right_minus & left.plus & right.minus) | (left_minus & right_plus & left.minus & right.plus);
+    const EdgeSet out = left.plus & right.minus, in = left.minus & right.plus;
+    const Vec3<UL> direction = broadcast<UL>(a.directions[i]);
+    const UL zero = UL::zero();
+    EdgeSet meeting = EdgeSet::none();
+    for (std::uint32_t j = 0; j < b.edges(); j += W) {
+      const UL at_left = dot(direction, left_.template load<UL>(j));
+      const UL at_right = dot(direction, right_.template load<UL>(j));
+      const std::uint32_t outwards = to_bits(less(zero, at_left) & less(at_right, zero));
+      const std::uint32_t inwards = to_bits(less(at_left, zero) & less(zero, at_right));
+      meeting.insert(j, (outwards & out.bits(j)) | (inwards & in.bits(j)));
+    }
+    return meeting & EdgeSet::first(b.edges());
   }
   ISO_INLINE void examine(std::uint32_t i, std::uint32_t j, EdgeAxis<S>& best) const {
     const Polyhedron<S>& a = pair_.a;
-    const Vec3<U> across = cross(a.directions[i], directions_b_[j]);
+    const Vec3<U> direction = directions_.at(j);
+    const Vec3<S> gap = pair_.vertices_b.at(pair_.b.origin(2 * j)) - a.vertices[a.origin(2 * i)];
+    if (best.separation >= S(0) && !(side_of_arc(i, direction, gap) > S(0))) return;
+    const Vec3<U> across = cross(a.directions[i], direction);
     if (dot(across, across) < U(kLeastSine * kLeastSine)) return;
-    const Vec3<U> n = point_of_arc(a, i, directions_b_[j]);
-    const S separation = dot(n, pair_.vertices_b[pair_.b.origin(2 * j)] - a.vertices[a.origin(2 * i)]);
+    const Vec3<U> n = point_of_arc(a, i, direction);
+    const S separation = dot(n, gap);
     if (separation > best.separation) best = {i, j, n, separation, true};
+  }
+  /// [m] with the sign of the separation: along a vector that is the point of the arc but for its length, at most 1/2.
+  /// Most arcs that meet look from one solid deep into the other, and need no more.
+  ISO_INLINE S side_of_arc(std::uint32_t i, Vec3<U> direction, Vec3<S> gap) const {
+    const Polyhedron<S>& a = pair_.a;
+    const Vec3<U> left = a.normals[a.half_edges[2 * i].face], right = a.normals[a.half_edges[2 * i + 1].face];
+    const U half = U(0.5), at_left = dot(left, direction) * half, at_right = dot(right, direction) * half;
+    const S side = round_to<S>(product(dot(right, gap), at_left) - product(dot(left, gap), at_right));
+    return at_left > U(0) ? side : -side;
   }
 
   static constexpr double kLeastSine = 0.005;  // of edges; nearer to parallel, a face's axis is as good
 
-  const PolyhedronPair<S>& pair_;
-  Vec3<U> normals_b_[kMost], directions_b_[kMost];  // in a's frame
-  Sides sides_of_a_[kMost];                         // b's edges, by face of a
+  const Pair& pair_;
+  Columns<U, kMost> directions_;    // of b's edges, in a's frame
+  Columns<U, kMost> left_, right_;  // normals of the faces beside each of them
+  Sides sides_of_a_[kMost];         // b's edges, by face of a
 };
 
 }  // namespace isostep::detail

@@ -16,17 +16,6 @@ inline constexpr std::uint8_t kBoxFaces[6] = {0, 2, 4, 8, 10, 18};
 inline constexpr std::int8_t kBoxFaceAxes[6] = {0, 2, 1, 2, 1, 0};
 inline constexpr bool kBoxFaceIsPositive[6] = {false, false, false, true, true, true};
 inline constexpr std::int8_t kBoxEdgeAxes[12] = {2, 1, 0, 1, 0, 2, 0, 0, 2, 1, 1, 2};
-
-struct BoxEdgeSets {
-  EdgeSet left[6], right[6];
-};
-ISO_INLINE constexpr BoxEdgeSets box_edge_sets() {
-  BoxEdgeSets sets = {};
-  for (std::uint32_t e = 0; e < 24; ++e)
-    ((e & 1u) == 0 ? sets.left : sets.right)[kBoxHalfEdges[e].face].insert_if(true, e / 2);
-  return sets;
-}
-inline constexpr BoxEdgeSets kBoxEdgeSets = box_edge_sets();
 }  // namespace detail
 
 template <class S> class BoxSolid {
@@ -50,8 +39,7 @@ template <class S> class BoxSolid {
 
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
-    return {vertices_,   detail::kBoxHalfEdges,     detail::kBoxFaces,          normals_,     offsets_,
-            directions_, detail::kBoxEdgeSets.left, detail::kBoxEdgeSets.right, inner_radius_};
+    return {vertices_, detail::kBoxHalfEdges, detail::kBoxFaces, normals_, offsets_, directions_, inner_radius_};
   }
 
  private:

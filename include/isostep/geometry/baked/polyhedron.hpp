@@ -16,20 +16,22 @@ struct EdgeSet {
   std::uint64_t words[2];
 
   static ISO_INLINE constexpr EdgeSet none() { return {{0, 0}}; }
-  /// Without branches: which edges are in a set is as good as random.
-  static ISO_INLINE constexpr EdgeSet all_if(bool all) {
-    const std::uint64_t word = std::uint64_t{0} - (all ? 1u : 0u);
-    return {{word, word}};
+  static ISO_INLINE constexpr EdgeSet first(std::uint32_t count) {
+    const auto word = [](std::uint32_t n) ISO_INLINE_LAMBDA {
+      return n >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1;
+    };
+    return {{word(count), count > 64 ? word(count - 64) : 0}};
   }
-  ISO_INLINE constexpr void insert_if(bool in, std::uint32_t k) { words[k / 64] |= std::uint64_t{in} << k % 64; }
-  friend ISO_INLINE constexpr bool operator==(EdgeSet a, EdgeSet b) {
-    return a.words[0] == b.words[0] && a.words[1] == b.words[1];
+  /// Of up to 32 edges from k on, none across a word's end.
+  ISO_INLINE constexpr void insert(std::uint32_t k, std::uint32_t bits) {
+    words[k / 64] |= std::uint64_t{bits} << k % 64;
   }
+  ISO_INLINE constexpr std::uint32_t bits(std::uint32_t k) const {
+    return static_cast<std::uint32_t>(words[k / 64] >> k % 64);
+  }
+
   friend ISO_INLINE constexpr EdgeSet operator&(EdgeSet a, EdgeSet b) {
     return {{a.words[0] & b.words[0], a.words[1] & b.words[1]}};
-  }
-  friend ISO_INLINE constexpr EdgeSet operator|(EdgeSet a, EdgeSet b) {
-    return {{a.words[0] | b.words[0], a.words[1] | b.words[1]}};
   }
 };
 
@@ -42,7 +44,6 @@ template <class S> struct Polyhedron {
   std::span<const Vec3<Unit<S>>> normals;      // [1] outward, of each face
   std::span<const S> offsets;                  // [m] of each face along its normal: of its vertex furthest out
   std::span<const Vec3<Unit<S>>> directions;   // [1] of half-edge 2 k, of each edge k
-  std::span<const EdgeSet> left_of, right_of;  // by face: edges k that have it on the left, right of half-edge 2 k
   S inner_radius;                              // [m] from the mean of the vertices to the nearest face
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
@@ -58,7 +59,7 @@ template <class S> class HullSolid {
 
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
-    return {vertices_, half_edges_, faces_, normals_, offsets_, directions_, left_of_, right_of_, inner_radius_};
+    return {vertices_, half_edges_, faces_, normals_, offsets_, directions_, inner_radius_};
   }
 
  private:
@@ -68,7 +69,6 @@ template <class S> class HullSolid {
   std::vector<Vec3<Unit<S>>> normals_;
   std::vector<S> offsets_;
   std::vector<Vec3<Unit<S>>> directions_;
-  std::vector<EdgeSet> left_of_, right_of_;
   S inner_radius_ = S(0);
 };
 

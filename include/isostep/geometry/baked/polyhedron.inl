@@ -30,10 +30,6 @@ HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull
     directions_.push_back(
         detail::unit_of<U>(hull.vertices[half_edges_[e + 1].origin] - hull.vertices[half_edges_[e].origin]));
   }
-  left_of_.assign(faces_.size(), EdgeSet::none());
-  right_of_.assign(faces_.size(), EdgeSet::none());
-  for (std::uint32_t e = 0; e < half_edges_.size(); ++e)
-    ((e & 1u) == 0 ? left_of_ : right_of_)[half_edges_[e].face].insert_if(true, e / 2);
   inner_radius_ = highest<S>();
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
     normals_.push_back(detail::unit_of<U>(hull.normal(static_cast<std::uint8_t>(f))));

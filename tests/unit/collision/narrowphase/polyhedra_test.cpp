@@ -107,7 +107,6 @@ TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {
   const Polyhedron<S> a = hull.polyhedron(), b = box.polyhedron();
   EXPECT_TRUE(same(a.vertices, b.vertices) && same(a.half_edges, b.half_edges) && same(a.faces, b.faces));
   EXPECT_TRUE(same(a.normals, b.normals) && same(a.offsets, b.offsets) && same(a.directions, b.directions));
-  EXPECT_TRUE(same(a.left_of, b.left_of) && same(a.right_of, b.right_of));
   EXPECT_NEAR(to_double(a.inner_radius), to_double(b.inner_radius), 1e-4);
 }
 
