@@ -58,6 +58,7 @@ template <class S = Literal> struct Probe {
   }
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const { return box().closest(t, query); }
   template <class Line> ISO_INLINE void visit_lines(const Line& line) const { box().visit_lines(line); }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
   ISO_INLINE Box<S> box() const { return {content->half}; }
 };

@@ -33,6 +33,7 @@ template <class S = Literal> struct Probe {
     return box().closest(t, query);
   }
   template <class Line> ISO_INLINE void visit_lines(const Line& line) const { box().visit_lines(line); }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
   ISO_INLINE constexpr Box<S> box() const { return {{half_side, half_side, half_side}}; }
 };

@@ -52,6 +52,15 @@ check mixed '31 31' "$(last_of "$dir/a") $(last_of "$dir/b")"
 parted=$(sed -n 's/.*parts from it at frame \([0-9]*\),.*/\1/p' "$dir/out")
 grep -q "parted ${parted:-never} " "$dir/check" || fail "mixed: the tool says '$parted': $(cat "$dir/check")"
 
+# A hull, and nothing else that could bring colours into the picture.
+cat >"$dir/gem.json" <<'END'
+{"name": "gem", "gravity": [0, 0, 0], "bodies": [{"type": "dynamic", "position": [0, 0, 0], "shapes": [{"type": "hull",
+ "points": [[0, 5, 8], [0, -5, 8], [0, 5, -8], [0, -5, -8], [5, 8, 0], [-5, 8, 0], [5, -8, 0], [-5, -8, 0],
+            [8, 0, 5], [8, 0, -5], [-8, 0, 5], [-8, 0, -5]]}]}]}
+END
+"$tool" run "$dir/gem.json" --frames 2 --hashes "$dir/gem" --html "$dir/gem.html" >/dev/null || fail "gem"
+check gem 3 "$(last_of "$dir/gem")"
+
 # Particles, and a picture.
 "$tool" run cloth --frames 60 --hashes "$dir/cloth" --html "$dir/cloth.html" >/dev/null || fail "cloth"
 check cloth 61 "$(last_of "$dir/cloth")"

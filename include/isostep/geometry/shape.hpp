@@ -31,6 +31,7 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
   { shape.cast(t, v, v) } -> std::same_as<detail::LocalHit<S>>;  // from origin v along translation v
   { shape.closest(t, v) } -> std::same_as<ClosestPoint<S>>;      // see closest_point.hpp
   shape.visit_lines(detail::NoLine{});                           // for debug drawing: line(from, to), its own frame
+  shape.visit_triangles(detail::NoTriangle{});                   // of its blob: triangle(a, b, c), see DrawnTriangle
   { shape.drawn_at(pose, pose) } -> std::same_as<Pose<S>>;  // of body's origin and shape's frame: its middle, world
 };
 /// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/particles/particle_world.hpp"
+#include "isostep/state/hash.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
@@ -35,10 +36,20 @@ struct DrawnBody {
 struct DrawnPart {
   ShapeType type;
   std::uint32_t child;  // its place in the shape
-  DrawnPose pose;   // of its centre; a capsule lies along its y; of a half-space: its point nearest the body's origin
+  DrawnPose pose;   // of its centre; a capsule lies along its y; of a half-space: its point nearest the body's origin;
+                    // of a part with content: of the frame that its points are in
   float half[3];    // [m] of a box; of a capsule y alone, the cylinder's
   float radius;     // [m] of a sphere or capsule
   float normal[3];  // [1] of a half-space, world, out of the ground
+  /// The name of its blob, of a shape that has one (hull): parts of equal content have equal triangles, see
+  /// DebugDraw::wants_triangles. All 0: the numbers above say everything.
+  ContentId content;
+};
+
+/// One triangle of a part's surface, in the part's own frame, so that a game draws parts of one content as instances of
+/// one mesh, each at its DrawnPart::pose.
+struct DrawnTriangle {
+  float corners[3][3];  // [m] counter-clockwise seen from outside
 };
 
 /// One line of a part's outline.
@@ -159,6 +170,11 @@ class DebugDraw {
   virtual void spring(const DrawnSpring& spring);
   virtual void link(const DrawnLink& link);
   virtual void collider(const DrawnCollider& collider);
+
+  /// Called after `part`, of each part with content: whether calls of `triangle` follow with its surface. A surface
+  /// depends on the content alone, so a game says yes once for each content. False unless overridden.
+  virtual bool wants_triangles(const DrawnPart& part);
+  virtual void triangle(const DrawnTriangle& triangle);
 };
 
 /// Draws to `to` what the state holds, whatever led there: after a step, a command or a load alike; sleepers too.

@@ -88,8 +88,21 @@ template <class S> class BodySketch {
     sketch_.vector(primitive.half, part.half);
     part.radius = sketch_.number(primitive.radius);
     sketch_.vector(rotate(pose.orientation, primitive.normal), part.normal);
+    if (primitive.blob != 0) part.content = state_.geometry->names()[primitive.blob - 1].id;
     to_.part(body, part);
+    if (primitive.blob != 0 && to_.wants_triangles(part)) draw_triangles(shape_view);
     if (options_.lines) draw_lines(body, shape_view, Transform<S>::of(pose));
+  }
+  ISO_INLINE void draw_triangles(ShapeView<S> view) const {
+    visit_shape(view, [&](const auto& shape) ISO_INLINE_LAMBDA {
+      shape.visit_triangles([&](Vec3<S> a, Vec3<S> b, Vec3<S> c) ISO_INLINE_LAMBDA {
+        DrawnTriangle triangle;
+        sketch_.vector(a, triangle.corners[0]);
+        sketch_.vector(b, triangle.corners[1]);
+        sketch_.vector(c, triangle.corners[2]);
+        to_.triangle(triangle);
+      });
+    });
   }
   ISO_INLINE void draw_lines(const DrawnBody& body, ShapeView<S> view, const Transform<S>& at) const {
     visit_shape(view, [&](const auto& shape) ISO_INLINE_LAMBDA {

@@ -8,6 +8,8 @@ DebugDraw::~DebugDraw() = default;
 void DebugDraw::body(const DrawnBody&) {}
 void DebugDraw::part(const DrawnBody&, const DrawnPart&) {}
 void DebugDraw::line(const DrawnLine&) {}
+bool DebugDraw::wants_triangles(const DrawnPart&) { return false; }
+void DebugDraw::triangle(const DrawnTriangle&) {}
 void DebugDraw::mass(const DrawnMass&) {}
 void DebugDraw::box(const DrawnBox&) {}
 void DebugDraw::island(const DrawnIsland&) {}

@@ -28,7 +28,16 @@ template <std::size_t N> Json list(const std::array<float, N>& v) {
   return json;
 }
 
-Json json_of(const Part& part) {
+/// `places`: of the run's surfaces in the page; kNone: without triangles.
+using Places = std::vector<std::uint32_t>;
+
+Json json_of(const Part& part, const Places& places) {
+  if (part.surface != Surfaces::kNone && places[part.surface] != Surfaces::kNone) {
+    return {{"type", kShapeNames[static_cast<std::size_t>(part.type)]},
+            {"surface", places[part.surface]},
+            {"at", list(part.at)},
+            {"turn", list(part.turn)}};
+  }
   return {{"type", kShapeNames[static_cast<std::size_t>(part.type)]},
           {"half", list(part.half)},
           {"radius", short_of(part.radius)},
@@ -36,13 +45,13 @@ Json json_of(const Part& part) {
           {"turn", list(part.turn)},
           {"outward", list(part.outward)}};
 }
-Json json_of(const Actor& actor) {
+Json json_of(const Actor& actor, const Places& places) {
   Json json = {{"id", actor.slot}, {"type", kTypeNames[static_cast<std::size_t>(actor.type)]}};
   if (actor.generation != 0) json["generation"] = actor.generation;
   if (actor.sensor) json["sensor"] = true;
   if (actor.parts.empty()) json["radius"] = short_of(actor.radius);
   else json["parts"] = Json::array();
-  for (const Part& part : actor.parts) json["parts"].push_back(json_of(part));
+  for (const Part& part : actor.parts) json["parts"].push_back(json_of(part, places));
   return json;
 }
 Json json_of(const Bond& bond) {
@@ -57,13 +66,16 @@ Json json_of(const Scenery& scenery) {
           {"radius", short_of(scenery.radius)}};
 }
 
-template <class T> Json list_of(const std::vector<T>& all) {
+template <class T, class... More> Json list_of(const std::vector<T>& all, const More&... more) {
   Json json = Json::array();
-  for (const T& one : all) json.push_back(json_of(one));
+  for (const T& one : all) json.push_back(json_of(one, more...));
   return json;
 }
 
-Json json_of(const Recording& run, const Packed& packed) {
+Json json_of(const Recording& run, const Packed& packed, Surfaces& surfaces) {
+  Places places;
+  for (const Surface& surface : run.surfaces.all())
+    places.push_back(surface.triangles.empty() ? Surfaces::kNone : surfaces.merge(surface));
   return {{"scalar", run.scalar},
           {"solver", run.solver},
           {"hz", run.hz},
@@ -74,7 +86,7 @@ Json json_of(const Recording& run, const Packed& packed) {
           {"points_low", list(packed.points_low)},
           {"points_size", list(packed.points_size)},
           {"points_every", packed.points_every},
-          {"actors", list_of(run.actors)},
+          {"actors", list_of(run.actors, places)},
           {"bonds", list_of(run.bonds)},
           {"scenery", list_of(run.scenery)}};
 }
@@ -132,11 +144,12 @@ std::string page_of(const Film& film) {
   const std::size_t room = two ? kPointRoom / 2 : kPointRoom;
   const Packed packed = pack(film.run, room);
   Json json = {{"scene", film.scene}, {"every", film.every}, {"runs", Json::array()}};
-  json["runs"].push_back(json_of(film.run, packed));
+  Surfaces surfaces;  // of both runs
+  json["runs"].push_back(json_of(film.run, packed, surfaces));
   std::string beside;
   if (two) {
     const Packed packed_beside = pack(film.beside, room);
-    json["runs"].push_back(json_of(film.beside, packed_beside));
+    json["runs"].push_back(json_of(film.beside, packed_beside, surfaces));
     json["divergence"] = json_of(film);
     beside = base64(packed_beside.bytes);
   }
@@ -145,6 +158,7 @@ std::string page_of(const Film& film) {
                                 {"three", assets::kThree},
                                 {"script", assets::kScript},
                                 {"film", harmless(json.dump(), "\\u003c")},
+                                {"surfaces", base64(pack(surfaces))},
                                 {"run", base64(packed.bytes)},
                                 {"beside", beside}});
 }

@@ -5,7 +5,7 @@ const kHere = (id) => document.getElementById(id);
 const kFilm = JSON.parse(kHere('film').textContent);
 
 class Player {
-  constructor(runs) {
+  constructor(runs, surfaces) {
     this.runs = runs;
     this.count = Math.min(...runs.map((run) => run.count));
     this.time = 0;  // in frames of the recording
@@ -16,10 +16,12 @@ class Player {
     const extent = extentOf(runs[0]);
     this.canvas = kHere('canvas');
     this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, antialias: true, preserveDrawingBuffer: true});
+    this.renderer.debug.onShaderError = (gl, program, vertex, fragment) =>
+        pageErrors.push(gl.getShaderInfoLog(vertex) || gl.getShaderInfoLog(fragment) || gl.getProgramInfoLog(program));
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.views = runs.map((run) => new View(run, extent, parted && this.markIn(run)));
+    this.views = runs.map((run) => new View(run, surfaces, extent, parted && this.markIn(run)));
     this.orbit = new Orbit(this.canvas, extent, runs.length);
     this.addHeads();
     this.listen();
@@ -230,7 +232,9 @@ function lengthText(metres) {
 function begin() {
   const runs = [new DecodedRun(kFilm.runs[0], kHere('run').textContent)];
   if (kFilm.runs.length > 1) runs.push(new DecodedRun(kFilm.runs[1], kHere('beside').textContent));
-  const player = new Player(runs);
+  const surfaces = new Surfaces(new ByteReader(bytesOf(kHere('surfaces').textContent)));
+  for (const run of runs) surfaces.fit(run.actors);
+  const player = new Player(runs, surfaces);
   let before = performance.now(), checked = false;
   const tick = (now) => {
     player.advance((now - before) / 1000);

@@ -97,6 +97,17 @@ void Recorder::part(const DrawnBody& body, const DrawnPart& part) {
        turned_back(q, {part.normal[0], part.normal[1], part.normal[2]})});
 }
 
+/// The part has been told just now: the last of the actor told last.
+bool Recorder::wants_triangles(const DrawnPart& part) {
+  if (!parts_wanted_) return false;
+  std::uint32_t& surface = recording_.actors.back().parts.back().surface;
+  surface = recording_.surfaces.find(part.content);
+  const bool fresh = surface == Surfaces::kNone;
+  if (fresh) surface = recording_.surfaces.begin(part.content);
+  return fresh;
+}
+void Recorder::triangle(const DrawnTriangle& triangle) { recording_.surfaces.add(triangle); }
+
 void Recorder::contact(const DrawnContact& contact) {
   ContactPoint kept = {};
   for (std::size_t i = 0; i < 3; ++i) kept.normal[i] = static_cast<std::int8_t>(std::lround(contact.normal[i] * 127));

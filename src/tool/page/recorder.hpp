@@ -25,6 +25,8 @@ class Recorder : public DebugDraw {
 
   void body(const DrawnBody& body) override;
   void part(const DrawnBody& body, const DrawnPart& part) override;
+  bool wants_triangles(const DrawnPart& part) override;
+  void triangle(const DrawnTriangle& triangle) override;
   void contact(const DrawnContact& contact) override;
   void joint(const DrawnJoint& joint) override;
   void particle(const DrawnParticle& particle) override;

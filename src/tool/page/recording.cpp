@@ -3,28 +3,15 @@
 #include "recording.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "byte_writer.hpp"
 
 namespace isostep::tool::page {
 namespace {
 
 constexpr std::size_t kPointBytes = 10;
-
-class Bytes {
- public:
-  explicit Bytes(std::vector<std::uint8_t>& out) : out_(out) {}
-  void u8(std::uint32_t x) { out_.push_back(static_cast<std::uint8_t>(x)); }
-  void u16(std::uint32_t x) { u8(x & 0xff), u8(x >> 8); }
-  void u32(std::uint32_t x) { u16(x & 0xffff), u16(x >> 16); }
-  void u64(std::uint64_t x) { u32(static_cast<std::uint32_t>(x)), u32(static_cast<std::uint32_t>(x >> 32)); }
-  void f32(double x) { u32(std::bit_cast<std::uint32_t>(static_cast<float>(x))); }
-  void count(std::size_t n) { u32(static_cast<std::uint32_t>(n)); }
-
- private:
-  std::vector<std::uint8_t>& out_;
-};
 
 /// Frames one after another: a pose is told by its distance from the one before where sixteen bits hold that.
 class Packer {
@@ -96,7 +83,7 @@ class Packer {
 
   const Recording& recording_;
   Packed& packed_;
-  Bytes out_;
+  ByteWriter out_;
   std::vector<Known> last_;
 };
 

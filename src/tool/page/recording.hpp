@@ -9,6 +9,7 @@
 
 #include "isostep/dynamics/body.hpp"
 #include "isostep/geometry/shape.hpp"
+#include "surfaces.hpp"
 
 namespace isostep::tool::page {
 
@@ -17,11 +18,12 @@ inline constexpr double kGrid = 1.0 / 16384;  // [m] positions are whole multipl
 /// A primitive in its body's frame.
 struct Part {
   ShapeType type;
-  std::array<float, 3> half;     // [m]
-  float radius;                  // [m]
-  std::array<float, 3> at;       // [m] its centre; of a half-space: a point of its surface
-  std::array<float, 4> turn;     // x y z w
-  std::array<float, 3> outward;  // [1] of a half-space
+  std::array<float, 3> half;                // [m]
+  float radius;                             // [m]
+  std::array<float, 3> at;                  // [m] its centre; of a half-space: a point of its surface
+  std::array<float, 4> turn;                // x y z w
+  std::array<float, 3> outward;             // [1] of a half-space
+  std::uint32_t surface = Surfaces::kNone;  // its place in Recording::surfaces
 };
 
 /// A body or particle for as long as it has its id.
@@ -87,6 +89,7 @@ struct Recording {
   std::vector<Actor> actors;
   std::vector<Bond> bonds;
   std::vector<Scenery> scenery;
+  Surfaces surfaces;
   std::vector<Frame> frames;
 };
 

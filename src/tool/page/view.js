@@ -3,43 +3,6 @@
 
 const kColours = [0x4f86c6, 0xe0925b, 0x6bab7f, 0xc9697b, 0x8d7cc0, 0xd4b04c, 0x5aa9b0, 0xa9815e];
 const kStaticColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4;
-// [m] How far a body reaches from its origin, less half-spaces.
-function reachOf(actor) {
-  const reach = (part) =>
-      part.type === 'half_space' ? 0 : Math.hypot(...part.at) + Math.hypot(...part.half) + part.radius;
-  return Math.max(actor.radius || 0, ...(actor.parts || []).map(reach));
-}
-
-// The bounds of what moves, over some frames; of what falls, the farthest hundredth on every side does not count.
-function extentOf(run) {
-  const axes = [[], [], []], box = new THREE.Box3(), at = new THREE.Vector3();
-  const each = (type, visit) => {
-    for (let k = 0; k <= 8; ++k) {
-      const frame = Math.round(k / 8 * (run.count - 1));
-      run.actors.forEach((actor, i) => {
-        if (run.state(frame, i) !== kGone && actor.type === type)
-          visit(at.fromArray(run.poses.all, 7 * run.place(frame, i)), reachOf(actor));
-      });
-    }
-  };
-  each(
-      'dynamic',
-      (place, reach) =>
-          axes.forEach((all, i) => all.push(place.getComponent(i) - reach, place.getComponent(i) + reach)));
-  axes.forEach((all, i) => {
-    if (all.length === 0) return;
-    all.sort((a, b) => a - b);
-    box.min.setComponent(i, all[Math.floor(0.01 * (all.length - 1))]);
-    box.max.setComponent(i, all[Math.ceil(0.99 * (all.length - 1))]);
-  });
-  const most = box.isEmpty() ? Infinity : 2 * box.getSize(new THREE.Vector3()).length();
-  each('kinematic', (place, reach) => {
-    if (reach < most)
-      box.union(new THREE.Box3().setFromCenterAndSize(place, new THREE.Vector3(1, 1, 1).multiplyScalar(1.1 * reach)));
-  });
-  if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
-  return {centre: box.getCenter(new THREE.Vector3()), size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.2)};
-}
 
 // A drawing repeated over a surface.
 function textureOf(width, height, paint) {
@@ -73,8 +36,9 @@ function gridTexture() {
 }
 
 class View {
-  constructor(run, extent, parted) {
+  constructor(run, surfaces, extent, parted) {
     this.run = run;
+    this.surfaces = surfaces;
     this.extent = extent;
     this.parted = parted;  // {actor, frame}, or null
     this.scene = new THREE.Scene();
@@ -103,42 +67,10 @@ class View {
     this.scene.add(sun, sun.target);
   }
 
-  // Every primitive is a unit one, stretched: boxes, balls, and of capsules the tube between two balls.
+  // Every primitive is a unit one, stretched: boxes, balls, and of capsules the tube between two balls. Surfaces are
+  // drawn as they are.
   addBodies() {
-    const lists = {box: [], ball: [], tube: [], clear_box: [], clear_ball: [], clear_tube: []};
-    this.walls = [];
-    const add = (actor, shape, at, turn, scale) => {
-      const part = {
-        actor,
-        local: new THREE.Matrix4().compose(
-            new THREE.Vector3(...at), new THREE.Quaternion(...turn), new THREE.Vector3(...scale))
-      };
-      const wall = shape === 'box' && this.isWall(actor, at, scale);
-      if (wall) this.addWall(part);
-      lists[(wall || this.run.actors[actor].sensor ? 'clear_' : '') + shape].push(part);
-    };
-    const least = 0.006 * this.extent.size;
-    this.run.actors.forEach((actor, index) => {
-      if (!actor.parts) {
-        const r = Math.max(actor.radius, least);
-        add(index, 'ball', [0, 0, 0], [0, 0, 0, 1], [r, r, r]);
-      }
-      for (const part of actor.parts || []) {
-        const r = part.radius;
-        if (part.type === 'half_space') continue;  // drawn with the ground
-        if (part.type === 'sphere') add(index, 'ball', part.at, part.turn, [r, r, r]);
-        else if (part.type !== 'capsule') add(index, 'box', part.at, part.turn, part.half.map((h) => 2 * (h + r)));
-        else {
-          add(index, 'tube', part.at, part.turn, [r, 2 * part.half[1], r]);
-          const along = new THREE.Vector3(0, part.half[1], 0).applyQuaternion(new THREE.Quaternion(...part.turn));
-          for (const sign of [1, -1]) {
-            const at = along.clone().multiplyScalar(sign).add(new THREE.Vector3(...part.at));
-            add(index, 'ball', at.toArray(), part.turn, [r, r, r]);
-          }
-        }
-      }
-    });
-    const many = this.run.actors.length > 3000;
+    const lists = this.listParts(), many = this.run.actors.length > 3000;
     const shapes = {
       box: new THREE.BoxGeometry(1, 1, 1),
       tube: new THREE.CylinderGeometry(1, 1, 1, 20, 1, true),
@@ -146,12 +78,12 @@ class View {
     };
     this.meshes = [];
     for (const [name, parts] of Object.entries(lists)) {
-      if (parts.length === 0) continue;
       const clear = name.startsWith('clear_'), shape = clear ? name.slice(6) : name;
       const material = new THREE.MeshStandardMaterial(
           {roughness: 0.72, metalness: 0.02, transparent: clear, opacity: clear ? 0.13 : 1, depthWrite: !clear});
       if (shape === 'ball' && !this.run.about.particles) material.map = ballTexture();
-      const mesh = new THREE.InstancedMesh(shapes[shape], material, parts.length);
+      const mesh = shape in shapes ? new THREE.InstancedMesh(shapes[shape], material, parts.length) :
+                                     this.surfaces.mesh(parts, material);
       mesh.castShadow = !clear;
       mesh.receiveShadow = !clear;
       mesh.frustumCulled = false;
@@ -162,7 +94,48 @@ class View {
     }
   }
 
-  // What would hide what is inside: large boxes that nothing moves, unless they lie low and flat as ground does.
+  // By what is drawn in one call.
+  listParts() {
+    const lists = {};
+    this.walls = [];
+    const add = (actor, shape, at, turn, scale, surface, wall = false) => {
+      const local = new THREE.Matrix4().compose(
+          new THREE.Vector3(...at), new THREE.Quaternion(...turn), new THREE.Vector3(...scale));
+      const part = {actor, local, surface}, name = (wall || this.run.actors[actor].sensor ? 'clear_' : '') + shape;
+      if (wall) this.addWall(part);
+      (lists[name] = lists[name] || []).push(part);
+    };
+    const least = 0.006 * this.extent.size;
+    this.run.actors.forEach((actor, index) => {
+      if (!actor.parts) {
+        const r = Math.max(actor.radius, least);
+        add(index, 'ball', [0, 0, 0], [0, 0, 0, 1], [r, r, r]);
+      }
+      for (const part of actor.parts || []) {
+        const {type, at, turn, radius: r, surface} = part, size = part.half.map((h) => 2 * (h + r));
+        if (type === 'half_space') continue;  // drawn with the ground
+        if (type === 'sphere')
+          add(index, 'ball', at, turn, [r, r, r]);
+        else if (surface !== undefined)
+          add(index, this.surfaces.listOf(surface), at, turn, [1, 1, 1], surface,
+              type === 'hull' && this.isWall(index, at, size));
+        else if (type !== 'capsule')
+          add(index, 'box', at, turn, size, undefined, this.isWall(index, at, size));
+        else {
+          add(index, 'tube', at, turn, [r, 2 * part.half[1], r]);
+          const along = new THREE.Vector3(0, part.half[1], 0).applyQuaternion(new THREE.Quaternion(...turn));
+          for (const sign of [1, -1]) {
+            const end = along.clone().multiplyScalar(sign).add(new THREE.Vector3(...at));
+            add(index, 'ball', end.toArray(), turn, [r, r, r]);
+          }
+        }
+      }
+    });
+    return lists;
+  }
+
+  // What would hide what is inside: large boxes and hulls that nothing moves, unless they lie low and flat as ground
+  // does.
   isWall(actor, at, scale) {
     const {type} = this.run.actors[actor];
     if (type === 'dynamic' || Math.max(...scale) < 0.25 * this.extent.size) return false;
@@ -171,8 +144,10 @@ class View {
     return !(scale[1] < 0.5 * Math.min(scale[0], scale[2]) && top < this.extent.centre.y);
   }
   addWall(part) {
+    const solid =
+        part.surface === undefined ? new THREE.BoxGeometry(1, 1, 1) : this.surfaces.geometry(part.surface);
     const edges = new THREE.LineSegments(
-        new THREE.EdgesGeometry(new THREE.BoxGeometry(1, 1, 1)), new THREE.LineBasicMaterial({color: 0x8fa0b3}));
+        new THREE.EdgesGeometry(solid), new THREE.LineBasicMaterial({color: 0x8fa0b3}));
     edges.matrixAutoUpdate = false;
     edges.frustumCulled = false;
     this.scene.add(edges);

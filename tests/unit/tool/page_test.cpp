@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "isostep/geometry/baked/hull_blob.hpp"
 #include "isostep/world/world.hpp"
 #include "tool/page/recorder.hpp"
 
@@ -49,6 +50,30 @@ struct Balls {
   ShapeId ball;
   std::vector<BodyId> bodies;
 };
+
+/// Bodies of hulls: two wedges of one blob, a pyramid between them; and a ball.
+struct Wedges {
+  Wedges() {
+    const GridPoint wedge[] = {{0, 0, 0}, {64, 0, 0}, {0, 64, 0}, {0, 0, 64}, {64, 0, 64}, {0, 64, 64}};
+    const GridPoint pyramid[] = {{0, 0, 0}, {64, 0, 0}, {0, 64, 0}, {0, 0, 64}};
+    for (const BlobRef& blob : {hull(wedge), hull(pyramid), hull(wedge)}) {
+      const Child<double> part = {Hull<double>{1}.primitive(), isostep::Pose<double>::identity()};
+      drop(world.add_shape(std::span<const Child<double>>(&part, 1), std::span<const BlobRef>(&blob, 1)));
+    }
+    drop(world.add_shape(Sphere{0.5}));
+  }
+  static BlobRef hull(std::span<const GridPoint> points) { return hull_blob(points, 6).value(); }
+  void drop(ShapeId shape) { world.create({.type = BodyType::dynamic, .shape = shape, .position = {0, at++, 0}}); }
+  World<double> world;
+  double at = 0;  // [m] height of the next
+};
+
+/// What a page holds between its element of surfaces and the next.
+std::string surfaces_in(const std::string& page) {
+  const std::string open = "id=\"surfaces\">";
+  const std::size_t from = page.find(open) + open.size();
+  return page.substr(from, page.find('<', from) - from);
+}
 
 /// Little-endian.
 class Reader {
@@ -145,6 +170,70 @@ TEST(Pages, RecordSleepAndContacts) {
   EXPECT_NEAR(point.at[0], 2, kMillimetre);
   EXPECT_NEAR(point.at[1], 0, 5 * kMillimetre);
   EXPECT_EQ(point.normal[1], 127);
+}
+
+TEST(Pages, RecordTheSurfaceOfBodiesThatShareABlobOnce) {
+  const Wedges wedges;
+  Recording recording;
+  Recorder recorder(recording);
+  recorder.record(wedges.world);
+  recorder.record(wedges.world);
+  ASSERT_EQ(recording.actors.size(), 4u);
+  ASSERT_EQ(recording.surfaces.all().size(), 2u);
+  const Surface &wedge = recording.surfaces.all()[0], &pyramid = recording.surfaces.all()[1];
+  EXPECT_EQ(wedge.vertices.size(), 6u);
+  EXPECT_EQ(wedge.triangles.size(), 8u);
+  EXPECT_EQ(pyramid.vertices.size(), 4u);
+  EXPECT_EQ(pyramid.triangles.size(), 4u);
+  const std::uint32_t expected[] = {0, 1, 0, Surfaces::kNone};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(recording.actors[i].parts.at(0).surface, expected[i]) << i;
+}
+
+TEST(Pages, HoldTheSurfacesOfBothRunsOnce) {
+  const Wedges wedges;
+  Film film;
+  Recorder(film.run).record(wedges.world);
+  const std::string alone = surfaces_in(page_of(film));
+  Recorder(film.beside).record(wedges.world);
+  EXPECT_EQ(surfaces_in(page_of(film)), alone);
+  EXPECT_EQ(alone, base64(pack(film.run.surfaces)));
+}
+
+TEST(Pages, PackSurfacesAsThePlayerReadsThem) {
+  Surfaces surfaces;
+  surfaces.begin({1, 2});
+  const float corners[4][3] = {{-1, 0, 2}, {3, 0, 2}, {-1, 0.5f, 2}, {1, 0.125f, 2}};
+  const auto triangle = [&](int a, int b, int c) {
+    DrawnTriangle drawn;
+    const int all[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) std::memcpy(drawn.corners[i], corners[all[i]], sizeof drawn.corners[i]);
+    surfaces.add(drawn);
+  };
+  triangle(0, 1, 2), triangle(3, 2, 1);
+  EXPECT_EQ(surfaces.merge({{1, 2}, {}, {}}), 0u);
+  const std::vector<std::uint8_t> bytes = pack(surfaces);
+  Reader reader(bytes);
+  EXPECT_EQ(reader.u32(), 1u);
+  EXPECT_EQ(reader.u32(), 4u);  // vertices
+  EXPECT_EQ(reader.u32(), 2u);  // triangles
+  for (const float low : {-1.0f, 0.0f, 2.0f}) EXPECT_EQ(reader.f32(), low);
+  for (const float size : {4.0f, 0.5f, 0.0f}) EXPECT_FLOAT_EQ(reader.f32() * 65535, size);
+  const std::uint32_t fractions[4][3] = {{0, 0, 0}, {65535, 0, 0}, {0, 65535, 0}, {32768, 16384, 0}};
+  for (const auto& vertex : fractions) {
+    for (const std::uint32_t fraction : vertex) EXPECT_EQ(reader.take(2), fraction);
+  }
+  for (const std::uint32_t vertex : {0, 1, 2, 3, 2, 1}) EXPECT_EQ(reader.take(1), vertex);
+  EXPECT_TRUE(reader.at_end());
+}
+
+TEST(Pages, PackVerticesOfLargeSurfacesByTheirNumbersInTwoBytes) {
+  Surfaces surfaces;
+  surfaces.begin({1, 2});
+  for (int i = 0; i < 100; ++i) {
+    const float x = static_cast<float>(i);
+    surfaces.add({{{x, 0, 0}, {x, 1, 0}, {x, 0, 1}}});
+  }
+  EXPECT_EQ(pack(surfaces).size(), 4u + 8u + 24u + 300u * 3 * 2 + 100u * 3 * 2);
 }
 
 TEST(Pages, FindTheFirstBodyThatParts) {

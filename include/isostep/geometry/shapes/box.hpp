@@ -111,6 +111,7 @@ template <class S = Literal> struct Box {
       }
     }
   }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}  // its sizes say all
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 
  private:

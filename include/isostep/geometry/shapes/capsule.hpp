@@ -113,6 +113,7 @@ template <class S = Literal> struct Capsule {
       line(-side - top, -side + top);
     }
   }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}  // its sizes say all
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 
  private:

@@ -77,6 +77,7 @@ template <class S = Literal> struct HalfSpace {
     for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4]);
     for (int i = 0; i < 2; ++i) line(corners[i], corners[i + 2]);
   }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}  // it has no end
   /// The point of its surface that is nearest to the body's origin.
   ISO_INLINE Pose<S> drawn_at(const Pose<S>& origin, const Pose<S>& pose) const {
     const Vec3<Unit<S>> out = to_matrix(pose.orientation) * normal;

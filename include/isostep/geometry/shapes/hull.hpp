@@ -71,6 +71,18 @@ template <class S = Literal> struct Hull {
     for (std::uint32_t e = 0; e < solid.half_edges.size(); e += 2)
       line(solid.vertices[solid.origin(e)], solid.vertices[solid.origin(e + 1)]);
   }
+  /// Each face as a fan about its lowest vertex.
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle& triangle) const {
+    const Polyhedron<S> solid = polyhedron();
+    for (const std::uint32_t first : solid.faces) {
+      std::uint32_t edge = solid.half_edges[first].next;
+      for (std::uint32_t next = solid.half_edges[edge].next; next != first; next = solid.half_edges[next].next) {
+        triangle(solid.vertices[solid.origin(first)], solid.vertices[solid.origin(edge)],
+                 solid.vertices[solid.origin(next)]);
+        edge = next;
+      }
+    }
+  }
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 };
 

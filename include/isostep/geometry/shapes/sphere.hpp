@@ -54,6 +54,7 @@ template <class S = Literal> struct Sphere {
     for (int axis = 0; axis < 3; ++axis)
       detail::visit_arc(line, Vec3<S>::zero(), radius, (axis + 1) % 3, (axis + 2) % 3);
   }
+  template <class Triangle> ISO_INLINE void visit_triangles(const Triangle&) const {}  // its sizes say all
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 };
 Sphere(Literal)->Sphere<Literal>;
