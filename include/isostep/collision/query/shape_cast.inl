@@ -1,0 +1,104 @@
+// Body of shape_cast.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/gjk.inl"
+#include "isostep/collision/query/shape_cast.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// As CastHit, in a's frame at the start; the normal points from a to b.
+template <class F> struct CoreHit {
+  bool hit, inside;
+  Unit<F> fraction;
+  Vec3<Unit<F>> normal;
+  Vec3<F> on_b;  // [m] of its core
+};
+
+/// A cast in a's frame, in which b moves the other way.
+template <class F> class CoreCast {
+  using U = Unit<F>;
+  static constexpr int kMostRounds = 32;
+
+ public:
+  std::span<const Vec3<F>> a, b;  // [m] vertices, each core's in its own frame
+  F radii;                        // [m] of both together
+  F extent;                       // [m] of both together
+  Transform<F> b_in_a;            // at the start
+  Vec3<F> way;                    // [m] of b, for a fraction of 1
+  U end;                          // [1]
+  F touch, resolution;            // [m]
+
+  ISO_INLINE CoreHit<F> run() const {
+    U t = U(0);
+    CoreHit<F> last = {};
+    Simplex<F> simplex = {};
+    for (int round = 0; round < kMostRounds; ++round) {
+      const Transform<F> now = {b_in_a.position + way * t, b_in_a.rotation};
+      const Gjk<F> search(a, b, now);
+      simplex = round == 0 ? search.begin() : search.begin(simplex);
+      const GjkDistance<F> found = search.run(simplex);
+      const F noise = gap_noise(extent + max_abs(now.position)), near = noise * F(2) + resolution;
+      const F gap = found.separation - radii - noise;
+      if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(found, near);
+      const F closing = -dot(way, found.normal);
+      if (found.distance != F(0)) {
+        if (!(closing > F(0)) || gap >= closing * (end - t)) return {};
+        last = {true, false, t, found.normal, found.on_b - way * t};
+      }
+      const U step = gap > F(0) ? divide_to<U>(gap, closing) - isostep::resolution<U>() : U(0);
+      if (!(step > U(0))) return last;
+      t = last.fraction = t + step;
+      if (gap <= near) return last;
+    }
+    return last;
+  }
+
+ private:
+  ISO_INLINE CoreHit<F> from_touch(const GjkDistance<F>& found, F near) const {
+    CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};
+    if (found.distance == F(0)) {
+      start.inside = true;
+      start.normal = -normalise(way);
+      return start;
+    }
+    const F depth = radii - found.separation, sinks = -dot(way, start.normal) * end;
+    start.inside = depth > max(touch, near);
+    start.hit = start.inside || sinks > max(min(touch, length(way) * end * F(0.00390625)), near);
+    return start;
+  }
+};
+
+}  // namespace detail
+
+template <class S>
+bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b, const Transform<S>& tb,
+                 const CastMotion<S>& motion, CastHit<S>& hit) {
+  using namespace detail;
+  using F = Finer<S>;
+  const FineCore<S> fine_a(a), fine_b(b);
+  const Transform<F> fine_ta = finer_of(ta);
+  const Transform<F> apart = {finer_of<F>(tb.position - ta.position), finer_of(tb).rotation};
+  CoreCast<F> cast = {};
+  cast.a = fine_a.vertices;
+  cast.b = fine_b.vertices;
+  cast.radii = fine_a.radius + fine_b.radius;
+  cast.extent = fine_a.extent + fine_b.extent;
+  cast.b_in_a = relative({Vec3<F>::zero(), fine_ta.rotation}, apart);
+  cast.way = -transposed_times(fine_ta.rotation, finer_of<F>(motion.translation));
+  cast.end = finer<Unit<F>>(motion.max_fraction);
+  cast.touch = finer<F>(motion.touch);
+  cast.resolution = finer<F>(resolution<S>());
+  const CoreHit<F> found = cast.run();
+  if (!found.hit) return false;
+  hit.fraction = coarser_down<Unit<S>>(found.fraction);
+  const Vec3<Unit<F>> normal = fine_ta.rotation * -found.normal;
+  const Vec3<F> on_b = fine_ta.rotation * found.on_b + normal * fine_b.radius;
+  hit.normal = coarser_of<Unit<S>>(normal);
+  hit.point = ta.position + coarser_of<S>(on_b);
+  hit.inside = found.inside;
+  return true;
+}
+
+}  // namespace isostep
