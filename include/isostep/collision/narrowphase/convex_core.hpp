@@ -40,6 +40,13 @@ template <class S> ISO_INLINE Transform<Finer<S>> finer_of(const Transform<S>& t
             finer_of<Unit<F>>(t.rotation.rows[2])}}};
 }
 
+/// b seen from a's frame; their distance is that of S, exact where it is fixed point.
+template <class S> ISO_INLINE Transform<Finer<S>> fine_relative(const Transform<S>& ta, const Transform<S>& tb) {
+  using F = Finer<S>;
+  const Transform<S> a = {Vec3<S>::zero(), ta.rotation}, b = {tb.position - ta.position, tb.rotation};
+  return relative<F>(finer_of(a), finer_of(b));
+}
+
 /// A core in the finer format, in which a gap of a few digits of S still has a direction.
 template <class S> class FineCore {
   using F = Finer<S>;

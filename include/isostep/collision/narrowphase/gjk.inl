@@ -181,6 +181,16 @@ template <class S> class Gjk {
     return result;
   }
 
+  /// At distance 0, which is overlap.
+  ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
+    Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
+    for (int i = 0; i < simplex.count; ++i) {
+      on_a += a_[simplex.points[i].vertex_a] * simplex.shares[i];
+      on_b += b_[simplex.points[i].vertex_b] * simplex.shares[i];
+    }
+    return {S(0), Vec3<U>::zero(), on_a, to_world(b_in_a_, on_b), iterations, S(0)};
+  }
+
  private:
   static ISO_INLINE bool has(const Simplex<S>& simplex, const SupportPoint<S>& point) {
     for (int i = 0; i < simplex.count; ++i) {
@@ -198,15 +208,6 @@ template <class S> class Gjk {
       simplex = best;
     }
     return true;
-  }
-  /// At distance 0, which is overlap.
-  ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
-    Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
-    for (int i = 0; i < simplex.count; ++i) {
-      on_a += a_[simplex.points[i].vertex_a] * simplex.shares[i];
-      on_b += b_[simplex.points[i].vertex_b] * simplex.shares[i];
-    }
-    return {S(0), Vec3<U>::zero(), on_a, to_world(b_in_a_, on_b), iterations, S(0)};
   }
 
   std::span<const Vec3<S>> a_, b_;  // [m] vertices, each solid's in its own frame

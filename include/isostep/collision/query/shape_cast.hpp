@@ -18,8 +18,7 @@ template <class S> struct CastHit {
   Unit<S> fraction;      // [1] of the translation
   Vec3<Unit<S>> normal;  // [1] of b's surface, world frame, from b to a
   Vec3<S> point;         // [m] of b's surface, world frame
-  bool inside;           // they overlap at the start by more than `touch`; the normal is the shortest way out of b, and
-                         // against the translation where that is not known (zero for a translation of no length)
+  bool inside;           // they overlap at the start by more than `touch`: the normal is the shortest way out, by EPA
 };
 
 /// The first fraction 0 ... max_fraction of its translation at which a touches b. `hit` is written only when the result

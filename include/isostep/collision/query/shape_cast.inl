@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/gjk.inl"
+#include "isostep/collision/narrowphase/epa.inl"
 #include "isostep/collision/query/shape_cast.hpp"
 
 namespace isostep {
@@ -41,29 +41,37 @@ template <class F> class CoreCast {
       const GjkDistance<F> found = search.run(simplex);
       const F noise = gap_noise(extent + max_abs(now.position)), near = noise * F(2) + resolution;
       const F gap = found.separation - radii - noise;
-      if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(found, near);
+      if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(search, simplex, found, near);
       const F closing = -dot(way, found.normal);
       if (found.distance != F(0)) {
         if (!(closing > F(0)) || gap >= closing * (end - t)) return {};
-        last = {true, false, t, found.normal, found.on_b - way * t};
+        last.hit = true;
+        if (round == 0 || is_clear(found, noise)) last.normal = found.normal, last.on_b = found.on_b - way * t;
       }
-      const U step = gap > F(0) ? divide_to<U>(gap, closing) - isostep::resolution<U>() : U(0);
+      if (gap <= near) return last;
+      const U step = divide_to<U>(gap, closing) - isostep::resolution<U>();
       if (!(step > U(0))) return last;
       t = last.fraction = t + step;
-      if (gap <= near) return last;
     }
     return last;
   }
 
  private:
-  ISO_INLINE CoreHit<F> from_touch(const GjkDistance<F>& found, F near) const {
+  /// Whether the gap has a direction. Else that of the step before is right: its plane has just been reached.
+  static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
+
+  /// What a plane that they do not sink through decides for the whole way, as both are convex.
+  ISO_INLINE CoreHit<F> from_touch(const Gjk<F>& search, const Simplex<F>& simplex, const GjkDistance<F>& found,
+                                   F near) const {
     CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};
-    if (found.distance == F(0)) {
-      start.inside = true;
-      start.normal = -normalise(way);
-      return start;
+    F depth = radii - found.separation;
+    if (!is_clear(found, gap_noise(extent + max_abs(b_in_a.position)))) {
+      const typename Epa<F>::Axis axis = Epa<F>(search, extent + max_abs(b_in_a.position)).run(simplex);
+      depth = axis.depth + radii;
+      start.normal = axis.normal;
+      start.on_b = search.witnesses(axis.face, axis.rounds).on_b;
     }
-    const F depth = radii - found.separation, sinks = -dot(way, start.normal) * end;
+    const F sinks = -dot(way, start.normal) * end;
     start.inside = depth > max(touch, near);
     start.hit = start.inside || sinks > max(min(touch, length(way) * end * F(0.00390625)), near);
     return start;
@@ -78,23 +86,22 @@ bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCor
   using namespace detail;
   using F = Finer<S>;
   const FineCore<S> fine_a(a), fine_b(b);
-  const Transform<F> fine_ta = finer_of(ta);
-  const Transform<F> apart = {finer_of<F>(tb.position - ta.position), finer_of(tb).rotation};
+  const Mat3<Unit<F>> turn = finer_of(ta).rotation;
   CoreCast<F> cast = {};
   cast.a = fine_a.vertices;
   cast.b = fine_b.vertices;
   cast.radii = fine_a.radius + fine_b.radius;
   cast.extent = fine_a.extent + fine_b.extent;
-  cast.b_in_a = relative({Vec3<F>::zero(), fine_ta.rotation}, apart);
-  cast.way = -transposed_times(fine_ta.rotation, finer_of<F>(motion.translation));
+  cast.b_in_a = fine_relative(ta, tb);
+  cast.way = -transposed_times(turn, finer_of<F>(motion.translation));
   cast.end = finer<Unit<F>>(motion.max_fraction);
   cast.touch = finer<F>(motion.touch);
   cast.resolution = finer<F>(resolution<S>());
   const CoreHit<F> found = cast.run();
   if (!found.hit) return false;
   hit.fraction = coarser_down<Unit<S>>(found.fraction);
-  const Vec3<Unit<F>> normal = fine_ta.rotation * -found.normal;
-  const Vec3<F> on_b = fine_ta.rotation * found.on_b + normal * fine_b.radius;
+  const Vec3<Unit<F>> normal = turn * -found.normal;
+  const Vec3<F> on_b = turn * found.on_b + normal * fine_b.radius;
   hit.normal = coarser_of<Unit<S>>(normal);
   hit.point = ta.position + coarser_of<S>(on_b);
   hit.inside = found.inside;
