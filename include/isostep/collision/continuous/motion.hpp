@@ -21,7 +21,7 @@ namespace detail {
 template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
   const auto cosine =
       product(start.x, end.x) + product(start.y, end.y) + product(start.z, end.z) + product(start.w, end.w);
-  return cosine < cosine - cosine ? Quat<U>{-end.x, -end.y, -end.z, -end.w} : end;
+  return cosine < product(U(0), U(0)) ? Quat<U>{-end.x, -end.y, -end.z, -end.w} : end;
 }
 /// Not normalised; its length is 0.7 to 1.
 template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {

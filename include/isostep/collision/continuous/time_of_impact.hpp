@@ -13,7 +13,7 @@ namespace isostep {
 enum class Impact : std::uint8_t {
   none,      // they stay apart to the end
   touch,     // at `fraction` they are apart by the target or less
-  at_start,  // they are that near from the start; nothing is said of what follows
+  at_start,  // they are apart by half the target or less, or overlap, at the start; nothing is said of what follows
   cut_off,   // as touch, but the rounds ended while they were further apart: early, never late
 };
 
@@ -43,8 +43,8 @@ template <class S>
 TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const Motion<S>& of_a, const ConvexCore<S>& b,
                                const Motion<S>& of_b, S target);
 
-#define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                            \
-  extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const Motion<S>&, const ConvexCore<S>&,   \
+#define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                          \
+  extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const Motion<S>&, const ConvexCore<S>&, \
                                                     const Motion<S>&, S);
 #define ISO_EXTERN(S) ISO_TIME_OF_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

@@ -40,10 +40,10 @@ template <class S>
 EpaPenetration<S> epa_penetration(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                   const Transform<S>& tb);
 
-#define ISO_EPA_OF(extern, S)                                                                                \
-  extern template EpaPenetration<S> epa_penetration<S>(const ConvexCore<S>&, const Transform<S>&,            \
-                                                       const ConvexCore<S>&, const Transform<S>&);           \
-  extern template EpaPenetration<S> epa_penetration<S>(const Polyhedron<S>&, const Transform<S>&,            \
+#define ISO_EPA_OF(extern, S)                                                                      \
+  extern template EpaPenetration<S> epa_penetration<S>(const ConvexCore<S>&, const Transform<S>&,  \
+                                                       const ConvexCore<S>&, const Transform<S>&); \
+  extern template EpaPenetration<S> epa_penetration<S>(const Polyhedron<S>&, const Transform<S>&,  \
                                                        const Polyhedron<S>&, const Transform<S>&);
 #define ISO_EXTERN(S) ISO_EPA_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

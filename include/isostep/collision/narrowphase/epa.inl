@@ -49,7 +49,9 @@ template <class F> class Epa {
     F height;        // [m] of its plane over the origin
     bool alive;
   };
-  struct Edge { int from, to; };
+  struct Edge {
+    int from, to;
+  };
 
   ISO_INLINE void take(const Face& face, F reach, Axis& best) const {
     best.depth = reach;
@@ -184,8 +186,8 @@ ISO_INLINE EpaPenetration<F> penetration_of(const FineCore<S>& a, const FineCore
   Simplex<F> simplex = search.begin();
   const GjkDistance<F> found = search.run(simplex);
   const F radii = a.radius + b.radius;
-  EpaPenetration<F> result = {EpaStatus::converged, radii - found.distance, found.normal,
-                              found.on_a,           found.on_b,             found.iterations};
+  EpaPenetration<F> result = {EpaStatus::converged, radii - found.distance, found.normal, found.on_a,
+                              found.on_b,           found.iterations};
   if (found.distance == F(0)) {
     const F extent = a.extent + b.extent + max_abs(b_in_a.position);
     const typename Epa<F>::Axis axis = Epa<F>(search, extent).run(simplex);
