@@ -35,10 +35,10 @@ template <class F> class Epa {
       const SupportPoint<F> next = search_.support(face.normal);
       const F reach = dot(face.normal, next.point);
       if (reach < best.depth) take(face, reach, best);
-      if (best.depth - face.height <= flat_) best.status = EpaStatus::converged;
+      if (best.depth - face.height <= flat_ * F(8)) best.status = EpaStatus::converged;
       if (best.status == EpaStatus::converged || has(next) || !expand(nearest, next)) break;
     }
-    if (best.status == EpaStatus::converged) best.face = face_under_origin(best.depth + flat_);
+    if (best.status == EpaStatus::converged) best.face = face_under_origin();
     return best;
   }
 
@@ -64,7 +64,8 @@ template <class F> class Epa {
     return nearest_on_triangle(corners, 0, 1, 2);
   }
   /// Of faces in one plane that are as near as any, the one that the origin is above.
-  ISO_INLINE Simplex<F> face_under_origin(F height) const {
+  ISO_INLINE Simplex<F> face_under_origin() const {
+    const F height = faces_[nearest_face()].height + flat_;
     Simplex<F> best = {};
     for (int f = 0; f < face_count_; ++f) {
       if (!faces_[f].alive || faces_[f].height > height) continue;
