@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "isostep/collision/continuous/motion.hpp"
+#include "isostep/collision/continuous/core_motion.hpp"
 #include "isostep/collision/narrowphase/convex_core.hpp"
 #include "isostep/core/instantiate.hpp"
 
@@ -40,12 +40,12 @@ template <class S> struct TimeOfImpact {
 ///          Unit<S> times the cores' reach: cores there are never nearer than target / 2 less that.
 /// Limits:  turns below half a turn, positions within Limits<S>::position(), at most 128 vertices.
 template <class S>
-TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const Motion<S>& of_a, const ConvexCore<S>& b,
-                               const Motion<S>& of_b, S target);
+TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const CoreMotion<S>& of_a, const ConvexCore<S>& b,
+                               const CoreMotion<S>& of_b, S target);
 
-#define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                          \
-  extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const Motion<S>&, const ConvexCore<S>&, \
-                                                    const Motion<S>&, S);
+#define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                              \
+  extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const ConvexCore<S>&, \
+                                                    const CoreMotion<S>&, S);
 #define ISO_EXTERN(S) ISO_TIME_OF_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

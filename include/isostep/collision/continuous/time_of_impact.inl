@@ -9,7 +9,7 @@ namespace isostep {
 namespace detail {
 
 /// A core and its motion, in the axes of the world about an origin near it.
-template <class S> class Sweep {
+template <class S> class SweptCore {
   using F = Finer<S>;
   using U = Unit<F>;
 
@@ -22,7 +22,7 @@ template <class S> class Sweep {
   F reach;        // [m] of the vertices from the centre
   F bend;         // [m] no vertex has a larger acceleration, in fractions of the motion
 
-  ISO_INLINE Sweep(const ConvexCore<S>& of, const Motion<S>& motion, Vec3<S> origin)
+  ISO_INLINE SweptCore(const ConvexCore<S>& of, const CoreMotion<S>& motion, Vec3<S> origin)
       : core(of), centre(finer_of<F>(motion.centre)), start(fine(motion.start.orientation)) {
     end = on_near_side(start, fine(motion.end.orientation));
     const Vec3<F> arm = rotate(start, centre);
@@ -56,7 +56,7 @@ template <class S> class Sweep {
 };
 
 /// A lower bound of how far one core's lowest vertex along a direction is above its centre, and its slope.
-template <class F> struct Bound {
+template <class F> struct HeightBound {
   F height;  // [m]
   F slope;   // [m] for a fraction of 1
 };
@@ -65,7 +65,7 @@ template <class F> struct Turning {
   Vec3<F> centre;                     // [m]
   Vec3<F> up, change;                 // [1] the direction, in the core's frame, and how the core's turning changes it
 
-  ISO_INLINE Bound<F> lowest(Unit<F> d) const {
+  ISO_INLINE HeightBound<F> lowest(Unit<F> d) const {
     const Vec3<F> direction = up + change * d;
     std::size_t lowest = 0;
     F height = dot(direction, vertices[0]);
@@ -85,8 +85,8 @@ template <class F> struct GapBound {
   F speed;  // [m] for a fraction of 1
   F bend;   // [m]
 
-  ISO_INLINE Bound<F> at(U d) const {
-    const Bound<F> of_a = a.lowest(d), of_b = b.lowest(d);
+  ISO_INLINE HeightBound<F> at(U d) const {
+    const HeightBound<F> of_a = a.lowest(d), of_b = b.lowest(d);
     const F bent = bend * d;
     return {gap + speed * d + of_a.height + of_b.height - bent * d * F(0.5), speed + of_a.slope + of_b.slope - bent};
   }
@@ -94,7 +94,7 @@ template <class F> struct GapBound {
   ISO_INLINE U proved(F now, U rest) const {
     U d = rest;
     for (int round = 0;; ++round) {
-      const Bound<F> bound = at(d);
+      const HeightBound<F> bound = at(d);
       if (bound.height >= F(0)) return d;
       const U back = bound.slope < F(0) ? divide_to<U>(bound.height, bound.slope) : d;
       if (round == 6 || !(back < d) || -bound.height < now * F(0.0625))
@@ -106,7 +106,7 @@ template <class F> struct GapBound {
 
 /// Along the normal n [1], world axes, the lower side of a core is looked at where `up` is n, the upper where it is -n.
 template <class S, class F = Finer<S>>
-ISO_INLINE Turning<F> turning_of(const Sweep<S>& sweep, const Mat3<Unit<F>>& rotation, Vec3<F> up, Unit<F> t) {
+ISO_INLINE Turning<F> turning_of(const SweptCore<S>& sweep, const Mat3<Unit<F>>& rotation, Vec3<F> up, Unit<F> t) {
   return {sweep.core.vertices, sweep.centre, transposed_times(rotation, up),
           transposed_times(rotation, cross(up, sweep.spin(t)))};
 }
@@ -115,6 +115,7 @@ template <class S> class Advance {
   using F = Finer<S>;
   using U = Unit<F>;
   static constexpr std::int32_t kMostRounds = 32;
+  static constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found
 
  public:
   struct Result {
@@ -126,7 +127,7 @@ template <class S> class Advance {
     std::int32_t rounds;
   };
 
-  ISO_INLINE Advance(const Sweep<S>& a, const Sweep<S>& b, F target)
+  ISO_INLINE Advance(const SweptCore<S>& a, const SweptCore<S>& b, F target)
       : a_(a), b_(b), target_(target), radii_(a.core.radius + b.core.radius) {}
 
   ISO_INLINE Result run() const {
@@ -137,8 +138,11 @@ template <class S> class Advance {
       const Transform<F> ta = a_.at(t), tb = b_.at(t), b_in_a = relative(ta, tb);
       const Gjk<F> search(a_.core.vertices, b_.core.vertices, b_in_a);
       simplex = result.rounds == 1 ? search.begin() : search.begin(simplex);
-      const GjkDistance<F> found = search.run(simplex);
       const F noise = noise_at(max_abs(b_in_a.position)), target = max(target_, noise * F(8)), keep = target * F(0.5);
+      const F far = radii_ + target * F(2);
+      const GjkDistance<F> found = search.run(simplex, [=, this](F separation, F distance) ISO_INLINE_LAMBDA {
+        return separation > far && separation - radii_ >= (distance - radii_) * kEnough;
+      });
       result.separation = found.separation - radii_ - noise;
       result.normal = ta.rotation * found.normal;
       result.on_a = to_world(ta, found.on_a);
@@ -168,19 +172,19 @@ template <class S> class Advance {
             dot(normal, b_.way - a_.way), a_.bend + b_.bend};
   }
 
-  const Sweep<S>&a_, &b_;
+  const SweptCore<S>&a_, &b_;
   F target_, radii_;  // [m]
 };
 
 }  // namespace detail
 
 template <class S>
-TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const Motion<S>& of_a, const ConvexCore<S>& b,
-                               const Motion<S>& of_b, S target) {
+TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const CoreMotion<S>& of_a, const ConvexCore<S>& b,
+                               const CoreMotion<S>& of_b, S target) {
   using namespace detail;
   using F = Finer<S>;
   const Vec3<S> origin = of_a.start.position;
-  const Sweep<S> sweep_a(a, of_a, origin), sweep_b(b, of_b, origin);
+  const SweptCore<S> sweep_a(a, of_a, origin), sweep_b(b, of_b, origin);
   const F least = finer<F>(max(target, resolution<S>() * S(4)));
   const typename Advance<S>::Result found = Advance<S>(sweep_a, sweep_b, least).run();
   const auto placed = [&](Vec3<F> core, F radius)

@@ -39,7 +39,7 @@ template <class S> ISO_INLINE void keep_one(Simplex<S>& simplex, int i) {
 
 /// Of the segment from point i to point j.
 template <class S> ISO_INLINE Simplex<S> nearest_on_segment(const Simplex<S>& from, int i, int j) {
-  Simplex<S> to = {};
+  Simplex<S> to;
   to.points[0] = from.points[i];
   to.points[1] = from.points[j];
   const Vec3<S> p = from.points[i].point;
@@ -74,7 +74,7 @@ template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& f
   using U = Unit<S>;
   const int corners[3] = {i, j, k};
   const Vec3<U> normal = normal_of(from, i, j, k);
-  Simplex<S> inside = {};
+  Simplex<S> inside;
   inside.count = 3;
   inside.across = normal;
   inside.nearest = normal * dot(normal, from.points[i].point);
@@ -154,6 +154,10 @@ template <class S> class Gjk {
 
   /// Leaves in the simplex where the search ended.
   ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex) const {
+    return run(simplex, [](S, S) ISO_INLINE_LAMBDA { return false; });
+  }
+  /// Ends before, where `enough(separation, distance)` of a plane and of two points that it has found.
+  template <class Enough> ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex, const Enough& enough) const {
     int iterations = 1;
     S separation = S(0);
     for (; iterations < kMostIterations; ++iterations) {
@@ -161,7 +165,7 @@ template <class S> class Gjk {
       if (heading.length <= gap_noise(max_abs(b_in_a_.position))) return witnesses(simplex, iterations);
       const SupportPoint<S> next = support(-heading.direction);
       separation = dot(heading.direction, next.point);
-      if (has(simplex, next) || !(separation < heading.length)) break;
+      if (has(simplex, next) || !(separation < heading.length) || enough(separation, heading.length)) break;
       Simplex<S> grown = simplex;
       grown.points[grown.count++] = next;
       if (!shrink(grown)) {

@@ -17,7 +17,7 @@ template <class S> struct VoronoiPlane {
   ISO_INLINE S inside(Vec3<S> p) const { return dot(inward, p - point); }
 };
 
-template <class S> ISO_INLINE Vec3<Unit<S>> along(const Polyhedron<S>& solid, std::uint32_t half_edge) {
+template <class S> ISO_INLINE Vec3<Unit<S>> way_along(const Polyhedron<S>& solid, std::uint32_t half_edge) {
   return negate_if((half_edge & 1u) != 0, solid.directions[half_edge / 2]);
 }
 ISO_INLINE PolyhedronFeature feature_of(PolyhedronFeature::Kind kind, std::uint32_t index) {
@@ -29,7 +29,7 @@ template <class S, class Visit>
 ISO_INLINE void planes_of_vertex(const Polyhedron<S>& solid, std::uint32_t v, const Visit& visit) {
   for (std::uint32_t e = 0; e < solid.half_edges.size(); ++e) {
     if (solid.origin(e) != v) continue;
-    visit(VoronoiPlane<S>{-along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::edge, e / 2)});
+    visit(VoronoiPlane<S>{-way_along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::edge, e / 2)});
   }
 }
 /// Between an edge and its ends.
@@ -37,7 +37,7 @@ template <class S, class Visit>
 ISO_INLINE void end_planes(const Polyhedron<S>& solid, std::uint32_t k, const Visit& visit) {
   for (std::uint32_t e = 2 * k; e < 2 * k + 2; ++e) {
     const std::uint32_t v = solid.origin(e);
-    visit(VoronoiPlane<S>{along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::vertex, v)});
+    visit(VoronoiPlane<S>{way_along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::vertex, v)});
   }
 }
 /// Between an edge and its faces.
@@ -45,7 +45,7 @@ template <class S, class Visit>
 ISO_INLINE void side_planes(const Polyhedron<S>& solid, std::uint32_t k, const Visit& visit) {
   for (std::uint32_t e = 2 * k; e < 2 * k + 2; ++e) {
     const std::uint32_t f = solid.half_edges[e].face;
-    visit(VoronoiPlane<S>{cross(along(solid, e), solid.normals[f]), solid.vertices[solid.origin(e)],
+    visit(VoronoiPlane<S>{cross(way_along(solid, e), solid.normals[f]), solid.vertices[solid.origin(e)],
                           feature_of(PolyhedronFeature::face, f)});
   }
 }
@@ -54,7 +54,7 @@ template <class S, class Visit>
 ISO_INLINE void planes_of_face(const Polyhedron<S>& solid, std::uint32_t f, const Visit& visit) {
   std::uint32_t e = solid.faces[f];
   do {
-    visit(VoronoiPlane<S>{cross(solid.normals[f], along(solid, e)), solid.vertices[solid.origin(e)],
+    visit(VoronoiPlane<S>{cross(solid.normals[f], way_along(solid, e)), solid.vertices[solid.origin(e)],
                           feature_of(PolyhedronFeature::edge, e / 2)});
     e = solid.half_edges[e].next;
   } while (e != solid.faces[f]);
@@ -228,7 +228,7 @@ template <class S> class VClip {
     const bool below = height(j, index(j), p) < S(0);
     for (std::uint32_t e = 0; e < solid(i).half_edges.size(); ++e) {
       if (solid(i).origin(e) != index(i)) continue;
-      if (negate_if(below, dot(up, along(solid(i), e))) < -flat()) return go(i, feature_of(Feature::edge, e / 2));
+      if (negate_if(below, dot(up, way_along(solid(i), e))) < -flat()) return go(i, feature_of(Feature::edge, e / 2));
     }
     return below ? climb_out(p, j) : Walk::ended;
   }

@@ -20,6 +20,7 @@ template <class F> struct CoreHit {
 template <class F> class CoreCast {
   using U = Unit<F>;
   static constexpr int kMostRounds = 32;
+  static constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found
 
  public:
   std::span<const Vec3<F>> a, b;  // [m] vertices, each core's in its own frame
@@ -38,8 +39,11 @@ template <class F> class CoreCast {
       const Transform<F> now = {b_in_a.position + way * t, b_in_a.rotation};
       const Gjk<F> search(a, b, now);
       simplex = round == 0 ? search.begin() : search.begin(simplex);
-      const GjkDistance<F> found = search.run(simplex);
       const F noise = gap_noise(extent + max_abs(now.position)), near = noise * F(2) + resolution;
+      const F far = radii + near * F(16);
+      const GjkDistance<F> found = search.run(simplex, [=, this](F separation, F distance) ISO_INLINE_LAMBDA {
+        return separation > far && separation - radii >= (distance - radii) * kEnough;
+      });
       const F gap = found.separation - radii - noise;
       if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(search, simplex, found, near);
       const F closing = -dot(way, found.normal);

@@ -1,4 +1,4 @@
-// Motion<S>: how a solid gets from one pose to another within a step.
+// CoreMotion<S>: how a solid gets from one pose to another within a step.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@ namespace isostep {
 /// One point of the solid goes along a line at constant speed; the orientation is the normalised linear interpolation
 /// of the two, the shorter way round. That needs a root but no sine, and turns about one axis: a little faster in the
 /// middle than at the ends, by (turn / 2)^2 / 4 of the speed. Turns must be less than half a turn.
-template <class S> struct Motion {
+template <class S> struct CoreMotion {
   Pose<S> start, end;  // of the solid's frame
   Vec3<S> centre;      // [m] in the solid's frame: the point, as a rule its body's centre of mass
 };
@@ -32,7 +32,7 @@ template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
 }  // namespace detail
 
 /// The pose after a fraction 0 ... 1 of a motion: exact at both ends.
-template <class S> ISO_INLINE Pose<S> pose_at(const Motion<S>& motion, Unit<S> fraction) {
+template <class S> ISO_INLINE Pose<S> pose_at(const CoreMotion<S>& motion, Unit<S> fraction) {
   if (fraction == Unit<S>(0)) return motion.start;
   if (fraction == Unit<S>(1)) return motion.end;
   const Quat<Unit<S>> end = detail::on_near_side(motion.start.orientation, motion.end.orientation);
