@@ -1,7 +1,8 @@
-// GJK: the distance of two polyhedra, and where they are nearest.
+// GJK: the distance of two convex solids, and where they are nearest.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/narrowphase/convex_core.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/baked/polyhedron.hpp"
 #include "isostep/math/transform.hpp"
@@ -9,10 +10,11 @@
 namespace isostep {
 
 template <class S> struct GjkDistance {
-  S distance;            // [m] 0 where they overlap
+  S distance;            // [m] of the nearest points; 0 where they overlap
   Vec3<Unit<S>> normal;  // [1] from a to b; zero where they overlap
   Vec3<S> on_a, on_b;    // [m] nearest points; where they overlap, where the search ended
   std::int32_t iterations;
+  S separation;  // [m] of the two along the normal: what proves that they are apart; 0 where they overlap
 };
 
 /// All in the frame that both transforms lead to.
@@ -25,8 +27,15 @@ template <class S>
 GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                             const Transform<S>& tb);
 
+/// The same of the hulls of two cores, without their radii.
+template <class S>
+GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
+                            const Transform<S>& tb);
+
 #define ISO_GJK_OF(extern, S)                                                                                     \
   extern template GjkDistance<S> gjk_distance<S>(const Polyhedron<S>&, const Transform<S>&, const Polyhedron<S>&, \
+                                                 const Transform<S>&);                                            \
+  extern template GjkDistance<S> gjk_distance<S>(const ConvexCore<S>&, const Transform<S>&, const ConvexCore<S>&, \
                                                  const Transform<S>&);
 #define ISO_EXTERN(S) ISO_GJK_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

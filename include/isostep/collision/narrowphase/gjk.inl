@@ -19,8 +19,16 @@ template <class S> struct Simplex {
   SupportPoint<S> points[4];
   Unit<S> shares[4];  // they add up to 1, but for rounding
   int count;
-  Vec3<S> nearest;  // [m]
+  Vec3<S> nearest;       // [m]
+  Vec3<Unit<S>> across;  // [1] of three of them: of their triangle
 };
+
+/// To the nearest point. That of a triangle is as good as its normal, however near it is.
+template <class S> ISO_INLINE Heading<S> heading_of(const Simplex<S>& simplex) {
+  if (simplex.count != 3) return heading_of(simplex.nearest);
+  const S height = dot(simplex.across, simplex.points[0].point);
+  return {negate_if(height < S(0), simplex.across), abs(height)};
+}
 
 template <class S> ISO_INLINE void keep_one(Simplex<S>& simplex, int i) {
   simplex.points[0] = simplex.points[i];
@@ -31,7 +39,7 @@ template <class S> ISO_INLINE void keep_one(Simplex<S>& simplex, int i) {
 
 /// Of the segment from point i to point j.
 template <class S> ISO_INLINE Simplex<S> nearest_on_segment(const Simplex<S>& from, int i, int j) {
-  Simplex<S> to = {};
+  Simplex<S> to;
   to.points[0] = from.points[i];
   to.points[1] = from.points[j];
   const Vec3<S> p = from.points[i].point;
@@ -66,8 +74,9 @@ template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& f
   using U = Unit<S>;
   const int corners[3] = {i, j, k};
   const Vec3<U> normal = normal_of(from, i, j, k);
-  Simplex<S> inside = {};
+  Simplex<S> inside;
   inside.count = 3;
+  inside.across = normal;
   inside.nearest = normal * dot(normal, from.points[i].point);
   bool is_inside = normal != Vec3<U>::zero();
   for (int c = 0; c < 3; ++c) {
@@ -114,37 +123,76 @@ template <class S> class Gjk {
   static constexpr int kMostIterations = 32;
 
  public:
-  ISO_INLINE Gjk(const Polyhedron<S>& a, const Polyhedron<S>& b, const Transform<S>& b_in_a)
+  ISO_INLINE Gjk(std::span<const Vec3<S>> a, std::span<const Vec3<S>> b, const Transform<S>& b_in_a)
       : a_(a), b_(b), b_in_a_(b_in_a) {}
 
   /// In a's frame. The direction points from b to a.
   ISO_INLINE SupportPoint<S> support(Vec3<U> direction) const {
-    const std::uint32_t i = lowest_of(a_.vertices, -direction).vertex;
-    const std::uint32_t j = lowest_of(b_.vertices, transposed_times(b_in_a_.rotation, direction)).vertex;
-    return {a_.vertices[i] - to_world(b_in_a_, b_.vertices[j]), i, j};
+    const std::uint32_t i = lowest_of(a_, -direction).vertex;
+    const std::uint32_t j = lowest_of(b_, transposed_times(b_in_a_.rotation, direction)).vertex;
+    return point_of(i, j);
+  }
+  ISO_INLINE SupportPoint<S> point_of(std::uint32_t i, std::uint32_t j) const {
+    return {a_[i] - to_world(b_in_a_, b_[j]), i, j};
   }
 
-  ISO_INLINE GjkDistance<S> run() const {
+  ISO_INLINE Simplex<S> begin() const {
     Simplex<S> simplex = {};
     simplex.points[0] = support(normalise(b_in_a_.position));
     keep_one(simplex, 0);
+    return simplex;
+  }
+  /// The vertices of a simplex of before, where they are now: from there the search ends sooner.
+  ISO_INLINE Simplex<S> begin(const Simplex<S>& before) const {
+    Simplex<S> simplex = before;
+    for (int i = 0; i < simplex.count; ++i)
+      simplex.points[i] = point_of(before.points[i].vertex_a, before.points[i].vertex_b);
+    if (simplex.count == 1) keep_one(simplex, 0);
+    else if (!shrink(simplex)) keep_one(simplex, 0);
+    return simplex;
+  }
+
+  /// Leaves in the simplex where the search ended.
+  ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex) const {
+    return run(simplex, [](S, S) ISO_INLINE_LAMBDA { return false; });
+  }
+  /// Ends before, where `enough(separation, distance)` of a plane and of two points that it has found.
+  template <class Enough> ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex, const Enough& enough) const {
     int iterations = 1;
+    S separation = S(0);
     for (; iterations < kMostIterations; ++iterations) {
-      const Heading<S> heading = heading_of(simplex.nearest);
+      const Heading<S> heading = heading_of(simplex);
       if (heading.length <= gap_noise(max_abs(b_in_a_.position))) return witnesses(simplex, iterations);
       const SupportPoint<S> next = support(-heading.direction);
-      if (has(simplex, next) || !(dot(heading.direction, next.point) < heading.length)) break;
+      separation = dot(heading.direction, next.point);
+      if (has(simplex, next) || !(separation < heading.length) || enough(separation, heading.length)) break;
       Simplex<S> grown = simplex;
       grown.points[grown.count++] = next;
-      if (!shrink(grown)) return witnesses(simplex, iterations);
+      if (!shrink(grown)) {
+        const GjkDistance<S> overlap = witnesses(simplex, iterations);
+        simplex = grown;
+        return overlap;
+      }
       if (!is_nearer(grown, simplex)) break;
       simplex = grown;
     }
-    const Heading<S> heading = heading_of(simplex.nearest);
+    const Heading<S> heading = heading_of(simplex);
     GjkDistance<S> result = witnesses(simplex, iterations);
     result.distance = heading.length;
     result.normal = -heading.direction;
+    result.separation =
+        iterations < kMostIterations ? separation : dot(heading.direction, support(-heading.direction).point);
     return result;
+  }
+
+  /// At distance 0, which is overlap.
+  ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
+    Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
+    for (int i = 0; i < simplex.count; ++i) {
+      on_a += a_[simplex.points[i].vertex_a] * simplex.shares[i];
+      on_b += b_[simplex.points[i].vertex_b] * simplex.shares[i];
+    }
+    return {S(0), Vec3<U>::zero(), on_a, to_world(b_in_a_, on_b), iterations, S(0)};
   }
 
  private:
@@ -165,32 +213,30 @@ template <class S> class Gjk {
     }
     return true;
   }
-  /// At distance 0, which is overlap.
-  ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
-    Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
-    for (int i = 0; i < simplex.count; ++i) {
-      on_a += a_.vertices[simplex.points[i].vertex_a] * simplex.shares[i];
-      on_b += b_.vertices[simplex.points[i].vertex_b] * simplex.shares[i];
-    }
-    return {S(0), Vec3<U>::zero(), on_a, to_world(b_in_a_, on_b), iterations};
-  }
 
-  const Polyhedron<S>& a_;
-  const Polyhedron<S>& b_;
+  std::span<const Vec3<S>> a_, b_;  // [m] vertices, each solid's in its own frame
   const Transform<S>& b_in_a_;
 };
 
 }  // namespace detail
 
 template <class S>
-GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
                             const Transform<S>& tb) {
   const Transform<S> b_in_a = relative(ta, tb);
-  GjkDistance<S> result = detail::Gjk<S>(a, b, b_in_a).run();
+  const detail::Gjk<S> search(a.vertices, b.vertices, b_in_a);
+  detail::Simplex<S> simplex = search.begin();
+  GjkDistance<S> result = search.run(simplex);
   result.normal = ta.rotation * result.normal;
   result.on_a = to_world(ta, result.on_a);
   result.on_b = to_world(ta, result.on_b);
   return result;
+}
+
+template <class S>
+GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                            const Transform<S>& tb) {
+  return gjk_distance(core_of(a), ta, core_of(b), tb);
 }
 
 }  // namespace isostep

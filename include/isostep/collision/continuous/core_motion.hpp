@@ -1,0 +1,45 @@
+// CoreMotion<S>: how a solid gets from one pose to another within a step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/math/transform.hpp"
+#include "isostep/scalar/finer.hpp"
+
+namespace isostep {
+
+/// One point of the solid goes along a line at constant speed; the orientation is the normalised linear interpolation
+/// of the two, the shorter way round. That needs a root but no sine, and turns about one axis: a little faster in the
+/// middle than at the ends, by (turn / 2)^2 / 4 of the speed. Turns must be less than half a turn.
+template <class S> struct CoreMotion {
+  Pose<S> start, end;  // of the solid's frame
+  Vec3<S> centre;      // [m] in the solid's frame: the point, as a rule its body's centre of mass
+};
+
+namespace detail {
+
+/// What `end` has to be to come the shorter way from `start`.
+template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
+  const auto cosine =
+      product(start.x, end.x) + product(start.y, end.y) + product(start.z, end.z) + product(start.w, end.w);
+  return cosine < product(U(0), U(0)) ? Quat<U>{-end.x, -end.y, -end.z, -end.w} : end;
+}
+/// Not normalised; its length is 0.7 to 1.
+template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
+  return {start.x + (end.x - start.x) * t, start.y + (end.y - start.y) * t, start.z + (end.z - start.z) * t,
+          start.w + (end.w - start.w) * t};
+}
+
+}  // namespace detail
+
+/// The pose after a fraction 0 ... 1 of a motion: exact at both ends.
+template <class S> ISO_INLINE Pose<S> pose_at(const CoreMotion<S>& motion, Unit<S> fraction) {
+  if (fraction == Unit<S>(0)) return motion.start;
+  if (fraction == Unit<S>(1)) return motion.end;
+  const Quat<Unit<S>> end = detail::on_near_side(motion.start.orientation, motion.end.orientation);
+  const Quat<Unit<S>> turn = normalise(detail::between(motion.start.orientation, end, fraction));
+  const Vec3<S> from = rotate(motion.start.orientation, motion.centre);
+  const Vec3<S> way = motion.end.position - motion.start.position + rotate(end, motion.centre) - from;
+  return {motion.start.position + way * fraction + (from - rotate(turn, motion.centre)), turn};
+}
+
+}  // namespace isostep

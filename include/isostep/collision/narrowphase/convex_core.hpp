@@ -1,0 +1,79 @@
+// ConvexCore<S>: a convex solid as the hull of a few points, made round by a radius.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <span>
+
+#include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/math/transform.hpp"
+#include "isostep/scalar/finer.hpp"
+
+namespace isostep {
+
+/// All points within `radius` of the hull of the vertices: a sphere is one vertex, a capsule two, a triangle three, a
+/// box eight, a hull its own. At least 1 vertex, at most ConvexHull::kMaxVertices; any order, equal ones too.
+template <class S> struct ConvexCore {
+  std::span<const Vec3<S>> vertices;  // [m] in the solid's frame
+  S radius;                           // [m]
+};
+
+template <class S> ISO_INLINE ConvexCore<S> core_of(const Polyhedron<S>& solid) { return {solid.vertices, S(0)}; }
+
+namespace detail {
+
+template <class Out, class T> ISO_INLINE Vec3<Out> finer_of(Vec3<T> v) {
+  return {finer<Out>(v.x), finer<Out>(v.y), finer<Out>(v.z)};
+}
+/// Never above a.
+template <class Out, class In> ISO_INLINE Out coarser_down(In a) {
+  const Out near = coarser<Out>(a);
+  return finer<In>(near) > a ? near - resolution<Out>() : near;
+}
+template <class Out, class T> ISO_INLINE Vec3<Out> coarser_of(Vec3<T> v) {
+  return {coarser<Out>(v.x), coarser<Out>(v.y), coarser<Out>(v.z)};
+}
+template <class S> ISO_INLINE Transform<Finer<S>> finer_of(const Transform<S>& t) {
+  using F = Finer<S>;
+  return {finer_of<F>(t.position),
+          {{finer_of<Unit<F>>(t.rotation.rows[0]), finer_of<Unit<F>>(t.rotation.rows[1]),
+            finer_of<Unit<F>>(t.rotation.rows[2])}}};
+}
+
+/// b seen from a's frame; their distance is that of S, exact where it is fixed point.
+template <class S> ISO_INLINE Transform<Finer<S>> fine_relative(const Transform<S>& ta, const Transform<S>& tb) {
+  using F = Finer<S>;
+  const Transform<S> a = {Vec3<S>::zero(), ta.rotation}, b = {tb.position - ta.position, tb.rotation};
+  return relative<F>(finer_of(a), finer_of(b));
+}
+
+/// A core in the finer format, in which a gap of a few digits of S still has a direction.
+template <class S> class FineCore {
+  using F = Finer<S>;
+  static constexpr bool kIsCopy = !std::same_as<F, S>;
+
+ public:
+  ISO_INLINE explicit FineCore(const ConvexCore<S>& core) : radius(finer<F>(core.radius)) {
+    if constexpr (kIsCopy) {
+      ISO_ASSERT(core.vertices.size() <= ConvexHull::kMaxVertices);
+      const std::size_t count = min<std::size_t>(core.vertices.size(), ConvexHull::kMaxVertices);
+      for (std::size_t i = 0; i < count; ++i) copy_[i] = finer_of<F>(core.vertices[i]);
+      vertices = {copy_, count};
+    } else {
+      vertices = core.vertices;
+    }
+    for (const Vec3<F>& v : vertices) extent = max(extent, max_abs(v));
+  }
+  FineCore(const FineCore&) = delete;
+  FineCore& operator=(const FineCore&) = delete;
+
+  std::span<const Vec3<F>> vertices;  // [m]
+  F radius;                           // [m]
+  F extent = F(0);                    // [m] largest coordinate of a vertex
+
+ private:
+  Vec3<F> copy_[kIsCopy ? ConvexHull::kMaxVertices : 1];
+};
+
+}  // namespace detail
+}  // namespace isostep

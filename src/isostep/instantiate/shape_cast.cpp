@@ -1,0 +1,14 @@
+// Shape casts and times of impact for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/collision/continuous/time_of_impact.inl"
+#include "isostep/collision/query/shape_cast.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S) \
+  ISO_SHAPE_CAST_OF(, S)   \
+  ISO_TIME_OF_IMPACT_OF(, S)
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
