@@ -60,13 +60,12 @@ ISO_INLINE void project_face(const FaceContact<S>& contact, std::uint32_t face, 
 
 /// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number.
 template <class S>
-ISO_INLINE bool clip_beyond(const FaceContact<S>& contact, std::uint32_t half_edge, const FacePolygon<S>& from,
-                            FacePolygon<S>& to) {
-  const Polyhedron<S>& solid = contact.reference;
+ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>& across, std::uint32_t half_edge,
+                            const FacePolygon<S>& from, FacePolygon<S>& to) {
   const Vec3<Unit<S>> along = negate_if((half_edge & 1u) != 0, solid.directions[half_edge / 2]);
   const Vec3<S> corner = solid.vertices[solid.origin(half_edge)];
-  const Unit<S> du = dot(contact.across.t, along), dv = dot(contact.across.u, along);
-  const S u = dot(contact.across.t, corner), v = dot(contact.across.u, corner);
+  const Unit<S> du = dot(across.t, along), dv = dot(across.u, along);
+  const S u = dot(across.t, corner), v = dot(across.u, corner);
   S beyond[kFacePoints];
   for (int i = 0; i < from.count; ++i)
     beyond[i] = round_to<S>(product(from.points[i].u - u, dv) - product(from.points[i].v - v, du));
@@ -96,7 +95,7 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   const Polyhedron<S>& reference = contact.reference;
   std::uint32_t edge = reference.faces[contact.axis.face];
   do {
-    now ^= clip_beyond(contact, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+    now ^= clip_beyond(reference, contact.across, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
     edge = reference.half_edges[edge].next;
   } while (edge != reference.faces[contact.axis.face]);
   FacePolygon<S>& polygon = polygons[now];

@@ -1,0 +1,268 @@
+// Bodies of polyhedron_triangle.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/polyhedra.inl"
+#include "isostep/collision/narrowphase/polyhedron_triangle.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// What decides how a polyhedron touches a triangle; all in the polyhedron's frame.
+template <class S> struct TriangleAxis {
+  enum Kind { plane, face, edges, neighbour } kind;
+  S separation;           // [m]
+  std::uint32_t feature;  // a face, or an edge of the polyhedron
+  int edge;               // of the triangle
+  Vec3<Unit<S>> normal;   // [1] out of the polyhedron, of edges
+};
+
+template <class S> class TriangleAxes {
+  using U = Unit<S>;
+
+ public:
+  ISO_INLINE TriangleAxes(const Polyhedron<S>& a, const SurfaceTriangle<S>& triangle) : a_(a), triangle_(triangle) {}
+
+  /// Faces before all else that is better than `best` by the tolerance. False: a face is further off than `margin`.
+  ISO_INLINE bool look_at_faces(S margin, S tolerance, TriangleAxis<S>& best) const {
+    S limit = best.separation + tolerance;
+    for (std::uint32_t f = 0; f < a_.faces.size(); ++f) {
+      const Vec3<U> normal = a_.normals[f];
+      S heights[3], least = highest<S>();
+      for (int i = 0; i < 3; ++i) {
+        heights[i] = dot(normal, triangle_.points[i]) - a_.offsets[f];
+        least = min(least, heights[i]);
+      }
+      if (least > margin) return false;
+      if (!(least > limit) || !owns(-normal, heights, least)) continue;
+      best = {TriangleAxis<S>::face, least, f, 0, normal};
+      limit = least;
+    }
+    return true;
+  }
+  /// Neighbours' planes whose outer side the centre is on.
+  ISO_INLINE void look_at_neighbours(Vec3<S> centre, S tolerance, TriangleAxis<S>& best) const {
+    const S limit = best.separation + (best.kind == TriangleAxis<S>::plane ? tolerance : S(0));
+    for (int k = 0; k < 3; ++k) {
+      const SurfaceEdge<S>& edge = triangle_.edges[k];
+      if (!edge.has_neighbour || dot(edge.other, centre - triangle_.points[k]) < S(0)) continue;
+      const S separation = lowest_of(a_.vertices, edge.other).height - dot(edge.other, triangle_.points[k]);
+      if (separation > limit && separation > best.separation)
+        best = {TriangleAxis<S>::neighbour, separation, 0, k, edge.other};
+    }
+  }
+  ISO_INLINE void look_at_edges(S tolerance, TriangleAxis<S>& best) const {
+    for (int k = 0; k < 3; ++k) {
+      if (!triangle_.edges[k].touchable) continue;
+      for (std::uint32_t i = 0; i < a_.edges(); ++i) {
+        if (arcs_meet(i, k)) examine(i, k, tolerance, best);
+      }
+    }
+  }
+
+ private:
+  static constexpr double kLeastSine = 0.005;  // of edges; nearer to parallel, a face's axis is as good
+  static constexpr double kAlongEdge = 0.02;   // sine within which a face lies along an edge
+
+  /// Whether the surface can be touched from a direction, by its points that are lowest above a face.
+  ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
+    for (int k = 0; k < 3; ++k) {
+      const bool along = abs(dot(direction, triangle_.edges[k].along)) <= U(kAlongEdge);
+      const bool ends = heights[k] == least || heights[(k + 1) % 3] == least;  // one of them is the least, exactly
+      if (along && ends && triangle_.owns_at_edge(k, direction)) return true;
+      if (heights[k] == least && triangle_.owns_at_point(k, direction)) return true;
+    }
+    return false;
+  }
+  /// As EdgeAxes has it, with the arc from the triangle's normal to its neighbour's.
+  ISO_INLINE bool arcs_meet(std::uint32_t i, int k) const {
+    const SurfaceEdge<S>& edge = triangle_.edges[k];
+    const Vec3<U> along = a_.directions[i];
+    const U at_own = dot(along, triangle_.normal), at_other = dot(along, edge.other);
+    const bool out = at_own > U(0) && at_other < U(0), in = at_own < U(0) && at_other > U(0);
+    if (!out && !in) return false;
+    const U left = dot(a_.normals[a_.half_edges[2 * i].face], edge.along);
+    const U right = dot(a_.normals[a_.half_edges[2 * i + 1].face], edge.along);
+    return out ? left > U(0) && right < U(0) : left < U(0) && right > U(0);
+  }
+  ISO_INLINE void examine(std::uint32_t i, int k, S tolerance, TriangleAxis<S>& best) const {
+    const Vec3<U> along = triangle_.edges[k].along, across = cross(a_.directions[i], along);
+    if (dot(across, across) < U(kLeastSine * kLeastSine)) return;
+    const Vec3<U> normal = point_of_arc(a_, i, along);
+    const S separation = dot(normal, triangle_.points[k] - a_.vertices[a_.origin(2 * i)]);
+    const S lead = best.kind == TriangleAxis<S>::edges ? S(0) : tolerance;
+    if (separation > best.separation + lead) best = {TriangleAxis<S>::edges, separation, i, k, normal};
+  }
+
+  const Polyhedron<S>& a_;
+  const SurfaceTriangle<S>& triangle_;
+};
+
+/// Of the faces around a vertex the one that looks most against a direction; of equals the first.
+template <class S>
+ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& a, std::uint32_t vertex, Vec3<Unit<S>> up) {
+  std::uint32_t best = 0xffffffffu;
+  Unit<S> least = Unit<S>(0);
+  for (std::uint32_t e = 0; e < a.half_edges.size(); ++e) {
+    if (a.half_edges[e].origin != vertex) continue;
+    const std::uint32_t face = a.half_edges[e].face;
+    const Unit<S> facing = dot(a.normals[face], up);
+    if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) continue;
+    least = facing;
+    best = face;
+  }
+  return best;
+}
+
+/// Names of the triangle's edges in polygons.
+inline constexpr std::uint32_t kTriangleEdge = 128;
+
+template <class S>
+ISO_INLINE bool clip_to_edge(const SurfaceTriangle<S>& triangle, const Tangents<Unit<S>>& across, int k, S slack,
+                             const FacePolygon<S>& from, FacePolygon<S>& to) {
+  const Vec3<Unit<S>> inward = triangle.edges[k].inward;
+  const Unit<S> du = dot(across.t, inward), dv = dot(across.u, inward);
+  const S u = dot(across.t, triangle.points[k]), v = dot(across.u, triangle.points[k]);
+  S beyond[kFacePoints];
+  for (int i = 0; i < from.count; ++i) {
+    const ClipPoint<S>& p = from.points[i];
+    beyond[i] = -round_to<S>(product(p.u - u, du) + product(p.v - v, dv)) - slack;
+  }
+  const auto cut = [](const ClipPoint<S>& p, const ClipPoint<S>& q, Unit<S> t, ClipPoint<S>& at) ISO_INLINE_LAMBDA {
+    at.u = p.u + (q.u - p.u) * t;
+    at.v = p.v + (q.v - p.v) * t;
+  };
+  return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), cut, to);
+}
+
+/// Whether a corner is there because of flat edges alone.
+template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangle, const ClipPoint<S>& p) {
+  const bool before = p.before >= kTriangleEdge, after = p.after >= kTriangleEdge;
+  if (!before && !after) return false;
+  return (!before || triangle.edges[p.before - kTriangleEdge].flat) &&
+         (!after || triangle.edges[p.after - kTriangleEdge].flat);
+}
+/// The end that two edges share.
+template <class S>
+ISO_INLINE std::uint32_t vertex_between(const Polyhedron<S>& a, std::uint32_t before, std::uint32_t after) {
+  const std::uint32_t first = a.origin(2 * before);
+  return first == a.origin(2 * after) || first == a.origin(2 * after + 1) ? first : a.origin(2 * before + 1);
+}
+
+/// The polyhedron's lowest face over the triangle.
+template <class S>
+ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
+                            std::uint32_t lowest, S margin, S tie, Manifold<S>& out) {
+  const Tangents<Unit<S>> across = tangents_of(triangle.normal);
+  const std::uint32_t face = face_against(a, lowest, triangle.normal);
+  FacePolygon<S> polygons[2];
+  polygons[0].count = 0;
+  std::uint32_t edge = a.faces[face];
+  do {
+    const std::uint32_t next = a.half_edges[edge].next;
+    const Vec3<S> p = a.vertices[a.origin(next)];
+    polygons[0].points[polygons[0].count++] = {dot(across.t, p), dot(across.u, p), triangle.height_of(p), edge / 2,
+                                               next / 2};
+    edge = next;
+  } while (edge != a.faces[face]);
+  unsigned now = 0;
+  const S slack = triangle.slack();
+  for (int k = 0; k < 3; ++k)
+    now ^= clip_to_edge(triangle, across, k, slack, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+  FacePolygon<S>& polygon = polygons[now];
+  int kept = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipPoint<S>& p = polygon.points[i];
+    if (p.height <= margin && !is_cut_flat(triangle, p)) polygon.points[kept++] = p;
+  }
+  polygon.count = kept;
+  if (kept == 0) return;
+  if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
+  out.normal = -(ta.rotation * triangle.normal);
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipPoint<S>& p = polygon.points[i];
+    const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
+    const std::uint32_t name = own ? triangle_feature::kOfConvexAlone | vertex_between(a, p.before, p.after)
+                                   : 1u << 31 | face << 16 | p.before << 8 | p.after;
+    const Vec3<S> local =
+        across.t * p.u + across.u * p.v + triangle.normal * (triangle.offset + p.height * S(0.5));
+    out.add(to_world(ta, local), p.height, name);
+  }
+}
+
+/// The triangle over a face of the polyhedron.
+template <class S>
+ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
+                           std::uint32_t face, S margin, Manifold<S>& out) {
+  const Vec3<Unit<S>> normal = a.normals[face];
+  const Tangents<Unit<S>> across = tangents_of(normal);
+  FacePolygon<S> polygons[2];
+  polygons[0].count = 3;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const Vec3<S> p = triangle.points[i];
+    polygons[0].points[i] = {dot(across.t, p), dot(across.u, p), dot(normal, p) - a.offsets[face], (i + 2) % 3, i};
+  }
+  unsigned now = 0;
+  std::uint32_t edge = a.faces[face];
+  do {
+    now ^= clip_beyond(a, across, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+    edge = a.half_edges[edge].next;
+  } while (edge != a.faces[face]);
+  FacePolygon<S>& polygon = polygons[now];
+  int kept = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    if (polygon.points[i].height <= margin) polygon.points[kept++] = polygon.points[i];
+  }
+  polygon.count = kept;
+  if (kept == 0) return;
+  if (kept > kMaxContactPoints) reduce_to_four(polygon, a.inner_radius * S(0.0009765625));
+  out.normal = ta.rotation * normal;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipPoint<S>& p = polygon.points[i];
+    const Vec3<S> local = across.t * p.u + across.u * p.v + normal * (a.offsets[face] + p.height * S(0.5));
+    out.add(to_world(ta, local), p.height, 3u << 30 | face << 16 | p.before << 8 | p.after);
+  }
+}
+
+template <class S>
+ISO_INLINE void touch_edge(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
+                           const TriangleAxis<S>& axis, Manifold<S>& out) {
+  const SurfaceEdge<S>& edge = triangle.edges[axis.edge];
+  const S half = edge.length * S(0.5);
+  const Segment<S> of_a = edge_of(a, axis.feature),
+                   of_triangle = {triangle.points[axis.edge] + edge.along * half, edge.along, half};
+  const ClosestPair<S> closest = closest_points(of_a, of_triangle);
+  out.normal = ta.rotation * axis.normal;
+  out.add(to_world(ta, (of_a.at(closest.s) + of_triangle.at(closest.t)) * S(0.5)), axis.separation,
+          1u << 29 | axis.feature << 8 | static_cast<std::uint32_t>(axis.edge));
+}
+
+}  // namespace detail
+
+template <class S>
+void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
+                                 const BakedTriangle& baked, S margin, Manifold<S>& out) {
+  using namespace detail;
+  using Axis = TriangleAxis<S>;
+  out.clear();
+  SurfaceTriangle<S> triangle(frame, baked);
+  if (triangle.height < S(0)) return;
+  const Lowest<S> lowest = lowest_of(a.vertices, triangle.normal);
+  Axis best = {Axis::plane, lowest.height - triangle.offset, 0, 0, triangle.normal};
+  if (best.separation > margin) return;
+  triangle.find_edges(frame, baked);
+  const S tolerance = axis_tolerance(a.inner_radius, max_abs(frame.centre) + a.inner_radius);
+  const TriangleAxes<S> axes(a, triangle);
+  if (!axes.look_at_faces(margin, tolerance, best)) return;
+  axes.look_at_neighbours(frame.centre, tolerance, best);
+  axes.look_at_edges(tolerance, best);
+  if (best.separation > margin) return;
+  switch (best.kind) {
+    case Axis::plane: return touch_plane(a, ta, triangle, lowest.vertex, margin, tolerance * S(0.125), out);
+    case Axis::face: return touch_face(a, ta, triangle, best.feature, margin, out);
+    case Axis::edges: return touch_edge(a, ta, triangle, best, out);
+    case Axis::neighbour: return;
+  }
+}
+
+}  // namespace isostep

@@ -1,0 +1,144 @@
+// SurfaceTriangle<S>: a triangle of a mesh or height field as the convex beside it sees it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/geometry/baked/baked_triangle.hpp"
+#include "isostep/geometry/closest.hpp"
+#include "isostep/math/transform.hpp"
+#include "isostep/scalar/lattice.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// To the last digits of U, whatever its length: components below 2^51.
+template <class U> ISO_INLINE Vec3<U> unit_of_steps(GridVector v) {
+  if constexpr (kIsFixed<U>) {
+    const auto d = direction_of(Q32_32::from_raw(v.x), Q32_32::from_raw(v.y), Q32_32::from_raw(v.z));
+    constexpr int kBits = decltype(d.x)::kFracBits;
+    return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
+  } else {
+    return normalise(Vec3<U>{static_cast<U>(v.x), static_cast<U>(v.y), static_cast<U>(v.z)});
+  }
+}
+}  // namespace detail
+
+/// Where a convex lies beside a surface. The convex's centre is subtracted on the surface's grid, exactly: of a small
+/// body far out on a large mesh no digit is lost.
+template <class S> struct SurfaceFrame {
+  int exponent;           // a step of the grid is 2^-exponent m
+  std::int64_t steps[3];  // the convex's centre on the grid, rounded down
+  Vec3<S> rest;           // [m] from there to the centre, in the surface's frame
+  Vec3<S> centre;         // [m] in the convex's frame
+  Mat3<Unit<S>> turn;     // from the surface's frame to the convex's
+
+  ISO_INLINE SurfaceFrame(const Transform<S>& convex, Vec3<S> centre_in_convex, const Transform<S>& surface,
+                          int surface_exponent)
+      : exponent(surface_exponent),
+        centre(centre_in_convex),
+        turn(transpose(convex.rotation) * surface.rotation) {
+    const Vec3<S> at = to_local(surface, to_world(convex, centre));
+    for (int axis = 0; axis < 3; ++axis) {
+      steps[axis] = floor_scaled(at[axis], exponent);
+      rest[axis] = at[axis] - from_lattice<S>(steps[axis], exponent);
+    }
+  }
+  /// [m] from the convex's centre, axes of the surface.
+  ISO_INLINE Vec3<S> beside(MeshPoint p) const {
+    return Vec3<S>{from_lattice<S>(p.x - steps[0], exponent), from_lattice<S>(p.y - steps[1], exponent),
+                   from_lattice<S>(p.z - steps[2], exponent)} -
+           rest;
+  }
+};
+
+/// An edge of a SurfaceTriangle, in the convex's frame. Its arc on the Gauss map leads from the triangle's normal to
+/// `other`.
+template <class S> struct SurfaceEdge {
+  Vec3<Unit<S>> along;   // [1] from its point to the next one
+  Vec3<Unit<S>> inward;  // [1] in the plane, into the triangle
+  Vec3<Unit<S>> other;   // [1] normal of the neighbour; outward, in the plane, where there is none
+  Vec3<Unit<S>> away;    // [1] in the neighbour's plane, into it; against the normal where there is none
+  S length;              // [m]
+  bool touchable;        // convex, or without neighbour: else the arc is empty, and `other` and `away` hold nothing
+  bool has_neighbour;    // of one that is touchable
+  bool flat;             // the neighbour goes on in the plane
+};
+
+/// In the frame of the convex.
+template <class S> struct SurfaceTriangle {
+  Vec3<S> points[3];     // [m]
+  Vec3<Unit<S>> normal;  // [1] outward
+  S offset;              // [m] of its plane along the normal
+  S height;              // [m] of the convex's centre above it
+  SurfaceEdge<S> edges[3];
+
+  /// Edges come later: most triangles are ruled out before.
+  ISO_INLINE SurfaceTriangle(const SurfaceFrame<S>& frame, const BakedTriangle& baked) {
+    Vec3<S> nearest = frame.beside(baked.points[0]);
+    points[0] = frame.centre + frame.turn * nearest;
+    for (int i = 1; i < 3; ++i) {
+      const Vec3<S> p = frame.beside(baked.points[i]);
+      points[i] = frame.centre + frame.turn * p;
+      if (max_abs(p) < max_abs(nearest)) nearest = p;
+    }
+    const Vec3<Unit<S>> up = detail::unit_of_steps<Unit<S>>(baked.normal());
+    normal = frame.turn * up;
+    height = -dot(up, nearest);
+    offset = dot(normal, frame.centre) - height;
+  }
+  ISO_INLINE void find_edges(const SurfaceFrame<S>& frame, const BakedTriangle& baked) {
+    for (int k = 0; k < 3; ++k) {
+      SurfaceEdge<S>& edge = edges[k];
+      const GridVector way = baked.points[(k + 1) % 3] - baked.points[k];
+      edge.along = frame.turn * detail::unit_of_steps<Unit<S>>(way);
+      edge.inward = cross(normal, edge.along);
+      edge.length = dot(edge.along, points[(k + 1) % 3] - points[k]);
+      edge.flat = baked.edges[k] == EdgeKind::flat;
+      edge.has_neighbour = baked.edges[k] == EdgeKind::convex;
+      edge.touchable = edge.has_neighbour || baked.edges[k] == EdgeKind::border || baked.edges[k] == EdgeKind::fold;
+      if (edge.has_neighbour) {
+        edge.other = frame.turn * detail::unit_of_steps<Unit<S>>(baked.neighbour_normal(k));
+        edge.away = cross(edge.along, edge.other);
+      } else if (edge.touchable) {
+        edge.other = -edge.inward;
+        edge.away = -normal;
+      }
+    }
+  }
+  ISO_INLINE S height_of(Vec3<S> p) const { return dot(normal, p) - offset; }
+  /// [m] by how far p is on the inner side of edge k.
+  ISO_INLINE S inside_of(int k, Vec3<S> p) const { return dot(edges[k].inward, p - points[k]); }
+  /// [m] what is beyond an edge by rounding alone. Neighbours both count it as theirs: nothing falls between them.
+  ISO_INLINE S slack() const {
+    const S reach = max(max_abs(points[0]), max(max_abs(points[1]), max_abs(points[2])));
+    return detail::gap_noise(reach) + detail::gap_noise(reach);
+  }
+
+  /// Whether a direction looks out of the surface at edge k: within the arc, to kAcross. What lies beyond the arc is the
+  /// neighbour's to touch.
+  ISO_INLINE bool owns_at_edge(int k, Vec3<Unit<S>> direction) const {
+    const SurfaceEdge<S>& edge = edges[k];
+    return edge.touchable && dot(direction, edge.away) <= Unit<S>(kAcross) &&
+           dot(direction, edge.inward) <= Unit<S>(kAcross);
+  }
+  /// At point i: beyond neither of the neighbours that meet there.
+  ISO_INLINE bool owns_at_point(int i, Vec3<Unit<S>> direction) const {
+    return is_short_of(i, direction) && is_short_of((i + 2) % 3, direction);
+  }
+
+ private:
+  static constexpr double kAcross = 0.002;  // [rad] of directions, whose rounding is less
+
+  ISO_INLINE bool is_short_of(int k, Vec3<Unit<S>> direction) const {
+    const SurfaceEdge<S>& edge = edges[k];
+    if (edge.touchable) return dot(direction, edge.away) <= Unit<S>(kAcross);
+    return dot(direction, edge.inward) >= Unit<S>(0);
+  }
+};
+
+/// Bits of the features of contacts with triangles.
+namespace triangle_feature {
+/// Names a feature of the convex and nothing of the triangle: it is the same on the next one, and impulses go with it.
+inline constexpr std::uint32_t kOfConvexAlone = 1u << 28;
+}  // namespace triangle_feature
+
+}  // namespace isostep
