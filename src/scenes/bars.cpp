@@ -8,6 +8,7 @@
 
 #include "build.hpp"
 #include "limits.hpp"
+#include "terrain.hpp"
 #include "trials/judges.hpp"
 
 namespace isostep::scenes {
@@ -39,6 +40,14 @@ constexpr Bar kBars[] = {
     {"S10", Measure::penetration, 0.06, 0.03},
     {"S10", Measure::penetration_mean, 0.004, 0.002},
     {"S10", Measure::unrest, 1e-4, 1e-5},
+    {"S11", Measure::penetration, 0.02, 0.004},
+    {"S11", Measure::penetration_mean, 0.001, 0.0003},
+    {"S12", Measure::penetration, 0.02, 0.004},
+    {"S12", Measure::penetration_mean, 0.001, 0.0003},
+    {"S15", Measure::penetration, 0.015, 0.005},
+    {"S15h", Measure::penetration, 0.015, 0.005},
+    {"S16", Measure::bump, 0.01, 0.002},
+    {"S16h", Measure::bump, 0.01, 0.002},
     {"S20", Measure::joint_error, 0.05, 0.02},
     {"S20", Measure::joint_end, 0.005, 0.001},
     {"S20", Measure::limit_passed, 0.15, 0.05},
@@ -68,6 +77,7 @@ class OwnFigure : public Judge {
     if (start_.empty()) start_ = sight.bodies;
     now_ = sight.bodies;
     joint_error_ = sight.joint_error;
+    if (measure_ == Measure::bump && sight.time > 0.5) passed_ = worse(passed_, bump_of(now_));
     if (measure_ == Measure::limit_passed) passed_ = worse(passed_, limits_.passed(start_, now_));
   }
   double figure() const override {
@@ -77,12 +87,21 @@ class OwnFigure : public Judge {
       case Measure::stretch:
         return std::abs(length_of(now_.back().centre - hook_) - length_of(start_.back().centre - hook_));
       case Measure::joint_end: return joint_error_;
-      case Measure::limit_passed: return passed_;
+      case Measure::limit_passed:
+      case Measure::bump: return passed_;
       default: return count_outside(name_, now_);
     }
   }
 
  private:
+  static double bump_of(const std::vector<BodySight>& bodies) {
+    constexpr double kArm = 0.5;  // [m]
+    double worst = 0;
+    for (const BodySight& body : bodies) {
+      if (body.dynamic) worst = worse(worst, worse(std::abs(body.velocity.y), kArm * length_of(body.angular_velocity)));
+    }
+    return worst;
+  }
   double furthest() const {
     double most = 0;
     for (std::size_t i = 0; i < now_.size(); ++i) {
@@ -98,7 +117,7 @@ class OwnFigure : public Judge {
   std::vector<BodySight> start_, now_;
   double joint_error_ = 0;
   JointLimits limits_;
-  double passed_ = 0;  // [rad]
+  double passed_ = 0;  // [rad], or [m/s] of bumps
 };
 
 }  // namespace
@@ -107,7 +126,7 @@ const char* name_of(Measure measure) {
   constexpr const char* kNames[] = {
       "height of the top", "drift",         "furthest way",  "stretch",          "bodies outside", "worst overlap",
       "mean overlap",      "unrest",        "worst joint",   "joint at the end", "limits passed",  "limits at the end",
-      "energy lost",       "energy gained", "time to sleep", "step asleep"};
+      "energy lost",       "energy gained", "time to sleep", "step asleep",      "bumps"};
   return kNames[static_cast<int>(measure)];
 }
 
@@ -124,10 +143,12 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
   int outside = 0;
   const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" || scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
+  const bool hills = scene == "S11" || scene == "S12" || starts_with(scene, "S15");
   for (const BodySight& body : bodies) {
     if (!body.dynamic) continue;
     const Vec3<double> c = body.centre;
     bool in = !floor || c.y > 0;
+    if (hills) in = std::abs(c.x) < 25 && std::abs(c.z) < 25 && c.y > hill_height(c.x, c.z) - 0.02;
     if (pit) in = in && std::abs(c.x) < 5 && std::abs(c.z) < 5;
     if (drum) in = std::hypot(c.x, c.y - 6) < 4.5 && std::abs(c.z) < 4;
     outside += in ? 0 : 1;
@@ -136,7 +157,8 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
 }
 
 Measure own_measure(std::string_view scene) {
-  if (starts_with(scene, "S10")) return Measure::outside;
+  if (starts_with(scene, "S16")) return Measure::bump;
+  if (starts_with(scene, "S10") || scene == "S11" || scene == "S12" || starts_with(scene, "S15")) return Measure::outside;
   if (starts_with(scene, "S1")) return Measure::top;
   if (scene == "S2" || scene == "S3" || scene == "S8") return Measure::moved;
   if (starts_with(scene, "S6")) return Measure::stretch;
@@ -146,7 +168,7 @@ Measure own_measure(std::string_view scene) {
 
 std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
   constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
-                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S20"};
+                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S11", "S12",  "S15", "S15h", "S16", "S16h", "S20"};
   if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
   return std::make_unique<OwnFigure>(scene);
 }

@@ -30,7 +30,8 @@ enum class Measure {
   energy_loss,       // [J/kg] start less end
   energy_gain,       // [J/kg] most above the start, over the run
   asleep_at,         // [s] simulated, until nobody is awake
-  asleep_ms          // [ms] of a step after that
+  asleep_ms,         // [ms] of a step after that
+  bump               // [m/s] greatest vertical speed, or spin times 0.5 m, after half a second
 };
 const char* name_of(Measure measure);
 

@@ -7,6 +7,7 @@
 #include "hull_points.hpp"
 #include "isostep/geometry/validate.hpp"
 #include "shape_keys.hpp"
+#include "surface_points.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -40,6 +41,14 @@ template <class S> struct ReadSizes {
   Vec3<Unit<S>> direction(const char* key, const Vector& v) const { return read<Unit<S>>(v, place + "/" + key); }
   std::uint32_t hull(const char* key, const std::vector<Vector>& points) const {
     blobs.push_back(hull_of_points(points, place + "/" + key));
+    return static_cast<std::uint32_t>(blobs.size());
+  }
+  std::uint32_t mesh(const ScenePart& part) const {
+    blobs.push_back(mesh_of_part(part, place));
+    return static_cast<std::uint32_t>(blobs.size());
+  }
+  std::uint32_t height_field(const ScenePart& part) const {
+    blobs.push_back(height_field_of_part(part, place));
     return static_cast<std::uint32_t>(blobs.size());
   }
 };
@@ -116,6 +125,11 @@ template <std::size_t N> std::string text_of(const std::array<Number, N>& number
 std::string text_of(const std::vector<Vector>& vectors) {
   std::string text;
   for (const Vector& v : vectors) text += text_of(v);
+  return text;
+}
+std::string text_of(const std::vector<Number>& numbers) {
+  std::string text;
+  for (const Number& number : numbers) text += text_of(number);
   return text;
 }
 /// Bodies of equal parts share one shape.

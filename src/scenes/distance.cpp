@@ -6,11 +6,12 @@
 
 #include "hull_distance.hpp"
 #include "isostep/scalar/math.hpp"
+#include "surface_distance.hpp"
 
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 5,
+static_assert(kShapeTypes == 7,
               "an oracle knows each shape by itself: see reach(), core_distance(), signed_distance()");
 
 using V = Vec3<double>;
@@ -96,6 +97,7 @@ double core_distance(const Solid& a, const Solid& b) {
 }  // namespace
 
 double signed_distance(const Solid& a, const Solid& b) {
+  if (a.surface != nullptr || b.surface != nullptr) return surface_distance(a, b);
   if (a.type == ShapeType::hull || b.type == ShapeType::hull) return hull_distance(a, b);
   if (a.type == ShapeType::half_space && b.type == ShapeType::half_space)
     return std::numeric_limits<double>::infinity();

@@ -54,6 +54,20 @@ Part part_of(const Solid& solid) {
     }
     return part;
   }
+  if (solid.surface != nullptr) {
+    const double far = std::numeric_limits<double>::infinity();
+    part.low = {far, far, far};
+    part.high = {-far, -far, -far};
+    for (const auto& triangle : solid.surface->triangles) {
+      for (const Vec3<double> vertex : triangle) {
+        const Vec3<double> p = solid.centre + solid.axes * vertex;
+        part.low = min(part.low, p);
+        part.high = max(part.high, p);
+      }
+    }
+    part.low = part.low - Vec3<double>{1, 1, 1};  // what lies under it
+    return part;
+  }
   const Mat3<double>& m = solid.axes;
   Vec3<double> reach = {0, 0, 0};
   for (int i = 0; i < 3; ++i) {
@@ -68,10 +82,12 @@ Part part_of(const Solid& solid) {
 
 template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
   std::vector<Part> parts;
-  std::vector<std::shared_ptr<const SolidHull>> hulls;  // by place
+  std::vector<std::shared_ptr<const SolidHull>> hulls;        // by place
+  std::vector<std::shared_ptr<const SolidSurface>> surfaces;  // likewise
   for (const BlobRef& blob : state.geometry->contents()) {
     const bool is_hull = blob != nullptr && blob->type() == ShapeType::hull;
     hulls.push_back(is_hull ? solid_hull(*blob) : nullptr);
+    surfaces.push_back(blob != nullptr && !is_hull ? solid_surface(*blob) : nullptr);
   }
   each_body(state, [&](const BodyState<S>& body, const BodyProperties<S>& properties) {
     if ((properties.flags & body_flag::kCollide) == 0 || (properties.flags & body_flag::kSensor) != 0) return;
@@ -88,7 +104,10 @@ template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
       solid.radius = to_double(child.primitive.radius);
       solid.normal = solid.axes * in_double(child.primitive.normal);
       solid.offset = to_double(child.primitive.offset) + dot(solid.normal, solid.centre);
-      if (child.primitive.blob != 0) solid.hull = hulls[child.primitive.blob - 1];
+      if (child.primitive.blob != 0) {
+        solid.hull = hulls[child.primitive.blob - 1];
+        solid.surface = surfaces[child.primitive.blob - 1];
+      }
       Part part = part_of(solid);
       part.slot = body.slot;
       part.dynamic = properties.type == BodyType::dynamic;

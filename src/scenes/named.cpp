@@ -19,6 +19,12 @@ Scene full_pile() { return pile(1000); }
 Scene small_pile() { return pile(200); }
 Scene full_hull_pile() { return hull_pile(1000); }
 Scene small_hull_pile() { return hull_pile(200); }
+Scene mesh_terrain() { return terrain(false); }
+Scene field_terrain() { return terrain(true); }
+Scene thin_on_mesh() { return thin_bodies(false); }
+Scene thin_on_field() { return thin_bodies(true); }
+Scene sliders_on_mesh() { return sliders(false); }
+Scene sliders_on_field() { return sliders(true); }
 Scene swinging_chain() { return chain(false); }
 Scene hanging_chain() { return chain(true); }
 Scene sleeping_pyramid() {
@@ -53,6 +59,12 @@ constexpr NamedScene kScenes[] = {
     {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
     {"S10", "1000 hulls fall into a pit", full_hull_pile},
     {"S10s", "the first 200 bodies of S10", small_hull_pile},
+    {"S11", "200 hulls, capsules and spheres fall on a mesh of hills", mesh_terrain},
+    {"S12", "S11 on a height field", field_terrain},
+    {"S15", "300 thin boxes fall on the hills", thin_on_mesh},
+    {"S15h", "S15 on a height field", thin_on_field},
+    {"S16", "40 bodies slide over a flat mesh", sliders_on_mesh},
+    {"S16h", "S16 on a height field", sliders_on_field},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},

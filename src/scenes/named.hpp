@@ -27,6 +27,10 @@ Scene pile(int bodies);
 /// The same of hulls.
 Scene hull_pile(int bodies);
 Scene rain();
+// On terrain: a mesh, or a height field.
+Scene terrain(bool field);
+Scene thin_bodies(bool field);
+Scene sliders(bool field);
 Scene chain(bool hanging);
 Scene ragdolls();
 /// The same with cones, twists and hinges that bend as far as a body's do.

@@ -83,6 +83,14 @@ void ObjectReader::vectors(const char* key, std::vector<Vector>& to) {
   for (std::size_t i = 0; i < items.size(); ++i)
     numbers(items[i], place_of(key) + "/" + std::to_string(i), to.emplace_back(zero_vector()));
 }
+void ObjectReader::list(const char* key, std::vector<Number>& to) {
+  const std::span<const JsonNode> items = array(key);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].kind != JsonKind::number)
+      wrong_kind(place_of(key) + "/" + std::to_string(i), JsonKind::number, items[i].kind);
+    to.push_back(Number(items[i].text));
+  }
+}
 void ObjectReader::rotation(const char* key, Rotation& to) { numbers(key, to); }
 
 void ObjectReader::flag(const char* key, bool& to) {

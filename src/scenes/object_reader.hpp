@@ -21,6 +21,7 @@ class ObjectReader {
   void positive(const char* key, Number& to);
   void vector(const char* key, Vector& to);
   void vectors(const char* key, std::vector<Vector>& to);
+  void list(const char* key, std::vector<Number>& to);
   void rotation(const char* key, Rotation& to);
   void flag(const char* key, bool& to);
   void text(const char* key, std::string& to);

@@ -46,6 +46,12 @@ struct ScenePart {
   Vector normal = {0, 1, 0};            // [1] half-space
   Number offset = 0;                    // [m] half-space
   std::vector<Vector> points;           // [m] hull
+  std::vector<Vector> vertices;         // [m] mesh
+  std::vector<Vector> triangles;        // [1] mesh: numbers of three vertices, counter-clockwise seen from outside
+  Number columns = 0, rows = 0;         // [1] height field
+  Number pitch = 0;                     // [m] height field: between columns, and between rows
+  std::vector<Number> heights;          // [m] height field, by rows
+  std::vector<Number> materials;        // [1] mesh: of each triangle; height field: of each cell, 255 a hole; or none
   Vector position = zero_vector();      // [m] in the body's frame
   Rotation orientation = no_rotation();
 };

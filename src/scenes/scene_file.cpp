@@ -20,6 +20,7 @@ ScenePart read_part(const JsonNode& node, const std::string& place) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if (rule != SizeRule::optional) reader.require(key);
     if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
+    else if constexpr (std::is_same_v<decltype(size), std::vector<Number>&>) reader.list(key, size);
     else if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
     else if (rule == SizeRule::positive) reader.positive(key, size);
     else reader.number(key, size);

@@ -18,6 +18,11 @@ std::string list(const std::vector<Vector>& vectors) {
   return text + "]";
 }
 std::string list(const Number& number) { return number.text(); }
+std::string list(const std::vector<Number>& numbers) {
+  std::string text = "[";
+  for (const Number& n : numbers) text += (text.size() == 1 ? "" : ", ") + n.text();
+  return text + "]";
+}
 std::string list(bool flag) { return flag ? "true" : "false"; }
 
 std::string quoted(const std::string& text) {
@@ -48,7 +53,12 @@ class ObjectWriter {
 std::string text_of(const ScenePart& part) {
   const ScenePart plain;
   ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
-  visit_sizes(part, [&](const char* key, const auto& size, SizeRule) { out.member(key, size); });
+  visit_sizes(part, [&](const char* key, const auto& size, SizeRule) {
+    if constexpr (std::is_same_v<decltype(size), const std::vector<Number>&>) {
+      if (size.empty()) return;
+    }
+    out.member(key, size);
+  });
   out.member("position", part.position, plain.position);
   out.member("orientation", part.orientation, plain.orientation);
   return out.text();

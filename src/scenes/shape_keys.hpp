@@ -28,12 +28,25 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<HalfSpace>, Part&
 template <class Part, class Visit> void visit_sizes(ShapeClass<Hull>, Part& part, const Visit& visit) {
   visit("points", part.points, SizeRule::required);
 }
+template <class Part, class Visit> void visit_sizes(ShapeClass<Mesh>, Part& part, const Visit& visit) {
+  visit("vertices", part.vertices, SizeRule::required);
+  visit("triangles", part.triangles, SizeRule::required);
+  visit("materials", part.materials, SizeRule::optional);
+}
+template <class Part, class Visit> void visit_sizes(ShapeClass<HeightField>, Part& part, const Visit& visit) {
+  visit("columns", part.columns, SizeRule::positive);
+  visit("rows", part.rows, SizeRule::positive);
+  visit("pitch", part.pitch, SizeRule::positive);
+  visit("heights", part.heights, SizeRule::required);
+  visit("materials", part.materials, SizeRule::optional);
+}
 template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
   visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
 }
 
 // shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>,
-// read.hull(key, vectors) the number that a Primitive has of the blob of their hull.
+// read.hull(key, vectors) the number that a Primitive has of the blob of their hull, read.mesh(part) and
+// read.height_field(part) those of the surfaces.
 
 template <class S, class Read> Sphere<S> shape_of(ShapeClass<Sphere>, const ScenePart& part, const Read& read) {
   return {read.size("radius", part.radius)};
@@ -49,6 +62,12 @@ template <class S, class Read> HalfSpace<S> shape_of(ShapeClass<HalfSpace>, cons
 }
 template <class S, class Read> Hull<S> shape_of(ShapeClass<Hull>, const ScenePart& part, const Read& read) {
   return {read.hull("points", part.points)};
+}
+template <class S, class Read> Mesh<S> shape_of(ShapeClass<Mesh>, const ScenePart& part, const Read& read) {
+  return {read.mesh(part)};
+}
+template <class S, class Read> HeightField<S> shape_of(ShapeClass<HeightField>, const ScenePart& part, const Read& read) {
+  return {read.height_field(part)};
 }
 
 }  // namespace isostep::scenes

@@ -10,13 +10,15 @@ class BlobShape : public ListProbe {
  protected:
   void add_shape() {
     copy("tests/lists/probe_blob_shape.hpp", "include/isostep/geometry/shapes/probe.hpp");
-    edit("include/isostep/geometry/shape_type.hpp", "X(hull, Hull)", "X(hull, Hull) X(probe, Probe)");
+    edit("include/isostep/geometry/shape_type.hpp", "X(height_field, HeightField)",
+         "X(height_field, HeightField) X(probe, Probe)");
     edit("include/isostep/geometry/shape.hpp", "#include \"isostep/geometry/shapes/sphere.hpp\"",
          "#include \"isostep/geometry/shapes/sphere.hpp\"\n#include \"isostep/geometry/shapes/probe.hpp\"");
     edit("include/isostep/collision/narrowphase/shape_pairs.hpp", "    add(hull, hull, collide_hull_hull<S>);",
          "    add(hull, hull, collide_hull_hull<S>);\n    add(sphere, probe, collide_never<S>);\n"
          "    add(box, probe, collide_never<S>);\n    add(capsule, probe, collide_never<S>);\n"
          "    add(half_space, probe, collide_never<S>);\n    add(hull, probe, collide_never<S>);\n"
+         "    add(mesh, probe, collide_never<S>);\n    add(height_field, probe, collide_never<S>);\n"
          "    add(probe, probe, collide_never<S>);");
   }
 };

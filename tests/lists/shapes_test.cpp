@@ -9,7 +9,8 @@ namespace {
 class ShapeList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/geometry/shape_type.hpp", "X(hull, Hull)", "X(hull, Hull) X(probe, Probe)");
+    edit("include/isostep/geometry/shape_type.hpp", "X(height_field, HeightField)",
+         "X(height_field, HeightField) X(probe, Probe)");
   }
   void add_file() {
     copy("tests/lists/probe_shape.hpp", "include/isostep/geometry/shapes/probe.hpp");
@@ -22,7 +23,8 @@ class ShapeList : public ListProbe {
          "    add(sphere, probe, collide_records<S, collide_sphere_box<S>>);\n"
          "    add(box, probe, collide_records<S, collide_box_box<S>>);\n"
          "    add(capsule, probe, collide_never<S>);\n    add(half_space, probe, collide_never<S>);\n"
-         "    add(hull, probe, collide_never<S>);\n    add(probe, probe, collide_records<S, collide_box_box<S>>);");
+         "    add(hull, probe, collide_never<S>);\n    add(mesh, probe, collide_never<S>);\n"
+         "    add(height_field, probe, collide_never<S>);\n    add(probe, probe, collide_records<S, collide_box_box<S>>);");
   }
   void add_keys() {
     edit("src/scenes/shape_keys.hpp", "// shape_of:",

@@ -22,7 +22,7 @@ struct DrawnShape {
   double reach;  // [m]
 };
 
-static_assert(kShapeTypes == 5, "random worlds have every shape that moves: see draw_primitive()");
+static_assert(kShapeTypes == 7, "random worlds have every shape that moves: see draw_primitive()");
 /// `blobs` are those of its shape.
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::vector<BlobRef>& blobs) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);

@@ -5,6 +5,7 @@
 
 #include "random/energy_book.hpp"
 #include "random/parts.hpp"
+#include "random/terrain.hpp"
 
 namespace isostep::test {
 
@@ -104,7 +105,9 @@ template <class S> class RandomWorld {
 
  private:
   void add_ground_and_walls(Dice& dice) {
-    add_ground(world, dice.in(0, 1));
+    const double friction = dice.in(0, 1);
+    if (seed_ % 3 == 0) add_terrain(world, seed_, friction);
+    else add_ground(world, friction);
     const std::uint32_t walls = dice.below(4);
     for (std::uint32_t i = 0; i < walls; ++i) {
       const DrawnShape shape = draw_shape(world, dice);

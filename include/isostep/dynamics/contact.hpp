@@ -12,7 +12,8 @@
 
 namespace isostep {
 
-/// Orders contacts: body slots first (a < b), then the parts of each.
+/// Orders contacts: body slots first (a < b), then the parts of each: leaves, see surface_pairs.hpp, and of bodies
+/// without surfaces simply the children of their shapes.
 struct ContactKey {
   std::uint32_t body_a, body_b;
   std::uint32_t child_a, child_b;

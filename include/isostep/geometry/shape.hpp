@@ -8,7 +8,9 @@
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
 #include "isostep/geometry/shapes/half_space.hpp"
+#include "isostep/geometry/shapes/height_field.hpp"
 #include "isostep/geometry/shapes/hull.hpp"
+#include "isostep/geometry/shapes/mesh.hpp"
 #include "isostep/geometry/shapes/sphere.hpp"
 
 namespace isostep {

@@ -22,7 +22,8 @@ enum class ShapeFault : std::uint32_t {
   orientation_not_unit,  // likewise
   blob_missing,          // a shape that has one names no blob, or one of another type
   blob_not_valid,        // its bytes are not what the type's are
-  outside_extent         // a child reaches further from the body's origin than Limits<S>::extent(), along some axis
+  outside_extent,        // a child reaches further from the body's origin than Limits<S>::extent(), along some axis
+  too_many_triangles     // of all children together 2^31 or more
 };
 
 /// The fault in words, for messages.
@@ -42,6 +43,7 @@ ISO_INLINE constexpr const char* describe(ShapeFault fault) {
     case ShapeFault::blob_missing: return "a shape names no blob of its type";
     case ShapeFault::blob_not_valid: return "a blob's bytes make no shape of its type";
     case ShapeFault::outside_extent: return "a child reaches beyond the scalar's largest extent";
+    case ShapeFault::too_many_triangles: return "a shape has 2^31 triangles or more";
   }
   return "unknown fault";
 }

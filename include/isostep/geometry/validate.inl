@@ -5,6 +5,7 @@
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/geometry/content.inl"
 #include "isostep/geometry/limits.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/geometry/validate.hpp"
 
 namespace isostep {
@@ -41,6 +42,7 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children, std::
   if (children.empty()) return ShapeFault::no_children;
   const S extent = Limits<S>::extent();
   const Aabb<S> room = Aabb<S>::around(Vec3<S>::zero(), {extent, extent, extent});
+  std::uint64_t leaves = 0;
   for (const Child<S>& child : children) {
     const std::uint32_t name = child.primitive.blob;
     const Blob* blob = name != 0 && name <= blobs.size() ? blobs[name - 1].get() : nullptr;
@@ -48,6 +50,8 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children, std::
     if (fault == ShapeFault::none) fault = validate(child.pose);
     if (fault == ShapeFault::none) fault = detail::fault_of_blob(child.primitive, blob);
     if (fault != ShapeFault::none) return fault;
+    leaves += leaves_of<S>({child.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)});
+    if (leaves >> 31 != 0) return ShapeFault::too_many_triangles;
     // The position alone first: only then is the box around the child free of overflow.
     if (!contains(room, Aabb<S>{child.pose.position, child.pose.position})) return ShapeFault::outside_extent;
     if (!is_bounded(child.primitive.type)) continue;

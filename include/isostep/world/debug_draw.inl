@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
+#include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/body_frames.hpp"
 #include "isostep/world/debug_draw_particles.inl"
@@ -149,21 +150,37 @@ template <class S> class BodySketch {
     return part.pose.is_identity() ? origin : compose(origin, Transform<S>::of(part.pose));
   }
 
+  ISO_INLINE Manifold<S> manifold_of(const BodyView<S>& a, Leaf i, const BodyView<S>& b, Leaf j) const {
+    const ShapeView<S> part_a = a.contents.view(a.children[i.child].primitive),
+                       part_b = b.contents.view(b.children[j.child].primitive);
+    const Transform<S> ta = part_beside(a, i.child, a.state->centre), tb = part_beside(b, j.child, a.state->centre);
+    constexpr S kMargin = kSpeculativeDistance<S>;
+    Manifold<S> manifold;
+    if (is_surface(part_b.primitive.type)) {
+      collide_with_triangle(part_a, ta, part_b, j.triangle, tb, kMargin, manifold);
+    } else if (is_surface(part_a.primitive.type)) {
+      collide_with_triangle(part_b, tb, part_a, i.triangle, ta, kMargin, manifold);
+      manifold.normal = -manifold.normal;
+    } else {
+      collide(part_a, ta, part_b, tb, kMargin, manifold);
+    }
+    return manifold;
+  }
+
   ISO_INLINE void draw_contact(const Contact<S>& contact, bool asleep) const {
     const ContactKey& key = contact.key;
     const BodyView<S> a = world_.view(id_of(key.body_a)), b = world_.view(id_of(key.body_b));
     if (a.state == nullptr || b.state == nullptr) return;
     const Vec3<S> centre = a.state->centre;
-    Manifold<S> manifold;
-    collide(a.contents.view(a.children[key.child_a].primitive), part_beside(a, key.child_a, centre),
-            b.contents.view(b.children[key.child_b].primitive), part_beside(b, key.child_b, centre),
-            kSpeculativeDistance<S>, manifold);
+    const Leaf leaf_a = leaf_at(a.children, a.contents, key.child_a);
+    const Leaf leaf_b = leaf_at(b.children, b.contents, key.child_b);
+    const Manifold<S> manifold = manifold_of(a, leaf_a, b, leaf_b);
     if (manifold.count == 0) return;
     DrawnContact drawn = {};
     drawn.a = id_of(key.body_a);
     drawn.b = id_of(key.body_b);
-    drawn.child_a = key.child_a;
-    drawn.child_b = key.child_b;
+    drawn.child_a = leaf_a.child;
+    drawn.child_b = leaf_b.child;
     drawn.asleep = asleep;
     drawn.count = static_cast<std::uint32_t>(manifold.count);
     sketch_.vector(manifold.normal, drawn.normal);

@@ -62,6 +62,7 @@ template <class S> class NarrowPhase {
   std::size_t first_old_contact(std::size_t group) const;
   void fill_contact(const PartPair& parts, const Manifold<S>& manifold, Contact<S>& contact, ContactGeometry<S>& g,
                     std::size_t& old_cursor) const;
+  std::span<const Contact<S>> old_contacts_of(const ContactKey& key, std::size_t cursor) const;
 
   WorldState<S>& state_;
   PartPairs<S> part_pairs_;

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "isostep/collision/narrowphase/surface_triangle.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/world/narrow_phase.hpp"
 #include "isostep/world/part_pairs.inl"
@@ -47,6 +48,42 @@ template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& cont
   const V share = left / V(std::popcount(missing));
   for (std::uint32_t p = 0; p < contact.count; ++p) {
     if ((missing >> p & 1u) != 0) contact.normal_impulse[p] = share;
+  }
+}
+/// The old contacts of two bodies with surfaces among their parts.
+template <class S> struct TriangleContacts {
+  std::span<const Contact<S>> of_bodies;
+  bool surface_is_b;
+
+  /// A feature of a convex that goes from one triangle to the next: its name is the same, its contact another.
+  ISO_INLINE const Contact<S>* holder_of(const ContactKey& key, std::uint32_t feature, std::uint32_t& point) const {
+    for (const Contact<S>& old : of_bodies) {
+      if (surface_is_b ? old.key.child_a != key.child_a : old.key.child_b != key.child_b) continue;
+      for (point = 0; point < old.count; ++point) {
+        if (old.features[point] == feature) return &old;
+      }
+    }
+    return nullptr;
+  }
+};
+/// Points that touch and have no impulse take that of their feature on another triangle, and a contact without friction
+/// takes its share of that contact's.
+template <class S>
+void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<S>& g, bool is_new, Contact<S>& contact) {
+  constexpr S kTouching = S(0.001);  // [m]
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    const std::uint32_t feature = contact.features[p];
+    if (feature >> 28 != triangle_feature::kOfConvexAlone >> 28 || g.points[p].separation > kTouching ||
+        contact.normal_impulse[p] > Velocity<S>(0))
+      continue;
+    std::uint32_t point = 0;
+    const Contact<S>* const holder = old.holder_of(contact.key, feature, point);
+    if (holder == nullptr) continue;
+    contact.normal_impulse[p] = holder->normal_impulse[point];
+    contact.flags |= holder->flags;
+    if (!is_new) continue;
+    const Velocity<S> share = Velocity<S>(static_cast<std::int32_t>(holder->count));
+    for (int axis = 0; axis < 3; ++axis) contact.friction_impulse[axis] += holder->friction_impulse[axis] / share;
   }
 }
 }  // namespace detail
@@ -170,12 +207,27 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
     g.points[p] = {point.position, point.position - from_a_to_b, point.separation};
   }
   while (old_cursor < old_contacts_.size() && old_contacts_[old_cursor].key < contact.key) ++old_cursor;
-  if (old_cursor == old_contacts_.size() || !(old_contacts_[old_cursor].key == contact.key)) return;
-  const Contact<S>& old = old_contacts_[old_cursor];
-  contact.flags = old.flags;
-  contact.friction_impulse = old.friction_impulse;
-  contact.twist_impulse = old.twist_impulse;
-  detail::inherit_impulses(old, contact);
+  const bool is_new = old_cursor == old_contacts_.size() || !(old_contacts_[old_cursor].key == contact.key);
+  if (!is_new) {
+    const Contact<S>& old = old_contacts_[old_cursor];
+    contact.flags = old.flags;
+    contact.friction_impulse = old.friction_impulse;
+    contact.twist_impulse = old.twist_impulse;
+    detail::inherit_impulses(old, contact);
+  }
+  if (a.surfaces || b.surfaces)
+    detail::inherit_across_edges<S>({old_contacts_of(contact.key, old_cursor), b.surfaces}, g, is_new, contact);
+}
+/// Those of the key's bodies, of which the cursor is among or beside.
+template <class S>
+std::span<const Contact<S>> NarrowPhase<S>::old_contacts_of(const ContactKey& key, std::size_t cursor) const {
+  const auto same = [&](std::size_t i) {
+    return old_contacts_[i].key.body_a == key.body_a && old_contacts_[i].key.body_b == key.body_b;
+  };
+  std::size_t begin = cursor, end = cursor;
+  while (begin > 0 && same(begin - 1)) --begin;
+  while (end < old_contacts_.size() && same(end)) ++end;
+  return std::span(old_contacts_).subspan(begin, end - begin);
 }
 
 /// Makes room for a group's contacts behind those there are; notes which sensors it touches. Returns where they begin.

@@ -86,6 +86,7 @@ template <class S> class PartPairs {
   std::vector<Framed> framed_;               // by slot
   std::vector<std::uint32_t> framed_slots_;  // those that are not empty
   std::vector<PartPair> parts_;
+  LeafScratch leaves_;
   std::vector<ListEnds> groups_;
   std::vector<std::uint32_t> spheres_, boxes_, others_;  // places in their groups
   std::uint32_t cut_compounds_ = 0;

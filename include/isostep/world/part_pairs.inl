@@ -94,13 +94,15 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
   const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
   const std::uint64_t most_looks = min(each.looks, all.looks), most_parts = min(each.parts, all.parts);
   std::uint64_t looks = most_looks, parts = most_parts;
-  const bool whole =
-      visit_parts(frames_[at_a.index], frames_[at_b.index], margin, looks, [&](std::uint32_t i, std::uint32_t j) {
-        if (parts == 0) return false;
-        --parts;
-        add_part(others_, {at_a.index, at_b.index, i, j});
-        return true;
-      });
+  const auto visit = [&](std::uint32_t i, std::uint32_t j) {
+    if (parts == 0) return false;
+    --parts;
+    add_part(others_, {at_a.index, at_b.index, i, j});
+    return true;
+  };
+  const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
+  const bool whole = a.surfaces || b.surfaces ? visit_leaves(a, b, margin, looks, leaves_, visit)
+                                              : visit_parts(a, b, margin, looks, visit);
   all.looks -= most_looks - looks;
   all.parts -= most_parts - parts;
   return whole;

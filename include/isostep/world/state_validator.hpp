@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "isostep/core/lower_bound.hpp"
+#include "isostep/geometry/content.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
@@ -172,12 +174,18 @@ template <class S> class StateValidator {
     return nullptr;
   }
 
+  /// Leaves, as contacts count them.
   std::uint32_t parts_of_body(std::uint32_t slot) const {
     const std::uint32_t set = set_of_body_[slot];
     const BodySet<S>& bodies = set == Location::kStatic  ? *state_.static_bodies
                                : set == Location::kAwake ? state_.awake
                                                          : state_.sleeping[set]->bodies;
-    return (*state_.shapes)[bodies.properties[place_of_slot(bodies.states, slot)].shape].child_count;
+    std::uint32_t leaves = 0;
+    for (const Child<S>& child : parts_of(bodies.properties[place_of_slot(bodies.states, slot)].shape)) {
+      const bool surface = is_surface(child.primitive.type);
+      leaves += surface ? leaves_of<S>({child.primitive, content_of<S>(*state_.geometry->content(child.primitive.blob - 1))}) : 1;
+    }
+    return leaves;
   }
   /// A link of set `name` ties no body of another island, and at least one of its own.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {

@@ -12,8 +12,8 @@ namespace {
 Error fault(const char* place, ShortText<112> message) { return {ErrorCode::invalid, message, place}; }
 
 Result<void> check_grid(const HeightGrid& grid) {
-  if (grid.exponent > HeightField::kMaxExponent) return fault("exponent", "the exponent of a step is 0 to 16");
-  if (grid.height_shift > HeightField::kMaxHeightShift)
+  if (grid.exponent > BakedHeightField::kMaxExponent) return fault("exponent", "the exponent of a step is 0 to 16");
+  if (grid.height_shift > BakedHeightField::kMaxHeightShift)
     return fault("height_shift", "a unit of height is 2^0 to 2^7 steps");
   if (grid.columns < 2) return fault("columns", "a field has 2 columns or more");
   if (grid.rows < 2) return fault("rows", "a field has 2 rows or more");
@@ -22,9 +22,9 @@ Result<void> check_grid(const HeightGrid& grid) {
   if (intervals * grid.pitch >= std::uint64_t{MeshPoint::kLimit})
     return fault("pitch", "the last column or row has a coordinate of more than 23 bits");
   const std::uint64_t cells = std::uint64_t{grid.columns - 1} * (grid.rows - 1);
-  if (cells <= HeightField::kMaxCells) return {};
+  if (cells <= BakedHeightField::kMaxCells) return {};
   ShortText<112> message;
-  message.append_number(cells).append(" cells, at most ").append_number(HeightField::kMaxCells);
+  message.append_number(cells).append(" cells, at most ").append_number(BakedHeightField::kMaxCells);
   return Error{ErrorCode::limit, message.append(" are possible"), "cells"};
 }
 
@@ -46,11 +46,11 @@ constexpr Offset kCells[3] = {{-1, 0}, {0, 0}, {0, -1}};     // from the cell to
 }  // namespace
 
 /// Half 1 is half 0 turned about the middle of the cell.
-HeightField::Place HeightField::place_of(std::uint32_t id) const {
+BakedHeightField::Place BakedHeightField::place_of(std::uint32_t id) const {
   const std::uint32_t cell = id / 2, half = id % 2, k = cell / cells_x();
   return {cell - k * cells_x(), k, half == 0 ? 1 : -1};
 }
-std::uint32_t HeightField::cell_across(Place place, int k) const {
+std::uint32_t BakedHeightField::cell_across(Place place, int k) const {
   const std::uint32_t i = place.i + static_cast<std::uint32_t>(place.sign * kCells[k].i),
                       row = place.k + static_cast<std::uint32_t>(place.sign * kCells[k].k);
   if (i >= cells_x() || row >= cells_z()) return kNoTriangle;  // -1 too
@@ -58,14 +58,14 @@ std::uint32_t HeightField::cell_across(Place place, int k) const {
   return materials_[cell] == kHole ? kNoTriangle : cell;
 }
 
-std::uint32_t HeightField::neighbour(std::uint32_t id, int k) const {
+std::uint32_t BakedHeightField::neighbour(std::uint32_t id, int k) const {
   const std::uint32_t cell = cell_across(place_of(id), k);
   return cell == kNoTriangle ? kNoTriangle : 2 * cell + (1 - id % 2);
 }
 
 /// The triangles of an edge span a parallelogram of the grid, so the sum of the heights across tells how they lie to
 /// each other when it is compared with the sum along.
-BakedTriangle HeightField::triangle(std::uint32_t id) const {
+BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   const Place place = place_of(id);
   const std::uint32_t i = place.i + id % 2, k = place.k + id % 2;
   const std::int16_t* const corner = heights_.data() + static_cast<std::size_t>(k) * grid_.columns + i;
@@ -87,7 +87,7 @@ BakedTriangle HeightField::triangle(std::uint32_t id) const {
 }
 
 /// False: no triangle touches the box.
-bool HeightField::range_of(const MeshBox& box, CellRange& range) const {
+bool BakedHeightField::range_of(const MeshBox& box, CellRange& range) const {
   const MeshBox own = bounds();
   if (!own.touches(box)) return false;
   const std::int64_t pitch = grid_.pitch, unit = std::int64_t{1} << grid_.height_shift;
@@ -107,7 +107,7 @@ bool HeightField::range_of(const MeshBox& box, CellRange& range) const {
   return true;
 }
 
-void HeightField::lay_out() {
+void BakedHeightField::lay_out() {
   std::size_t total = 0;
   for (levels_ = 0; levels_ == 0 || blocks_x(levels_ - 1) > 1 || blocks_z(levels_ - 1) > 1; ++levels_) {
     starts_[levels_] = total;
@@ -117,7 +117,7 @@ void HeightField::lay_out() {
 }
 
 /// The spans of all blocks that hold the cells.
-void HeightField::refresh(const CellRange& cells) {
+void BakedHeightField::refresh(const CellRange& cells) {
   for (std::uint32_t level = 0; level < levels_; ++level) {
     const std::uint32_t bits = kBlockBits + level;
     for (std::uint32_t z = cells.low[1] >> bits; z <= cells.high[1] >> bits; ++z) {
@@ -129,7 +129,7 @@ void HeightField::refresh(const CellRange& cells) {
   }
 }
 
-HeightField::Span HeightField::computed_span(Block block) const {
+BakedHeightField::Span BakedHeightField::computed_span(Block block) const {
   Span span = {INT16_MAX, INT16_MIN};
   if (block.level > 0) {
     Block parts[4];
@@ -149,7 +149,7 @@ HeightField::Span HeightField::computed_span(Block block) const {
   return span;
 }
 
-Result<HeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
+Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
                                  std::span<const std::uint8_t> materials) {
   const Result<void> checked = check_grid(grid);
   if (!checked) return checked.error();
@@ -159,26 +159,26 @@ Result<HeightField> height_field(const HeightGrid& grid, std::span<const std::in
   const Result<void> of_cells = check_count("materials", materials.empty() ? cells : materials.size(), cells, "cells");
   if (!of_cells) return of_cells.error();
 
-  HeightField field;
+  BakedHeightField field;
   field.grid_ = grid;
   field.heights_.assign(heights.begin(), heights.end());
   field.materials_.assign(materials.begin(), materials.end());
   field.materials_.resize(cells, 0);
   field.lay_out();
   field.refresh({{0, 0}, {grid.columns - 2, grid.rows - 2}, 0, 0});
-  const HeightField::Span all = field.spans_.back();
+  const BakedHeightField::Span all = field.spans_.back();
   if (all.low > all.high) return fault("materials", "every cell is a hole");
   return field;
 }
 
-Result<HeightField> HeightField::with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
+Result<BakedHeightField> BakedHeightField::with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
                                               std::uint32_t rows, std::span<const std::int16_t> heights) const {
   const bool inside =
       column <= grid_.columns && columns <= grid_.columns - column && row <= grid_.rows && rows <= grid_.rows - row;
   if (!inside) return fault("heights", "the rectangle leaves the field");
   const Result<void> places = check_count("heights", heights.size(), std::uint64_t{columns} * rows, "places");
   if (!places) return places.error();
-  HeightField field = *this;
+  BakedHeightField field = *this;
   if (heights.empty()) return field;
   for (std::uint32_t k = 0; k < rows; ++k) {
     const std::span<const std::int16_t> from = heights.subspan(static_cast<std::size_t>(k) * columns, columns);
@@ -193,11 +193,11 @@ Result<HeightField> HeightField::with_heights(std::uint32_t column, std::uint32_
   return field;
 }
 
-std::size_t HeightField::memory() const {
+std::size_t BakedHeightField::memory() const {
   return sizeof(*this) + heights_.size() * sizeof(std::int16_t) + materials_.size() + spans_.size() * sizeof(Span);
 }
 
-std::vector<std::uint8_t> HeightField::bytes() const {
+std::vector<std::uint8_t> BakedHeightField::bytes() const {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(sizeof(HeightGrid) + heights_.size() * sizeof(std::int16_t) + materials_.size());
   Writer writer(bytes);
@@ -207,7 +207,7 @@ std::vector<std::uint8_t> HeightField::bytes() const {
   return bytes;
 }
 
-Result<HeightField> read_height_field(Bytes bytes) {
+Result<BakedHeightField> read_height_field(Bytes bytes) {
   Reader reader(bytes);
   const auto grid = reader.read<HeightGrid>();
   const Result<void> begun = reader.result("height field");

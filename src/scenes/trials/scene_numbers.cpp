@@ -10,7 +10,7 @@
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 5,
+static_assert(kShapeTypes == 7,
               "a judge knows each shape by itself: see volume_of(), centre_of(), gyration_of(), least_reach()");
 
 std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {

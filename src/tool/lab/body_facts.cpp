@@ -20,6 +20,8 @@ struct ReadSizes {
   Vec3<double> sizes(const char*, const scenes::Vector& v) const { return value_of(v); }
   Vec3<double> direction(const char*, const scenes::Vector& v) const { return value_of(v); }
   std::uint32_t hull(const char*, const std::vector<scenes::Vector>&) const { return 1; }
+  std::uint32_t mesh(const scenes::ScenePart&) const { return 1; }
+  std::uint32_t height_field(const scenes::ScenePart&) const { return 1; }
 };
 Primitive<double> primitive_in(const scenes::ScenePart& part) {
   return visit_shape_type(part.type,
@@ -36,6 +38,9 @@ scenes::Solid solid_of(const scenes::ScenePart& part, const Primitive<double>& s
   solid.radius = shape.radius;
   solid.normal = solid.axes * shape.normal;
   solid.offset = shape.offset + dot(solid.normal, solid.centre);
+  if (part.type == ShapeType::mesh) solid.surface = scenes::solid_surface(*scenes::mesh_of_part(part, "mesh"));
+  if (part.type == ShapeType::height_field)
+    solid.surface = scenes::solid_surface(*scenes::height_field_of_part(part, "height field"));
   if (part.type == ShapeType::hull) solid.hull = scenes::solid_hull(*scenes::hull_of_points(part.points, "points"));
   return solid;
 }

@@ -9,7 +9,7 @@
 namespace isostep::test {
 namespace {
 
-static_assert(TriangleGeometry<HeightField>);
+static_assert(TriangleGeometry<BakedHeightField>);
 
 using Heights = std::vector<std::int16_t>;
 using Materials = std::vector<std::uint8_t>;
@@ -26,7 +26,7 @@ Materials random_materials(Random& random, std::uint32_t count) {
   Materials materials(count);
   for (std::uint8_t& m : materials) {
     const bool is_hole = random() % 6 == 0;
-    m = static_cast<std::uint8_t>(is_hole ? HeightField::kHole : random() % 255);
+    m = static_cast<std::uint8_t>(is_hole ? BakedHeightField::kHole : random() % 255);
   }
   materials[count / 2] = 7;
   return materials;
@@ -34,7 +34,7 @@ Materials random_materials(Random& random, std::uint32_t count) {
 
 /// A field, and the mesh of those of its triangles that are there.
 struct Pair {
-  HeightField field;
+  BakedHeightField field;
   TriangleMesh mesh;
   std::vector<std::uint32_t> id_of;  // by triangle of the mesh
 
@@ -42,18 +42,18 @@ struct Pair {
       : Pair(height_field(grid, heights, materials).value(), surface_of(grid, heights)) {}
 
  private:
-  Pair(const HeightField& of, const Surface& surface) : Pair(of, surface, ids(of)) {}
-  Pair(const HeightField& of, const Surface& surface, const std::vector<std::uint32_t>& kept)
+  Pair(const BakedHeightField& of, const Surface& surface) : Pair(of, surface, ids(of)) {}
+  Pair(const BakedHeightField& of, const Surface& surface, const std::vector<std::uint32_t>& kept)
       : field(of), mesh(mesh_of(of, surface, kept)), id_of(kept) {}
 
-  static std::vector<std::uint32_t> ids(const HeightField& of) {
+  static std::vector<std::uint32_t> ids(const BakedHeightField& of) {
     std::vector<std::uint32_t> kept;
     for (std::uint32_t id = 0; id < of.triangle_count(); ++id) {
       if (of.has_triangle(id)) kept.push_back(id);
     }
     return kept;
   }
-  static TriangleMesh mesh_of(const HeightField& of, const Surface& surface, const std::vector<std::uint32_t>& kept) {
+  static TriangleMesh mesh_of(const BakedHeightField& of, const Surface& surface, const std::vector<std::uint32_t>& kept) {
     std::vector<MeshTriangle> triangles;
     Materials materials;
     for (const std::uint32_t id : kept) {
@@ -112,7 +112,7 @@ TEST(HeightField, queries_find_what_all_triangles_say) {
     const HeightGrid grid = {10, trial % 8, columns, rows, 1 + random() % 2000};
     const Heights heights = random_heights(random, columns * rows, 1 + random() % 32768);
     const Materials materials = random_materials(random, (columns - 1) * (rows - 1));
-    const HeightField field = height_field(grid, heights, materials).value();
+    const BakedHeightField field = height_field(grid, heights, materials).value();
     ASSERT_NO_FATAL_FAILURE(expect_queries_find_all(field, 3 + trial, 200)) << trial;
   }
   const Surface surface = terrain();
@@ -121,7 +121,7 @@ TEST(HeightField, queries_find_what_all_triangles_say) {
 
 TEST(HeightField, queries_ascend) {
   const Surface surface = terrain();
-  const HeightField field = height_field(surface.grid, surface.heights, {}).value();
+  const BakedHeightField field = height_field(surface.grid, surface.heights, {}).value();
   BoxDraws draws(5, field.bounds());
   for (int n = 0; n < 200; ++n) {
     const std::vector<std::uint32_t> ids = queried(field, draws.box());
@@ -132,7 +132,7 @@ TEST(HeightField, queries_ascend) {
 
 TEST(HeightField, traversals_may_shrink_and_end) {
   const Surface surface = terrain();
-  const HeightField field = height_field(surface.grid, surface.heights, {}).value();
+  const BakedHeightField field = height_field(surface.grid, surface.heights, {}).value();
   expect_traversals_may_shrink(field, 12345);
   expect_visits_end_when_told(field);
   EXPECT_TRUE(field.traverse([](const MeshBox&) { return false; }, [](std::uint32_t) { return false; }));
@@ -142,7 +142,7 @@ TEST(HeightField, a_strip_as_long_as_the_grid_has_one_block_at_the_top) {
   constexpr std::uint32_t kColumns = 1u << 23;
   Heights heights(2 * kColumns, 0);
   heights[5000000] = 9;
-  const HeightField field = height_field({0, 0, kColumns, 2, 1}, heights, {}).value();
+  const BakedHeightField field = height_field({0, 0, kColumns, 2, 1}, heights, {}).value();
   EXPECT_EQ(field.bounds().high[0], MeshPoint::kLimit - 1);
   EXPECT_EQ(field.bounds().high[1], 9);
   const std::vector<std::uint32_t> expected = {2 * 4999999, 2 * 4999999 + 1, 2 * 5000000};
@@ -162,19 +162,19 @@ TEST(HeightField, other_heights_give_the_field_that_they_would_have_made) {
   const HeightGrid grid = {10, 2, columns, rows, 100};
   const Materials materials = random_materials(random, (columns - 1) * (rows - 1));
   Heights heights = random_heights(random, columns * rows, 1000);
-  HeightField field = height_field(grid, heights, materials).value();
+  BakedHeightField field = height_field(grid, heights, materials).value();
   for (int trial = 0; trial < 300; ++trial) {
     const std::uint32_t column = random() % columns, row = random() % rows;
     const std::uint32_t wide = random() % (columns - column + 1), deep = random() % (rows - row + 1);
     const Heights patch = random_heights(random, wide * deep, 1 + random() % 3000);
     const std::vector<std::uint8_t> before = field.bytes();
-    const Result<HeightField> changed = field.with_heights(column, row, wide, deep, patch);
+    const Result<BakedHeightField> changed = field.with_heights(column, row, wide, deep, patch);
     ASSERT_TRUE(changed.ok()) << fault_text(changed);
     EXPECT_EQ(field.bytes(), before) << "the field itself stays";
     for (std::uint32_t k = 0; k < deep; ++k) {
       for (std::uint32_t i = 0; i < wide; ++i) heights[(row + k) * columns + column + i] = patch[k * wide + i];
     }
-    const HeightField fresh = height_field(grid, heights, materials).value();
+    const BakedHeightField fresh = height_field(grid, heights, materials).value();
     ASSERT_EQ(changed.value().bytes(), fresh.bytes());
     std::vector<MeshBox> nodes, fresh_nodes;  // all of the pyramid
     const auto list = [](std::vector<MeshBox>& to) {
@@ -228,7 +228,7 @@ TEST(HeightField, names_what_it_refuses) {
 }
 
 TEST(HeightField, heights_reach_as_far_as_they_may) {
-  const HeightField field = height_field({0, 7, 2, 2, 1}, Heights{-32768, 32767, 0, 0}, {}).value();
+  const BakedHeightField field = height_field({0, 7, 2, 2, 1}, Heights{-32768, 32767, 0, 0}, {}).value();
   const BakedTriangle triangle = field.triangle(0);
   EXPECT_EQ(triangle.points[0], (MeshPoint{0, -32768 * 128, 0}));
   EXPECT_EQ(triangle.points[2], (MeshPoint{1, 32767 * 128, 0}));
@@ -241,10 +241,10 @@ TEST(HeightField, bytes_give_the_field_again) {
     const std::uint32_t columns = 2 + random() % 20, rows = 2 + random() % 20;
     const HeightGrid grid = {trial % 17, trial % 8, columns, rows, 1 + random() % 1000};
     const Materials materials = random_materials(random, (columns - 1) * (rows - 1));
-    const HeightField field = height_field(grid, random_heights(random, columns * rows, 32768), materials).value();
+    const BakedHeightField field = height_field(grid, random_heights(random, columns * rows, 32768), materials).value();
     const std::vector<std::uint8_t> bytes = field.bytes();
     EXPECT_EQ(bytes.size(), 20 + 2 * columns * rows + (columns - 1) * (rows - 1));
-    const Result<HeightField> again = read_height_field(bytes);
+    const Result<BakedHeightField> again = read_height_field(bytes);
     ASSERT_TRUE(again.ok()) << fault_text(again);
     EXPECT_TRUE(again.value().grid() == grid);
     EXPECT_EQ(again.value().bytes(), bytes);
@@ -274,7 +274,7 @@ TEST(HeightField, other_bytes_are_refused_or_are_a_field_with_those_bytes) {
     std::vector<std::uint8_t> bytes = whole;
     for (int n = 0; n <= trial % 3; ++n) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     if (trial % 7 == 0) bytes.push_back(0);
-    const Result<HeightField> field = read_height_field(bytes);
+    const Result<BakedHeightField> field = read_height_field(bytes);
     ++(field.ok() ? accepted : refused);
     if (!field) continue;
     ASSERT_EQ(field.value().bytes(), bytes);
@@ -285,7 +285,7 @@ TEST(HeightField, other_bytes_are_refused_or_are_a_field_with_those_bytes) {
   for (int trial = 0; trial < 20000; ++trial) {
     std::vector<std::uint8_t> bytes(20 + random() % 20);
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i % 4 == 0 ? random() % 4 : 0);
-    const Result<HeightField> field = read_height_field(bytes);
+    const Result<BakedHeightField> field = read_height_field(bytes);
     if (!field) continue;
     ASSERT_EQ(field.value().bytes(), bytes);
   }
@@ -293,7 +293,7 @@ TEST(HeightField, other_bytes_are_refused_or_are_a_field_with_those_bytes) {
 
 TEST(HeightField, a_triangle_takes_at_most_two_bytes_and_a_half) {
   const Surface surface = terrain();
-  const HeightField field = height_field(surface.grid, surface.heights, {}).value();
+  const BakedHeightField field = height_field(surface.grid, surface.heights, {}).value();
   const double each = static_cast<double>(field.memory()) / field.triangle_count();
   std::printf("height field: %.2f bytes a triangle\n", each);
   EXPECT_LE(each, 2.5);

@@ -60,7 +60,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-static_assert(kShapeTypes == 5, "an oracle knows each shape by itself: see signed_distance() and cloud_of()");
+static_assert(kShapeTypes == 7, "an oracle knows each shape by itself: see signed_distance() and cloud_of()");
 
 /// Signed distance of p, in the primitive's frame: exact everywhere.
 inline double signed_distance(const Primitive<double>& s, D3 p) {

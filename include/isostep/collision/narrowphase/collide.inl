@@ -10,6 +10,7 @@
 #include "isostep/collision/narrowphase/hull_pairs.inl"
 #include "isostep/collision/narrowphase/shape_pairs.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.inl"
+#include "isostep/collision/narrowphase/surface_pairs.inl"
 
 namespace isostep {
 

@@ -33,6 +33,7 @@ template <class S> struct BodyFrame {
   PartKind kind;      // of the only part, if plain
   bool plain;         // one part, not moved
   bool sensor, asleep;
+  bool surfaces;        // among its parts: those are counted by leaves, see surface_pairs.hpp
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("half", self.half);
@@ -46,10 +47,11 @@ template <class S> struct BodyFrame {
     visit("plain", self.plain);
     visit("sensor", self.sensor);
     visit("asleep", self.asleep);
+    visit("surfaces", self.surfaces);
   }
 };
 
-/// Two bodies' parts that might touch. Frames are indices.
+/// Two bodies' parts that might touch. Frames are indices; parts are leaves, and of bodies without surfaces children.
 struct PartPair {
   std::uint32_t frame_a, frame_b;
   std::uint32_t child_a, child_b;

@@ -8,6 +8,7 @@
 #include "isostep/collision/narrowphase/half_space_pairs.hpp"
 #include "isostep/collision/narrowphase/hull_pairs.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
+#include "isostep/collision/narrowphase/surface_pairs.hpp"
 
 namespace isostep::detail {
 
@@ -53,6 +54,12 @@ template <class S> struct ShapePairs {
     add(capsule, hull, collide_capsule_hull<S>);
     add(half_space, hull, collide_half_space_hull<S>);
     add(hull, hull, collide_hull_hull<S>);
+    for (const ShapeType surface : {mesh, height_field}) {
+      for (const ShapeType convex : {sphere, box, capsule, hull}) add(convex, surface, collide_with_surface<S>);
+      add(half_space, surface, collide_never<S>);
+      add(mesh, surface, collide_never<S>);
+    }
+    add(height_field, height_field, collide_never<S>);
   }
   ISO_INLINE constexpr CollideShapes<S> of(ShapeType a, ShapeType b) const {
     return by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)];

@@ -3,24 +3,12 @@
 #pragma once
 
 #include "isostep/geometry/baked/baked_triangle.hpp"
+#include "isostep/geometry/baked/unit_of_steps.hpp"
 #include "isostep/geometry/closest.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/lattice.hpp"
 
 namespace isostep {
-
-namespace detail {
-/// To the last digits of U, whatever its length: components below 2^51.
-template <class U> ISO_INLINE Vec3<U> unit_of_steps(GridVector v) {
-  if constexpr (kIsFixed<U>) {
-    const auto d = direction_of(Q32_32::from_raw(v.x), Q32_32::from_raw(v.y), Q32_32::from_raw(v.z));
-    constexpr int kBits = decltype(d.x)::kFracBits;
-    return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
-  } else {
-    return normalise(Vec3<U>{static_cast<U>(v.x), static_cast<U>(v.y), static_cast<U>(v.z)});
-  }
-}
-}  // namespace detail
 
 /// Where a convex lies beside a surface. The convex's centre is subtracted on the surface's grid, exactly: of a small
 /// body far out on a large mesh no digit is lost.

@@ -1,4 +1,4 @@
-// HeightField: a static surface over a grid of heights, two triangles a cell.
+// BakedHeightField: a static surface over a grid of heights, two triangles a cell.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -39,17 +39,17 @@ struct HeightGrid {
 /// points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1).
 /// All but heights and materials is computed when it is asked for; of blocks of cells, least and greatest heights are
 /// kept, of blocks of blocks too.
-class HeightField {
+class BakedHeightField {
  public:
   static constexpr std::uint32_t kMaxExponent = 16, kMaxHeightShift = 7, kMaxCells = 1u << 24;
   static constexpr std::uint8_t kHole = 255;  // material of a cell without triangles
 
   // As the compiler makes them, but no weak functions in the files that hold height fields.
-  ISO_INLINE HeightField(const HeightField&) = default;
-  ISO_INLINE HeightField(HeightField&&) = default;
-  ISO_INLINE HeightField& operator=(const HeightField&) = default;
-  ISO_INLINE HeightField& operator=(HeightField&&) = default;
-  ISO_INLINE ~HeightField() = default;
+  ISO_INLINE BakedHeightField(const BakedHeightField&) = default;
+  ISO_INLINE BakedHeightField(BakedHeightField&&) = default;
+  ISO_INLINE BakedHeightField& operator=(const BakedHeightField&) = default;
+  ISO_INLINE BakedHeightField& operator=(BakedHeightField&&) = default;
+  ISO_INLINE ~BakedHeightField() = default;
 
   ISO_INLINE const HeightGrid& grid() const { return grid_; }
   ISO_INLINE int exponent() const { return static_cast<int>(grid_.exponent); }
@@ -101,7 +101,7 @@ class HeightField {
 
   /// The field with other heights from that column and row on, by rows. ErrorCode::invalid, whose place is "heights":
   /// the rectangle leaves the field, or there are not as many heights as it has places.
-  Result<HeightField> with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns, std::uint32_t rows,
+  Result<BakedHeightField> with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns, std::uint32_t rows,
                                    std::span<const std::int16_t> heights) const;
 
   /// [bytes] Of this object and all it holds.
@@ -110,9 +110,9 @@ class HeightField {
   std::vector<std::uint8_t> bytes() const;
 
  private:
-  friend Result<HeightField> height_field(const HeightGrid&, std::span<const std::int16_t>,
+  friend Result<BakedHeightField> height_field(const HeightGrid&, std::span<const std::int16_t>,
                                           std::span<const std::uint8_t>);
-  ISO_INLINE HeightField() = default;
+  ISO_INLINE BakedHeightField() = default;
 
   static constexpr std::uint32_t kBlock = 4, kBlockBits = 2;  // cells along a block of level 0
   static constexpr int kLevels = 22;                          // 2^23 cells along a side are 2^21 blocks, 2^0 at the top
@@ -242,10 +242,10 @@ class HeightField {
 /// ErrorCode::invalid: "exponent" above 16; "height_shift" above 7; "columns" or "rows" below 2; "pitch" 0, or so large
 /// that a coordinate leaves the range of MeshPoint; "heights" or "materials" of another count; "materials" that are all
 /// holes. ErrorCode::limit: more "cells" than kMaxCells.
-Result<HeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
+Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
                                  std::span<const std::uint8_t> materials);
 
 /// What `bytes` gave, from bytes nobody vouches for.
-Result<HeightField> read_height_field(Bytes bytes);
+Result<BakedHeightField> read_height_field(Bytes bytes);
 
 }  // namespace isostep

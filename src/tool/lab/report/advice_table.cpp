@@ -26,6 +26,7 @@ Unit unit_of(Measure measure) {
     case Measure::limit_end: return {1, "rad"};
     case Measure::asleep_at: return {1, "s"};
     case Measure::asleep_ms: return {1e3, "µs"};
+    case Measure::bump: return {1e3, "mm/s"};
     case Measure::outside: return {1, ""};
     default: return {1e3, "mm"};
   }

@@ -1,0 +1,48 @@
+// Convexes against surfaces, meshes and height fields: triangle by triangle, or as a whole.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/geometry/surfaces.hpp"
+
+namespace isostep {
+
+/// visit(triangle) for the triangles of surface b whose boxes meet that of a, grown by `margin`, until it returns
+/// false. The order follows from the surface alone.
+template <class S, class Visit>
+ISO_INLINE bool visit_triangles_near(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb,
+                                     S margin, Visit&& visit) {
+  return detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
+    const Aabb<S> box = grow(bounds(a, relative(tb, ta)), margin);
+    MeshBox steps;
+    for (int axis = 0; axis < 3; ++axis) {
+      steps.low[axis] = floor_scaled(box.low[axis], surface.exponent());
+      steps.high[axis] = floor_scaled(box.high[axis], surface.exponent()) + 1;
+    }
+    return surface.query(steps, visit);
+  });
+}
+
+/// A convex a against one triangle of surface b: round_triangle.hpp, polyhedron_triangle.hpp. The normal points from a
+/// into the surface.
+template <class S>
+void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
+                           const Transform<S>& tb, S margin, Manifold<S>& out);
+
+/// The same against all triangles: the manifold that has the deepest point; of equals that of the lowest triangle.
+template <class S>
+void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                          Manifold<S>& out);
+
+#define ISO_SURFACE_PAIRS_OF(extern, S)                                                                              \
+  extern template void collide_with_triangle<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, std::uint32_t,      \
+                                                const Transform<S>&, S, Manifold<S>&);                               \
+  extern template void collide_with_surface<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, \
+                                               S, Manifold<S>&);
+#define ISO_EXTERN(S) ISO_SURFACE_PAIRS_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,56 @@
+// Bodies of surface_pairs.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/polyhedron_triangle.hpp"
+#include "isostep/collision/narrowphase/round_triangle.hpp"
+#include "isostep/collision/narrowphase/surface_pairs.hpp"
+#include "isostep/geometry/baked/box_solid.hpp"
+#include "isostep/geometry/bounds.hpp"
+
+namespace isostep {
+
+template <class S>
+void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
+                           const Transform<S>& tb, S margin, Manifold<S>& out) {
+  detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
+    const BakedTriangle baked = surface.triangle(triangle);
+    const bool is_hull = a.primitive.type == ShapeType::hull;
+    const auto* hull = is_hull ? static_cast<const HullContent<S>*>(a.content) : nullptr;
+    const SurfaceFrame<S> frame(ta, is_hull ? hull->centre_of_mass : Vec3<S>::zero(), tb, surface.exponent());
+    switch (a.primitive.type) {
+      case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
+      case ShapeType::capsule: {
+        const Capsule<S> capsule = Capsule<S>::of(a.primitive);
+        return collide_capsule_triangle(capsule.half_height, capsule.radius, ta, frame, baked, margin, out);
+      }
+      case ShapeType::box: {
+        const BoxSolid<S> box(a.primitive.half);
+        return collide_polyhedron_triangle(box.polyhedron(), ta, frame, baked, margin, out);
+      }
+      case ShapeType::hull: return collide_polyhedron_triangle(hull->solid.polyhedron(), ta, frame, baked, margin, out);
+      default: return out.clear();
+    }
+  });
+}
+
+template <class S>
+void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                          Manifold<S>& out) {
+  out.clear();
+  S deepest = highest<S>();
+  std::uint32_t of = kNoTriangle;
+  visit_triangles_near(a, ta, b, tb, margin, [&](std::uint32_t triangle) {
+    Manifold<S> found;
+    collide_with_triangle(a, ta, b, triangle, tb, margin, found);
+    S least = highest<S>();
+    for (int i = 0; i < found.count; ++i) least = min(least, found.points[i].separation);
+    if (found.count == 0 || deepest < least || (deepest == least && of < triangle)) return true;
+    deepest = least;
+    of = triangle;
+    out = found;
+    return true;
+  });
+}
+
+}  // namespace isostep

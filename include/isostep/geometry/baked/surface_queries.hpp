@@ -1,0 +1,37 @@
+// Rays and nearest points of surfaces made of triangles.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/baked/height_field.hpp"
+#include "isostep/geometry/baked/triangle_mesh.hpp"
+#include "isostep/geometry/closest.hpp"
+#include "isostep/geometry/ray.hpp"
+#include "isostep/math/aabb.hpp"
+
+namespace isostep {
+
+/// Where a ray first enters a surface from its outward side; of triangles hit at once the one with the lowest id. In
+/// the surface's frame. Watertight: the ray is put on a grid once, and on which side of an edge it passes is an exact
+/// integer that both neighbours share.
+template <class G, class S> detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray);
+
+/// The point of a surface that is nearest to another, of equally near triangles that with the lowest id. Surfaces have
+/// no inside: the distance is never negative, and the normal leads to `query`; where that is on the surface, outward.
+template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface, Vec3<S> query);
+
+/// [m] The box of a surface in its frame.
+template <class G, class S> Aabb<S> box_of_surface(const G& surface);
+
+#define ISO_SURFACE_QUERIES_OF_ONE(extern, G, S)                                                           \
+  extern template detail::LocalHit<S> cast_on_surface<G, S>(const G&, const detail::LocalRay<S>&);         \
+  extern template ClosestPoint<S> nearest_on_surface<G, S>(const G&, Vec3<S>);                             \
+  extern template Aabb<S> box_of_surface<G, S>(const G&);
+#define ISO_SURFACE_QUERIES_OF(extern, S)              \
+  ISO_SURFACE_QUERIES_OF_ONE(extern, TriangleMesh, S) \
+  ISO_SURFACE_QUERIES_OF_ONE(extern, BakedHeightField, S)
+#define ISO_EXTERN(S) ISO_SURFACE_QUERIES_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,186 @@
+// Bodies of surface_queries.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+
+#include "isostep/geometry/baked/surface_queries.hpp"
+#include "isostep/geometry/baked/unit_of_steps.hpp"
+#include "isostep/math/segment.hpp"
+#include "isostep/scalar/lattice.hpp"
+
+namespace isostep {
+namespace detail {
+
+template <class S> ISO_INLINE Vec3<S> point_of_steps(MeshPoint p, int exponent) {
+  return {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
+}
+/// The stretch of a ray inside a box [m]. False: it misses.
+template <class S> ISO_INLINE bool clip_ray(const LocalRay<S>& ray, const Aabb<S>& box, S& entry, S& exit) {
+  entry = S(0);
+  exit = ray.length;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Unit<S> u = ray.direction[axis];
+    const Unit<S> rise = u < Unit<S>(0) ? -u : u;
+    const S to_near = u < Unit<S>(0) ? ray.origin[axis] - box.high[axis] : box.low[axis] - ray.origin[axis];
+    const S to_far = u < Unit<S>(0) ? ray.origin[axis] - box.low[axis] : box.high[axis] - ray.origin[axis];
+    // Beyond the ray's length a plane decides nothing else, and its distance may not fit S.
+    if (to_far < S(0) || to_near > ray.length * rise) return false;
+    if (to_near > entry * rise) entry = divide_to<S>(to_near, rise);
+    if (to_far < exit * rise) exit = divide_to<S>(to_far, rise);
+  }
+  return entry <= exit;
+}
+
+/// A ray's way through a surface's box, on a grid that is the surface's times 2^bits. Components are below 2^29.
+struct GridRay {
+  GridVector from, way;
+  int bits;
+
+  ISO_INLINE GridVector on_grid(MeshPoint p) const {
+    const std::int64_t scale = std::int64_t{1} << bits;
+    return {p.x * scale - from.x, p.y * scale - from.y, p.z * scale - from.z};
+  }
+  /// Separating axes: the box's, as far as `far` of 2^30 of the way, and the crosses of its edges with the way.
+  ISO_INLINE bool meets(const MeshBox& box, std::int64_t far) const {
+    const std::int64_t scale = std::int64_t{1} << bits;
+    const std::int64_t at[3] = {from.x, from.y, from.z}, to[3] = {way.x, way.y, way.z};
+    std::int64_t centre[3], half[3];  // doubled
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t low = box.low[i] * scale - at[i] - 2, high = box.high[i] * scale - at[i] + 2;
+      const std::int64_t end = ((to[i] * ((far >> 15) + 1)) >> 15) + (to[i] < 0 ? -1 : 1) * 2;
+      if ((to[i] < 0 ? end : 0) > high || (to[i] < 0 ? 0 : end) < low) return false;
+      centre[i] = low + high;
+      half[i] = high - low;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const std::int64_t gap = centre[j] * to[k] - centre[k] * to[j];
+      const std::int64_t reach = half[j] * (to[k] < 0 ? -to[k] : to[k]) + half[k] * (to[j] < 0 ? -to[j] : to[j]);
+      if ((gap < 0 ? -gap : gap) > reach) return false;
+    }
+    return true;
+  }
+  /// Where the way passes a triangle from its outward side, in 2^-30 of it; negative: it does not.
+  ISO_INLINE std::int64_t enter(const BakedTriangle& triangle) const {
+    const GridVector p[3] = {on_grid(triangle.points[0]), on_grid(triangle.points[1]), on_grid(triangle.points[2])};
+    Int128 sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Int128 side = wide_dot(cross(p[k], p[(k + 1) % 3]), way);
+      if (side > Int128(0)) return -1;
+      sum = sum + side;
+    }
+    if (sum == Int128(0)) return -1;
+    const GridVector e = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
+                     f = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
+    const Int128 height = wide_dot(cross(e, f), p[0]);
+    if (height > Int128(0) || height < sum) return -1;
+    UInt128Parts n = parts(-height), d = parts(-sum);
+    const int right = d.high == 0 ? 0 : static_cast<int>(std::bit_width(d.high));
+    const auto shifted = [right](UInt128Parts v) ISO_INLINE_LAMBDA {
+      return right == 0 ? v.low : (v.low >> right) | (v.high << (64 - right));
+    };
+    const std::uint64_t divisor = shifted(d), numerator = shifted(n);
+    return static_cast<std::int64_t>(divide({numerator >> 34, numerator << 30}, divisor).quotient);
+  }
+};
+
+template <class G, class S>
+ISO_INLINE GridRay grid_ray(const G& surface, const LocalRay<S>& ray, S entry, S exit) {
+  const MeshBox box = surface.bounds();
+  std::int64_t most = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    most = max(most, max(-box.low[axis], box.high[axis]));
+  }
+  GridRay grid;
+  grid.bits = min(26 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most))) + 1, 16);
+  const auto steps = [&](Vec3<S> p) ISO_INLINE_LAMBDA {
+    const int exponent = surface.exponent() + grid.bits;
+    return GridVector{floor_scaled(p.x, exponent), floor_scaled(p.y, exponent), floor_scaled(p.z, exponent)};
+  };
+  grid.from = steps(ray.origin + ray.direction * entry);
+  const GridVector to = steps(ray.origin + ray.direction * exit);
+  grid.way = {to.x - grid.from.x, to.y - grid.from.y, to.z - grid.from.z};
+  return grid;
+}
+
+/// The nearest point of a triangle.
+template <class S> ISO_INLINE Vec3<S> nearest_on_triangle(const Vec3<S> (&p)[3], Vec3<Unit<S>> normal, Vec3<S> query) {
+  bool above = true;
+  Vec3<S> best = p[0];
+  S least = highest<S>();
+  for (int k = 0; k < 3; ++k) {
+    const Heading<S> way = heading_of(p[(k + 1) % 3] - p[k]);
+    const Vec3<S> apart = query - p[k];
+    if (dot(cross(normal, way.direction), apart) >= S(0)) continue;
+    above = false;
+    const Vec3<S> on_edge = p[k] + way.direction * clamp(dot(way.direction, apart), S(0), way.length);
+    const S distance = length(query - on_edge);
+    if (distance < least) least = distance, best = on_edge;
+  }
+  return above ? query - normal * dot(normal, query - p[0]) : best;
+}
+
+}  // namespace detail
+
+template <class G, class S> Aabb<S> box_of_surface(const G& surface) {
+  const MeshBox box = surface.bounds();
+  Aabb<S> result;
+  for (int axis = 0; axis < 3; ++axis) {
+    result.low[axis] = from_lattice<S>(box.low[axis], surface.exponent());
+    result.high[axis] = from_lattice<S>(box.high[axis], surface.exponent());
+  }
+  return result;
+}
+
+template <class G, class S> detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray) {
+  const Aabb<S> box = box_of_surface<G, S>(surface);
+  const S slack = detail::gap_noise(max(max_abs(box.low), max_abs(box.high)) + max_abs(ray.origin));
+  S entry, exit;
+  if (!detail::clip_ray(ray, grow(box, slack + from_lattice<S>(1, surface.exponent())), entry, exit))
+    return detail::no_hit<S>();
+  const detail::GridRay grid = detail::grid_ray(surface, ray, entry, exit);
+  constexpr std::int64_t kWhole = std::int64_t{1} << 30;
+  std::int64_t best = kWhole;
+  std::uint32_t triangle = kNoTriangle;
+  surface.traverse([&](const MeshBox& of) ISO_INLINE_LAMBDA { return grid.meets(of, best); },
+                   [&](std::uint32_t id) ISO_INLINE_LAMBDA {
+                     const std::int64_t at = grid.enter(surface.triangle(id));
+                     if (at >= 0 && (at < best || (at == best && id < triangle))) best = at, triangle = id;
+                     return true;
+                   });
+  if (triangle == kNoTriangle) return detail::no_hit<S>();
+  const S distance = entry + (exit - entry) * from_lattice<Unit<S>>(best, 30);
+  return {detail::LocalHit<S>::entered, min(distance / ray.length, S(1)),
+          detail::unit_of_steps<Unit<S>>(surface.triangle(triangle).normal())};
+}
+
+template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface, Vec3<S> query) {
+  const int exponent = surface.exponent();
+  ClosestPoint<S> best = {query, highest<S>(), Vec3<Unit<S>>::zero()};
+  std::uint32_t triangle = kNoTriangle;
+  const auto overlaps = [&](const MeshBox& of) ISO_INLINE_LAMBDA {
+    Vec3<S> gap;
+    for (int axis = 0; axis < 3; ++axis) {
+      gap[axis] = max(max(from_lattice<S>(of.low[axis], exponent) - query[axis],
+                          query[axis] - from_lattice<S>(of.high[axis], exponent)), S(0));
+    }
+    return triangle == kNoTriangle || length(gap) <= best.distance + detail::gap_noise(max_abs(query));
+  };
+  surface.traverse(overlaps, [&](std::uint32_t id) ISO_INLINE_LAMBDA {
+    const BakedTriangle baked = surface.triangle(id);
+    const Vec3<Unit<S>> outward = detail::unit_of_steps<Unit<S>>(baked.normal());
+    Vec3<S> points[3];
+    for (int i = 0; i < 3; ++i) points[i] = detail::point_of_steps<S>(baked.points[i], exponent);
+    const Vec3<S> on = detail::nearest_on_triangle(points, outward, query);
+    const Heading<S> way = heading_of(query - on);
+    if (triangle != kNoTriangle && !(way.length < best.distance || (way.length == best.distance && id < triangle)))
+      return true;
+    triangle = id;
+    best = {on, way.length, way.length > S(0) ? way.direction : outward};
+    return true;
+  });
+  return best;
+}
+
+}  // namespace isostep

@@ -1,0 +1,43 @@
+// Surfaces, meshes and height fields: what they have in common, and how contacts count their triangles.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+ISO_INLINE constexpr bool is_surface(ShapeType type) {
+  return type == ShapeType::mesh || type == ShapeType::height_field;
+}
+
+namespace detail {
+/// visit(surface), a TriangleGeometry.
+template <class S, class Visit> ISO_INLINE decltype(auto) visit_surface(ShapeView<S> view, Visit&& visit) {
+  if (view.primitive.type == ShapeType::mesh) return visit(*static_cast<const MeshContent*>(view.content)->surface);
+  return visit(*static_cast<const HeightFieldContent*>(view.content)->surface);
+}
+}  // namespace detail
+
+/// Parts of a body's shape as contacts name them: a convex child is one leaf, a surface one for each of its triangles.
+template <class S> ISO_INLINE std::uint32_t leaves_of(ShapeView<S> view) {
+  if (!is_surface(view.primitive.type)) return 1;
+  return detail::visit_surface(view, [](const auto& surface) ISO_INLINE_LAMBDA { return surface.triangle_count(); });
+}
+
+struct Leaf {
+  std::uint32_t child, triangle;
+};
+/// Of all children of a body, `index` in range.
+template <class S>
+ISO_INLINE Leaf leaf_at(std::span<const Child<S>> children, Contents<S> contents, std::uint32_t index) {
+  for (std::uint32_t i = 0; i < children.size(); ++i) {
+    const std::uint32_t leaves = leaves_of<S>(contents.view(children[i].primitive));
+    if (index < leaves) return {i, index};
+    index -= leaves;
+  }
+  return {0, 0};
+}
+
+}  // namespace isostep

@@ -1,0 +1,110 @@
+// Points against triangles, and triangles' corners against solids.
+// SPDX-License-Identifier: MIT
+#include "surface_distance.hpp"
+
+#include <limits>
+
+#include "isostep/scalar/math.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+using V = Vec3<double>;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+double length(V v) { return sqrt(dot(v, v)); }
+
+V nearest_on_segment(V p, V from, V to) {
+  const V way = to - from;
+  return from + way * clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
+}
+V nearest_on_triangle(V p, const SolidSurface::Triangle& t) {
+  const V normal = cross(t[1] - t[0], t[2] - t[0]);
+  bool above = true;
+  double least = kFar;
+  V best = t[0];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V from = t[i], to = t[(i + 1) % 3];
+    if (dot(cross(to - from, p - from), normal) >= 0) continue;
+    above = false;
+    const V q = nearest_on_segment(p, from, to);
+    if (length(p - q) < least) least = length(p - q), best = q;
+  }
+  return above ? p - normal * (dot(normal, p - t[0]) / dot(normal, normal)) : best;
+}
+
+/// Of a point to the triangles: negative under the surface. Near an edge the sign is that of the triangle whose plane
+/// the point is furthest from.
+double height_over(V p, const SolidSurface& surface, const std::vector<std::size_t>& near) {
+  double least = kFar, off_plane = 0, sign = 1;
+  for (const std::size_t i : near) {
+    const auto& t = surface.triangles[i];
+    const V normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double distance = length(p - nearest_on_triangle(p, t));
+    const double height = dot(normal, p - t[0]) / length(normal);
+    const bool nearer = distance < least - 1e-9, equal = distance <= least + 1e-9;
+    if (!nearer && !(equal && abs(height) > off_plane)) continue;
+    least = min(least, distance);
+    off_plane = abs(height);
+    sign = height < 0 ? -1 : 1;
+  }
+  return sign * least;
+}
+
+/// By how far a point is inside of a box or hull, in its own frame.
+double depth_inside(V p, const Solid& body) {
+  double depth = kFar;
+  if (body.type == ShapeType::hull) {
+    for (std::size_t f = 0; f < body.hull->normals.size(); ++f) {
+      double reach = -kFar;
+      for (const V v : body.hull->vertices) reach = max(reach, dot(body.hull->normals[f], v));
+      depth = min(depth, reach - dot(body.hull->normals[f], p));
+    }
+    return depth;
+  }
+  for (int axis = 0; axis < 3; ++axis) depth = min(depth, body.half[axis] - abs(p[axis]));
+  return depth;
+}
+
+double round_distance(const Solid& body, const Solid& ground, const std::vector<std::size_t>& near) {
+  constexpr int kSamples = 32;  // of a capsule's core, ends included: planes are nearest to those
+  const V middle = transposed_times(ground.axes, body.centre - ground.centre);
+  const V half = transposed_times(ground.axes, body.axes * body.half);
+  double least = kFar;
+  for (int i = 0; i <= kSamples; ++i)
+    least = min(least, height_over(middle + half * (2.0 * i / kSamples - 1), *ground.surface, near));
+  return least - body.radius;
+}
+
+}  // namespace
+
+double surface_distance(const Solid& a, const Solid& b) {
+  if (a.surface != nullptr && b.surface == nullptr) return surface_distance(b, a);
+  if (a.surface != nullptr || a.type == ShapeType::half_space) return kFar;
+  const auto in_ground = [&](V world) { return transposed_times(b.axes, world - b.centre); };
+  std::vector<V> corners;
+  if (a.type == ShapeType::hull) {
+    for (const V v : a.hull->vertices) corners.push_back(v);
+  } else {
+    for (int i = 0; i < 8; ++i) {
+      const auto side = [&](int axis) { return (i >> axis & 1) != 0 ? a.half[axis] : -a.half[axis]; };
+      corners.push_back({side(0), side(1), side(2)});
+    }
+  }
+  double reach = a.radius;
+  for (const V corner : corners) reach = max(reach, length(corner) + a.radius);
+  const std::vector<std::size_t> near = b.surface->near(in_ground(a.centre), reach + 1);
+  if (near.empty()) return kFar;
+  if (a.type == ShapeType::sphere || a.type == ShapeType::capsule) return round_distance(a, b, near);
+  double least = kFar;
+  for (const V corner : corners) least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near));
+  for (const std::size_t i : near) {
+    for (const V point : b.surface->triangles[i]) {
+      const double depth = depth_inside(transposed_times(a.axes, b.centre + b.axes * point - a.centre), a);
+      if (depth > 0) least = min(least, -depth);
+    }
+  }
+  return least;
+}
+
+}  // namespace isostep::scenes
