@@ -65,6 +65,8 @@ constexpr Bar kSmallBars[] = {
 
 bool starts_with(std::string_view name, std::string_view head) { return name.substr(0, head.size()) == head; }
 
+bool is_on_hills(std::string_view scene) { return scene == "S11" || scene == "S12" || starts_with(scene, "S15"); }
+
 /// Keeps the start and the last sight.
 class OwnFigure : public Judge {
  public:
@@ -98,7 +100,8 @@ class OwnFigure : public Judge {
     constexpr double kArm = 0.5;  // [m]
     double worst = 0;
     for (const BodySight& body : bodies) {
-      if (body.dynamic) worst = worse(worst, worse(std::abs(body.velocity.y), kArm * length_of(body.angular_velocity)));
+      if (!body.dynamic) continue;
+      worst = worse(worst, worse(std::abs(body.velocity.y), kArm * length_of(body.angular_velocity)));
     }
     return worst;
   }
@@ -143,7 +146,7 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
   int outside = 0;
   const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" || scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
-  const bool hills = scene == "S11" || scene == "S12" || starts_with(scene, "S15");
+  const bool hills = is_on_hills(scene);
   for (const BodySight& body : bodies) {
     if (!body.dynamic) continue;
     const Vec3<double> c = body.centre;
@@ -158,7 +161,7 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
 
 Measure own_measure(std::string_view scene) {
   if (starts_with(scene, "S16")) return Measure::bump;
-  if (starts_with(scene, "S10") || scene == "S11" || scene == "S12" || starts_with(scene, "S15")) return Measure::outside;
+  if (starts_with(scene, "S10") || is_on_hills(scene)) return Measure::outside;
   if (starts_with(scene, "S1")) return Measure::top;
   if (scene == "S2" || scene == "S3" || scene == "S8") return Measure::moved;
   if (starts_with(scene, "S6")) return Measure::stretch;
@@ -168,7 +171,8 @@ Measure own_measure(std::string_view scene) {
 
 std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
   constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
-                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S11", "S12",  "S15", "S15h", "S16", "S16h", "S20"};
+                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S11",
+                                          "S12", "S15", "S15h", "S16", "S16h", "S20"};
   if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
   return std::make_unique<OwnFigure>(scene);
 }

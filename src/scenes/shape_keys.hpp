@@ -66,7 +66,8 @@ template <class S, class Read> Hull<S> shape_of(ShapeClass<Hull>, const ScenePar
 template <class S, class Read> Mesh<S> shape_of(ShapeClass<Mesh>, const ScenePart& part, const Read& read) {
   return {read.mesh(part)};
 }
-template <class S, class Read> HeightField<S> shape_of(ShapeClass<HeightField>, const ScenePart& part, const Read& read) {
+template <class S, class Read>
+HeightField<S> shape_of(ShapeClass<HeightField>, const ScenePart& part, const Read& read) {
   return {read.height_field(part)};
 }
 

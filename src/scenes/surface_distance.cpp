@@ -97,7 +97,8 @@ double surface_distance(const Solid& a, const Solid& b) {
   if (near.empty()) return kFar;
   if (a.type == ShapeType::sphere || a.type == ShapeType::capsule) return round_distance(a, b, near);
   double least = kFar;
-  for (const V corner : corners) least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near));
+  for (const V corner : corners)
+    least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near));
   for (const std::size_t i : near) {
     for (const V point : b.surface->triangles[i]) {
       const double depth = depth_inside(transposed_times(a.axes, b.centre + b.axes * point - a.centre), a);

@@ -66,8 +66,9 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
   for (std::size_t i = 0; i < part.triangles.size(); ++i) {
     const std::string at = place + "/triangles/" + std::to_string(i) + "/";
     const Vector& t = part.triangles[i];
-    triangles.push_back(
-        {{count_of(t[0], 0xffffffffu, at + "0"), count_of(t[1], 0xffffffffu, at + "1"), count_of(t[2], 0xffffffffu, at + "2")}});
+    MeshTriangle triangle = {};
+    for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = count_of(t[k], 0xffffffffu, at + std::to_string(k));
+    triangles.push_back(triangle);
   }
   return checked(mesh_blob(points, triangles, materials_of(part, place)), place);
 }

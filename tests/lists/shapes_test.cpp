@@ -24,7 +24,8 @@ class ShapeList : public ListProbe {
          "    add(box, probe, collide_records<S, collide_box_box<S>>);\n"
          "    add(capsule, probe, collide_never<S>);\n    add(half_space, probe, collide_never<S>);\n"
          "    add(hull, probe, collide_never<S>);\n    add(mesh, probe, collide_never<S>);\n"
-         "    add(height_field, probe, collide_never<S>);\n    add(probe, probe, collide_records<S, collide_box_box<S>>);");
+         "    add(height_field, probe, collide_never<S>);\n"
+         "    add(probe, probe, collide_records<S, collide_box_box<S>>);");
   }
   void add_keys() {
     edit("src/scenes/shape_keys.hpp", "// shape_of:",

@@ -69,7 +69,8 @@ template <class S> struct TriangleContacts {
 /// Points that touch and have no impulse take that of their feature on another triangle, and a contact without friction
 /// takes its share of that contact's.
 template <class S>
-void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<S>& g, bool is_new, Contact<S>& contact) {
+void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<S>& g, bool is_new,
+                          Contact<S>& contact) {
   constexpr S kTouching = S(0.001);  // [m]
   for (std::uint32_t p = 0; p < contact.count; ++p) {
     const std::uint32_t feature = contact.features[p];

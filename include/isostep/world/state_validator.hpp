@@ -182,8 +182,9 @@ template <class S> class StateValidator {
                                                          : state_.sleeping[set]->bodies;
     std::uint32_t leaves = 0;
     for (const Child<S>& child : parts_of(bodies.properties[place_of_slot(bodies.states, slot)].shape)) {
-      const bool surface = is_surface(child.primitive.type);
-      leaves += surface ? leaves_of<S>({child.primitive, content_of<S>(*state_.geometry->content(child.primitive.blob - 1))}) : 1;
+      const std::uint32_t blob = child.primitive.blob;
+      leaves += leaves_of<S>(
+          {child.primitive, blob == 0 ? nullptr : content_of<S>(*state_.geometry->content(blob - 1))});
     }
     return leaves;
   }

@@ -61,7 +61,8 @@ Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const 
 Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const double> heights,
                                   std::span<const std::uint8_t> materials, BlobHome home) {
   const double widest = static_cast<double>(max(sheet.columns, sheet.rows)) * sheet.pitch;
-  if (!(sheet.pitch > 0) || !(widest <= kMostMetres)) return bad_number("pitch", "a height field is at most 8388607 m wide");
+  if (!(sheet.pitch > 0) || !(widest <= kMostMetres))
+    return bad_number("pitch", "a height field is at most 8388607 m wide");
   double most = 0;
   for (const double h : heights) {
     if (!is_finite(h) || abs(h) > kMostMetres) return bad_number("heights", "a height field's heights are numbers");

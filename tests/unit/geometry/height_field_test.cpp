@@ -53,7 +53,8 @@ struct Pair {
     }
     return kept;
   }
-  static TriangleMesh mesh_of(const BakedHeightField& of, const Surface& surface, const std::vector<std::uint32_t>& kept) {
+  static TriangleMesh mesh_of(const BakedHeightField& of, const Surface& surface,
+                              const std::vector<std::uint32_t>& kept) {
     std::vector<MeshTriangle> triangles;
     Materials materials;
     for (const std::uint32_t id : kept) {

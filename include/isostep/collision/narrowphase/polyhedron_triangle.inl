@@ -23,37 +23,46 @@ template <class S> class TriangleAxes {
  public:
   ISO_INLINE TriangleAxes(const Polyhedron<S>& a, const SurfaceTriangle<S>& triangle) : a_(a), triangle_(triangle) {}
 
-  /// Faces before all else that is better than `best` by the tolerance. False: a face is further off than `margin`.
-  ISO_INLINE bool look_at_faces(S margin, S tolerance, TriangleAxis<S>& best) const {
-    S limit = best.separation + tolerance;
+  /// False: a face is further off than `margin`.
+  ISO_INLINE bool are_faces_near(S margin, S limit) {
     for (std::uint32_t f = 0; f < a_.faces.size(); ++f) {
-      const Vec3<U> normal = a_.normals[f];
-      S heights[3], least = highest<S>();
-      for (int i = 0; i < 3; ++i) {
-        heights[i] = dot(normal, triangle_.points[i]) - a_.offsets[f];
-        least = min(least, heights[i]);
-      }
+      S heights[3];
+      const S least = heights_over(f, heights);
       if (least > margin) return false;
-      if (!(least > limit) || !owns(-normal, heights, least)) continue;
-      best = {TriangleAxis<S>::face, least, f, 0, normal};
-      limit = least;
+      has_better_face_ = has_better_face_ || least > limit;
     }
     return true;
   }
-  /// Neighbours' planes whose outer side the centre is on.
-  ISO_INLINE void look_at_neighbours(Vec3<S> centre, S tolerance, TriangleAxis<S>& best) const {
+  /// Faces that are better than `best` by the tolerance.
+  ISO_INLINE void look_at_faces(S tolerance, TriangleAxis<S>& best) const {
+    S limit = best.separation + tolerance;
+    for (std::uint32_t f = 0; has_better_face_ && f < a_.faces.size(); ++f) {
+      S heights[3];
+      const S least = heights_over(f, heights);
+      if (!(least > limit) || !owns(-a_.normals[f], heights, least)) continue;
+      best = {TriangleAxis<S>::face, least, f, 0, a_.normals[f]};
+      limit = least;
+    }
+  }
+  /// Neighbours' planes whose outer side the centre is on. `lowest`: the vertex below the triangle's own normal.
+  ISO_INLINE void look_at_neighbours(Vec3<S> centre, std::uint32_t lowest, S tolerance, TriangleAxis<S>& best) {
     const S limit = best.separation + (best.kind == TriangleAxis<S>::plane ? tolerance : S(0));
     for (int k = 0; k < 3; ++k) {
       const SurfaceEdge<S>& edge = triangle_.edges[k];
+      if (!edge.touchable) continue;
+      const Lowest<S> below = lowest_of(a_.vertices, edge.other);
+      has_arcs_[k] = below.vertex != lowest;
       if (!edge.has_neighbour || dot(edge.other, centre - triangle_.points[k]) < S(0)) continue;
-      const S separation = lowest_of(a_.vertices, edge.other).height - dot(edge.other, triangle_.points[k]);
+      const S separation = below.height - dot(edge.other, triangle_.points[k]);
       if (separation > limit && separation > best.separation)
         best = {TriangleAxis<S>::neighbour, separation, 0, k, edge.other};
     }
   }
+  /// After the neighbours. Where one vertex is lowest at both ends of an edge's arc it is so in between, and no edge of
+  /// the polyhedron has an arc that meets it.
   ISO_INLINE void look_at_edges(S tolerance, TriangleAxis<S>& best) const {
     for (int k = 0; k < 3; ++k) {
-      if (!triangle_.edges[k].touchable) continue;
+      if (!has_arcs_[k]) continue;
       for (std::uint32_t i = 0; i < a_.edges(); ++i) {
         if (arcs_meet(i, k)) examine(i, k, tolerance, best);
       }
@@ -64,6 +73,14 @@ template <class S> class TriangleAxes {
   static constexpr double kLeastSine = 0.005;  // of edges; nearer to parallel, a face's axis is as good
   static constexpr double kAlongEdge = 0.02;   // sine within which a face lies along an edge
 
+  ISO_INLINE S heights_over(std::uint32_t f, S (&heights)[3]) const {
+    S least = highest<S>();
+    for (int i = 0; i < 3; ++i) {
+      heights[i] = dot(a_.normals[f], triangle_.points[i]) - a_.offsets[f];
+      least = min(least, heights[i]);
+    }
+    return least;
+  }
   /// Whether the surface can be touched from a direction, by its points that are lowest above a face.
   ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
     for (int k = 0; k < 3; ++k) {
@@ -96,6 +113,8 @@ template <class S> class TriangleAxes {
 
   const Polyhedron<S>& a_;
   const SurfaceTriangle<S>& triangle_;
+  bool has_better_face_ = false;
+  bool has_arcs_[3] = {};
 };
 
 /// Of the faces around a vertex the one that looks most against a direction; of equals the first.
@@ -250,11 +269,12 @@ void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta,
   const Lowest<S> lowest = lowest_of(a.vertices, triangle.normal);
   Axis best = {Axis::plane, lowest.height - triangle.offset, 0, 0, triangle.normal};
   if (best.separation > margin) return;
-  triangle.find_edges(frame, baked);
   const S tolerance = axis_tolerance(a.inner_radius, max_abs(frame.centre) + a.inner_radius);
-  const TriangleAxes<S> axes(a, triangle);
-  if (!axes.look_at_faces(margin, tolerance, best)) return;
-  axes.look_at_neighbours(frame.centre, tolerance, best);
+  TriangleAxes<S> axes(a, triangle);
+  if (!axes.are_faces_near(margin, best.separation + tolerance)) return;
+  triangle.find_edges(frame, baked);
+  axes.look_at_faces(tolerance, best);
+  axes.look_at_neighbours(frame.centre, lowest.vertex, tolerance, best);
   axes.look_at_edges(tolerance, best);
   if (best.separation > margin) return;
   switch (best.kind) {

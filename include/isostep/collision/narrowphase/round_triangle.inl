@@ -96,11 +96,12 @@ ISO_INLINE bool touch_beside(const SurfaceTriangle<S>& triangle, const TriangleE
   const S reach = half * abs(dot(edge.along, core.direction));
   const S low = max(-core.half, middle - reach), high = min(core.half, middle + reach);
   if (!(low < high)) return false;
+  const std::uint32_t name = 1u << 25 | static_cast<std::uint32_t>(touch.edge) << 1;
   for (std::uint32_t end = 0; end < 2; ++end) {
     const Vec3<S> p = core.at(end == 0 ? low : high);
     const S height = dot(touch.normal, p - triangle.points[touch.edge]);
     if (height - radius <= margin)
-      touch_round(p, height, touch.normal, radius, ta, 1u << 25 | static_cast<std::uint32_t>(touch.edge) << 1 | end, out);
+      touch_round(p, height, touch.normal, radius, ta, name | end, out);
   }
   return out.count > 0;
 }
@@ -123,7 +124,8 @@ void collide_sphere_triangle(S radius, const Transform<S>& ta, const SurfaceFram
   const detail::RimPoint<S> rim = detail::nearest_on_rim(triangle, centre);
   if (rim.distance - radius > margin || rim.distance <= slack) return;
   const Vec3<Unit<S>> normal = normalise(rim.apart);
-  const bool owned = rim.vertex < 0 ? triangle.owns_at_edge(rim.edge, normal) : triangle.owns_at_point(rim.vertex, normal);
+  const bool owned =
+      rim.vertex < 0 ? triangle.owns_at_edge(rim.edge, normal) : triangle.owns_at_point(rim.vertex, normal);
   if (owned) detail::touch_round(centre, rim.distance, normal, radius, ta, kFeature, out);
 }
 
@@ -146,7 +148,8 @@ void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, c
     for (std::uint32_t end = 0; end < 2; ++end) {
       const int cut = over.edge[end];
       if (heights[end] - radius > margin || (cut >= 0 && triangle.edges[cut].flat)) continue;
-      const std::uint32_t name = cut < 0 ? triangle_feature::kOfConvexAlone : 1u << 27 | static_cast<std::uint32_t>(cut) << 1;
+      const std::uint32_t name =
+          cut < 0 ? triangle_feature::kOfConvexAlone : 1u << 27 | static_cast<std::uint32_t>(cut) << 1;
       touch_round(ends[end], heights[end], triangle.normal, radius, ta, name | end, out);
     }
     return;

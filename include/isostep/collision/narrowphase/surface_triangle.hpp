@@ -101,8 +101,8 @@ template <class S> struct SurfaceTriangle {
     return detail::gap_noise(reach) + detail::gap_noise(reach);
   }
 
-  /// Whether a direction looks out of the surface at edge k: within the arc, to kAcross. What lies beyond the arc is the
-  /// neighbour's to touch.
+  /// Whether a direction looks out of the surface at edge k: within the arc, to kAcross. What lies beyond the arc is
+  /// the neighbour's to touch.
   ISO_INLINE bool owns_at_edge(int k, Vec3<Unit<S>> direction) const {
     const SurfaceEdge<S>& edge = edges[k];
     return edge.touchable && dot(direction, edge.away) <= Unit<S>(kAcross) &&

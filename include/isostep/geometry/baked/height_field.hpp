@@ -101,8 +101,8 @@ class BakedHeightField {
 
   /// The field with other heights from that column and row on, by rows. ErrorCode::invalid, whose place is "heights":
   /// the rectangle leaves the field, or there are not as many heights as it has places.
-  Result<BakedHeightField> with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns, std::uint32_t rows,
-                                   std::span<const std::int16_t> heights) const;
+  Result<BakedHeightField> with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
+                                        std::uint32_t rows, std::span<const std::int16_t> heights) const;
 
   /// [bytes] Of this object and all it holds.
   std::size_t memory() const;

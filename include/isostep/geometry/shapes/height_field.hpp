@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// The heights that its blob has, see height_field_blob. For static bodies. It is touched from its outward side alone: what has its
-/// centre behind a triangle passes it.
+/// The heights that its blob has, see height_field_blob. For static bodies. It is touched from its
+/// outward side alone: what has its centre behind a triangle passes it.
 template <class S = Literal> struct HeightField {
   static constexpr ShapeType kType = ShapeType::height_field;
   static constexpr bool kBounded = false;
@@ -18,7 +18,9 @@ template <class S = Literal> struct HeightField {
   std::uint32_t blob;                // as Primitive has it
   const Content* content = nullptr;  // of a shape of a world
 
-  static ISO_INLINE constexpr HeightField of(const Primitive<S>& p, const Content* content) { return {p.blob, content}; }
+  static ISO_INLINE constexpr HeightField of(const Primitive<S>& p, const Content* content) {
+    return {p.blob, content};
+  }
   static ISO_INLINE constexpr HeightField of(const HeightField<Literal>& shape) { return {shape.blob}; }
   ISO_INLINE constexpr Primitive<S> primitive() const {
     return {kType, blob, Vec3<S>::zero(), S(0), Vec3<Unit<S>>::zero(), S(0)};

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// The triangles that its blob has, see mesh_blob. For static bodies. It is touched from its outward side alone: what has its
-/// centre behind a triangle passes it.
+/// The triangles that its blob has, see mesh_blob. For static bodies. It is touched from its
+/// outward side alone: what has its centre behind a triangle passes it.
 template <class S = Literal> struct Mesh {
   static constexpr ShapeType kType = ShapeType::mesh;
   static constexpr bool kBounded = false;

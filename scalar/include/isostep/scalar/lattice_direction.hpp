@@ -1,0 +1,26 @@
+// Directions of vectors of integers.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/scalar/fixed.hpp"
+#include "isostep/scalar/lattice.hpp"
+#include "isostep/scalar/math.hpp"
+
+namespace isostep {
+
+template <class U> struct LatticeDirection { U x, y, z; };
+
+/// Of unit length, to the last digits of U whatever the vector's: fixed point by way of the finest unit format. A
+/// vector of zeros has none. Components below 2^51.
+template <class U> ISO_INLINE LatticeDirection<U> lattice_direction(std::int64_t x, std::int64_t y, std::int64_t z) {
+  if constexpr (kIsFixed<U>) {
+    const auto d = direction_of(Q32_32::from_raw(x), Q32_32::from_raw(y), Q32_32::from_raw(z));
+    constexpr int kBits = decltype(d.x)::kFracBits;
+    return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
+  } else {
+    const auto d = direction_of(static_cast<U>(x), static_cast<U>(y), static_cast<U>(z));
+    return {d.x, d.y, d.z};
+  }
+}
+
+}  // namespace isostep
