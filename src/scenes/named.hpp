@@ -14,6 +14,7 @@ struct NamedScene {
   const char* name;
   const char* description;
   Scene (*make)();
+  bool narrow = true;  // within the range of Q16.16
 };
 std::span<const NamedScene> named_scenes();
 /// Of these, or of the trials (trials/trial.hpp). Nothing for a name that neither has.
