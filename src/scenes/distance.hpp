@@ -23,8 +23,8 @@ struct Solid {
 };
 
 /// Greater than 0: the gap [m], or less than it where no axis shows all of it; less than 0: the overlap, the shortest
-/// way out. Exact for every overlap, and for every gap but of two boxes or hulls, where it is the widest of the axes that
-/// can separate them.
+/// way out. Exact for every overlap, and for every gap but of two boxes or hulls, where it is the widest of the axes
+/// that can separate them.
 double signed_distance(const Solid& a, const Solid& b);
 
 }  // namespace isostep::scenes
