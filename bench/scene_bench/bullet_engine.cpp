@@ -15,11 +15,21 @@ btVector3 bt(Vec3<double> v) { return {bt(v.x), bt(v.y), bt(v.z)}; }
 btQuaternion bt(Quat<double> q) { return btQuaternion(bt(q.x), bt(q.y), bt(q.z), bt(q.w)).normalized(); }
 Vec3<double> ours(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Bullet adds its margin around the points, and asks polyhedral contacts for the faces.
+std::unique_ptr<btCollisionShape> hull_of(const PeerPart& part) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Vec3<double>& point : part.points) hull->addPoint(bt(point), false);
+  hull->recalcLocalAabb();
+  hull->setMargin(0);
+  hull->initializePolyhedralFeatures();
+  return hull;
+}
 std::unique_ptr<btCollisionShape> shape_of(const PeerPart& part) {
   switch (part.type) {
     case ShapeType::sphere: return std::make_unique<btSphereShape>(bt(part.radius));
     case ShapeType::capsule: return std::make_unique<btCapsuleShape>(bt(part.radius), bt(2 * part.half_height));
     case ShapeType::half_space: return std::make_unique<btStaticPlaneShape>(bt(part.normal), bt(part.offset));
+    case ShapeType::hull: return hull_of(part);
     default: return std::make_unique<btBoxShape>(bt(part.half_extents));
   }
 }

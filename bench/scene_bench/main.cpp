@@ -47,7 +47,7 @@ std::vector<Maker> chosen_makers(const Arguments& arguments) {
 
 std::vector<std::string> chosen_scenes(const Arguments& arguments) {
   if (!arguments.scenes.empty()) return arguments.scenes;
-  return {"S1", "S1x10", "S2", "S3", "S4", "S4s", "S5", "S6", "S6v", "S7", "S8", "S9"};
+  return {"S1", "S1x10", "S2", "S3", "S4", "S4s", "S5", "S6", "S6v", "S7", "S8", "S9", "S10"};
 }
 void check_name(const std::string& name) {
   const std::span<const scenes::NamedScene> all = scenes::named_scenes();

@@ -103,6 +103,7 @@ class OdeEngine : public Peer {
       case ShapeType::sphere: return dCreateSphere(space_, part.radius);
       case ShapeType::capsule: return dCreateCapsule(space_, part.radius, 2 * part.half_height);
       case ShapeType::half_space: return dCreatePlane(space_, 0, 1, 0, 0);  // `place` knows where
+      case ShapeType::hull: throw scenes::SceneError("", "ODE is given no hulls: its pairs of them have one point");
       default: return dCreateBox(space_, 2 * h.x, 2 * h.y, 2 * h.z);
     }
   }

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/geometry/content.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "scenes/build.hpp"
+#include "scenes/hull_points.hpp"
 #include "scenes/shapes.hpp"
 
 namespace isostep::bench {
@@ -20,14 +22,21 @@ Vec3<double> real(const scenes::Vector& v) { return {real(v[0]), real(v[1]), rea
 Quat<double> real(const scenes::Rotation& q) { return {real(q[0]), real(q[1]), real(q[2]), real(q[3])}; }
 
 PeerPart peer_part(const scenes::ScenePart& part) {
-  return {part.type,         real(part.half_extents), real(part.radius),   real(part.half_height),
-          real(part.normal), real(part.offset),       real(part.position), real(part.orientation)};
+  PeerPart made = {part.type,         real(part.half_extents), real(part.radius),   real(part.half_height),
+                   real(part.normal), real(part.offset),       real(part.position), real(part.orientation),
+                   nullptr,           {}};
+  if (part.type != ShapeType::hull) return made;
+  made.hull = scenes::hull_of_points(part.points, "peer");
+  made.points = scenes::solid_hull(*made.hull)->vertices;
+  return made;
 }
 
-Primitive<double> primitive(const PeerPart& part) {
+/// `blob` as Primitive has it.
+Primitive<double> primitive(const PeerPart& part, std::uint32_t blob) {
   switch (part.type) {
     case ShapeType::sphere: return primitive_of(Sphere<double>{part.radius});
     case ShapeType::capsule: return primitive_of(Capsule<double>{part.radius, part.half_height});
+    case ShapeType::hull: return primitive_of(Hull<double>{blob});
     default: return primitive_of(Box<double>{part.half_extents});
   }
 }
@@ -35,10 +44,17 @@ Primitive<double> primitive(const PeerPart& part) {
 /// As World<double> has it of the same body.
 MassProperties<double> mass_of(const PeerBody& body, const scenes::SceneBody& of) {
   std::vector<Child<double>> children;
-  for (const PeerPart& part : body.parts) children.push_back({primitive(part), {part.position, part.orientation}});
+  std::vector<BlobRef> blobs;
+  for (const PeerPart& part : body.parts) {
+    if (part.hull != nullptr) blobs.push_back(part.hull);
+    const auto blob = static_cast<std::uint32_t>(blobs.size());
+    children.push_back({primitive(part, blob), {part.position, part.orientation}});
+  }
+  std::vector<const void*> contents;
+  find_contents<double>(blobs, contents);
   const double density = real(of.density);
-  MassProperties<double> p =
-      mass_properties<double>(std::span<const Child<double>>(children), density > 0 ? density : 1);
+  MassProperties<double> p = mass_properties<double>(std::span<const Child<double>>(children),
+                                                     density > 0 ? density : 1, Contents<double>{contents.data()});
   if (real(of.mass) > 0) p = with_mass(p, real(of.mass));
   const Vec3<double> inertia = real(of.inertia);
   return inertia == Vec3<double>::zero() ? p : from_mass_and_inertia(p.mass, inertia, p.centre);

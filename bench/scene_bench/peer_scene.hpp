@@ -17,6 +17,8 @@ struct PeerPart {
   double offset;               // [m] half-space
   Vec3<double> position;       // [m] in the frame of PeerBody
   Quat<double> orientation;
+  BlobRef hull;                      // null: no hull
+  std::vector<Vec3<double>> points;  // [m] its vertices
 };
 struct PeerBody {
   BodyType type;

@@ -24,6 +24,7 @@ function shape(part) {
     case "sphere": return RAPIER.ColliderDesc.ball(part.radius);
     case "capsule": return RAPIER.ColliderDesc.capsule(part.half_height, part.radius);
     case "half_space": return new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vector(part.normal)));
+    case "hull": return RAPIER.ColliderDesc.convexHull(new Float32Array(part.points.flat()));
     default: return RAPIER.ColliderDesc.cuboid(...part.half_extents);
   }
 }

@@ -82,8 +82,10 @@ Json json_of(Vec3<double> v) { return {v.x, v.y, v.z}; }
 Json json_of(Quat<double> q) { return {q.x, q.y, q.z, q.w}; }
 
 Json json_of(const PeerPart& part) {
-  constexpr const char* kTypes[] = {"sphere", "box", "capsule", "half_space"};
-  return {{"type", kTypes[static_cast<int>(part.type)]},
+  Json points = Json::array();
+  for (const Vec3<double>& point : part.points) points.push_back(json_of(point));
+  return {{"type", kShapeNames[static_cast<std::size_t>(part.type)]},
+          {"points", points},
           {"half_extents", json_of(part.half_extents)},
           {"radius", part.radius},
           {"half_height", part.half_height},

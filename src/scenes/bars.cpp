@@ -144,7 +144,8 @@ std::vector<Bar> bars_of(std::string_view scene, bool small) {
 
 int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) {
   int outside = 0;
-  const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" || scene == "S20";
+  const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" ||
+                   scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
   const bool hills = is_on_hills(scene);
   for (const BodySight& body : bodies) {

@@ -25,8 +25,8 @@ struct Solid {
 };
 
 /// Greater than 0: the gap [m], or less than it where no axis shows all of it; less than 0: the overlap, the shortest
-/// way out. Exact for every overlap, and for every gap but of two boxes or hulls, where it is the widest of the axes that
-/// can separate them. Of a surface and a box or hull: by how far the body's vertices are under the surface, or the
+/// way out. Exact for every overlap, and for every gap but of two boxes or hulls, where it is the widest of the axes
+/// that can separate them. Of a surface and a box or hull: by how far the body's vertices are under the surface, or the
 /// surface's points inside the body; of two surfaces, or a half-space and a surface, infinite.
 double signed_distance(const Solid& a, const Solid& b);
 

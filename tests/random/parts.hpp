@@ -23,18 +23,18 @@ struct DrawnShape {
 };
 
 static_assert(kShapeTypes == 7, "random worlds have every shape that moves: see draw_primitive()");
-/// `blobs` are those of its shape.
+/// `blobs` are those of its shape. Half of the boxes are hulls in a box of that size, drawn by dice of their own: what
+/// is drawn after them is as it was before there were hulls.
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::vector<BlobRef>& blobs) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
-  switch (dice.below(4)) {
-    case 0: *reach = a; return primitive_of(Sphere<S>{num<S>(a)});
-    case 1: *reach = length({a, b, c}); return primitive_of(Box<S>{vec<S>(a, b, c)});
-    case 2: *reach = a + b; return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
-    default:
-      *reach = length({a, b, c});
-      blobs.push_back(draw_hull(dice, {a, b, c}));
-      return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size())});
-  }
+  const std::uint32_t kind = dice.below(3);
+  *reach = kind == 0 ? a : kind == 1 ? length({a, b, c}) : a + b;
+  if (kind == 0) return primitive_of(Sphere<S>{num<S>(a)});
+  if (kind == 2) return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
+  Dice own = dice;
+  if (own.one_in(2)) return primitive_of(Box<S>{vec<S>(a, b, c)});
+  blobs.push_back(draw_hull(own, {a, b, c}));
+  return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size())});
 }
 /// A primitive, or two or three of them in one body.
 template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {

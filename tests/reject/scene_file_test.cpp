@@ -101,6 +101,21 @@ TEST(SceneFile, WithSomethingMissingIsRefused) {
   EXPECT_EQ(refusal(with_joint(R"({"type": "ball", "a": 0, "b": 1})")), "/joints/0: the key \"anchor\" is missing");
 }
 
+TEST(SceneFile, WithPointsThatMakeNoHullIsRefused) {
+  const auto hull = [](const std::string& points) {
+    return with_body(R"("type": "dynamic", "shapes": [{"type": "hull", "points": )" + points + "}]");
+  };
+  EXPECT_EQ(refusal(hull("3")), "/bodies/1/shapes/0/points: expected an array, found a number");
+  EXPECT_EQ(refusal(hull("[[0, 0, 0], [1, 0]]")), "/bodies/1/shapes/0/points/1: expected 3 numbers, found 2 items");
+  EXPECT_EQ(refusal(hull("[[0, 0, 0], 7]")), "/bodies/1/shapes/0/points/1: expected an array, found a number");
+  EXPECT_EQ(refusal(hull("[[0, 0, \"x\"]]")), "/bodies/1/shapes/0/points/0/2: expected a number, found a string");
+  EXPECT_EQ(refusal(hull("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]")),
+            "/bodies/1/shapes/0/points: the points span no volume");
+  EXPECT_EQ(refusal(hull("[[0, 0, 0], [1e9, 0, 0], [0, 1, 0], [0, 0, 1]]")),
+            "/bodies/1/shapes/0/points: point 1 of a hull: expected coordinates below 524287 m");
+  EXPECT_EQ(refusal(hull("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]")), "");
+}
+
 TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
   EXPECT_EQ(refusal(with_body(R"("type": "movable")")),
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");

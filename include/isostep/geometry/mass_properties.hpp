@@ -19,8 +19,9 @@ template <class S> struct MassProperties {
 };
 
 /// Properties of homogeneous children; overlaps count twice. One child whose frame is its own principal one keeps it:
-/// centre and principal are its pose, kappa its closed form. Others are added by the parallel-axis theorem and diagonalised by rotations from
-/// the body axes, none above 45 degrees, so a compound that is already principal keeps them.
+/// centre and principal are its pose, kappa its closed form. Others are added by the parallel-axis theorem and
+/// diagonalised by rotations from the body axes, none above 45 degrees, so a compound that is already principal keeps
+/// them.
 /// Units:  density [kg/m^3] > 0.
 /// Limits: shapes pass validate(). Mass saturates at Limits<S>::mass() and is at least one resolution step. No
 ///         children, or a half-space among them: mass 0 and kappa 0, a body that nothing moves.

@@ -47,7 +47,8 @@ std::optional<RayCastHit<S>> Queries<S>::hit_of(std::uint32_t slot, Vec3<S> orig
   for (const Child<S>& child : map_.children_of(body.shape)) {
     RayHit<S> hit;
     const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
-    if (!ray_cast(map_.contents().view(child.primitive), at, origin, translation, first ? first->fraction : most, hit)) continue;
+    const S reach = first ? first->fraction : most;
+    if (!ray_cast(map_.contents().view(child.primitive), at, origin, translation, reach, hit)) continue;
     if (first && !(hit.fraction < first->fraction)) continue;
     first = RayCastHit<S>{id_of(slot), origin + translation * hit.fraction, hit.normal, hit.fraction};
   }

@@ -24,8 +24,8 @@ template <class S> struct RayHit {
 ///         Rays that pass an edge closer than that may go either way.
 /// Limits: origin within Limits<S>::position(), translation within twice that.
 template <class S>
-bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin, Vec3<S> translation,
-              S max_fraction, RayHit<S>& hit);
+bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
+              Vec3<S> translation, S max_fraction, RayHit<S>& hit);
 
 #define ISO_EXTERN(S) \
   extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&);

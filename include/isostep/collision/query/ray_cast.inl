@@ -8,8 +8,8 @@
 namespace isostep {
 
 template <class S>
-bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin, Vec3<S> translation,
-              S max_fraction, RayHit<S>& hit) {
+bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
+              Vec3<S> translation, S max_fraction, RayHit<S>& hit) {
   const detail::LocalHit<S> found =
       visit_shape(shape, [&](const auto& visited) { return visited.cast(transform, origin, translation); });
   if (found.kind == detail::LocalHit<S>::missed || found.fraction > max_fraction) return false;

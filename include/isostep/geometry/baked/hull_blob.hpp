@@ -27,25 +27,28 @@ Result<BlobRef> hull_blob(std::span<const GridPoint> points, int exponent, BlobH
 Result<GridHull> read_hull(Bytes bytes);
 
 namespace detail {
-/// The finest exponent at which magnitudes up to `most` [m] are on the grid; negative: none.
+/// Beyond the coarsest grid.
+template <class S> ISO_INLINE bool is_off_grids(S magnitude) {
+  return exponent_above(magnitude) > 19 || floor_scaled(magnitude, 0) + 1 >= GridPoint::kLimit;
+}
+/// The finest exponent at which magnitudes up to `most` [m] are on the grid.
 template <class S> ISO_INLINE int grid_exponent(S most) {
   int exponent = GridHull::kFinest;
-  while (exponent >= 0 && floor_scaled(most, exponent) + 1 >= GridPoint::kLimit) --exponent;
+  while (floor_scaled(most, exponent) + 1 >= GridPoint::kLimit) --exponent;
   return exponent;
 }
 Error bad_hull_point(std::size_t index, const char* expected);
 }  // namespace detail
 
 /// The hull of points [m]. They are rounded to the finest grid that holds all of them: 2^-16 m up to 8 m from the
-/// origin, 2^-15 m up to 16 m, and so on to 1 m at 524 287 m.
+/// origin, 2^-15 m up to 16 m, and so on to 1 m below 524 287 m.
 /// Errors: as above; ErrorCode::invalid for a coordinate that is not finite or beyond the grid, with its point's index.
 template <class S>
 ISO_INLINE Result<BlobRef> hull_blob(std::span<const Vec3<S>> points, BlobHome home = BlobHome::carried) {
   S most = S(0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_finite(points[i])) return detail::bad_hull_point(i, "finite numbers");
-    if (max_abs(points[i]) > from_lattice<S>(static_cast<std::int64_t>(GridPoint::kLimit) - 1, 0))
-      return detail::bad_hull_point(i, "coordinates up to 524287 m");
+    if (detail::is_off_grids(max_abs(points[i]))) return detail::bad_hull_point(i, "coordinates below 524287 m");
     most = max(most, max_abs(points[i]));
   }
   const int exponent = detail::grid_exponent(most);
