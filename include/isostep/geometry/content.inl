@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/geometry/baked/hull_content.inl"
+#include "isostep/geometry/baked/surface_queries.inl"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/shape.hpp"
 

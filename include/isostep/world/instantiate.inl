@@ -50,6 +50,10 @@
   template void collide<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, ShapeView<OwnScalar>,           \
                                    const Transform<OwnScalar>&, OwnScalar, Manifold<OwnScalar>&);                     \
   ISO_HULL_PAIRS_OF(, OwnScalar)                                                                                      \
+  ISO_SURFACE_PAIRS_OF(, OwnScalar)                                                                                   \
+  ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                                                 \
+  ISO_ROUND_TRIANGLE_OF(, OwnScalar)                                                                                  \
+  ISO_POLYHEDRON_TRIANGLE_OF(, OwnScalar)                                                                             \
   template bool ray_cast<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, Vec3<OwnScalar>,               \
                                     Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
   template ClosestPoint<OwnScalar> closest_point<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&,        \

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/polyhedron_triangle.hpp"
-#include "isostep/collision/narrowphase/round_triangle.hpp"
+#include "isostep/collision/narrowphase/polyhedron_triangle.inl"
+#include "isostep/collision/narrowphase/round_triangle.inl"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
+#include "isostep/geometry/baked/surface_queries.inl"
 #include "isostep/geometry/bounds.hpp"
 
 namespace isostep {
