@@ -119,12 +119,14 @@ TEST(SceneFile, WithPointsThatMakeNoHullIsRefused) {
 TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
   EXPECT_EQ(refusal(with_body(R"("type": "movable")")),
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");
+  const auto words = [](std::span<const char* const> names) {
+    std::string list = names[0];
+    for (std::size_t i = 1; i < names.size(); ++i) list += (i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
+    return list;
+  };
   EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "cone"}])")),
-            "/bodies/1/shapes/0/type: expected sphere, box, capsule, half_space or hull, found \"cone\"");
-  std::string joints = kJointNames[0];
-  for (std::uint32_t i = 1; i < kJointTypes; ++i)
-    joints += (i + 1 < kJointTypes ? ", " : " or ") + std::string(kJointNames[i]);
-  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")), "/joints/0/type: expected " + joints + ", found \"rope\"");
+            "/bodies/1/shapes/0/type: expected " + words(kShapeNames) + ", found \"cone\"");
+  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")), "/joints/0/type: expected " + words(kJointNames) + ", found \"rope\"");
 }
 
 TEST(SceneFile, WithABodyThatIsNotThereIsRefused) {
