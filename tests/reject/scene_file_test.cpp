@@ -121,12 +121,14 @@ TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");
   const auto words = [](std::span<const char* const> names) {
     std::string list = names[0];
-    for (std::size_t i = 1; i < names.size(); ++i) list += (i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
+    for (std::size_t i = 1; i < names.size(); ++i)
+      list += (i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
     return list;
   };
   EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "cone"}])")),
             "/bodies/1/shapes/0/type: expected " + words(kShapeNames) + ", found \"cone\"");
-  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")), "/joints/0/type: expected " + words(kJointNames) + ", found \"rope\"");
+  EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")),
+            "/joints/0/type: expected " + words(kJointNames) + ", found \"rope\"");
 }
 
 TEST(SceneFile, WithABodyThatIsNotThereIsRefused) {
