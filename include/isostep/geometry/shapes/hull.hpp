@@ -29,7 +29,11 @@ template <class S = Literal> struct Hull {
   ISO_INLINE constexpr ShapeFault fault() const { return ShapeFault::none; }
   static ISO_INLINE ShapeFault fault_of(const Content& content) { return content.fault; }
   ISO_INLINE constexpr Hull normalised() const { return *this; }
-  ISO_INLINE Polyhedron<S> polyhedron() const { return content->solid.polyhedron(); }
+  /// Without its content a hull has no geometry: who asks for it nevertheless has a bug, which stops the program.
+  ISO_INLINE Polyhedron<S> polyhedron() const {
+    if (content == nullptr) ISO_TRAP();
+    return content->solid.polyhedron();
+  }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const {
     const std::span<const Vec3<S>> vertices = polyhedron().vertices;
     Vec3<S> low = t.rotation * vertices[0], high = low;
