@@ -61,15 +61,15 @@ template <class F> struct HeightBound {
   F slope;   // [m] for a fraction of 1
 };
 template <class F> struct Turning {
-  std::span<const Vec3<F>> vertices;  // [m]
+  ArrayView<Vec3<F>> vertices;  // [m]
   Vec3<F> centre;                     // [m]
   Vec3<F> up, change;                 // [1] the direction, in the core's frame, and how the core's turning changes it
 
   ISO_INLINE HeightBound<F> lowest(Unit<F> d) const {
     const Vec3<F> direction = up + change * d;
-    std::size_t lowest = 0;
+    std::uint32_t lowest = 0;
     F height = dot(direction, vertices[0]);
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
+    for (std::uint32_t i = 1; i < vertices.size(); ++i) {
       const F other = dot(direction, vertices[i]);
       if (other < height) height = other, lowest = i;
     }

@@ -150,7 +150,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
                                                  const Rest& rest) {
     std::uint32_t done = 0;
     for (std::uint32_t lanes = best.examine; lanes != 0; lanes &= lanes - 1) {
-      const int lane = first_lane(lanes);
+      const int lane = first_bit(lanes);
       const BodyFrame<S>&a = *batch.a[lane], &b = *batch.b[lane];
       const detail::BoxPair<S> pair = pair_of(batch, rest, lane);
       std::uint32_t candidates = 0;

@@ -163,7 +163,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
                                            const typename Axes::Rest& rest, std::uint32_t touching) {
     const std::uint32_t of_b = to_bits(best.of_b), axis0 = to_bits(best.axis0), axis1 = to_bits(best.axis1);
     for (std::uint32_t lanes = touching; lanes != 0; lanes &= lanes - 1) {
-      const int lane = first_lane(lanes);
+      const int lane = first_bit(lanes);
       const auto bit = [lane](std::uint32_t of) ISO_INLINE_LAMBDA { return static_cast<int>(of >> lane & 1u); };
       const BodyFrame<S>&a = *batch.a[lane], &b = *batch.b[lane];
       const int axis = 3 * bit(of_b) + 2 - 2 * bit(axis0) - bit(axis1);
@@ -186,7 +186,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
     const std::uint32_t axis0 = to_bits(best.axis0), axis1 = to_bits(best.axis1);
     const std::uint32_t incident0 = to_bits(faces.incident0), incident1 = to_bits(faces.incident1);
     for (std::uint32_t lanes = touching; lanes != 0; lanes &= lanes - 1) {
-      const int lane = first_lane(lanes);
+      const int lane = first_bit(lanes);
       const auto bit = [lane](std::uint32_t of) ISO_INLINE_LAMBDA { return of >> lane & 1u; };
       if (bit(unclear) != 0) {
         touch_alone(run, batch, lane);

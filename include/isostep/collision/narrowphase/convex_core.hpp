@@ -3,7 +3,6 @@
 #pragma once
 
 #include <concepts>
-#include <span>
 
 #include "isostep/geometry/baked/polyhedron.hpp"
 #include "isostep/math/transform.hpp"
@@ -14,7 +13,7 @@ namespace isostep {
 /// All points within `radius` of the hull of the vertices: a sphere is one vertex, a capsule two, a triangle three, a
 /// box eight, a hull its own. At least 1 vertex, at most ConvexHull::kMaxVertices; any order, equal ones too.
 template <class S> struct ConvexCore {
-  std::span<const Vec3<S>> vertices;  // [m] in the solid's frame
+  ArrayView<Vec3<S>> vertices;  // [m] in the solid's frame
   S radius;                           // [m]
 };
 
@@ -56,8 +55,8 @@ template <class S> class FineCore {
   ISO_INLINE explicit FineCore(const ConvexCore<S>& core) : radius(finer<F>(core.radius)) {
     if constexpr (kIsCopy) {
       ISO_ASSERT(core.vertices.size() <= ConvexHull::kMaxVertices);
-      const std::size_t count = min<std::size_t>(core.vertices.size(), ConvexHull::kMaxVertices);
-      for (std::size_t i = 0; i < count; ++i) copy_[i] = finer_of<F>(core.vertices[i]);
+      const std::uint32_t count = min<std::uint32_t>(core.vertices.size(), ConvexHull::kMaxVertices);
+      for (std::uint32_t i = 0; i < count; ++i) copy_[i] = finer_of<F>(core.vertices[i]);
       vertices = {copy_, count};
     } else {
       vertices = core.vertices;
@@ -67,7 +66,7 @@ template <class S> class FineCore {
   FineCore(const FineCore&) = delete;
   FineCore& operator=(const FineCore&) = delete;
 
-  std::span<const Vec3<F>> vertices;  // [m]
+  ArrayView<Vec3<F>> vertices;  // [m]
   F radius;                           // [m]
   F extent = F(0);                    // [m] largest coordinate of a vertex
 

@@ -123,7 +123,7 @@ template <class S> class Gjk {
   static constexpr int kMostIterations = 32;
 
  public:
-  ISO_INLINE Gjk(std::span<const Vec3<S>> a, std::span<const Vec3<S>> b, const Transform<S>& b_in_a)
+  ISO_INLINE Gjk(ArrayView<Vec3<S>> a, ArrayView<Vec3<S>> b, const Transform<S>& b_in_a)
       : a_(a), b_(b), b_in_a_(b_in_a) {}
 
   /// In a's frame. The direction points from b to a.
@@ -214,7 +214,7 @@ template <class S> class Gjk {
     return true;
   }
 
-  std::span<const Vec3<S>> a_, b_;  // [m] vertices, each solid's in its own frame
+  ArrayView<Vec3<S>> a_, b_;  // [m] vertices, each solid's in its own frame
   const Transform<S>& b_in_a_;
 };
 

@@ -135,11 +135,9 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
                                        const Transform<S>& tb, S margin, Manifold<S>& out) {
   out.clear();
   const PolyhedronPair<S, W, Isa> pair(a, ta, b, tb);
-  const auto count_a = static_cast<std::uint32_t>(a.vertices.size());
-  const auto count_b = static_cast<std::uint32_t>(b.vertices.size());
-  const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, count_b, margin);
+  const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
-  const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, count_a, margin);
+  const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
   const S limit = max(face_a.separation, face_b.separation) + pair.tolerance;
   const EdgeAxis<S> edges = EdgeAxes<S, W, Isa>(pair).best(limit, margin);

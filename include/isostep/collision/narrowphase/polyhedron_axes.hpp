@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
-
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/geometry/baked/polyhedron_surface.hpp"
 #include "isostep/math/columns.hpp"
+#include "isostep/scalar/lanes_math.hpp"
 
 namespace isostep::detail {
 
@@ -28,7 +27,7 @@ template <class S> struct Lowest {
   std::uint32_t vertex;
   S height;  // [m]
 };
-template <class S> ISO_INLINE Lowest<S> lowest_of(std::span<const Vec3<S>> vertices, Vec3<Unit<S>> up) {
+template <class S> ISO_INLINE Lowest<S> lowest_of(ArrayView<Vec3<S>> vertices, Vec3<Unit<S>> up) {
   Lowest<S> lowest = {0, dot(up, vertices[0])};
   for (std::uint32_t i = 1; i < vertices.size(); ++i) {
     const S height = dot(up, vertices[i]);
@@ -65,10 +64,9 @@ template <class S, int W, class Isa> struct PolyhedronPair {
     tolerance =
         axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
   }
-  template <class T> static ISO_INLINE void take(std::span<const Vec3<T>> vectors, Columns<T, kMost>& columns) {
-    const auto count = static_cast<std::uint32_t>(vectors.size());
-    for (std::uint32_t i = 0; i < count; ++i) columns.set(i, vectors[i]);
-    columns.template pad<W>(count);
+  template <class T> static ISO_INLINE void take(ArrayView<Vec3<T>> vectors, Columns<T, kMost>& columns) {
+    for (std::uint32_t i = 0; i < vectors.size(); ++i) columns.set(i, vectors[i]);
+    columns.template pad<W>(vectors.size());
   }
 };
 
@@ -85,7 +83,7 @@ ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, Conve
                                  std::uint32_t count, S reach) {
   using Pair = PolyhedronPair<S, W, Isa>;
   using L = typename Pair::L;
-  const auto faces = static_cast<std::uint32_t>(of.faces.size());
+  const std::uint32_t faces = of.faces.size();
   Columns<Unit<S>, Pair::kMost> normals;
   Pair::take(of.normals, normals);
   FaceAxis<S> best = {0, 0, S(0)};
@@ -137,7 +135,7 @@ template <class S, int W, class Isa> class EdgeAxes {
  public:
   ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
     const Mat3<UL> turn = broadcast<UL>(pair.b_in_a.rotation);
-    const auto faces = static_cast<std::uint32_t>(pair.b.faces.size());
+    const std::uint32_t faces = pair.b.faces.size();
     Columns<U, kMost> normals;
     Pair::take(pair.b.normals, normals);
     for (std::uint32_t f = 0; f < faces; f += W) normals.store(f, turn * normals.template load<UL>(f));
@@ -160,7 +158,7 @@ template <class S, int W, class Isa> class EdgeAxes {
       const EdgeSet meeting = edges_meeting(i);
       for (std::uint32_t word = 0; word < 2; ++word) {
         for (std::uint64_t left = meeting.words[word]; left != 0; left &= left - 1) {
-          examine(i, 64 * word + static_cast<std::uint32_t>(std::countr_zero(left)), best);
+          examine(i, 64 * word + static_cast<std::uint32_t>(first_bit(left)), best);
           if (best.found && best.separation > reach) return best;
         }
       }

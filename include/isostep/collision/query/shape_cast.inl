@@ -23,7 +23,7 @@ template <class F> class CoreCast {
   static constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found
 
  public:
-  std::span<const Vec3<F>> a, b;  // [m] vertices, each core's in its own frame
+  ArrayView<Vec3<F>> a, b;  // [m] vertices, each core's in its own frame
   F radii;                        // [m] of both together
   F extent;                       // [m] of both together
   Transform<F> b_in_a;            // at the start

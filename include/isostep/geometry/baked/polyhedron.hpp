@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "isostep/core/array_view.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/baked/convex_hull.hpp"
 #include "isostep/math/vec3.hpp"
@@ -38,16 +38,16 @@ struct EdgeSet {
 /// What the collision of polyhedra reads. Directions are rounded from exact integers, so short edges and small faces
 /// have no worse ones than long and large do.
 template <class S> struct Polyhedron {
-  std::span<const Vec3<S>> vertices;           // [m]
-  std::span<const HalfEdge> half_edges;        // see ConvexHull
-  std::span<const std::uint8_t> faces;         // of each, its first half-edge
-  std::span<const Vec3<Unit<S>>> normals;      // [1] outward, of each face
-  std::span<const S> offsets;                  // [m] of each face along its normal: of its vertex furthest out
-  std::span<const Vec3<Unit<S>>> directions;   // [1] of half-edge 2 k, of each edge k
-  S inner_radius;                              // [m] from the mean of the vertices to the nearest face
+  ArrayView<Vec3<S>> vertices;          // [m]
+  ArrayView<HalfEdge> half_edges;       // see ConvexHull
+  ArrayView<std::uint8_t> faces;        // of each, its first half-edge
+  ArrayView<Vec3<Unit<S>>> normals;     // [1] outward, of each face
+  ArrayView<S> offsets;                 // [m] of each face along its normal: of its vertex furthest out
+  ArrayView<Vec3<Unit<S>>> directions;  // [1] of half-edge 2 k, of each edge k
+  S inner_radius;                       // [m] from the mean of the vertices to the nearest face
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
-  ISO_INLINE std::uint32_t edges() const { return static_cast<std::uint32_t>(directions.size()); }
+  ISO_INLINE std::uint32_t edges() const { return directions.size(); }
 };
 
 /// A hull in a scalar: the memory that its Polyhedron shows.

@@ -35,9 +35,9 @@ template <class S = Literal> struct Hull {
     return content->solid.polyhedron();
   }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const {
-    const std::span<const Vec3<S>> vertices = polyhedron().vertices;
+    const ArrayView<Vec3<S>> vertices = polyhedron().vertices;
     Vec3<S> low = t.rotation * vertices[0], high = low;
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
+    for (std::uint32_t i = 1; i < vertices.size(); ++i) {
       const Vec3<S> p = t.rotation * vertices[i];
       low = min(low, p);
       high = max(high, p);

@@ -9,12 +9,12 @@
 
 namespace isostep {
 
-/// The first lane whose bit is set, for lanes != 0. std::countr_zero would be a weak symbol at -O0.
-ISO_INLINE int first_lane(std::uint32_t lanes) {
+/// The first bit that is set, for bits != 0. std::countr_zero would be a weak symbol at -O0.
+ISO_INLINE int first_bit(std::uint64_t bits) {
 #if defined(__GNUC__)
-  return __builtin_ctz(lanes);
+  return __builtin_ctzll(bits);
 #else
-  return std::countr_zero(lanes);
+  return std::countr_zero(bits);
 #endif
 }
 
