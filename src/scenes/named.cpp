@@ -19,6 +19,8 @@ Scene full_pile() { return pile(1000); }
 Scene small_pile() { return pile(200); }
 Scene full_hull_pile() { return hull_pile(1000); }
 Scene small_hull_pile() { return hull_pile(200); }
+Scene bullets_at_a_wall() { return bullets(false); }
+Scene bullets_at_plates() { return bullets(true); }
 Scene swinging_chain() { return chain(false); }
 Scene hanging_chain() { return chain(true); }
 Scene sleeping_pyramid() {
@@ -53,6 +55,8 @@ constexpr NamedScene kScenes[] = {
     {"S9", "600 bodies in a turning drum, replaced one by one", mixer},
     {"S10", "1000 hulls fall into a pit", full_hull_pile},
     {"S10s", "the first 200 bodies of S10", small_hull_pile},
+    {"S13", "1000 bullets and spinning rods at a thin wall", bullets_at_a_wall, false},
+    {"S13d", "the same, each at a plate of its own", bullets_at_plates, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
