@@ -5,7 +5,10 @@
 namespace isostep::tool {
 
 void RigidGames::list(std::vector<SceneRow>& rows) {
-  for (const scenes::NamedScene& entry : scenes::named_scenes()) rows.push_back(row(entry.name, entry.description));
+  for (const scenes::NamedScene& entry : scenes::named_scenes()) {
+    rows.push_back(row(entry.name, entry.description));
+    rows.back().narrow = entry.narrow;
+  }
 }
 SceneRow RigidGames::row(std::string_view name, const char* description) {
   const Scene scene = *find(name);

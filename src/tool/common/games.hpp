@@ -20,6 +20,7 @@ struct SceneRow {
   int frames;
   const char* counted[2];  // "bodies", "joints"
   std::size_t counts[2];
+  bool narrow = true;  // within the range of Q16.16
 };
 
 /// Worlds of rigid bodies. A kind has its Scene, with name and frames; Game<S> as SceneGame is; `find`, nothing for a
