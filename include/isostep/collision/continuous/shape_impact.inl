@@ -4,6 +4,7 @@
 
 #include "isostep/collision/continuous/plane_impact.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
+#include "isostep/collision/continuous/surface_impact.hpp"
 #include "isostep/collision/continuous/time_of_impact.hpp"
 #include "isostep/collision/narrowphase/shape_core.hpp"
 
@@ -32,6 +33,20 @@ TimeOfImpact<S> impact_with(const HalfSpace<S>& space, const Transform<S>& at, c
   const Vec3<Unit<S>> normal = t.rotation * space.normal;
   const S height = dot(normal, motion.start.position - t.position) - space.offset;
   return plane_impact(core, motion, {normal, motion.start.position - normal * height}, target);
+}
+
+// A surface has no thickness: what its centre is behind of has passed it.
+template <class S> ISO_INLINE S thickness_of(const Mesh<S>&) { return S(0); }
+template <class S> ISO_INLINE S thickness_of(const HeightField<S>&) { return S(0); }
+template <class S>
+TimeOfImpact<S> impact_with(const Mesh<S>& mesh, const Transform<S>& at, const Pose<S>& pose,
+                            const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
+  return surface_impact(mesh.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
+}
+template <class S>
+TimeOfImpact<S> impact_with(const HeightField<S>& field, const Transform<S>& at, const Pose<S>& pose,
+                            const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
+  return surface_impact(field.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
 }
 
 template <class S> class Passage {
