@@ -105,6 +105,7 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
   d.filter.group = body.group;
   d.user_data = user_data;
   d.sensor = body.sensor;
+  d.bullet = body.bullet;
   d.allow_sleep = body.allow_sleep;
   d.collide = body.collide;
   return d;

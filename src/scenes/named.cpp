@@ -25,6 +25,8 @@ Scene thin_on_mesh() { return thin_bodies(false); }
 Scene thin_on_field() { return thin_bodies(true); }
 Scene sliders_on_mesh() { return sliders(false); }
 Scene sliders_on_field() { return sliders(true); }
+Scene bullets_at_a_wall() { return bullets(false); }
+Scene bullets_at_plates() { return bullets(true); }
 Scene swinging_chain() { return chain(false); }
 Scene hanging_chain() { return chain(true); }
 Scene sleeping_pyramid() {
@@ -65,6 +67,8 @@ constexpr NamedScene kScenes[] = {
     {"S15h", "S15 on a height field", thin_on_field, false},
     {"S16", "40 bodies slide over a flat mesh", sliders_on_mesh},
     {"S16h", "S16 on a height field", sliders_on_field},
+    {"S13", "1000 bullets and spinning rods at a thin wall", bullets_at_a_wall, false},
+    {"S13d", "the same, each at a plate of its own", bullets_at_plates, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},

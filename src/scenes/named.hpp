@@ -40,6 +40,10 @@ Scene limited_ragdolls();
 Scene tilted_ragdolls();
 /// Bodies of a ragdoll: its parts follow each other.
 inline constexpr std::size_t kRagdollParts = 11;
+/// At a thin wall, or, with the flag, each at a plate of its own: the wall or first plate comes first, and each plate
+/// before its bullet.
+Scene bullets(bool at_plates);
+inline constexpr int kBullets = 1000;
 Scene mixer();
 Scene mixed();
 Scene medley();

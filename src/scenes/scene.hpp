@@ -78,6 +78,7 @@ struct SceneBody {
   bool allow_sleep = true;
   bool collide = true;
   bool sensor = false;
+  bool bullet = false;
 };
 
 /// Frames as they lie at the start, world.

@@ -65,6 +65,7 @@ SceneBody read_body(const JsonNode& node, const std::string& place) {
   reader.flag("allow_sleep", body.allow_sleep);
   reader.flag("collide", body.collide);
   reader.flag("sensor", body.sensor);
+  reader.flag("bullet", body.bullet);
   const auto parts = reader.array("shapes");
   for (std::size_t i = 0; i < parts.size(); ++i) body.parts.push_back(read_part(parts[i], item(place, "shapes", i)));
   if (parts.empty()) throw SceneError(place, "a body needs \"shapes\", one or more");

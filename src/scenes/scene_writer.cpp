@@ -86,6 +86,7 @@ std::string text_of(const SceneBody& body) {
   out.member("allow_sleep", body.allow_sleep, plain.allow_sleep);
   out.member("collide", body.collide, plain.collide);
   out.member("sensor", body.sensor, plain.sensor);
+  out.member("bullet", body.bullet, plain.bullet);
   std::string parts;
   for (const ScenePart& part : body.parts) parts += (parts.empty() ? "" : ", ") + text_of(part);
   out.raw("shapes", "[" + parts + "]");

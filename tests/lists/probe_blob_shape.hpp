@@ -49,6 +49,10 @@ template <class S = Literal> struct Probe {
   ISO_INLINE constexpr ShapeFault fault() const { return ShapeFault::none; }
   ISO_INLINE constexpr Probe normalised() const { return *this; }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const { return box().bounds(t); }
+  ISO_INLINE S inner_radius() const { return box().inner_radius(); }
+  template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
+    return box().visit_core(inset, point);
+  }
   ISO_INLINE S mass(S density) const { return box().mass(density); }
   ISO_INLINE Vec3<S> kappa() const { return box().kappa(); }
   ISO_INLINE Unit<S> relative_volume(S scale) const { return box().relative_volume(scale); }

@@ -33,7 +33,7 @@ template <class T> class Shared {
     return node_->value;
   }
   ISO_INLINE bool is_same(const Shared& other) const { return node_ == other.node_; }
-  /// What was computed of the value: two things, 0 and 1.
+  /// What was computed of the value: three things, 0 to 2. Hashes take 0 and 1.
   ISO_INLINE const Remembered& remembered(int which = 0) const { return node_->remembered[which]; }
 
  private:
@@ -42,7 +42,7 @@ template <class T> class Shared {
     ISO_INLINE explicit Node(const T& from) : owners(1), value(from) {}
     ISO_INLINE ~Node() {}
     std::atomic<std::uint32_t> owners;
-    Remembered remembered[2];
+    Remembered remembered[3];
     T value;
   };
   static ISO_INLINE void release(Node* node) {

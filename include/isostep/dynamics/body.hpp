@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kSensor = 1u << 0;  // reports overlaps, is not s
 inline constexpr std::uint32_t kAllowSleep = 1u << 1;
 inline constexpr std::uint32_t kCollide = 1u << 2;  // has contacts at all
 inline constexpr std::uint32_t kSpins = 1u << 3;    // inertia differs between axes: the gyroscopic term matters
+inline constexpr std::uint32_t kBullet = 1u << 4;   // continuous collision with what moves, too
 inline constexpr std::uint32_t kLockX = 1u << 8;    // no motion along world x; then y, z, and turning about x, y, z
 inline constexpr std::uint32_t kLockAngularX = 1u << 11;
 inline constexpr std::uint32_t kAngularLocks = 7u * kLockAngularX;

@@ -36,6 +36,14 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
   shape.visit_triangles(detail::NoTriangle{});                   // of its blob: triangle(a, b, c), see DrawnTriangle
   { shape.drawn_at(pose, pose) } -> std::same_as<Pose<S>>;  // of body's origin and shape's frame: its middle, world
 };
+/// What moves, and is swept: a convex solid. Its core is what ConvexCore has of it.
+template <template <class> class Shape, class S>
+concept Solid = requires(Shape<S> shape, S s) {
+  { shape.inner_radius() } -> std::same_as<S>;  // [m] of a ball that it holds
+  // point(v) for each vertex of the core [m] of the solid that is `s` [m] deep in it, or deeper, 0 to inner_radius();
+  // returns the radius [m] around them.
+  { shape.visit_core(s, detail::NoPoint{}) } -> std::same_as<S>;
+};
 /// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it.
 template <template <class> class Shape, class S>
 concept MadeOfPrimitive = requires(Primitive<S> stored) {
@@ -64,6 +72,8 @@ concept HasInertiaTensor = requires(Shape<S> shape, S s) {
                 "a shape's file lacks `of`, Content or fault_of");                                                    \
   static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>,        \
                 "a shape's file lacks kappa, centre_of_mass or relative_inertia");                                    \
+  static_assert(!Shape<float>::kBounded || Solid<Shape, float>,                                                       \
+                "the file of a shape that moves lacks inner_radius or visit_core");                                   \
   static_assert(Shape<float>::kType == ShapeType::name, "a shape's kType is not its own");
 ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 #undef ISO_COMPLETE

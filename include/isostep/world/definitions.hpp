@@ -29,6 +29,7 @@ template <class S> struct BodyDefinition {
   bool sensor = false;
   bool allow_sleep = true;
   bool collide = true;
+  bool bullet = false;  // nor passes other bodies that move, at whatever speed; does pass other bullets
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);
@@ -50,6 +51,7 @@ template <class S> struct BodyDefinition {
     visit("sensor", self.sensor);
     visit("allow_sleep", self.allow_sleep);
     visit("collide", self.collide);
+    visit("bullet", self.bullet);
   }
 };
 

@@ -11,6 +11,7 @@
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/command_executor.hpp"
 #include "isostep/world/contact_events.hpp"
+#include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/destruction.hpp"
 #include "isostep/world/island_sleep.hpp"
 #include "isostep/world/island_wake.hpp"
@@ -40,6 +41,7 @@ namespace isostep {
 ///   Carriers        -> no other
 ///   StepSolver      -> BodyMap
 ///   BodyFinisher    -> BodyMap, Proxies
+///   ContinuousCollision -> BodyMap, Proxies
 ///   SensorOverlaps  -> BodyMap
 ///   ContactEvents   -> no other
 ///   RenderPoses     -> no other
@@ -85,6 +87,7 @@ template <class S> class WorldEngine {
   Carriers<S> carriers_;
   StepSolver<S> solver_{state_, map_};
   BodyFinisher<S> finisher_{state_, map_, proxies_};
+  ContinuousCollision<S> continuous_{state_, map_, proxies_};
   SensorOverlaps<S> sensors_{state_, map_};
   ContactEvents<S> contact_events_{state_};
   RenderPoses<S> render_poses_{state_};

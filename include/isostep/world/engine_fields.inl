@@ -25,6 +25,7 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
     case Stage::restitution: return solved(SolverStage::apply_restitution);
     case Stage::store_impulses: solver_.visit_impulses(visit); return solved(SolverStage::store);
     case Stage::finalise_bodies: return visit("report", report_);
+    case Stage::continuous: return;
     case Stage::update_sensors:
       visit("sensor_begin", events_.sensor_begin);
       return visit("sensor_end", events_.sensor_end);

@@ -6,6 +6,7 @@
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/body_map.inl"
 #include "isostep/world/contact_events.inl"
+#include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/island_sleep.inl"
 #include "isostep/world/island_wake.inl"
@@ -40,6 +41,8 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
   finisher_.finish(render_poses_.start(), report_);
   after(Stage::finalise_bodies);
+  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs());
+  after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
   contact_events_.emit({narrow_phase_.old_contacts(), state_.contacts, narrow_phase_.geometry(), solver_.impulses()},
@@ -99,6 +102,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class Carriers<S>;                                                                               \
   template class StepSolver<S>;                                                                             \
   template class BodyFinisher<S>;                                                                           \
+  template class ContinuousCollision<S>;                                                                    \
   template class SensorOverlaps<S>;                                                                         \
   template class ContactEvents<S>;                                                                          \
   template class RenderPoses<S>;                                                                            \

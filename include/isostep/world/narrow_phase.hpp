@@ -34,6 +34,9 @@ template <class S> class NarrowPhase {
   /// Ascending but for what bodies of higher slots see; SensorOverlaps takes them over.
   ISO_INLINE std::vector<SensorOverlap>& overlaps() { return overlaps_; }
 
+  /// As PartPairs has them.
+  ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return part_pairs_.joined_pairs(); }
+
   template <class Visit> void visit_scratch(const Visit& visit) {
     part_pairs_.visit_scratch(visit);
     visit("old_contacts", old_contacts_);

@@ -39,6 +39,8 @@ template <class S> class PartPairs {
   /// The same, of the last `gather`.
   ISO_INLINE std::uint32_t cut_compounds() const { return cut_compounds_; }
 
+  /// Pairs of bodies that joints keep from colliding, ascending.
+  ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return joined_pairs_; }
   /// Of awake bodies in their order, then of those that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
   ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }

@@ -18,14 +18,16 @@ enum class Stage : std::uint32_t {
   restitution,
   store_impulses,
   finalise_bodies,
+  continuous,
   update_sensors,
   emit_events,
   update_sleep,
 };
-inline constexpr std::uint32_t kStages = 12;
+inline constexpr std::uint32_t kStages = 13;
 inline constexpr const char* kStageNames[kStages] = {
     "find_pairs",  "apply_forces",   "update_manifolds", "colour_constraints", "prepare",     "solve_substeps",
-    "restitution", "store_impulses", "finalise_bodies",  "update_sensors",     "emit_events", "update_sleep"};
+    "restitution", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors", "emit_events",
+    "update_sleep"};
 
 /// Of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;

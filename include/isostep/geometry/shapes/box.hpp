@@ -74,6 +74,15 @@ template <class S = Literal> struct Box {
     return Aabb<S>::around(t.position, {dot(abs(rows[0]), h), dot(abs(rows[1]), h), dot(abs(rows[2]), h)});
   }
 
+  ISO_INLINE S inner_radius() const { return min(half_extents.x, min(half_extents.y, half_extents.z)); }
+  template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
+    const Vec3<S> h = half_extents - Vec3<S>{inset, inset, inset};
+    for (int corner = 0; corner < 8; ++corner) {
+      point(Vec3<S>{(corner & 4) != 0 ? h.x : -h.x, (corner & 2) != 0 ? h.y : -h.y, (corner & 1) != 0 ? h.z : -h.z});
+    }
+    return S(0);
+  }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(8), half_extents.x, half_extents.y, half_extents.z});
   }

@@ -71,6 +71,13 @@ template <class S = Literal> struct Capsule {
                            {abs(rows[0].y) * h + radius, abs(rows[1].y) * h + radius, abs(rows[2].y) * h + radius});
   }
 
+  ISO_INLINE S inner_radius() const { return radius; }
+  template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
+    point(-core());
+    point(core());
+    return radius - inset;
+  }
+
   ISO_INLINE S mass(S density) const {
     const S length = half_height + half_height + S(4.0 / 3) * radius;
     return detail::saturating_product<S>({density, S(detail::kPi), radius, radius, length});

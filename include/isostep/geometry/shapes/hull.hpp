@@ -45,6 +45,19 @@ template <class S = Literal> struct Hull {
     return {t.position + low, t.position + high};
   }
 
+  ISO_INLINE S inner_radius() const { return polyhedron().inner_radius; }
+  /// Smaller, about the mean of the vertices: as deep where its faces are nearest to that, deeper elsewhere.
+  template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
+    using U = Unit<S>;
+    const Polyhedron<S> solid = polyhedron();
+    const U part = inset == S(0) ? U(0) : divide_to<U>(inset, solid.inner_radius);
+    const U share = divide_to<U>(S(1), S(static_cast<int>(solid.vertices.size())));
+    Vec3<S> middle = Vec3<S>::zero();
+    for (const Vec3<S>& v : solid.vertices) middle += v * share;
+    for (const Vec3<S>& v : solid.vertices) point(v + (middle - v) * part);
+    return S(0);
+  }
+
   ISO_INLINE S mass(S density) const {
     const Vec3<S>& w = content->widths;
     return detail::saturating_product<S>({density, convert<S>(content->filled), w.x, w.y, w.z});

@@ -43,6 +43,9 @@ template <class U> ISO_INLINE bool is_unit(U x, U y, U z, U w) { return round_to
 struct NoLine {
   template <class V> ISO_INLINE void operator()(V, V) const {}
 };
+struct NoPoint {
+  template <class V> ISO_INLINE void operator()(V) const {}
+};
 struct NoTriangle {
   template <class V> ISO_INLINE void operator()(V, V, V) const {}
 };

@@ -27,6 +27,12 @@ template <class S = Literal> struct Sphere {
     return Aabb<S>::around(t.position, {radius, radius, radius});
   }
 
+  ISO_INLINE S inner_radius() const { return radius; }
+  template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
+    point(Vec3<S>::zero());
+    return radius - inset;
+  }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(4.188790204786391), radius, radius, radius});
   }

@@ -1,0 +1,49 @@
+// ShapeCore<S>: a stored shape as a ConvexCore.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "isostep/collision/narrowphase/convex_core.hpp"
+#include "isostep/geometry/shape.hpp"
+
+namespace isostep {
+
+/// A solid of a shape's file (`Sphere<S>`, `Box<S>` ...), or what is `inset` [m] deep in it, 0 up to its inner radius.
+/// The memory that core() shows.
+template <class S> class ShapeCore {
+ public:
+  /// In the frame that `t` leads to.
+  template <class Shape> ISO_INLINE ShapeCore(const Shape& shape, const Transform<S>& t, S inset) {
+    radius_ = shape.visit_core(inset, [&](Vec3<S> v) ISO_INLINE_LAMBDA { add(to_world(t, v)); });
+  }
+  ShapeCore(const ShapeCore&) = delete;
+  ShapeCore& operator=(const ShapeCore&) = delete;
+
+  /// Makes it a ball about the mean of the vertices, inside of the shape for a radius up to its inner one.
+  ISO_INLINE void become_ball(S radius) {
+    const Unit<S> share = divide_to<Unit<S>>(S(1), S(static_cast<std::int32_t>(count_)));
+    Vec3<S> middle = Vec3<S>::zero();
+    for (std::size_t i = 0; i < count_; ++i) middle += vertices_[i] * share;
+    vertices_[0] = middle;
+    count_ = 1;
+    radius_ = radius;
+  }
+  /// Valid as long as this is.
+  ISO_INLINE ConvexCore<S> core() const { return {std::span(vertices_, count_), radius_}; }
+
+ private:
+  ISO_INLINE void add(Vec3<S> v) {
+    ISO_ASSERT(count_ < ConvexHull::kMaxVertices);
+    if (count_ < ConvexHull::kMaxVertices) vertices_[count_++] = v;
+  }
+
+  Vec3<S> vertices_[ConvexHull::kMaxVertices];  // [m]
+  std::size_t count_ = 0;
+  S radius_;  // [m]
+};
+
+/// Whether a shape is convex and has an end: then it has a core and an inner radius, see Solid in shape.hpp.
+template <class Shape> inline constexpr bool kIsSolid = Shape::kBounded;
+
+}  // namespace isostep

@@ -1,0 +1,96 @@
+// ContinuousCollision<S>: fast bodies do not pass what a step would carry them through.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/collision/continuous/core_motion.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state after the solver, with fat boxes; the centres' poses as the step began; the pairs of bodies that
+///          joints keep from colliding.
+/// Output:  poses of fast bodies that would have passed something, put back to where they first touch it, with their
+///          fat boxes; the broad phase knows of them. Velocities stay: the next step finds the contact.
+/// Keeps:   nothing but memory.
+/// Method:  1. Dynamic bodies that move by more than half of the inner radii of their part and of the other one (which
+///             counts as 0.5 m at most) are swept against static and kinematic bodies, turns included. Less is left to
+///             the narrow phase: it pushes solids out the way they came.
+///          2. Bullets that move by more than half their inner radius are swept against the poses that all this left of
+///             other dynamic bodies but bullets. Nobody reads what another writes, so the order is free.
+///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
+///          body is swept in that one's frame and goes on with it to the end of the step.
+/// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
+///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
+/// Limits:  two bodies may squeeze a third; kinematic bodies pass what does not move itself.
+template <class S> class ContinuousCollision {
+ public:
+  ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined);
+
+ private:
+  /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
+  struct Mover {
+    static constexpr std::uint32_t kMostPieces = 4;
+    std::uint32_t index;  // among the awake ones
+    std::uint32_t pieces;
+    Pose<S> poses[kMostPieces + 1];
+    S inner;              // [m] least inner radius of its parts
+    S reach;              // [m] no point of it is further from its centre of mass
+    S motion;             // [m] no point of it has moved further
+  };
+  /// Where a motion ends.
+  struct Cut {
+    Unit<S> fraction;  // [1]
+    Pose<S> pose;      // of the centre of mass
+  };
+  /// Where an obstacle is while a body is swept. `carrier`: where the frame is at the end, if it is a kinematic body's.
+  struct Rest {
+    Pose<S> pose;
+    const Pose<S>* carrier;
+  };
+  /// What is least of all that the filter of bodies has to know.
+  struct Survey {
+    S thinnest;  // [m] inner radius of what stops a body, up to kThick
+    bool bullets;
+  };
+
+  void find_way(Mover& mover) const;
+  Survey survey() const;
+  S thinnest_static() const;
+  S least_inner_radius() const;
+  S thinnest_of(std::uint32_t shape) const;
+  void find_movers(const Survey& survey);
+  bool measure(std::size_t index, S thinnest, Mover& mover) const;
+  bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
+  void cut(const Mover& mover, bool moving);
+  void find_obstacles(const Mover& mover, bool moving);
+  void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
+  void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,
+                   const Rest& rest, Cut& cut) const;
+  ISO_INLINE Pose<S> now(std::size_t index) const {
+    return {state_.awake.states[index].centre, state_.awake.states[index].orientation};
+  }
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  std::span<const Pose<S>> start_;  // for one update
+  std::span<const std::uint64_t> joined_;
+  std::vector<Mover> movers_;
+  std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
+};
+
+#define ISO_EXTERN(S) extern template class ContinuousCollision<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

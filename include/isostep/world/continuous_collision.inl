@@ -1,0 +1,254 @@
+// Bodies of continuous_collision.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/broadphase/pairs.hpp"
+#include "isostep/collision/continuous/shape_impact.hpp"
+#include "isostep/core/lower_bound.hpp"
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/world/continuous_collision.hpp"
+#include "isostep/world/fat_box.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// A part of a body in the frame of its centre of mass, axes as the body's.
+template <class S>
+PlacedShape<S> placed_part(const BodyMap<S>& map, const BodyProperties<S>& body, const Child<S>& child) {
+  const Pose<S> at = {child.pose.position - body.local_centre, child.pose.orientation};
+  return {map.contents().view(child.primitive), Transform<S>::of(at)};
+}
+/// b seen from a's frame.
+template <class S> Pose<S> pose_from(const Pose<S>& a, const Pose<S>& b) {
+  return {transposed_times(to_matrix(a.orientation), b.position - a.position),
+          normalise(conjugate(a.orientation) * b.orientation)};
+}
+/// [m] No point within `reach` of the frame's origin moves further along a straight line.
+template <class S> S most_motion(const CoreMotion<S>& motion, S reach) {
+  const Quat<Unit<S>> turn = motion.end.orientation * conjugate(motion.start.orientation);
+  const S chord = reach * length(Vec3<Unit<S>>{turn.x, turn.y, turn.z});
+  return length(motion.end.position - motion.start.position) + chord + chord;
+}
+template <class S> Aabb<S> swept_box(const CoreMotion<S>& motion, S reach) {
+  const Vec3<S> all = {reach, reach, reach};
+  const Aabb<S> start = Aabb<S>::around(motion.start.position, all), end = Aabb<S>::around(motion.end.position, all);
+  return grow(merge(start, end), kFatMargin<S>);
+}
+/// a / b for 0 <= a <= b, b of 1 or 4.
+template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b) {
+  return divide_to<Unit<S>>(S(static_cast<std::int32_t>(a)), S(static_cast<std::int32_t>(b)));
+}
+/// A number that is not negative, as what Remembered keeps.
+template <class S> ISO_INLINE std::uint64_t number_to_keep(S a) { return std::uint64_t{to_bits(a)} + 1; }
+template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
+  return from_bits<S>(static_cast<RawBits<S>>(kept - 1));
+}
+}  // namespace detail
+
+template <class S>
+void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined) {
+  start_ = start;
+  joined_ = joined;
+  const Survey found = survey();
+  find_movers(found);
+  for (const Mover& mover : movers_) cut(mover, false);
+  if (!found.bullets) return;
+  for (const Mover& mover : movers_) {
+    if ((state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0) cut(mover, true);
+  }
+}
+
+// ---- who is fast
+
+template <class S> S ContinuousCollision<S>::thinnest_of(std::uint32_t shape) const {
+  S least = detail::kThick<S>;
+  for (const Child<S>& child : map_.children_of(shape))
+    least = min(least, thickness<S>(map_.contents().view(child.primitive)));
+  return least;
+}
+template <class S> S ContinuousCollision<S>::thinnest_static() const {
+  return detail::number_kept<S>(state_.static_bodies.remembered(2).get([&] {
+    S least = state_.static_bodies->states.empty() ? highest<S>() : detail::kThick<S>;
+    for (const BodyProperties<S>& body : state_.static_bodies->properties) least = min(least, thinnest_of(body.shape));
+    return detail::number_to_keep(least);
+  }));
+}
+template <class S> S ContinuousCollision<S>::least_inner_radius() const {
+  return detail::number_kept<S>(state_.shapes.remembered(2).get([&] {
+    S least = detail::kThick<S>;
+    for (std::uint32_t slot = 0; slot < state_.shapes->size(); ++slot) least = min(least, thinnest_of(slot));
+    return detail::number_to_keep(least);
+  }));
+}
+
+/// Kinematic bodies are few, and may sleep: then any shape may be one's.
+template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S>::survey() const {
+  Survey found = {thinnest_static(), false};
+  if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, least_inner_radius());
+  for (const BodyProperties<S>& body : state_.awake.properties) {
+    if (body.type == BodyType::kinematic) found.thinnest = min(found.thinnest, thinnest_of(body.shape));
+    if ((body.flags & body_flag::kBullet) != 0) found.bullets = true;
+  }
+  return found;
+}
+
+/// Most bodies are slow, and a few comparisons tell: neither has the centre moved by three quarters of the least motion
+/// that counts nor do its ends turn by a quarter of it.
+template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey) {
+  movers_.clear();
+  const S thinnest = survey.bullets ? S(0) : survey.thinnest;
+  if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
+  const S least = (least_inner_radius() + thinnest) * S(0.5);
+  const S way = least * S(0.75);
+  // No point is further from the centre than sqrt(3) times the box's longest side, nor turns faster than sqrt(3) times
+  // the largest component.
+  const auto squared = product(way, way), turning = product(least * S(state_.settings.hz), S(1.0 / 12));
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    const BodyState<S>& state = state_.awake.states[i];
+    const Vec3<S> moved = state.centre - start_[i].position;
+    const auto turned = product(convert<S>(max_abs(state.angular_velocity)), max_abs(state.fat.high - state.fat.low));
+    if (dot_sum(moved, moved) < squared && turned < turning) continue;
+    Mover mover;
+    if (measure(i, survey.thinnest, mover)) movers_.push_back(mover);
+  }
+}
+
+/// False: it is slow.
+template <class S> bool ContinuousCollision<S>::measure(std::size_t index, S thinnest, Mover& mover) const {
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  if (body.type != BodyType::dynamic || (body.flags & body_flag::kSensor) != 0 ||
+      (body.flags & body_flag::kCollide) == 0) {
+    return false;
+  }
+  mover = {};
+  mover.index = static_cast<std::uint32_t>(index);
+  mover.inner = highest<S>();
+  for (const Child<S>& child : map_.children_of(body.shape)) {
+    const PlacedShape<S> part = detail::placed_part(map_, body, child);
+    const Aabb<S> box = bounds(part.shape, part.at);
+    mover.inner = min(mover.inner, thickness<S>(part.shape));
+    mover.reach = max(mover.reach, length(max(abs(box.low), abs(box.high))));
+  }
+  find_way(mover);
+  for (std::uint32_t i = 0; i < mover.pieces; ++i)
+    mover.motion += detail::most_motion<S>({mover.poses[i], mover.poses[i + 1], Vec3<S>::zero()}, mover.reach);
+  const bool bullet = (body.flags & body_flag::kBullet) != 0;
+  return (mover.inner + (bullet ? S(0) : thinnest)) * S(0.5) < mover.motion;
+}
+
+/// Two orientations do not tell a turn of more than half of one: the angular velocity does, where it leads from the
+/// first to the second.
+template <class S> void ContinuousCollision<S>::find_way(Mover& mover) const {
+  using U = Unit<S>;
+  constexpr std::uint32_t kPieces = Mover::kMostPieces;
+  const Pose<S> from = start_[mover.index], to = now(mover.index);
+  const auto spin = heading_of(convert<S>(state_.awake.states[mover.index].angular_velocity));
+  const S turn = spin.length / S(state_.settings.hz);
+  mover.pieces = 1;
+  mover.poses[0] = from;
+  mover.poses[1] = to;
+  if (turn < S(2)) return;
+  Quat<U> turned[kPieces + 1];
+  for (std::uint32_t i = 1; i <= kPieces; ++i) {
+    const SinCos<U> half = sin_cos_to<U>(turn * detail::share_of<S>(i, kPieces) * U(0.5));
+    const Vec3<U> axis = spin.direction * half.sin;
+    turned[i] = normalise(Quat<U>{axis.x, axis.y, axis.z, half.cos} * from.orientation);
+  }
+  const Quat<U> error = turned[kPieces] * conjugate(to.orientation);
+  if (abs(error.w) < U(0.875)) return;
+  mover.pieces = kPieces;
+  const Vec3<S> way = to.position - from.position;
+  for (std::uint32_t i = 1; i < kPieces; ++i)
+    mover.poses[i] = {from.position + way * detail::share_of<S>(i, kPieces), turned[i]};
+  mover.poses[kPieces] = to;
+}
+
+// ---- what stops them
+
+/// `moving`: dynamic bodies that are no bullets; else static and kinematic ones.
+template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std::uint32_t slot, bool moving) const {
+  constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
+  const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
+  if ((other.type == BodyType::dynamic) != moving || (other.flags & kNone) != body_flag::kCollide) return false;
+  if (moving && (other.flags & body_flag::kBullet) != 0) return false;
+  if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
+  const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
+  const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
+  return at == joined_.size() || joined_[at] != key;
+}
+
+/// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.
+template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& mover, bool moving) {
+  const Pose<S> from = start_[mover.index];
+  const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};
+  const Sweep<S> sweep = {from.position, now(mover.index).position - from.position, reach, Unit<S>(1)};
+  obstacles_.clear();
+  proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
+    const Aabb<S>& fat = map_.state_at(map_.location(slot)).fat;
+    if (may_stop(mover, slot, moving) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
+    return max_fraction;
+  });
+  sort_scratch_.resize(obstacles_.size());
+  stable_sort(obstacles_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(obstacles_.size()), OwnKey{});
+}
+
+/// What hits a kinematic body is seen from it, in its frame; `place` is that frame at the end.
+template <class S>
+void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const {
+  const Location at = map_.location(slot);
+  const BodyProperties<S>& other = map_.properties_at(at);
+  const Pose<S> place = map_.centre_pose_at(slot);
+  if (moving || at.set != Location::kAwake) {
+    for (std::uint32_t i = 0; i < mover.pieces; ++i)
+      sweep_piece(mover, i, {mover.poses[i], mover.poses[i + 1], Vec3<S>::zero()}, other, {place, nullptr}, cut);
+    return;
+  }
+  const CoreMotion<S> of_other = {start_[at.index], place, Vec3<S>::zero()};
+  Pose<S> from = detail::pose_from(of_other.start, mover.poses[0]);
+  for (std::uint32_t i = 0; i < mover.pieces; ++i) {
+    const Unit<S> fraction = detail::share_of<S>(i + 1, mover.pieces);
+    const Pose<S> to = detail::pose_from(pose_at(of_other, fraction), mover.poses[i + 1]);
+    sweep_piece(mover, i, {from, to, Vec3<S>::zero()}, other, {Pose<S>::identity(), &place}, cut);
+    from = to;
+  }
+}
+template <class S>
+void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion,
+                                         const BodyProperties<S>& other, const Rest& rest, Cut& cut) const {
+  using U = Unit<S>;
+  const BodyProperties<S>& body = state_.awake.properties[mover.index];
+  const bool moving = other.type == BodyType::dynamic;
+  const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
+  const Aabb<S> swept = detail::swept_box(motion, mover.reach);
+  for (const Child<S>& child : map_.children_of(body.shape)) {
+    const PlacedShape<S> part = detail::placed_part(map_, body, child);
+    const S inner = thickness<S>(part.shape);
+    for (const Child<S>& child_of_other : map_.children_of(other.shape)) {
+      const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
+      if (far < (inner + (moving ? S(0) : thickness<S>(obstacle.shape))) * S(0.5)) continue;
+      if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) continue;
+      const U fraction = free_fraction(part, motion, obstacle, rest.pose);
+      if (fraction == U(1)) continue;
+      const U all = detail::share_of<S>(piece, mover.pieces) + fraction * detail::share_of<S>(1, mover.pieces);
+      if (!(all < cut.fraction)) continue;
+      const Pose<S> there = pose_at(motion, fraction);
+      cut = {all, rest.carrier == nullptr ? there : compose(*rest.carrier, there)};
+    }
+  }
+}
+
+template <class S> void ContinuousCollision<S>::cut(const Mover& mover, bool moving) {
+  find_obstacles(mover, moving);
+  Cut cut = {Unit<S>(1), {}};
+  for (const std::uint32_t slot : obstacles_) sweep_against(mover, slot, moving, cut);
+  if (cut.fraction == Unit<S>(1)) return;
+  BodyState<S>& state = state_.awake.states[mover.index];
+  const BodyProperties<S>& body = state_.awake.properties[mover.index];
+  state.centre = cut.pose.position;
+  state.orientation = cut.pose.orientation;
+  detail::renew_fat_box(map_, state, body, false);
+  proxies_.place(state, body, true);
+}
+
+}  // namespace isostep

@@ -1,0 +1,149 @@
+// Nothing passes what is fixed, at whatever speed, and bullets do not pass what moves.
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <sstream>
+
+#include "random/dice.hpp"
+#include "random/hull.hpp"
+#include "scenes/build.hpp"
+#include "scenes/named.hpp"
+
+namespace isostep::test {
+namespace {
+
+// ---- the scenes of bullets
+
+struct Through {
+  int spheres = 0, boxes = 0, rods = 0;
+  friend bool operator==(Through a, Through b) {
+    return a.spheres == b.spheres && a.boxes == b.boxes && a.rods == b.rods;
+  }
+  void count(int n) { ++(n % 3 == 0 ? spheres : n % 3 == 1 ? boxes : rods); }
+};
+std::ostream& operator<<(std::ostream& out, Through t) {
+  return out << t.spheres << " spheres, " << t.boxes << " boxes, " << t.rods << " rods";
+}
+
+template <class S> Through through_the_wall() {
+  const scenes::Scene scene = scenes::bullets(false);
+  World<S> w(scenes::settings_of<S>(scene));
+  const scenes::Built<S> built = scenes::build(scene, w);
+  for (int frame = 0; frame < scene.frames; ++frame) w.step();
+  Through through;
+  for (int n = 0; n < scenes::kBullets; ++n) {
+    if (to_double(w.center_of_mass(built.bodies[static_cast<std::size_t>(n) + 1]).x) > 0.01) through.count(n);
+  }
+  return through;
+}
+/// A plate that got less than a tenth of the speed that a full stop gives was passed.
+template <class S> Through through_plates() {
+  const scenes::Scene scene = scenes::bullets(true);
+  World<S> w(scenes::settings_of<S>(scene));
+  const scenes::Built<S> built = scenes::build(scene, w);
+  std::vector<double> speeds;
+  for (std::size_t n = 0; n < scenes::kBullets; ++n) speeds.push_back(to_double(w.velocity(built.bodies[2 * n + 1]).x));
+  for (int frame = 0; frame < scene.frames; ++frame) w.step();
+  Through through;
+  for (std::size_t n = 0; n < scenes::kBullets; ++n) {
+    const double plate = to_double(w.mass(built.bodies[2 * n])), mass = to_double(w.mass(built.bodies[2 * n + 1]));
+    const double full = speeds[n] * mass / (plate + mass);
+    if (length(real(w.velocity(built.bodies[2 * n]))) < 0.1 * full) through.count(static_cast<int>(n));
+  }
+  return through;
+}
+
+template <class S> class BulletScenes : public ::testing::Test {};
+using WideScalars = ::testing::Types<float, double, Q32_32>;
+TYPED_TEST_SUITE(BulletScenes, WideScalars);
+
+TYPED_TEST(BulletScenes, nothing_passes_a_thin_wall) { EXPECT_EQ(through_the_wall<TypeParam>(), Through{}); }
+TYPED_TEST(BulletScenes, with_the_flag_nothing_passes_plates) { EXPECT_EQ(through_plates<TypeParam>(), Through{}); }
+
+// ---- rooms of thin walls: faces, edges and corners, from any direction, again and again
+
+template <class S> class BulletRooms : public ::testing::Test {
+ protected:
+  static constexpr double kHalf = 2;  // [m] of the room
+  /// [m] of walls, and least of bodies: Q16.16 has none less than 1/64.
+  static constexpr double kThin = std::is_same_v<S, Q16_16> ? 0.015625 : 0.01;
+  static constexpr double kSpeed = std::is_same_v<S, Q16_16> ? 60 : 300, kSpin = std::is_same_v<S, Q16_16> ? 36 : 50;
+
+  explicit BulletRooms() : world_(settings<S>(0)) {}
+
+  void add_walls(BodyType type, double restitution) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {-1, 1}) {
+        D3 half = D3{1, 1, 1} * (kHalf + 2 * kThin), at = {0, 0, 0};
+        half[axis] = kThin;
+        at[axis] = side * (kHalf + kThin);
+        BodyDefinition<S> d = still<S>(world_.add_shape(Box<S>{vec<S>(half)}), at);
+        d.type = type;
+        d.material.restitution = num<S>(restitution);
+        world_.create(d);
+      }
+    }
+  }
+  ShapeId draw_bullet(Dice& dice) {
+    switch (dice.below(5)) {
+      case 0: return add_ball(world_, 0.05);
+      case 1: return add_box(world_, 0.05, 0.05, 0.05);
+      case 2: return world_.add_shape(Capsule<S>{num<S>(kThin), num<S>(0.25)});
+      case 3: return add_box(world_, kThin, kThin, 0.25);
+      default: {
+        const Child<S> part = {primitive_of(Hull<S>{1}), Pose<S>::identity()};
+        const BlobRef blobs[] = {draw_hull(dice, {0.1, 0.05, 0.05})};
+        return world_.add_shape(std::span<const Child<S>>(&part, 1), blobs);
+      }
+    }
+  }
+  /// Bullets pass each other: one group.
+  void add_bullets(Dice& dice, int count) {
+    for (int i = 0; i < count; ++i) {
+      BodyDefinition<S> d =
+          moving<S>(draw_bullet(dice), dice.point(kHalf - 0.3), dice.direction() * dice.in(kSpeed / 10, kSpeed));
+      d.angular_velocity = vec<S>(dice.direction() * dice.in(0, kSpin));
+      d.orientation = dice.template orientation<S>();
+      d.mass = S(1);
+      d.material.restitution = num<S>(dice.one_in(2) ? 1 : 0);
+      d.material.friction = num<S>(dice.in(0, 1));
+      d.filter.group = 1;
+      bullets_.push_back(world_.create(d));
+      ASSERT_TRUE(bullets_.back());
+    }
+  }
+  /// Of those in the room, seen from the first wall's frame.
+  int outside() const {
+    int count = 0;
+    for (const BodyId id : bullets_) count += max_abs(real(world_.center_of_mass(id))) > kHalf + 2 * kThin ? 1 : 0;
+    return count;
+  }
+  double energy() const {
+    double sum = 0;
+    for (const BodyId id : bullets_) sum += std::pow(length(real(world_.velocity(id))), 2) / 2;
+    return sum;
+  }
+
+  World<S> world_;
+  std::vector<BodyId> bullets_;
+};
+TYPED_TEST_SUITE(BulletRooms, AllScalars);
+
+TYPED_TEST(BulletRooms, hold_ten_thousand_bullets) {
+  constexpr int kCount = 10000 / 4, kFrames = 60;  // of each scalar
+  Dice dice(7);
+  this->add_walls(BodyType::static_, 0.5);
+  this->add_bullets(dice, kCount);
+  double least = this->energy();
+  const double start = least;
+  double most = start;
+  for (int i = 0; i < kFrames; ++i) {
+    this->world_.step();
+    most = std::max(most, this->energy());
+  }
+  EXPECT_EQ(this->outside(), 0);
+  EXPECT_LT(most, start * 1.25);
+}
+
+}  // namespace
+}  // namespace isostep::test
