@@ -89,9 +89,9 @@ template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& f
   }
   if (is_inside) return inside;
   Simplex<S> best = nearest_on_segment(from, i, j);
-  for (const Simplex<S>& other : {nearest_on_segment(from, j, k), nearest_on_segment(from, k, i)}) {
-    if (is_nearer(other, best)) best = other;
-  }
+  const Simplex<S> second = nearest_on_segment(from, j, k), third = nearest_on_segment(from, k, i);
+  if (is_nearer(second, best)) best = second;
+  if (is_nearer(third, best)) best = third;
   return best;
 }
 

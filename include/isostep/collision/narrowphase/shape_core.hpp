@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-
 #include "isostep/collision/narrowphase/convex_core.hpp"
 #include "isostep/geometry/shape.hpp"
 
@@ -24,13 +22,13 @@ template <class S> class ShapeCore {
   ISO_INLINE void become_ball(S radius) {
     const Unit<S> share = divide_to<Unit<S>>(S(1), S(static_cast<std::int32_t>(count_)));
     Vec3<S> middle = Vec3<S>::zero();
-    for (std::size_t i = 0; i < count_; ++i) middle += vertices_[i] * share;
+    for (std::uint32_t i = 0; i < count_; ++i) middle += vertices_[i] * share;
     vertices_[0] = middle;
     count_ = 1;
     radius_ = radius;
   }
   /// Valid as long as this is.
-  ISO_INLINE ConvexCore<S> core() const { return {std::span(vertices_, count_), radius_}; }
+  ISO_INLINE ConvexCore<S> core() const { return {{vertices_, count_}, radius_}; }
 
  private:
   ISO_INLINE void add(Vec3<S> v) {
@@ -39,7 +37,7 @@ template <class S> class ShapeCore {
   }
 
   Vec3<S> vertices_[ConvexHull::kMaxVertices];  // [m]
-  std::size_t count_ = 0;
+  std::uint32_t count_ = 0;
   S radius_;  // [m]
 };
 
