@@ -16,9 +16,9 @@ template <class S> struct SupportPoint {
 
 /// Up to four of them, and the shares that make the point nearest to the origin.
 template <class S> struct Simplex {
-  SupportPoint<S> points[4];
-  Unit<S> shares[4];  // they add up to 1, but for rounding
-  int count;
+  SupportPoint<S> points[4] = {};
+  Unit<S> shares[4] = {};  // they add up to 1, but for rounding
+  int count = 0;
   Vec3<S> nearest;       // [m]
   Vec3<Unit<S>> across;  // [1] of three of them: of their triangle
 };
