@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "isostep/scalar/math.hpp"
+#include "nearest_point.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -19,16 +20,11 @@ struct Core {
 };
 Core core_of(const Solid& s) {
   Core core;
-  const auto world = [&](V local) { return s.centre + s.axes * local; };
+  for (const V p : core_points(s)) core.points.push_back(s.centre + s.axes * p);
   if (s.type == ShapeType::hull) {
-    for (const V v : s.hull->vertices) core.points.push_back(world(v));
     for (const V n : s.hull->normals) core.normals.push_back(s.axes * n);
     for (const auto& e : s.hull->edges) core.edges.push_back(s.axes * (e[1] - e[0]));
     return core;
-  }
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto side = [&](int axis) { return (corner >> axis & 1) != 0 ? s.half[axis] : -s.half[axis]; };
-    core.points.push_back(world({side(0), side(1), side(2)}));
   }
   for (int axis = 0; axis < 3; ++axis) {
     V unit = {0, 0, 0};
@@ -67,31 +63,13 @@ double widest_gap(const Core& a, const Core& b) {
   return widest;
 }
 
-V nearest_on_segment(V p, V from, V to) {
-  const V way = to - from;
-  const double square = dot(way, way);
-  return from + way * (square > 0 ? clamp(dot(p - from, way) / square, 0.0, 1.0) : 0.0);
-}
-
-/// To a triangle: over its inside the plane's distance, else that of its sides.
-double point_to_triangle(V p, const std::array<V, 3>& t) {
-  const V normal = cross(t[1] - t[0], t[2] - t[0]);
-  bool above = true;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const V from = t[i], to = t[(i + 1) % 3];
-    above = above && dot(cross(to - from, p - from), normal) >= 0;
-    nearest = min(nearest, length(p - nearest_on_segment(p, from, to)));
-  }
-  return above ? abs(dot(normal, p - t[0])) / length(normal) : nearest;
-}
-
 /// A round core, the two ends of a segment, that is outside of a hull: by halving, since a convex set's distance along
 /// a segment is convex.
 double outside_distance(V from, V to, const SolidHull& hull) {
   const auto distance = [&](double s) {
+    const V p = from + (to - from) * s;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& t : hull.triangles) nearest = min(nearest, point_to_triangle(from + (to - from) * s, t));
+    for (const auto& t : hull.triangles) nearest = min(nearest, length(p - nearest_on_triangle(p, t)));
     return nearest;
   };
   double low = 0, high = 1;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "build.hpp"
 #include "isostep/geometry/baked/hull_blob.hpp"
 #include "isostep/scalar/math.hpp"
 
@@ -41,13 +42,9 @@ void add_mass(SolidHull& hull) {
 BlobRef hull_of_points(const std::vector<Vector>& points, const std::string& place) {
   std::vector<V> numbers;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    V point;
-    for (int axis = 0; axis < 3; ++axis) {
-      TextError error = TextError::none;
-      if (!points[i][static_cast<std::size_t>(axis)].read(point[axis], error))
-        throw SceneError(place + "/" + std::to_string(i) + "/" + std::to_string(axis), "expected a number");
-    }
-    numbers.push_back(point);
+    const std::string at = place + "/" + std::to_string(i) + "/";
+    numbers.push_back({value_of<double>(points[i][0], at + "0"), value_of<double>(points[i][1], at + "1"),
+                       value_of<double>(points[i][2], at + "2")});
   }
   const Result<BlobRef> hull = hull_blob(std::span<const V>(numbers));
   if (!hull.ok()) throw SceneError(place, std::string(hull.error().message.view()));

@@ -5,33 +5,13 @@
 #include <limits>
 
 #include "isostep/scalar/math.hpp"
+#include "nearest_point.hpp"
 
 namespace isostep::scenes {
 namespace {
 
 using V = Vec3<double>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-double length(V v) { return sqrt(dot(v, v)); }
-
-V nearest_on_segment(V p, V from, V to) {
-  const V way = to - from;
-  return from + way * clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
-}
-V nearest_on_triangle(V p, const SolidSurface::Triangle& t) {
-  const V normal = cross(t[1] - t[0], t[2] - t[0]);
-  bool above = true;
-  double least = kFar;
-  V best = t[0];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const V from = t[i], to = t[(i + 1) % 3];
-    if (dot(cross(to - from, p - from), normal) >= 0) continue;
-    above = false;
-    const V q = nearest_on_segment(p, from, to);
-    if (length(p - q) < least) least = length(p - q), best = q;
-  }
-  return above ? p - normal * (dot(normal, p - t[0]) / dot(normal, normal)) : best;
-}
 
 /// Of a point to the triangles: negative under the surface. Near an edge the sign is that of the triangle whose plane
 /// the point is furthest from.
@@ -82,15 +62,7 @@ double surface_distance(const Solid& a, const Solid& b) {
   if (a.surface != nullptr && b.surface == nullptr) return surface_distance(b, a);
   if (a.surface != nullptr || a.type == ShapeType::half_space) return kFar;
   const auto in_ground = [&](V world) { return transposed_times(b.axes, world - b.centre); };
-  std::vector<V> corners;
-  if (a.type == ShapeType::hull) {
-    for (const V v : a.hull->vertices) corners.push_back(v);
-  } else {
-    for (int i = 0; i < 8; ++i) {
-      const auto side = [&](int axis) { return (i >> axis & 1) != 0 ? a.half[axis] : -a.half[axis]; };
-      corners.push_back({side(0), side(1), side(2)});
-    }
-  }
+  const std::vector<V> corners = core_points(a);
   double reach = a.radius;
   for (const V corner : corners) reach = max(reach, length(corner) + a.radius);
   const std::vector<std::size_t> near = b.surface->near(in_ground(a.centre), reach + 1);

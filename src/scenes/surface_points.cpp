@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "build.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
 
 namespace isostep::scenes {
@@ -12,14 +13,8 @@ namespace {
 
 using V = Vec3<double>;
 
-double number_of(const Number& number, const std::string& place) {
-  double value = 0;
-  TextError error = TextError::none;
-  if (!number.read(value, error)) throw SceneError(place, "expected a number, found " + number.text());
-  return value;
-}
 std::uint32_t count_of(const Number& number, double most, const std::string& place) {
-  const double value = number_of(number, place);
+  const double value = value_of<double>(number, place);
   if (!(value >= 0 && value <= most) || value != std::floor(value))
     throw SceneError(place, "expected a whole number from 0 to " + std::to_string(static_cast<long long>(most)) +
                                 ", found " + number.text());
@@ -60,7 +55,7 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
   for (std::size_t i = 0; i < part.vertices.size(); ++i) {
     const std::string at = place + "/vertices/" + std::to_string(i) + "/";
     const Vector& v = part.vertices[i];
-    points.push_back({number_of(v[0], at + "0"), number_of(v[1], at + "1"), number_of(v[2], at + "2")});
+    points.push_back({value_of<double>(v[0], at + "0"), value_of<double>(v[1], at + "1"), value_of<double>(v[2], at + "2")});
   }
   std::vector<MeshTriangle> triangles;
   for (std::size_t i = 0; i < part.triangles.size(); ++i) {
@@ -76,10 +71,10 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
 BlobRef height_field_of_part(const ScenePart& part, const std::string& place) {
   const HeightSheet sheet = {count_of(part.columns, 0xffffffffu, place + "/columns"),
                              count_of(part.rows, 0xffffffffu, place + "/rows"),
-                             number_of(part.pitch, place + "/pitch")};
+                             value_of<double>(part.pitch, place + "/pitch")};
   std::vector<double> heights;
   for (std::size_t i = 0; i < part.heights.size(); ++i)
-    heights.push_back(number_of(part.heights[i], place + "/heights/" + std::to_string(i)));
+    heights.push_back(value_of<double>(part.heights[i], place + "/heights/" + std::to_string(i)));
   return checked(height_field_blob(sheet, heights, materials_of(part, place)), place);
 }
 

@@ -22,7 +22,7 @@ struct Sheet {
   static constexpr int kCells = 16;
   std::vector<D3> points;
   std::vector<MeshTriangle> triangles;
-  MeshContent content;
+  SurfaceContent<TriangleMesh> content;
 
   template <class Height> explicit Sheet(Height height, double shift = 0) {
     for (int k = 0; k <= kCells; ++k) {
