@@ -92,16 +92,20 @@ template <class Visit> ISO_INLINE constexpr decltype(auto) visit_shape_type(Shap
   ISO_TRAP();
 }
 
+/// What a valid record of this type holds.
+template <template <class> class Shape, class S> ISO_INLINE constexpr Shape<S> shape_as(const ShapeView<S>& view) {
+  if constexpr (Shape<S>::kHasBlob) {
+    return Shape<S>::of(view.primitive, static_cast<const typename Shape<S>::Content*>(view.content));
+  } else {
+    return Shape<S>::of(view.primitive);
+  }
+}
+
 /// visit(Sphere<S>), visit(Box<S>) ...: the shape that a valid record holds, as its file declares it.
 template <class S, class Visit>
 ISO_INLINE constexpr decltype(auto) visit_shape(const ShapeView<S>& view, Visit&& visit) {
   return visit_shape_type(view.primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> decltype(auto) {
-    using Shape = typename decltype(tag)::template Of<S>;
-    if constexpr (Shape::kHasBlob) {
-      return visit(Shape::of(view.primitive, static_cast<const typename Shape::Content*>(view.content)));
-    } else {
-      return visit(Shape::of(view.primitive));
-    }
+    return visit(shape_as<decltype(tag)::template Of>(view));
   });
 }
 template <class S, class Visit>

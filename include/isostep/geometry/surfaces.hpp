@@ -15,8 +15,8 @@ ISO_INLINE constexpr bool is_surface(ShapeType type) {
 namespace detail {
 /// visit(surface), a TriangleGeometry.
 template <class S, class Visit> ISO_INLINE decltype(auto) visit_surface(ShapeView<S> view, Visit&& visit) {
-  if (view.primitive.type == ShapeType::mesh) return visit(*static_cast<const MeshContent*>(view.content)->surface);
-  return visit(*static_cast<const HeightFieldContent*>(view.content)->surface);
+  if (view.primitive.type == ShapeType::mesh) return visit(shape_as<Mesh>(view).surface());
+  return visit(shape_as<HeightField>(view).surface());
 }
 }  // namespace detail
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/world/body_map.hpp"
@@ -23,16 +22,13 @@ template <class S, class Visit>
 ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                             Visit&& visit);
 
-/// What visit_leaves keeps for the next call, so that it allocates nothing then.
-struct LeafScratch {
-  std::vector<std::uint64_t> pairs, sorting;
-};
-/// The same of leaves, where one of the bodies has surfaces: those of a convex part and a triangle whose boxes meet.
+/// The same of leaves, where one of the bodies has surfaces: those of a convex part and a triangle whose boxes meet. In
+/// an order that follows from the shapes.
 template <class S, class Visit>
 ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
-                             LeafScratch& scratch, Visit&& visit);
+                             Visit&& visit);
 
-/// Leaf i of body a and leaf j of body b, the bits of collide(); `polyhedra` is used where it can be.
+/// Leaf i of body a and leaf j of body b, as collide_leaves() has them.
 template <class S>
 void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
                    std::uint32_t j, S margin, Manifold<S>& out);

@@ -3,11 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
-#include "isostep/collision/narrowphase/hull_pairs.hpp"
-#include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
-#include "isostep/core/stable_sort.hpp"
-#include "isostep/geometry/baked/box_solid.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/world/body_frames.hpp"
 
@@ -81,87 +77,60 @@ ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S marg
   return true;
 }
 
-template <class S, class Visit>
-ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
-                             LeafScratch& scratch, Visit&& visit) {
-  scratch.pairs.clear();
-  const auto add = [&](std::uint32_t i, std::uint32_t j) { scratch.pairs.push_back(std::uint64_t{i} << 32 | j); };
-  const Transform<S> origin_b = origin_beside(a, b);
-  bool whole = true;
-  std::uint32_t leaf_a = 0;
-  for (std::uint32_t i = 0; i < a.child_count && whole; ++i) {
-    const ShapeView<S> part_a = detail::part(a, i);
-    const Transform<S> ta = detail::placed(a.origin, a.children[i]);
-    const bool surface_a = is_surface(part_a.primitive.type);
-    std::uint32_t leaf_b = 0;
-    for (std::uint32_t j = 0; j < b.child_count && whole; ++j) {
-      whole = looks > 0;
-      if (!whole) break;
-      --looks;
-      const ShapeView<S> part_b = detail::part(b, j);
-      const Transform<S> tb = detail::placed(origin_b, b.children[j]);
-      const bool surface_b = is_surface(part_b.primitive.type);
-      if (surface_a && is_bounded(part_b.primitive.type)) {
-        visit_triangles_near(part_b, tb, part_a, ta, margin,
-                             [&](std::uint32_t triangle) { return add(leaf_a + triangle, leaf_b), true; });
-      } else if (surface_b && is_bounded(part_a.primitive.type)) {
-        visit_triangles_near(part_a, ta, part_b, tb, margin,
-                             [&](std::uint32_t triangle) { return add(leaf_a, leaf_b + triangle), true; });
-      } else if (!surface_a && !surface_b && overlap(grow(bounds(part_a, ta), margin), bounds(part_b, tb))) {
-        add(leaf_a, leaf_b);
-      }
-      leaf_b += leaves_of(part_b);
-    }
-    leaf_a += leaves_of(part_a);
-  }
-  const auto count = static_cast<std::uint32_t>(scratch.pairs.size());
-  if (scratch.sorting.size() < count) scratch.sorting.resize(count);
-  stable_sort(scratch.pairs.data(), scratch.sorting.data(), count, OwnKey{});
-  for (const std::uint64_t pair : scratch.pairs) {
-    if (!visit(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair))) return false;
-  }
-  return whole;
-}
-
 namespace detail {
-/// As collide_parts, where one of the two is a triangle.
-template <class S>
-ISO_INLINE void collide_leaves(const BodyFrame<S>& a, Leaf i, const BodyFrame<S>& b, Leaf j, S margin,
-                               Manifold<S>& out) {
-  const ShapeView<S> part_a = part(a, i.child), part_b = part(b, j.child);
-  const Transform<S> ta = placed(a.origin, a.children[i.child]);
-  const Transform<S> tb = placed(origin_beside(a, b), b.children[j.child]);
-  if (is_surface(part_b.primitive.type)) return collide_with_triangle(part_a, ta, part_b, j.triangle, tb, margin, out);
-  collide_with_triangle(part_b, tb, part_a, i.triangle, ta, margin, out);
-  out.normal = -out.normal;
+template <class S> struct PlacedLeaves {
+  ShapeView<S> shape;
+  Transform<S> at;
+  std::uint32_t first;  // leaf
+};
+template <class S, class Visit>
+ISO_INLINE bool visit_leaves_of(const PlacedLeaves<S>& a, const PlacedLeaves<S>& b, S margin, Visit& visit) {
+  const ShapeType type_a = a.shape.primitive.type, type_b = b.shape.primitive.type;
+  const bool surface_a = is_surface(type_a), surface_b = is_surface(type_b);
+  if (surface_a && is_bounded(type_b)) {
+    return visit_triangles_near(b.shape, b.at, a.shape, a.at, margin,
+                                [&](std::uint32_t triangle) { return visit(a.first + triangle, b.first); });
+  }
+  if (surface_b && is_bounded(type_a)) {
+    return visit_triangles_near(a.shape, a.at, b.shape, b.at, margin,
+                                [&](std::uint32_t triangle) { return visit(a.first, b.first + triangle); });
+  }
+  if (surface_a || surface_b || !overlap(grow(bounds(a.shape, a.at), margin), bounds(b.shape, b.at))) return true;
+  return visit(a.first, b.first);
 }
 }  // namespace detail
+
+template <class S, class Visit>
+ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
+                             Visit&& visit) {
+  using Leaves = detail::PlacedLeaves<S>;
+  const Transform<S> origin_b = origin_beside(a, b);
+  std::uint32_t first_a = 0;
+  for (std::uint32_t i = 0; i < a.child_count; ++i) {
+    const Leaves of_a = {detail::part(a, i), detail::placed(a.origin, a.children[i]), first_a};
+    std::uint32_t first_b = 0;
+    for (std::uint32_t j = 0; j < b.child_count; ++j) {
+      if (looks == 0) return false;
+      --looks;
+      const Leaves of_b = {detail::part(b, j), detail::placed(origin_b, b.children[j]), first_b};
+      if (!detail::visit_leaves_of(of_a, of_b, margin, visit)) return false;
+      first_b += leaves_of(of_b.shape);
+    }
+    first_a += leaves_of(of_a.shape);
+  }
+  return true;
+}
 
 template <class S>
 void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
                    std::uint32_t j, S margin, Manifold<S>& out) {
-  if (a.surfaces || b.surfaces) {
-    const Leaf leaf_a = detail::leaf_at(a, i), leaf_b = detail::leaf_at(b, j);
-    i = leaf_a.child;
-    j = leaf_b.child;
-    if (is_surface(a.children[i].primitive.type) || is_surface(b.children[j].primitive.type))
-      return detail::collide_leaves(a, leaf_a, b, leaf_b, margin, out);
-  }
-  const ShapeView<S> part_a = detail::part(a, i), part_b = detail::part(b, j);
+  const Leaf leaf_a = detail::leaf_at(a, i), leaf_b = detail::leaf_at(b, j);
   const Transform<S> origin_b = origin_beside(a, b);
-  const Transform<S> ta = a.plain ? a.origin : detail::placed(a.origin, a.children[i]);
-  const Transform<S> tb = b.plain ? origin_b : detail::placed(origin_b, b.children[j]);
-  const bool hull_a = part_a.primitive.type == ShapeType::hull, hull_b = part_b.primitive.type == ShapeType::hull;
-  if (hull_a && hull_b) {
-    polyhedra(detail::hull_of(part_a), ta, detail::hull_of(part_b), tb, margin, out);
-  } else if (hull_b && part_a.primitive.type == ShapeType::box) {
-    polyhedra(BoxSolid<S>(part_a.primitive.half).polyhedron(), ta, detail::hull_of(part_b), tb, margin, out);
-  } else if (hull_a && part_b.primitive.type == ShapeType::box) {  // the box is a, as in ShapePairs
-    polyhedra(BoxSolid<S>(part_b.primitive.half).polyhedron(), tb, detail::hull_of(part_a), ta, margin, out);
-    out.normal = -out.normal;
-  } else {
-    collide(part_a, ta, part_b, tb, margin, out);
-  }
+  const Transform<S> ta = a.plain ? a.origin : detail::placed(a.origin, a.children[leaf_a.child]);
+  const Transform<S> tb = b.plain ? origin_b : detail::placed(origin_b, b.children[leaf_b.child]);
+  const LeafView<S> part_a = {detail::part(a, leaf_a.child), leaf_a.triangle};
+  const LeafView<S> part_b = {detail::part(b, leaf_b.child), leaf_b.triangle};
+  collide_leaves(part_a, ta, part_b, tb, margin, out, polyhedra);
 }
 
 template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b) {
@@ -175,8 +144,7 @@ template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a
     touch = manifold.count > 0;
     return !touch;
   };
-  LeafScratch scratch;
-  if (a.surfaces || b.surfaces) visit_leaves(a, b, kMargin, looks, scratch, visit);
+  if (a.surfaces || b.surfaces) visit_leaves(a, b, kMargin, looks, visit);
   else visit_parts(a, b, kMargin, looks, visit);
   return touch;
 }

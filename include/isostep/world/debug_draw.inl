@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
-#include "isostep/collision/narrowphase/surface_pairs.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/body_frames.hpp"
 #include "isostep/world/debug_draw_particles.inl"
@@ -151,19 +151,12 @@ template <class S> class BodySketch {
   }
 
   ISO_INLINE Manifold<S> manifold_of(const BodyView<S>& a, Leaf i, const BodyView<S>& b, Leaf j) const {
-    const ShapeView<S> part_a = a.contents.view(a.children[i.child].primitive),
-                       part_b = b.contents.view(b.children[j.child].primitive);
+    const LeafView<S> part_a = {a.contents.view(a.children[i.child].primitive), i.triangle};
+    const LeafView<S> part_b = {b.contents.view(b.children[j.child].primitive), j.triangle};
     const Transform<S> ta = part_beside(a, i.child, a.state->centre), tb = part_beside(b, j.child, a.state->centre);
     constexpr S kMargin = kSpeculativeDistance<S>;
     Manifold<S> manifold;
-    if (is_surface(part_b.primitive.type)) {
-      collide_with_triangle(part_a, ta, part_b, j.triangle, tb, kMargin, manifold);
-    } else if (is_surface(part_a.primitive.type)) {
-      collide_with_triangle(part_b, tb, part_a, i.triangle, ta, kMargin, manifold);
-      manifold.normal = -manifold.normal;
-    } else {
-      collide(part_a, ta, part_b, tb, kMargin, manifold);
-    }
+    collide_leaves(part_a, ta, part_b, tb, kMargin, manifold);
     return manifold;
   }
 

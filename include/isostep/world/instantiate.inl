@@ -47,8 +47,7 @@
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
   template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);               \
   template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                           \
-  template void collide<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, ShapeView<OwnScalar>,           \
-                                   const Transform<OwnScalar>&, OwnScalar, Manifold<OwnScalar>&);                     \
+  ISO_COLLIDE_OF(, OwnScalar)                                                                                         \
   ISO_HULL_PAIRS_OF(, OwnScalar)                                                                                      \
   ISO_SURFACE_PAIRS_OF(, OwnScalar)                                                                                   \
   ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                                                 \

@@ -77,18 +77,20 @@ template <class S> class PartPairs {
   static std::uint32_t traits_of(const BodyFrame<S>& frame);
   bool gather(std::span<const std::uint64_t> pairs, Budget each, Budget all);
   bool gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all);
+  template <class Visit>
+  bool visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks, Visit& visit);
   void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
   ListEnds list_ends() const;
 
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
-  std::vector<std::uint64_t> joined_pairs_, sort_scratch_;  // pairs that joints keep from colliding, ascending
+  std::vector<std::uint64_t> joined_pairs_, sort_scratch_;
   std::vector<BodyFrame<S>> frames_;
   std::vector<Material<S>> materials_;       // by frame
   std::vector<Framed> framed_;               // by slot
   std::vector<std::uint32_t> framed_slots_;  // those that are not empty
   std::vector<PartPair> parts_;
-  LeafScratch leaves_;
+  std::vector<std::uint64_t> leaf_pairs_;  // of two bodies
   std::vector<ListEnds> groups_;
   std::vector<std::uint32_t> spheres_, boxes_, others_;  // places in their groups
   std::uint32_t cut_compounds_ = 0;

@@ -101,10 +101,27 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
     return true;
   };
   const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
-  const bool whole = a.surfaces || b.surfaces ? visit_leaves(a, b, margin, looks, leaves_, visit)
+  const bool whole = a.surfaces || b.surfaces ? visit_sorted_leaves(a, b, margin, looks, visit)
                                               : visit_parts(a, b, margin, looks, visit);
   all.looks -= most_looks - looks;
   all.parts -= most_parts - parts;
+  return whole;
+}
+template <class S>
+template <class Visit>
+bool PartPairs<S>::visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
+                                       Visit& visit) {
+  leaf_pairs_.clear();
+  const bool whole = visit_leaves(a, b, margin, looks, [&](std::uint32_t i, std::uint32_t j) {
+    leaf_pairs_.push_back(std::uint64_t{i} << 32 | j);
+    return true;
+  });
+  const auto count = static_cast<std::uint32_t>(leaf_pairs_.size());
+  if (sort_scratch_.size() < count) sort_scratch_.resize(count);
+  stable_sort(leaf_pairs_.data(), sort_scratch_.data(), count, OwnKey{});
+  for (const std::uint64_t pair : leaf_pairs_) {
+    if (!visit(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair))) return false;
+  }
   return whole;
 }
 template <class S> ISO_INLINE void PartPairs<S>::add_part(std::vector<std::uint32_t>& list, const PartPair& part) {

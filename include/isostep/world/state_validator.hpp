@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/core/lower_bound.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/world/body_map.hpp"
@@ -30,6 +29,7 @@ template <class S> class StateValidator {
     }
     set_of_body_.assign(state_.body_slots.entries().size(), Location::kNone);
     type_of_body_.assign(set_of_body_.size(), BodyType::static_);
+    leaves_of_body_.assign(set_of_body_.size(), 0);
     joint_met_.assign(state_.joint_slots.entries().size(), 0);
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
       if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
@@ -66,8 +66,9 @@ template <class S> class StateValidator {
   bool is_body(std::uint32_t slot) const { return slot < set_of_body_.size() && set_of_body_[slot] != Location::kNone; }
 
   /// The taken shapes' parts fill the pool without gap or overlap.
-  const char* shapes() const {
+  const char* shapes() {
     if (state_.shapes->size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
+    leaves_of_shape_.assign(state_.shapes->size(), 0);
     std::vector<std::uint8_t> used(state_.children->size(), 0);
     std::size_t total = 0;
     for (std::uint32_t i = 0; i < state_.shapes->size(); ++i) {
@@ -85,6 +86,7 @@ template <class S> class StateValidator {
       }
       total += shape.child_count;
       if (validate(parts_of(i), state_.geometry->contents()) != ShapeFault::none) return "a shape is not valid";
+      leaves_of_shape_[i] = leaves_of_parts(parts_of(i));
     }
     if (total != state_.children->size()) return "a part belongs to no shape";
     return blobs();
@@ -112,6 +114,17 @@ template <class S> class StateValidator {
     return {state_.children->data() + (*state_.shapes)[shape].first_child, (*state_.shapes)[shape].child_count};
   }
 
+  /// Of valid ones.
+  std::uint32_t leaves_of_parts(std::span<const Child<S>> parts) const {
+    std::uint32_t leaves = 0;
+    for (const Child<S>& part : parts) {
+      const std::uint32_t blob = part.primitive.blob;
+      leaves += leaves_of<S>(
+          {part.primitive, blob == 0 ? nullptr : content_of<S>(*state_.geometry->content(blob - 1))});
+    }
+    return leaves;
+  }
+
   const char* bodies(const BodySet<S>& set, std::uint32_t name) {
     if (set.states.size() != set.properties.size()) return "as many bodies as properties";
     for (std::size_t i = 0; i < set.states.size(); ++i) {
@@ -122,6 +135,7 @@ template <class S> class StateValidator {
       set_of_body_[b.slot] = name;
       type_of_body_[b.slot] = set.properties[i].type;
       if (const char* rule = properties(set.properties[i], name)) return rule;
+      leaves_of_body_[b.slot] = leaves_of_shape_[set.properties[i].shape];
       if (const char* rule = motion(b)) return rule;
     }
     return nullptr;
@@ -175,20 +189,6 @@ template <class S> class StateValidator {
     return nullptr;
   }
 
-  /// Leaves, as contacts count them.
-  std::uint32_t parts_of_body(std::uint32_t slot) const {
-    const std::uint32_t set = set_of_body_[slot];
-    const BodySet<S>& bodies = set == Location::kStatic  ? *state_.static_bodies
-                               : set == Location::kAwake ? state_.awake
-                                                         : state_.sleeping[set]->bodies;
-    std::uint32_t leaves = 0;
-    for (const Child<S>& child : parts_of(bodies.properties[place_of_slot(bodies.states, slot)].shape)) {
-      const std::uint32_t blob = child.primitive.blob;
-      leaves += leaves_of<S>(
-          {child.primitive, blob == 0 ? nullptr : content_of<S>(*state_.geometry->content(blob - 1))});
-    }
-    return leaves;
-  }
   /// A link of set `name` ties no body of another island, and at least one of its own.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {
     bool own = false;
@@ -205,7 +205,7 @@ template <class S> class StateValidator {
     if (!is_body(key.body_a) || !is_body(key.body_b) || !(key.body_a < key.body_b))
       return "a contact names no two bodies";
     if (!belongs(key.body_a, key.body_b, name)) return "a contact lies in another island than its bodies";
-    if (key.child_a >= parts_of_body(key.body_a) || key.child_b >= parts_of_body(key.body_b))
+    if (key.child_a >= leaves_of_body_[key.body_a] || key.child_b >= leaves_of_body_[key.body_b])
       return "a contact names no part of a body";
     if (c.count < 1 || c.count > kMaxContactPoints || c.flags > contact_flag::kTouching)
       return "a contact has 1 to 4 points";
@@ -297,8 +297,9 @@ template <class S> class StateValidator {
   const WorldState<S>& state_;
   std::vector<std::uint32_t>
       set_of_body_;  // by slot: Location::kNone, Location::kStatic, Location::kAwake or a sleeping island
-  std::vector<BodyType> type_of_body_;   // by slot
-  std::vector<std::uint8_t> joint_met_;  // by slot
+  std::vector<BodyType> type_of_body_;                            // by slot
+  std::vector<std::uint32_t> leaves_of_shape_, leaves_of_body_;  // by slot; as contacts count them
+  std::vector<std::uint8_t> joint_met_;                           // by slot
 };
 
 }  // namespace isostep

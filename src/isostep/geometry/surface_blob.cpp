@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/surface_blob.hpp"
 
+#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -12,22 +13,13 @@ namespace {
 
 Error bad_number(const char* place, const char* expected) { return {ErrorCode::invalid, expected, place}; }
 
-/// To nearest, halves upwards.
-std::int64_t steps_of(double v, int exponent) { return (floor_scaled(v, exponent + 1) + 1) >> 1; }
-
 /// The finest grid at which magnitudes up to `most` [m] are below `limit` steps; negative: none.
-int grid_exponent(double most, std::int64_t limit) {
-  int exponent = TriangleMesh::kMaxExponent;
-  while (exponent >= 0 && floor_scaled(most, exponent) + 1 >= limit) --exponent;
-  return exponent;
-}
+int finest_grid(double most, std::int64_t limit) { return finest_lattice(most, limit, TriangleMesh::kMaxExponent); }
 constexpr double kMostMetres = 0x1p23 - 1;
 
-template <class Content, class Read> std::shared_ptr<const void> content_of_bytes(Bytes bytes, Read read) {
-  auto content = std::make_shared<Content>();
-  auto surface = read(bytes);
-  if (surface.ok()) content->surface = std::move(surface.value());
-  return content;
+template <class G> Result<G> read(Bytes bytes) {
+  if constexpr (std::same_as<G, TriangleMesh>) return read_triangle_mesh(bytes);
+  else return read_height_field(bytes);
 }
 
 }  // namespace
@@ -45,13 +37,13 @@ Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const 
       return bad_number("points", "a mesh's points have coordinates up to 8388607 m");
     most = max(most, max_abs(p));
   }
-  const int exponent = grid_exponent(most, MeshPoint::kLimit);
+  const int exponent = finest_grid(most, MeshPoint::kLimit);
   std::vector<MeshPoint> grid;
   grid.reserve(points.size());
   for (const Vec3<double>& p : points) {
-    grid.push_back({static_cast<std::int32_t>(steps_of(p.x, exponent)),
-                    static_cast<std::int32_t>(steps_of(p.y, exponent)),
-                    static_cast<std::int32_t>(steps_of(p.z, exponent))});
+    grid.push_back({static_cast<std::int32_t>(nearest_scaled(p.x, exponent)),
+                    static_cast<std::int32_t>(nearest_scaled(p.y, exponent)),
+                    static_cast<std::int32_t>(nearest_scaled(p.z, exponent))});
   }
   const Result<TriangleMesh> mesh = triangle_mesh(grid, triangles, materials, exponent);
   if (!mesh.ok()) return mesh.error();
@@ -69,8 +61,8 @@ Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const doub
     most = max(most, abs(h));
   }
   HeightGrid grid = {};
-  const int exponent = min(grid_exponent(widest, MeshPoint::kLimit), grid_exponent(most, MeshPoint::kLimit));
-  const int fine = grid_exponent(most, INT16_MAX);
+  const int exponent = min(finest_grid(widest, MeshPoint::kLimit), finest_grid(most, MeshPoint::kLimit));
+  const int fine = finest_grid(most, INT16_MAX);
   int shift = exponent > fine ? exponent - fine : 0;
   int used = exponent;
   for (; shift > static_cast<int>(BakedHeightField::kMaxHeightShift); --shift) --used;
@@ -79,20 +71,22 @@ Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const doub
   grid.height_shift = static_cast<std::uint32_t>(shift);
   grid.columns = sheet.columns;
   grid.rows = sheet.rows;
-  grid.pitch = static_cast<std::uint32_t>(steps_of(sheet.pitch, used));
+  grid.pitch = static_cast<std::uint32_t>(nearest_scaled(sheet.pitch, used));
   std::vector<std::int16_t> rounded;
   rounded.reserve(heights.size());
-  for (const double h : heights) rounded.push_back(static_cast<std::int16_t>(steps_of(h, used - shift)));
+  for (const double h : heights) rounded.push_back(static_cast<std::int16_t>(nearest_scaled(h, used - shift)));
   const Result<BakedHeightField> field = height_field(grid, rounded, materials);
   if (!field.ok()) return field.error();
   return height_field_blob(field.value(), home);
 }
 
-std::shared_ptr<const void> MeshContent::make(Bytes bytes) {
-  return content_of_bytes<MeshContent>(bytes, read_triangle_mesh);
+template <class G> std::shared_ptr<const void> SurfaceContent<G>::make(Bytes bytes) {
+  auto content = std::make_shared<SurfaceContent>();
+  Result<G> surface = read<G>(bytes);
+  if (surface.ok()) content->surface = std::move(surface.value());
+  return content;
 }
-std::shared_ptr<const void> HeightFieldContent::make(Bytes bytes) {
-  return content_of_bytes<HeightFieldContent>(bytes, read_height_field);
-}
+template struct SurfaceContent<TriangleMesh>;
+template struct SurfaceContent<BakedHeightField>;
 
 }  // namespace isostep

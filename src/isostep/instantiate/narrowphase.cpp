@@ -19,7 +19,7 @@ namespace isostep {
   ISO_PAIR(collide_capsule_half_space, S) \
   ISO_HULL_PAIRS_OF(, S)                  \
   ISO_SURFACE_PAIRS_OF(, S)               \
-  template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>&);
+  ISO_COLLIDE_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_NARROWPHASE)
 
 }  // namespace isostep

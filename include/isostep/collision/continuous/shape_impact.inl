@@ -36,17 +36,11 @@ TimeOfImpact<S> impact_with(const HalfSpace<S>& space, const Transform<S>& at, c
 }
 
 // A surface has no thickness: what its centre is behind of has passed it.
-template <class S> ISO_INLINE S thickness_of(const Mesh<S>&) { return S(0); }
-template <class S> ISO_INLINE S thickness_of(const HeightField<S>&) { return S(0); }
-template <class S>
-TimeOfImpact<S> impact_with(const Mesh<S>& mesh, const Transform<S>& at, const Pose<S>& pose,
+template <class S, ShapeType Type, class G> ISO_INLINE S thickness_of(const SurfaceShape<S, Type, G>&) { return S(0); }
+template <class S, ShapeType Type, class G>
+TimeOfImpact<S> impact_with(const SurfaceShape<S, Type, G>& shape, const Transform<S>& at, const Pose<S>& pose,
                             const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
-  return surface_impact(mesh.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
-}
-template <class S>
-TimeOfImpact<S> impact_with(const HeightField<S>& field, const Transform<S>& at, const Pose<S>& pose,
-                            const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
-  return surface_impact(field.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
+  return surface_impact(shape.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
 }
 
 template <class S> class Passage {

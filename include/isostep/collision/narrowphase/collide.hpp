@@ -1,10 +1,10 @@
-// collide: the contact manifold of any two primitives.
+// collide: the contact manifold of any two shapes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <type_traits>
 
-#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/shape.hpp"
 
@@ -17,13 +17,28 @@ namespace isostep {
 ///         Two boxes whose best faces agree within axis_tolerance take a's as reference, so there the order shows.
 /// Limits: Q16.16: extents and distances below 100 m; Q32.32: 1000 m. Degenerate sizes (0) are allowed. Two half-spaces
 ///         never touch.
+/// `polyhedra`: collide_polyhedra, or a kernel that has its bits.
 template <class S>
 void collide(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta, std::type_identity_t<ShapeView<S>> b,
-             const Transform<S>& tb, S margin, Manifold<S>& out);
+             const Transform<S>& tb, S margin, Manifold<S>& out,
+             std::type_identity_t<CollidePolyhedra<S>> polyhedra = collide_polyhedra<S>);
 
-#define ISO_EXTERN(S)                                                                                     \
-  extern template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, \
-                                  Manifold<S>&);
+/// A shape, or one triangle of a surface.
+template <class S> struct LeafView {
+  ShapeView<S> shape;
+  std::uint32_t triangle;  // 0 of what is no surface
+};
+/// The same of leaves.
+template <class S>
+void collide_leaves(const LeafView<S>& a, const Transform<S>& ta, const LeafView<S>& b, const Transform<S>& tb,
+                    S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra = collide_polyhedra<S>);
+
+#define ISO_COLLIDE_OF(extern, S)                                                                                    \
+  extern template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S,           \
+                                  Manifold<S>&, CollidePolyhedra<S>);                                                \
+  extern template void collide_leaves<S>(const LeafView<S>&, const Transform<S>&, const LeafView<S>&,                \
+                                         const Transform<S>&, S, Manifold<S>&, CollidePolyhedra<S>);
+#define ISO_EXTERN(S) ISO_COLLIDE_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

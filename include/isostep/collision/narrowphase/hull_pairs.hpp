@@ -2,25 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/geometry/shape.hpp"
 
 namespace isostep {
 
-namespace detail {
-template <class S> ISO_INLINE Polyhedron<S> hull_of(ShapeView<S> view) {
-  return static_cast<const HullContent<S>*>(view.content)->solid.polyhedron();
-}
-}  // namespace detail
-
-/// b is the hull in all five.
+/// b is the hull in all five. `polyhedra` as in collide().
 template <class S>
 void collide_sphere_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                          Manifold<S>& out);
 template <class S>
 void collide_box_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                      Manifold<S>& out);
+                      Manifold<S>& out, CollidePolyhedra<S> polyhedra);
 template <class S>
 void collide_capsule_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
@@ -29,16 +23,17 @@ void collide_half_space_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S
                              Manifold<S>& out);
 template <class S>
 void collide_hull_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                       Manifold<S>& out);
+                       Manifold<S>& out, CollidePolyhedra<S> polyhedra);
 
-#define ISO_HULL_PAIR(extern, name, S) \
-  extern template void name<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>&);
-#define ISO_HULL_PAIRS_OF(extern, S)               \
-  ISO_HULL_PAIR(extern, collide_sphere_hull, S)     \
-  ISO_HULL_PAIR(extern, collide_box_hull, S)        \
-  ISO_HULL_PAIR(extern, collide_capsule_hull, S)    \
-  ISO_HULL_PAIR(extern, collide_half_space_hull, S) \
-  ISO_HULL_PAIR(extern, collide_hull_hull, S)
+#define ISO_HULL_PAIR(extern, name, S, ...)                                                                         \
+  extern template void name<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>& \
+                               __VA_OPT__(, ) __VA_ARGS__);
+#define ISO_HULL_PAIRS_OF(extern, S)                                  \
+  ISO_HULL_PAIR(extern, collide_sphere_hull, S)                       \
+  ISO_HULL_PAIR(extern, collide_box_hull, S, CollidePolyhedra<S>)     \
+  ISO_HULL_PAIR(extern, collide_capsule_hull, S)                      \
+  ISO_HULL_PAIR(extern, collide_half_space_hull, S)                   \
+  ISO_HULL_PAIR(extern, collide_hull_hull, S, CollidePolyhedra<S>)
 #define ISO_EXTERN(S) ISO_HULL_PAIRS_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

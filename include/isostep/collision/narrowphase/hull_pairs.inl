@@ -13,31 +13,31 @@ namespace isostep {
 template <class S>
 void collide_sphere_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                          Manifold<S>& out) {
-  collide_sphere_polyhedron(a.primitive.radius, ta, detail::hull_of(b), tb, margin, out);
+  collide_sphere_polyhedron(a.primitive.radius, ta, shape_as<Hull>(b).polyhedron(), tb, margin, out);
 }
 template <class S>
 void collide_box_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                      Manifold<S>& out) {
+                      Manifold<S>& out, CollidePolyhedra<S> polyhedra) {
   const BoxSolid<S> box(a.primitive.half);
-  collide_polyhedra(box.polyhedron(), ta, detail::hull_of(b), tb, margin, out);
+  polyhedra(box.polyhedron(), ta, shape_as<Hull>(b).polyhedron(), tb, margin, out);
 }
 template <class S>
 void collide_capsule_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out) {
-  const Capsule<S> capsule = Capsule<S>::of(a.primitive);
-  collide_capsule_polyhedron(capsule.half_height, capsule.radius, ta, detail::hull_of(b), tb, margin, out);
+  const Capsule<S> capsule = shape_as<Capsule>(a);
+  collide_capsule_polyhedron(capsule.half_height, capsule.radius, ta, shape_as<Hull>(b).polyhedron(), tb, margin, out);
 }
 template <class S>
 void collide_half_space_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                              Manifold<S>& out) {
-  const HalfSpace<S> space = HalfSpace<S>::of(a.primitive);
-  collide_polyhedron_half_space(detail::hull_of(b), tb, space.normal, space.offset, ta, margin, out);
+  const HalfSpace<S> space = shape_as<HalfSpace>(a);
+  collide_polyhedron_half_space(shape_as<Hull>(b).polyhedron(), tb, space.normal, space.offset, ta, margin, out);
   out.normal = -out.normal;
 }
 template <class S>
 void collide_hull_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                       Manifold<S>& out) {
-  collide_polyhedra(detail::hull_of(a), ta, detail::hull_of(b), tb, margin, out);
+                       Manifold<S>& out, CollidePolyhedra<S> polyhedra) {
+  polyhedra(shape_as<Hull>(a).polyhedron(), ta, shape_as<Hull>(b).polyhedron(), tb, margin, out);
 }
 
 }  // namespace isostep

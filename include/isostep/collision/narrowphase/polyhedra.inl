@@ -24,16 +24,15 @@ template <class S> struct FaceContact {
   Tangents<Unit<S>> across;  // of the face's normal
 };
 
-/// Of the faces around the deepest vertex the one that looks most against the reference; of equals the first.
-template <class S> ISO_INLINE std::uint32_t incident_face(const FaceContact<S>& contact) {
-  const Polyhedron<S>& solid = contact.incident;
-  const Vec3<Unit<S>> normal = transposed_times(contact.turn, contact.reference.normals[contact.axis.face]);
+/// Of the faces around a vertex the one that looks most against a direction; of equals the first.
+template <class S>
+ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t vertex, Vec3<Unit<S>> up) {
   std::uint32_t best = 0xffffffffu;
   Unit<S> least = Unit<S>(0);
   for (std::uint32_t e = 0; e < solid.half_edges.size(); ++e) {
-    if (solid.half_edges[e].origin != contact.axis.vertex) continue;
+    if (solid.half_edges[e].origin != vertex) continue;
     const std::uint32_t face = solid.half_edges[e].face;
-    const Unit<S> facing = dot(solid.normals[face], normal);
+    const Unit<S> facing = dot(solid.normals[face], up);
     if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) continue;
     least = facing;
     best = face;
@@ -41,22 +40,26 @@ template <class S> ISO_INLINE std::uint32_t incident_face(const FaceContact<S>& 
   return best;
 }
 
-/// The face's corners over the reference face. Edges of the incident face are named by their numbers.
-template <class S>
-ISO_INLINE void project_face(const FaceContact<S>& contact, std::uint32_t face, FacePolygon<S>& polygon) {
-  const Polyhedron<S>& solid = contact.incident;
-  const Vec3<Unit<S>> normal = contact.reference.normals[contact.axis.face];
-  const S offset = contact.reference.offsets[contact.axis.face];
+/// A face's corners over a plane: vertex(i) is where a vertex is seen from it, height(p) [m] above it. Edges of the face
+/// are named by their numbers.
+template <class S, class Vertex, class Height>
+ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, const Tangents<Unit<S>>& across,
+                             const Vertex& vertex, const Height& height, FacePolygon<S>& polygon) {
   std::uint32_t edge = solid.faces[face];
   polygon.count = 0;
   do {
     const std::uint32_t next = solid.half_edges[edge].next;
-    const Vec3<S> p = contact.vertices.at(solid.origin(next));
-    polygon.points[polygon.count++] = {dot(contact.across.t, p), dot(contact.across.u, p), dot(normal, p) - offset,
-                                       edge / 2, next / 2};
+    const Vec3<S> p = vertex(solid.origin(next));
+    polygon.points[polygon.count++] = {dot(across.t, p), dot(across.u, p), height(p), edge / 2, next / 2};
     edge = next;
   } while (edge != solid.faces[face]);
 }
+
+/// What clip() does with lines at any angle.
+inline constexpr auto kCutAcross = [](const auto& p, const auto& q, auto t, auto& at) ISO_INLINE_LAMBDA {
+  at.u = p.u + (q.u - p.u) * t;
+  at.v = p.v + (q.v - p.v) * t;
+};
 
 /// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number.
 template <class S>
@@ -69,11 +72,7 @@ ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>&
   S beyond[kFacePoints];
   for (int i = 0; i < from.count; ++i)
     beyond[i] = round_to<S>(product(from.points[i].u - u, dv) - product(from.points[i].v - v, du));
-  const auto cut = [](const ClipPoint<S>& p, const ClipPoint<S>& q, Unit<S> t, ClipPoint<S>& at) ISO_INLINE_LAMBDA {
-    at.u = p.u + (q.u - p.u) * t;
-    at.v = p.v + (q.v - p.v) * t;
-  };
-  return clip(from, beyond, 128 + half_edge / 2, cut, to);
+  return clip(from, beyond, 128 + half_edge / 2, kCutAcross, to);
 }
 
 /// Where rounding leaves nothing above the best face of solids that overlap. Named by the vertex, twice, as no corner
@@ -88,11 +87,16 @@ template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, F
 template <class S>
 ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& frame, S margin, S tie, bool of_a,
                             bool deepest, Manifold<S>& out) {
-  FacePolygon<S> polygons[2];
-  const std::uint32_t face = incident_face(contact);
-  project_face(contact, face, polygons[0]);
-  unsigned now = 0;
   const Polyhedron<S>& reference = contact.reference;
+  const Vec3<Unit<S>> normal = reference.normals[contact.axis.face];
+  const S offset = reference.offsets[contact.axis.face];
+  const std::uint32_t face =
+      face_against(contact.incident, contact.axis.vertex, transposed_times(contact.turn, normal));
+  FacePolygon<S> polygons[2];
+  const auto vertex = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return contact.vertices.at(i); };
+  const auto height = [&](Vec3<S> p) ISO_INLINE_LAMBDA { return dot(normal, p) - offset; };
+  project_face(contact.incident, face, contact.across, vertex, height, polygons[0]);
+  unsigned now = 0;
   std::uint32_t edge = reference.faces[contact.axis.face];
   do {
     now ^= clip_beyond(reference, contact.across, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
@@ -108,13 +112,12 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   if (polygon.count == 0) return;
   if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
 
-  const Vec3<Unit<S>> normal = reference.normals[contact.axis.face], outward = frame.rotation * normal;
+  const Vec3<Unit<S>> outward = frame.rotation * normal;
   out.normal = of_a ? outward : -outward;
   const std::uint32_t name = 1u << 31 | (of_a ? 0u : 1u) << 30 | contact.axis.face << 23 | face << 16;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
-    const S level = reference.offsets[contact.axis.face] + p.height * S(0.5);
-    const Vec3<S> local = contact.across.t * p.u + contact.across.u * p.v + normal * level;
+    const Vec3<S> local = contact.across.t * p.u + contact.across.u * p.v + normal * (offset + p.height * S(0.5));
     out.add(to_world(frame, local), p.height, name | p.before << 8 | p.after);
   }
 }

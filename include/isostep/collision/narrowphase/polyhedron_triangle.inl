@@ -117,22 +117,6 @@ template <class S> class TriangleAxes {
   bool has_arcs_[3] = {};
 };
 
-/// Of the faces around a vertex the one that looks most against a direction; of equals the first.
-template <class S>
-ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& a, std::uint32_t vertex, Vec3<Unit<S>> up) {
-  std::uint32_t best = 0xffffffffu;
-  Unit<S> least = Unit<S>(0);
-  for (std::uint32_t e = 0; e < a.half_edges.size(); ++e) {
-    if (a.half_edges[e].origin != vertex) continue;
-    const std::uint32_t face = a.half_edges[e].face;
-    const Unit<S> facing = dot(a.normals[face], up);
-    if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) continue;
-    least = facing;
-    best = face;
-  }
-  return best;
-}
-
 /// Names of the triangle's edges in polygons.
 inline constexpr std::uint32_t kTriangleEdge = 128;
 
@@ -147,11 +131,7 @@ ISO_INLINE bool clip_to_edge(const SurfaceTriangle<S>& triangle, const Tangents<
     const ClipPoint<S>& p = from.points[i];
     beyond[i] = -round_to<S>(product(p.u - u, du) + product(p.v - v, dv)) - slack;
   }
-  const auto cut = [](const ClipPoint<S>& p, const ClipPoint<S>& q, Unit<S> t, ClipPoint<S>& at) ISO_INLINE_LAMBDA {
-    at.u = p.u + (q.u - p.u) * t;
-    at.v = p.v + (q.v - p.v) * t;
-  };
-  return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), cut, to);
+  return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), kCutAcross, to);
 }
 
 /// Whether a corner is there because of flat edges alone.
@@ -175,15 +155,9 @@ ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, cons
   const Tangents<Unit<S>> across = tangents_of(triangle.normal);
   const std::uint32_t face = face_against(a, lowest, triangle.normal);
   FacePolygon<S> polygons[2];
-  polygons[0].count = 0;
-  std::uint32_t edge = a.faces[face];
-  do {
-    const std::uint32_t next = a.half_edges[edge].next;
-    const Vec3<S> p = a.vertices[a.origin(next)];
-    polygons[0].points[polygons[0].count++] = {dot(across.t, p), dot(across.u, p), triangle.height_of(p), edge / 2,
-                                               next / 2};
-    edge = next;
-  } while (edge != a.faces[face]);
+  const auto vertex = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return a.vertices[i]; };
+  const auto height = [&](Vec3<S> p) ISO_INLINE_LAMBDA { return triangle.height_of(p); };
+  project_face(a, face, across, vertex, height, polygons[0]);
   unsigned now = 0;
   const S slack = triangle.slack();
   for (int k = 0; k < 3; ++k)

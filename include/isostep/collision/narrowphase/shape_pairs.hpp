@@ -15,11 +15,12 @@ namespace isostep::detail {
 /// As collide(), for shapes whose types ascend.
 template <class S>
 using CollideShapes = void (*)(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                               Manifold<S>& out);
+                               Manifold<S>& out, CollidePolyhedra<S> polyhedra);
 
 /// Of pairs that pass through each other, for queries too: those that only static bodies have.
 template <class S>
-void collide_never(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>& out) {
+void collide_never(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>& out,
+                   CollidePolyhedra<S>) {
   out.clear();
 }
 
@@ -29,8 +30,17 @@ using CollidePrimitives = void (*)(const Primitive<S>& a, const Transform<S>& ta
                                    const Transform<S>& tb, S margin, Manifold<S>& out);
 template <class S, CollidePrimitives<S> Collide>
 void collide_records(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
-                     Manifold<S>& out) {
+                     Manifold<S>& out, CollidePolyhedra<S>) {
   Collide(a.primitive, ta, b.primitive, tb, margin, out);
+}
+/// Of those of which no more than one is a polyhedron.
+template <class S>
+using CollideViews = void (*)(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                              Manifold<S>& out);
+template <class S, CollideViews<S> Collide>
+void collide_views(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                   Manifold<S>& out, CollidePolyhedra<S>) {
+  Collide(a, ta, b, tb, margin, out);
 }
 
 /// by_type[a][b], a <= b.
@@ -49,13 +59,13 @@ template <class S> struct ShapePairs {
     add(capsule, capsule, collide_records<S, collide_capsule_capsule<S>>);
     add(capsule, half_space, collide_records<S, collide_capsule_half_space<S>>);
     add(half_space, half_space, collide_never<S>);
-    add(sphere, hull, collide_sphere_hull<S>);
+    add(sphere, hull, collide_views<S, collide_sphere_hull<S>>);
     add(box, hull, collide_box_hull<S>);
-    add(capsule, hull, collide_capsule_hull<S>);
-    add(half_space, hull, collide_half_space_hull<S>);
+    add(capsule, hull, collide_views<S, collide_capsule_hull<S>>);
+    add(half_space, hull, collide_views<S, collide_half_space_hull<S>>);
     add(hull, hull, collide_hull_hull<S>);
     for (const ShapeType surface : {mesh, height_field}) {
-      for (const ShapeType convex : {sphere, box, capsule, hull}) add(convex, surface, collide_with_surface<S>);
+      for (const ShapeType convex : {sphere, box, capsule, hull}) add(convex, surface, collide_views<S, collide_with_surface<S>>);
       add(half_space, surface, collide_never<S>);
       add(mesh, surface, collide_never<S>);
     }

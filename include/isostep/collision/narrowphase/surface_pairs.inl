@@ -17,19 +17,20 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
     const bool is_hull = a.primitive.type == ShapeType::hull;
-    const auto* hull = is_hull ? static_cast<const HullContent<S>*>(a.content) : nullptr;
-    const SurfaceFrame<S> frame(ta, is_hull ? hull->centre_of_mass : Vec3<S>::zero(), tb, surface.exponent());
+    const Vec3<S> centre = is_hull ? shape_as<Hull>(a).centre_of_mass() : Vec3<S>::zero();
+    const SurfaceFrame<S> frame(ta, centre, tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
       case ShapeType::capsule: {
-        const Capsule<S> capsule = Capsule<S>::of(a.primitive);
+        const Capsule<S> capsule = shape_as<Capsule>(a);
         return collide_capsule_triangle(capsule.half_height, capsule.radius, ta, frame, baked, margin, out);
       }
       case ShapeType::box: {
         const BoxSolid<S> box(a.primitive.half);
         return collide_polyhedron_triangle(box.polyhedron(), ta, frame, baked, margin, out);
       }
-      case ShapeType::hull: return collide_polyhedron_triangle(hull->solid.polyhedron(), ta, frame, baked, margin, out);
+      case ShapeType::hull:
+        return collide_polyhedron_triangle(shape_as<Hull>(a).polyhedron(), ta, frame, baked, margin, out);
       default: return out.clear();
     }
   });

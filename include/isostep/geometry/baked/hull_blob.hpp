@@ -31,12 +31,6 @@ namespace detail {
 template <class S> ISO_INLINE bool is_off_grids(S magnitude) {
   return exponent_above(magnitude) > 19 || floor_scaled(magnitude, 0) + 1 >= GridPoint::kLimit;
 }
-/// The finest exponent at which magnitudes up to `most` [m] are on the grid.
-template <class S> ISO_INLINE int grid_exponent(S most) {
-  int exponent = GridHull::kFinest;
-  while (floor_scaled(most, exponent) + 1 >= GridPoint::kLimit) --exponent;
-  return exponent;
-}
 Error bad_hull_point(std::size_t index, const char* expected);
 }  // namespace detail
 
@@ -51,10 +45,8 @@ ISO_INLINE Result<BlobRef> hull_blob(std::span<const Vec3<S>> points, BlobHome h
     if (detail::is_off_grids(max_abs(points[i]))) return detail::bad_hull_point(i, "coordinates below 524287 m");
     most = max(most, max_abs(points[i]));
   }
-  const int exponent = detail::grid_exponent(most);
-  const auto steps = [&](S v) ISO_INLINE_LAMBDA {  // to nearest, halves upwards
-    return static_cast<std::int32_t>((floor_scaled(v, exponent + 1) + 1) >> 1);
-  };
+  const int exponent = finest_lattice(most, GridPoint::kLimit, GridHull::kFinest);
+  const auto steps = [&](S v) ISO_INLINE_LAMBDA { return static_cast<std::int32_t>(nearest_scaled(v, exponent)); };
   std::vector<GridPoint> grid;
   for (const Vec3<S>& p : points) grid.push_back({steps(p.x), steps(p.y), steps(p.z)});
   return hull_blob(grid, exponent, home);

@@ -3,18 +3,9 @@
 #pragma once
 
 #include "isostep/geometry/baked/polyhedron.hpp"
-#include "isostep/scalar/lattice.hpp"
+#include "isostep/geometry/baked/unit_of_steps.hpp"
 
 namespace isostep {
-
-namespace detail {
-/// To the last digit of U, whatever its length in steps: by way of the finest unit format.
-template <class U> ISO_INLINE Vec3<U> unit_of(GridVector v) {
-  const auto d = direction_of(Q32_32::from_raw(v.x), Q32_32::from_raw(v.y), Q32_32::from_raw(v.z));
-  constexpr int kBits = decltype(d.x)::kFracBits;
-  return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
-}
-}  // namespace detail
 
 template <class S>
 HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull.half_edges), faces_(hull.faces) {
@@ -28,11 +19,11 @@ HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull
   }
   for (std::size_t e = 0; e < half_edges_.size(); e += 2) {
     directions_.push_back(
-        detail::unit_of<U>(hull.vertices[half_edges_[e + 1].origin] - hull.vertices[half_edges_[e].origin]));
+        detail::exact_unit_of_steps<U>(hull.vertices[half_edges_[e + 1].origin] - hull.vertices[half_edges_[e].origin]));
   }
   inner_radius_ = highest<S>();
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    normals_.push_back(detail::unit_of<U>(hull.normal(static_cast<std::uint8_t>(f))));
+    normals_.push_back(detail::exact_unit_of_steps<U>(hull.normal(static_cast<std::uint8_t>(f))));
     const Vec3<U> normal = normals_.back();
     S offset = dot(normal, vertices_[half_edges_[faces_[f]].origin]);
     for (std::uint8_t e = half_edges_[faces_[f]].next; e != faces_[f]; e = half_edges_[e].next)

@@ -35,13 +35,11 @@ Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const doub
                                   std::span<const std::uint8_t> materials = {}, BlobHome home = BlobHome::carried);
 
 /// What a blob's bytes are; the same for all scalars. No surface: they are none.
-struct MeshContent {
-  std::optional<TriangleMesh> surface;
+template <class G> struct SurfaceContent {
+  std::optional<G> surface;
   static std::shared_ptr<const void> make(Bytes bytes);
 };
-struct HeightFieldContent {
-  std::optional<BakedHeightField> surface;
-  static std::shared_ptr<const void> make(Bytes bytes);
-};
+extern template struct SurfaceContent<TriangleMesh>;
+extern template struct SurfaceContent<BakedHeightField>;
 
 }  // namespace isostep

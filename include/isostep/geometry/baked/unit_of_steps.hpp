@@ -1,4 +1,4 @@
-// unit_of_steps: the direction of an integer vector in a scalar.
+// The direction of an integer vector in a scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,12 @@
 
 namespace isostep::detail {
 
-/// To the last digits of U, whatever its length: components below 2^51.
+/// Rounded once, whatever its length, for what is baked. Components below 2^51.
+template <class U> ISO_INLINE Vec3<U> exact_unit_of_steps(GridVector v) {
+  const auto d = exact_lattice_direction<U>(v.x, v.y, v.z);
+  return {d.x, d.y, d.z};
+}
+/// To the last digits of U, for what is found in every step.
 template <class U> ISO_INLINE Vec3<U> unit_of_steps(GridVector v) {
   const auto d = lattice_direction<U>(v.x, v.y, v.z);
   return {d.x, d.y, d.z};
