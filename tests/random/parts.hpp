@@ -73,6 +73,7 @@ template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   if (dice.one_in(24)) d.collide = false;
   d.allow_sleep = !dice.one_in(8);
   d.user_data = dice.next();
+  d.bullet = d.user_data % 8 == 0;
   return d;
 }
 

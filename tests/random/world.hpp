@@ -24,6 +24,7 @@ template <class S> class RandomWorld {
  public:
   static constexpr double kMoverSpeed = 2;  // [m/s] most of a point of a mover or belt
   static constexpr double kThrow = 4;       // [m/s] most that a command adds to a body's speed
+  static constexpr double kFastThrow = 40;  // [m/s] in one world of eight: what is thrown moves by more than its size
   static constexpr double kTop = 8;         // [m] most that a body is put at
 
   RandomWorld(std::uint64_t seed, SolverName solver) : world(random_settings<S>(seed, solver)), seed_(seed) {
@@ -33,9 +34,11 @@ template <class S> class RandomWorld {
     if (drive_of(seed) == Drive::movers) add_movers(dice);
     const int mechanisms = 1 + static_cast<int>(dice.below(4)), loose = 4 + static_cast<int>(dice.below(12));
     for (int i = 0; i < mechanisms; ++i) add_mechanism(dice, static_cast<std::uint32_t>(i + 1));
-    for (int i = 0; i < loose; ++i) add_loose(world, dice);
+    for (int i = 0; i < loose; ++i) add_loose(world, dice, most_throw(seed));
     book.after_commands(world);
   }
+
+  static double most_throw(std::uint64_t seed) { return seed % 8 == 5 ? kFastThrow : kThrow; }
 
   /// Commands of a frame, and its step; the book is kept.
   StepReport play(std::uint64_t frame) {
@@ -60,7 +63,7 @@ template <class S> class RandomWorld {
     const bool moves = w.type(b) == BodyType::dynamic;
     switch (dice.below(10)) {
       case 0:
-      case 1: add_loose(w, dice); break;
+      case 1: add_loose(w, dice, most_throw(seed)); break;
       case 2:
         if (moves && bodies.size() > 12) w.destroy(b);
         break;
@@ -162,10 +165,10 @@ template <class S> class RandomWorld {
     }
     return {};
   }
-  static BodyId add_loose(World<S>& w, Dice& dice) {
+  static BodyId add_loose(World<S>& w, Dice& dice, double most) {
     const DrawnShape shape = draw_shape(w, dice);
     BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
-    d.velocity = vec<S>(dice.direction() * dice.in(0, kThrow));
+    d.velocity = vec<S>(dice.direction() * dice.in(0, most));
     d.angular_velocity = vec<S>(dice.direction() * dice.in(0, 6));
     d.sensor = dice.one_in(24);
     return place(w, dice, d, shape.reach, {-4, 0.5, -4}, {4, kTop, 4}, 0);

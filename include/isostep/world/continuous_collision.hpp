@@ -20,15 +20,15 @@ namespace isostep {
 ///          fat boxes; the broad phase knows of them. Velocities stay: the next step finds the contact.
 /// Keeps:   nothing but memory.
 /// Method:  1. Dynamic bodies that move by more than half of the inner radii of their part and of the other one (which
-///             counts as 0.5 m at most) are swept against static and kinematic bodies, turns included. Less is left to
-///             the narrow phase: it pushes solids out the way they came.
+///             counts as 1 m at most) are swept against static and kinematic bodies, turns included; so is what
+///             a fast kinematic body meets. Less is left to the narrow phase: it pushes solids out the way they came.
 ///          2. Bullets that move by more than half their inner radius are swept against the poses that all this left of
 ///             other dynamic bodies but bullets. Nobody reads what another writes, so the order is free.
 ///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
 ///          body is swept in that one's frame and goes on with it to the end of the step.
 /// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
 ///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
-/// Limits:  two bodies may squeeze a third; kinematic bodies pass what does not move itself.
+/// Limits:  two bodies may squeeze a third.
 template <class S> class ContinuousCollision {
  public:
   ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
@@ -57,10 +57,15 @@ template <class S> class ContinuousCollision {
     Pose<S> pose;
     const Pose<S>* carrier;
   };
+  /// A fast kinematic body.
+  struct Carrier {
+    std::uint32_t slot;
+    Aabb<S> swept;
+  };
   /// What is least of all that the filter of bodies has to know.
   struct Survey {
     S thinnest;  // [m] inner radius of what stops a body, up to kThick
-    bool bullets;
+    bool bullets, kinematic;
   };
 
   void find_way(Mover& mover) const;
@@ -69,7 +74,10 @@ template <class S> class ContinuousCollision {
   S least_inner_radius() const;
   S thinnest_of(std::uint32_t shape) const;
   void find_movers(const Survey& survey);
-  bool measure(std::size_t index, S thinnest, Mover& mover) const;
+  bool may_move(std::size_t index) const;
+  void add_if_fast(std::size_t index, S thinnest);
+  Mover measure(std::size_t index) const;
+  void find_met_by_kinematic(S least);
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   void cut(const Mover& mover, bool moving);
   void find_obstacles(const Mover& mover, bool moving);
@@ -86,6 +94,8 @@ template <class S> class ContinuousCollision {
   std::span<const Pose<S>> start_;  // for one update
   std::span<const std::uint64_t> joined_;
   std::vector<Mover> movers_;
+  std::vector<Carrier> carriers_;
+  std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
 };
 

@@ -84,10 +84,13 @@ template <class S> S ContinuousCollision<S>::least_inner_radius() const {
 
 /// Kinematic bodies are few, and may sleep: then any shape may be one's.
 template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S>::survey() const {
-  Survey found = {thinnest_static(), false};
+  Survey found = {thinnest_static(), false, false};
   if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, least_inner_radius());
   for (const BodyProperties<S>& body : state_.awake.properties) {
-    if (body.type == BodyType::kinematic) found.thinnest = min(found.thinnest, thinnest_of(body.shape));
+    if (body.type == BodyType::kinematic) {
+      found.thinnest = min(found.thinnest, thinnest_of(body.shape));
+      found.kinematic = true;
+    }
     if ((body.flags & body_flag::kBullet) != 0) found.bullets = true;
   }
   return found;
@@ -97,33 +100,69 @@ template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S
 /// that counts nor do its ends turn by a quarter of it.
 template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey) {
   movers_.clear();
+  carriers_.clear();
   const S thinnest = survey.bullets ? S(0) : survey.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
   const S least = (least_inner_radius() + thinnest) * S(0.5);
   const S way = least * S(0.75);
-  // No point is further from the centre than sqrt(3) times the box's longest side, nor turns faster than sqrt(3) times
-  // the largest component.
-  const auto squared = product(way, way), turning = product(least * S(state_.settings.hz), S(1.0 / 12));
-  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
-    const BodyState<S>& state = state_.awake.states[i];
-    const Vec3<S> moved = state.centre - start_[i].position;
-    const auto turned = product(convert<S>(max_abs(state.angular_velocity)), max_abs(state.fat.high - state.fat.low));
+  const auto squared = product(way, way), turning = product(least * S(state_.settings.hz), S(0.25));
+  const std::span<const BodyState<S>> states = state_.awake.states;
+  const std::span<const Pose<S>> start = start_;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState<S>& state = states[i];
+    const Vec3<S> moved = state.centre - start[i].position;
+    const Vec3<S> sides = state.fat.high - state.fat.low;  // together longer than from the centre to any point
+    const auto w = abs(state.angular_velocity);
+    const auto turned = product(convert<S>(w.x + w.y + w.z), sides.x + sides.y + sides.z);
     if (dot_sum(moved, moved) < squared && turned < turning) continue;
-    Mover mover;
-    if (measure(i, survey.thinnest, mover)) movers_.push_back(mover);
+    if (may_move(i)) add_if_fast(i, survey.thinnest);
+  }
+  if (survey.kinematic) find_met_by_kinematic(least);
+}
+
+template <class S> void ContinuousCollision<S>::add_if_fast(std::size_t index, S thinnest) {
+  const Mover mover = measure(index);
+  const bool bullet = (state_.awake.properties[index].flags & body_flag::kBullet) != 0;
+  if ((mover.inner + (bullet ? S(0) : thinnest)) * S(0.5) < mover.motion) movers_.push_back(mover);
+}
+
+/// Those in the way of a kinematic body move as it sees them.
+template <class S> void ContinuousCollision<S>::find_met_by_kinematic(S least) {
+  met_.clear();
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    const bool rests = start_[i].position == now(i).position && start_[i].orientation == now(i).orientation;
+    if (body.type != BodyType::kinematic || rests) continue;
+    const Mover carrier = measure(i);
+    if (carrier.motion < least) continue;
+    const CoreMotion<S> motion = {start_[i], now(i), Vec3<S>::zero()};
+    carriers_.push_back({state_.awake.states[i].slot, detail::swept_box(motion, carrier.reach)});
+    proxies_.tree().query(carriers_.back().swept, [&](std::uint32_t slot) {
+      const Location at = map_.location(slot);
+      if (at.set == Location::kAwake && may_move(at.index)) met_.push_back(at.index);
+      return true;
+    });
+  }
+  sort_scratch_.resize(met_.size());
+  stable_sort(met_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(met_.size()), OwnKey{});
+  const std::size_t fast = movers_.size();
+  for (std::size_t i = 0; i < met_.size(); ++i) {
+    if (i > 0 && met_[i] == met_[i - 1]) continue;
+    const std::size_t at = lower_bound(fast, [&](std::size_t k) { return movers_[k].index < met_[i]; });
+    if (at == fast || movers_[at].index != met_[i]) movers_.push_back(measure(met_[i]));
   }
 }
 
-/// False: it is slow.
-template <class S> bool ContinuousCollision<S>::measure(std::size_t index, S thinnest, Mover& mover) const {
+template <class S> bool ContinuousCollision<S>::may_move(std::size_t index) const {
+  constexpr std::uint32_t kFlags = body_flag::kSensor | body_flag::kCollide;
   const BodyProperties<S>& body = state_.awake.properties[index];
-  if (body.type != BodyType::dynamic || (body.flags & body_flag::kSensor) != 0 ||
-      (body.flags & body_flag::kCollide) == 0) {
-    return false;
-  }
-  mover = {};
+  return body.type == BodyType::dynamic && (body.flags & kFlags) == body_flag::kCollide;
+}
+template <class S> typename ContinuousCollision<S>::Mover ContinuousCollision<S>::measure(std::size_t index) const {
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  Mover mover = {};
   mover.index = static_cast<std::uint32_t>(index);
-  mover.inner = highest<S>();
+  mover.inner = detail::kThick<S>;
   for (const Child<S>& child : map_.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> box = bounds(part.shape, part.at);
@@ -133,8 +172,7 @@ template <class S> bool ContinuousCollision<S>::measure(std::size_t index, S thi
   find_way(mover);
   for (std::uint32_t i = 0; i < mover.pieces; ++i)
     mover.motion += detail::most_motion<S>({mover.poses[i], mover.poses[i + 1], Vec3<S>::zero()}, mover.reach);
-  const bool bullet = (body.flags & body_flag::kBullet) != 0;
-  return (mover.inner + (bullet ? S(0) : thinnest)) * S(0.5) < mover.motion;
+  return mover;
 }
 
 /// Two orientations do not tell a turn of more than half of one: the angular velocity does, where it leads from the
@@ -189,6 +227,10 @@ template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& move
     if (may_stop(mover, slot, moving) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
     return max_fraction;
   });
+  const Aabb<S> swept = detail::swept_box<S>({from, now(mover.index), Vec3<S>::zero()}, mover.reach);
+  for (const Carrier& carrier : carriers_) {  // wherever they are by now
+    if (overlap(carrier.swept, swept) && may_stop(mover, carrier.slot, moving)) obstacles_.push_back(carrier.slot);
+  }
   sort_scratch_.resize(obstacles_.size());
   stable_sort(obstacles_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(obstacles_.size()), OwnKey{});
 }
@@ -241,7 +283,9 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
 template <class S> void ContinuousCollision<S>::cut(const Mover& mover, bool moving) {
   find_obstacles(mover, moving);
   Cut cut = {Unit<S>(1), {}};
-  for (const std::uint32_t slot : obstacles_) sweep_against(mover, slot, moving, cut);
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    if (i == 0 || obstacles_[i] != obstacles_[i - 1]) sweep_against(mover, obstacles_[i], moving, cut);
+  }
   if (cut.fraction == Unit<S>(1)) return;
   BodyState<S>& state = state_.awake.states[mover.index];
   const BodyProperties<S>& body = state_.awake.properties[mover.index];

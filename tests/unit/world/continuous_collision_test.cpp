@@ -154,6 +154,16 @@ TYPED_TEST(ContinuousCollisions, a_kinematic_wall_takes_along_what_it_meets) {
   EXPECT_NEAR(this->place(ball).x, -0.5 - 0.03125 - 0.125, this->kNear);
 }
 
+TYPED_TEST(ContinuousCollisions, a_fast_kinematic_wall_does_not_pass_what_rests) {
+  using S = TypeParam;
+  BodyDefinition<S> d = still<S>(add_box(this->world, 0.03125, 2, 2), {0, 0, 0});
+  d.type = BodyType::kinematic;
+  const BodyId wall = this->world.create(d), ball = this->add_ball_at({-1, 0, 0});
+  this->move(wall, {-2, 0, 0});
+  this->update();
+  EXPECT_NEAR(this->place(ball).x, -2 - 0.03125 - 0.125, this->kNear);
+}
+
 TYPED_TEST(ContinuousCollisions, bullets_do_not_pass_what_moves_and_others_do) {
   using S = TypeParam;
   const BodyId plate = this->world.create(moving<S>(add_box(this->world, 0.03125, 2, 2), {0, 0, 0}));

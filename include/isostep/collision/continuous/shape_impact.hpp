@@ -15,7 +15,7 @@ template <class S> struct PlacedShape {
 };
 
 /// [m] How deep another solid's middle may get into a shape and still be pushed out the way it came: its inner radius,
-/// at most 0.5 m. A surface without an inside has none.
+/// at most 1 m. A surface without an inside has none.
 template <class S> S thickness(const ShapeView<S>& shape);
 
 /// The fraction of its motion, 0 ... 1, up to which `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`.
@@ -24,13 +24,13 @@ template <class S> S thickness(const ShapeView<S>& shape);
 ///          does not touch that one grazes. Where it touches, the fraction is that at which all of `a` does: there the
 ///          two are apart by a quarter to a half of kGraze. Where all of `a` touches from the start, it is the former.
 ///          If even that does, the solid a quarter of the inner radius deep in `a` is swept, then balls in its middle of
-///          three quarters and one quarter of that radius. What touches `b` with all of them has no limit.
+///          three quarters and one quarter of that radius. The last goes nowhere but away from what it touches.
 template <class S>
 Unit<S> free_fraction(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b);
 
 namespace detail {
-template <class S> inline constexpr S kThick = S(0.5);         // [m]
+template <class S> inline constexpr S kThick = S(1);           // [m]
 template <class S> inline constexpr S kGraze = S(0.00390625);  // [m]
 }  // namespace detail
 
