@@ -23,8 +23,8 @@ template <class S> S thickness(const ShapeView<S>& shape);
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less): what
 ///          does not touch that one grazes. Where it touches, the fraction is that at which all of `a` does: there the
 ///          two are apart by a quarter to a half of kGraze. Where all of `a` touches from the start, it is the former.
-///          If even that does, the solid a quarter of the inner radius deep in `a` is swept, then balls in its middle of
-///          three quarters and one quarter of that radius. The last goes nowhere but away from what it touches.
+///          If even that does, the solid a quarter of the inner radius deep in `a` is swept, then balls in its middle
+///          of three quarters and one quarter of that radius. The last goes nowhere but away from what it touches.
 template <class S>
 Unit<S> free_fraction(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b);
