@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "isostep/math/mat3.hpp"
 #include "isostep/scalar/lanes.hpp"
@@ -11,19 +12,19 @@ namespace isostep {
 
 /// At most kMost vectors. What lanes read beyond the last repeats it.
 template <class T, int kMost> struct Columns {
-  static_assert(kMost % 32 == 0, "blocks of lanes of any width fill it");
+  static_assert(kMost % 16 == 0, "blocks of lanes of any width fill it");
   alignas(64) T x[kMost];
   alignas(64) T y[kMost];
   alignas(64) T z[kMost];
 
-  ISO_INLINE Vec3<T> at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
-  ISO_INLINE void set(std::uint32_t i, Vec3<T> v) {
+  ISO_INLINE constexpr Vec3<T> at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
+  ISO_INLINE constexpr void set(std::uint32_t i, Vec3<T> v) {
     x[i] = v.x;
     y[i] = v.y;
     z[i] = v.z;
   }
   /// Repeats the last of `count` vectors up to a whole block of W.
-  template <int W> ISO_INLINE void pad(std::uint32_t count) {
+  template <int W> ISO_INLINE constexpr void pad(std::uint32_t count) {
     for (std::uint32_t i = count; i % W != 0; ++i) set(i, at(count - 1));
   }
   template <class L> ISO_INLINE Vec3<L> load(std::uint32_t first) const {
@@ -34,6 +35,49 @@ template <class T, int kMost> struct Columns {
     v.y.store(y + first);
     v.z.store(z + first);
   }
+};
+
+/// Vectors that live elsewhere, in blocks of 16. What lanes read beyond the last repeats it.
+template <class T> struct ColumnsView {
+  using Block = Columns<T, 16>;
+
+  const Block* blocks = nullptr;
+  std::uint32_t count = 0;
+
+  ISO_INLINE std::uint32_t size() const { return count; }
+  ISO_INLINE Vec3<T> operator[](std::uint32_t i) const { return blocks[i / 16].at(i % 16); }
+  /// From a multiple of the lanes' width.
+  template <class L> ISO_INLINE Vec3<L> load(std::uint32_t first) const {
+    return blocks[first / 16].template load<L>(first % 16);
+  }
+
+  struct Iterator {
+    const ColumnsView* of;
+    std::uint32_t i;
+    ISO_INLINE Vec3<T> operator*() const { return (*of)[i]; }
+    ISO_INLINE Iterator& operator++() {
+      ++i;
+      return *this;
+    }
+    ISO_INLINE bool operator!=(const Iterator& other) const { return i != other.i; }
+  };
+  ISO_INLINE Iterator begin() const { return {this, 0}; }
+  ISO_INLINE Iterator end() const { return {this, count}; }
+};
+
+/// The memory that a ColumnsView shows.
+template <class T> class ColumnsArray {
+ public:
+  ISO_INLINE void push_back(Vec3<T> v) {
+    const std::uint32_t at = count_++ % 16;
+    if (at == 0) blocks_.emplace_back();
+    for (std::uint32_t i = at; i < 16; ++i) blocks_.back().set(i, v);
+  }
+  ISO_INLINE ColumnsView<T> view() const { return {blocks_.data(), count_}; }
+
+ private:
+  std::vector<Columns<T, 16>> blocks_;
+  std::uint32_t count_ = 0;
 };
 
 template <class L, class T> ISO_INLINE Vec3<L> broadcast(Vec3<T> v) {

@@ -17,7 +17,21 @@ template <class S> struct ConvexCore {
   S radius;                           // [m]
 };
 
-template <class S> ISO_INLINE ConvexCore<S> core_of(const Polyhedron<S>& solid) { return {solid.vertices, S(0)}; }
+/// A polyhedron's: the memory that core() shows.
+template <class S> class PolyhedronCore {
+ public:
+  ISO_INLINE explicit PolyhedronCore(const Polyhedron<S>& solid) : count_(solid.vertices.size()) {
+    for (std::uint32_t i = 0; i < count_; ++i) vertices_[i] = solid.vertices[i];
+  }
+  PolyhedronCore(const PolyhedronCore&) = delete;
+  PolyhedronCore& operator=(const PolyhedronCore&) = delete;
+
+  ISO_INLINE ConvexCore<S> core() const { return {{vertices_, count_}, S(0)}; }
+
+ private:
+  Vec3<S> vertices_[ConvexHull::kMaxVertices];  // [m]
+  std::uint32_t count_;
+};
 
 namespace detail {
 

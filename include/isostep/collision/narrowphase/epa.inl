@@ -222,7 +222,8 @@ EpaPenetration<S> epa_penetration(const ConvexCore<S>& a, const Transform<S>& ta
 template <class S>
 EpaPenetration<S> epa_penetration(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                   const Transform<S>& tb) {
-  return epa_penetration(core_of(a), ta, core_of(b), tb);
+  const PolyhedronCore<S> core_a(a), core_b(b);
+  return epa_penetration(core_a.core(), ta, core_b.core(), tb);
 }
 
 }  // namespace isostep

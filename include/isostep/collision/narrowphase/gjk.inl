@@ -236,7 +236,8 @@ GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, cons
 template <class S>
 GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                             const Transform<S>& tb) {
-  return gjk_distance(core_of(a), ta, core_of(b), tb);
+  const PolyhedronCore<S> core_a(a), core_b(b);
+  return gjk_distance(core_a.core(), ta, core_b.core(), tb);
 }
 
 }  // namespace isostep

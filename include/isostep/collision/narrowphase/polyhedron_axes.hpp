@@ -27,7 +27,8 @@ template <class S> struct Lowest {
   std::uint32_t vertex;
   S height;  // [m]
 };
-template <class S> ISO_INLINE Lowest<S> lowest_of(ArrayView<Vec3<S>> vertices, Vec3<Unit<S>> up) {
+template <class Vertices, class U> ISO_INLINE auto lowest_of(const Vertices& vertices, Vec3<U> up) {
+  using S = decltype(dot(up, vertices[0]));
   Lowest<S> lowest = {0, dot(up, vertices[0])};
   for (std::uint32_t i = 1; i < vertices.size(); ++i) {
     const S height = dot(up, vertices[i]);
@@ -55,18 +56,12 @@ template <class S, int W, class Isa> struct PolyhedronPair {
                             const Transform<S>& tb)
       : a(of_a), b(of_b), b_in_a(relative(ta, tb)) {
     const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};
-    take(a.vertices, vertices_a);
     for (std::uint32_t i = 0; i < a.vertices.size(); i += W)
-      vertices_a.store(i, to_local(lanes, vertices_a.template load<L>(i)));
-    take(b.vertices, vertices_b);
+      vertices_a.store(i, to_local(lanes, a.vertices.template load<L>(i)));
     for (std::uint32_t i = 0; i < b.vertices.size(); i += W)
-      vertices_b.store(i, to_world(lanes, vertices_b.template load<L>(i)));
+      vertices_b.store(i, to_world(lanes, b.vertices.template load<L>(i)));
     tolerance =
         axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
-  }
-  template <class T> static ISO_INLINE void take(ArrayView<Vec3<T>> vectors, Columns<T, kMost>& columns) {
-    for (std::uint32_t i = 0; i < vectors.size(); ++i) columns.set(i, vectors[i]);
-    columns.template pad<W>(vectors.size());
   }
 };
 
@@ -84,11 +79,9 @@ ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, Conve
   using Pair = PolyhedronPair<S, W, Isa>;
   using L = typename Pair::L;
   const std::uint32_t faces = of.faces.size();
-  Columns<Unit<S>, Pair::kMost> normals;
-  Pair::take(of.normals, normals);
   FaceAxis<S> best = {0, 0, S(0)};
   for (std::uint32_t first = 0; first < faces; first += W) {
-    const Vec3<typename Pair::UL> up = normals.template load<typename Pair::UL>(first);
+    const Vec3<typename Pair::UL> up = of.normals.template load<typename Pair::UL>(first);
     L lowest = dot(up, broadcast<L>(others.at(0)));
     for (std::uint32_t i = 1; i < count; ++i) {
       const L height = dot(up, broadcast<L>(others.at(i)));
@@ -118,11 +111,6 @@ template <class S> struct EdgeAxis {
   bool found;
 };
 
-/// Edges by the side of a face's normal to which they lead; an edge along the face is in neither.
-struct Sides {
-  EdgeSet plus, minus;
-};
-
 /// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
 /// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
 /// of one face of the other's and into the other, in the same order. All of b's edges are looked at W at a time.
@@ -135,30 +123,32 @@ template <class S, int W, class Isa> class EdgeAxes {
  public:
   ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
     const Mat3<UL> turn = broadcast<UL>(pair.b_in_a.rotation);
-    const std::uint32_t faces = pair.b.faces.size();
     Columns<U, kMost> normals;
-    Pair::take(pair.b.normals, normals);
-    for (std::uint32_t f = 0; f < faces; f += W) normals.store(f, turn * normals.template load<UL>(f));
-    Pair::take(pair.b.directions, directions_);
+    for (std::uint32_t f = 0; f < pair.b.faces.size(); f += W)
+      normals.store(f, turn * pair.b.normals.template load<UL>(f));
     for (std::uint32_t j = 0; j < pair.b.edges(); j += W)
-      directions_.store(j, turn * directions_.template load<UL>(j));
+      directions_.store(j, turn * pair.b.directions.template load<UL>(j));
     for (std::uint32_t j = 0; j < pair.b.edges(); ++j) {
       left_.set(j, normals.at(pair.b.half_edges[2 * j].face));
       right_.set(j, normals.at(pair.b.half_edges[2 * j + 1].face));
     }
     left_.template pad<W>(pair.b.edges());
     right_.template pad<W>(pair.b.edges());
-    for (std::uint32_t f = 0; f < pair.a.faces.size(); ++f) sides_of_a_[f] = sides_of(pair.a.normals[f]);
+    for (std::uint32_t f = 0; f < pair.a.faces.size(); ++f) find_sides(pair.a.normals[f], sides_of_a_[f]);
   }
 
   /// Those better than `limit`; ends where one exceeds `reach`.
   ISO_INLINE EdgeAxis<S> best(S limit, S reach) const {
+    const Polyhedron<S>& a = pair_.a;
     EdgeAxis<S> best = {0, 0, Vec3<U>::zero(), limit, false};
-    for (std::uint32_t i = 0; i < pair_.a.edges(); ++i) {
-      const EdgeSet meeting = edges_meeting(i);
-      for (std::uint32_t word = 0; word < 2; ++word) {
-        for (std::uint64_t left = meeting.words[word]; left != 0; left &= left - 1) {
-          examine(i, 64 * word + static_cast<std::uint32_t>(first_bit(left)), best);
+    for (std::uint32_t i = 0; i < a.edges(); ++i) {
+      const Sides &left = sides_of_a_[a.half_edges[2 * i].face], &right = sides_of_a_[a.half_edges[2 * i + 1].face];
+      const Vec3<UL> direction = broadcast<UL>(a.directions[i]);
+      for (std::uint32_t block = 0; block < blocks(); ++block) {
+        const std::uint32_t out = left.plus[block] & right.minus[block], in = left.minus[block] & right.plus[block];
+        if ((out | in) == 0) continue;
+        for (std::uint32_t met = meeting(direction, block, out, in); met != 0; met &= met - 1) {
+          examine(i, block * W + static_cast<std::uint32_t>(first_bit(met)), best);
           if (best.found && best.separation > reach) return best;
         }
       }
@@ -167,33 +157,32 @@ template <class S, int W, class Isa> class EdgeAxes {
   }
 
  private:
-  ISO_INLINE Sides sides_of(Vec3<U> normal) const {
-    Sides sides = {EdgeSet::none(), EdgeSet::none()};
+  /// b's edges by the side of a plane to which they lead, a bit each; an edge along it is in neither.
+  struct Sides {
+    std::uint32_t plus[kMost / W], minus[kMost / W];
+  };
+
+  ISO_INLINE std::uint32_t blocks() const { return (pair_.b.edges() + W - 1) / W; }
+  ISO_INLINE void find_sides(Vec3<U> normal, Sides& sides) const {
     const Vec3<UL> up = broadcast<UL>(normal);
     const UL zero = UL::zero();
-    for (std::uint32_t j = 0; j < pair_.b.edges(); j += W) {
-      const UL along = dot(up, directions_.template load<UL>(j));
-      sides.plus.insert(j, to_bits(less(zero, along)));
-      sides.minus.insert(j, to_bits(less(along, zero)));
+    for (std::uint32_t block = 0; block < blocks(); ++block) {
+      const UL along = dot(up, directions_.template load<UL>(block * W));
+      sides.plus[block] = to_bits(less(zero, along));
+      sides.minus[block] = to_bits(less(along, zero));
     }
-    return sides;
+    const std::uint32_t last = blocks() - 1, own = 0xffffffffu >> (32 - (pair_.b.edges() - last * W));
+    sides.plus[last] &= own;
+    sides.minus[last] &= own;
   }
-  /// Of b, with edge i of a.
-  ISO_INLINE EdgeSet edges_meeting(std::uint32_t i) const {
-    const Polyhedron<S>&a = pair_.a, &b = pair_.b;
-    const Sides &left = sides_of_a_[a.half_edges[2 * i].face], &right = sides_of_a_[a.half_edges[2 * i + 1].face];
-    const EdgeSet out = left.plus & right.minus, in = left.minus & right.plus;
-    const Vec3<UL> direction = broadcast<UL>(a.directions[i]);
+  /// Those that lead `out` of the left face of a's edge or `in`, and whose own faces the edge has on its sides.
+  ISO_INLINE std::uint32_t meeting(const Vec3<UL>& direction, std::uint32_t block, std::uint32_t out,
+                                   std::uint32_t in) const {
     const UL zero = UL::zero();
-    EdgeSet meeting = EdgeSet::none();
-    for (std::uint32_t j = 0; j < b.edges(); j += W) {
-      const UL at_left = dot(direction, left_.template load<UL>(j));
-      const UL at_right = dot(direction, right_.template load<UL>(j));
-      const std::uint32_t outwards = to_bits(less(zero, at_left) & less(at_right, zero));
-      const std::uint32_t inwards = to_bits(less(at_left, zero) & less(zero, at_right));
-      meeting.insert(j, (outwards & out.bits(j)) | (inwards & in.bits(j)));
-    }
-    return meeting & EdgeSet::first(b.edges());
+    const UL at_left = dot(direction, left_.template load<UL>(block * W));
+    const UL at_right = dot(direction, right_.template load<UL>(block * W));
+    return (out & to_bits(less(zero, at_left) & less(at_right, zero))) |
+           (in & to_bits(less(at_left, zero) & less(zero, at_right)));
   }
   ISO_INLINE void examine(std::uint32_t i, std::uint32_t j, EdgeAxis<S>& best) const {
     const Polyhedron<S>& a = pair_.a;
@@ -221,7 +210,7 @@ template <class S, int W, class Isa> class EdgeAxes {
   const Pair& pair_;
   Columns<U, kMost> directions_;    // of b's edges, in a's frame
   Columns<U, kMost> left_, right_;  // normals of the faces beside each of them
-  Sides sides_of_a_[kMost];         // b's edges, by face of a
+  Sides sides_of_a_[kMost];         // by face of a
 };
 
 }  // namespace isostep::detail

@@ -115,8 +115,8 @@ template <class S> class VClip {
     other_in_[0] = b_in_a;
     other_in_[1] = {transposed_times(b_in_a.rotation, -b_in_a.position), transpose(b_in_a.rotation)};
     S extent = max_abs(b_in_a.position);
-    for (const Vec3<S>& v : a.vertices) extent = max(extent, max_abs(v));
-    for (const Vec3<S>& v : b.vertices) extent = max(extent, max_abs(v));
+    for (const Vec3<S> v : a.vertices) extent = max(extent, max_abs(v));
+    for (const Vec3<S> v : b.vertices) extent = max(extent, max_abs(v));
     slack_ = extent * resolution<U>() * S(4) + resolution<S>() * S(4);
   }
 

@@ -16,37 +16,48 @@ inline constexpr std::uint8_t kBoxFaces[6] = {0, 2, 4, 8, 10, 18};
 inline constexpr std::int8_t kBoxFaceAxes[6] = {0, 2, 1, 2, 1, 0};
 inline constexpr bool kBoxFaceIsPositive[6] = {false, false, false, true, true, true};
 inline constexpr std::int8_t kBoxEdgeAxes[12] = {2, 1, 0, 1, 0, 2, 0, 0, 2, 1, 1, 2};
+
+template <class U> constexpr Vec3<U> axis_of(int axis, bool positive) {
+  const U length = positive ? U(1) : U(-1), none = U(0);
+  return {axis == 0 ? length : none, axis == 1 ? length : none, axis == 2 ? length : none};
+}
+template <class U> constexpr Columns<U, 16> box_normals() {
+  Columns<U, 16> normals;
+  for (std::uint32_t f = 0; f < 6; ++f) normals.set(f, axis_of<U>(kBoxFaceAxes[f], kBoxFaceIsPositive[f]));
+  normals.template pad<16>(6);
+  return normals;
+}
+template <class U> constexpr Columns<U, 16> box_directions() {
+  Columns<U, 16> directions;
+  for (std::uint32_t k = 0; k < 12; ++k) directions.set(k, axis_of<U>(kBoxEdgeAxes[k], true));
+  directions.template pad<16>(12);
+  return directions;
+}
+template <class U> inline constexpr Columns<U, 16> kBoxNormals = box_normals<U>();
+template <class U> inline constexpr Columns<U, 16> kBoxDirections = box_directions<U>();
 }  // namespace detail
 
 template <class S> class BoxSolid {
  public:
   ISO_INLINE explicit BoxSolid(Vec3<S> half) : inner_radius_(min(half.x, min(half.y, half.z))) {
-    using U = Unit<S>;
-    for (int corner = 0; corner < 8; ++corner) {
-      vertices_[corner] = {(corner & 4) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
-                           (corner & 1) != 0 ? half.z : -half.z};
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      vertices_.set(corner, {(corner & 4u) != 0 ? half.x : -half.x, (corner & 2u) != 0 ? half.y : -half.y,
+                             (corner & 1u) != 0 ? half.z : -half.z});
     }
-    for (int f = 0; f < 6; ++f) {
-      normals_[f] = Vec3<U>::zero();
-      normals_[f][detail::kBoxFaceAxes[f]] = detail::kBoxFaceIsPositive[f] ? U(1) : U(-1);
-      offsets_[f] = half[detail::kBoxFaceAxes[f]];
-    }
-    for (int k = 0; k < 12; ++k) {
-      directions_[k] = Vec3<U>::zero();
-      directions_[k][detail::kBoxEdgeAxes[k]] = U(1);
-    }
+    vertices_.template pad<16>(8);
+    for (int f = 0; f < 6; ++f) offsets_[f] = half[detail::kBoxFaceAxes[f]];
   }
 
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
-    return {vertices_, detail::kBoxHalfEdges, detail::kBoxFaces, normals_, offsets_, directions_, inner_radius_};
+    using U = Unit<S>;
+    return {{&vertices_, 8}, detail::kBoxHalfEdges, detail::kBoxFaces, {&detail::kBoxNormals<U>, 6}, offsets_,
+            {&detail::kBoxDirections<U>, 12}, inner_radius_};
   }
 
  private:
-  Vec3<S> vertices_[8];
-  Vec3<Unit<S>> normals_[6];
+  Columns<S, 16> vertices_;
   S offsets_[6];
-  Vec3<Unit<S>> directions_[12];
   S inner_radius_;
 };
 

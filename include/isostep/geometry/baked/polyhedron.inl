@@ -13,21 +13,22 @@ HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull
   Vec3<S> middle = Vec3<S>::zero();
   const U share = divide_to<U>(S(1), from_lattice<S>(static_cast<std::int64_t>(hull.vertices.size()), 0));
   for (const GridPoint p : hull.vertices) {
-    vertices_.push_back(
-        {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)});
-    middle += vertices_.back() * share;
+    const Vec3<S> v = {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
+    vertices_.push_back(v);
+    middle += v * share;
   }
   for (std::size_t e = 0; e < half_edges_.size(); e += 2) {
-    directions_.push_back(
-        detail::exact_unit_of_steps<U>(hull.vertices[half_edges_[e + 1].origin] - hull.vertices[half_edges_[e].origin]));
+    directions_.push_back(detail::exact_unit_of_steps<U>(hull.vertices[half_edges_[e + 1].origin] -
+                                                         hull.vertices[half_edges_[e].origin]));
   }
   inner_radius_ = highest<S>();
+  const ColumnsView<S> vertices = vertices_.view();
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    normals_.push_back(detail::exact_unit_of_steps<U>(hull.normal(static_cast<std::uint8_t>(f))));
-    const Vec3<U> normal = normals_.back();
-    S offset = dot(normal, vertices_[half_edges_[faces_[f]].origin]);
+    const Vec3<U> normal = detail::exact_unit_of_steps<U>(hull.normal(static_cast<std::uint8_t>(f)));
+    S offset = dot(normal, vertices[half_edges_[faces_[f]].origin]);
     for (std::uint8_t e = half_edges_[faces_[f]].next; e != faces_[f]; e = half_edges_[e].next)
-      offset = max(offset, dot(normal, vertices_[half_edges_[e].origin]));
+      offset = max(offset, dot(normal, vertices[half_edges_[e].origin]));
+    normals_.push_back(normal);
     offsets_.push_back(offset);
     inner_radius_ = min(inner_radius_, offset - dot(normal, middle));
   }

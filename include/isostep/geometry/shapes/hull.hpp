@@ -35,7 +35,7 @@ template <class S = Literal> struct Hull {
     return content->solid.polyhedron();
   }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const {
-    const ArrayView<Vec3<S>> vertices = polyhedron().vertices;
+    const ColumnsView<S> vertices = polyhedron().vertices;
     Vec3<S> low = t.rotation * vertices[0], high = low;
     for (std::uint32_t i = 1; i < vertices.size(); ++i) {
       const Vec3<S> p = t.rotation * vertices[i];
@@ -53,8 +53,8 @@ template <class S = Literal> struct Hull {
     const U part = inset == S(0) ? U(0) : divide_to<U>(inset, solid.inner_radius);
     const U share = divide_to<U>(S(1), S(static_cast<int>(solid.vertices.size())));
     Vec3<S> middle = Vec3<S>::zero();
-    for (const Vec3<S>& v : solid.vertices) middle += v * share;
-    for (const Vec3<S>& v : solid.vertices) point(v + (middle - v) * part);
+    for (const Vec3<S> v : solid.vertices) middle += v * share;
+    for (const Vec3<S> v : solid.vertices) point(v + (middle - v) * part);
     return S(0);
   }
 

@@ -90,8 +90,10 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   EXPECT_GT(tally.points, 10000);
 }
 
-template <class T> bool same(std::span<const T> a, std::span<const T> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+template <class View> bool same(const View& a, const View& b) {
+  bool all = a.size() == b.size();
+  for (std::uint32_t i = 0; all && i < a.size(); ++i) all = a[i] == b[i];
+  return all;
 }
 
 TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {

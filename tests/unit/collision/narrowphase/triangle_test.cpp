@@ -97,7 +97,7 @@ TYPED_TEST(Triangles, of_a_plane_push_along_its_normal_alone_and_hold_the_lowest
     Transform<S> place = this->at(random, {random.in(-2, 2), 0, random.in(-2, 2)});
     const BoxSolid<S> box(oracle::made<S>(half));
     double lowest = 1e9;
-    for (const Vec3<S>& v : box.polyhedron().vertices)
+    for (const Vec3<S> v : box.polyhedron().vertices)
       lowest = std::min(lowest, to_double((place.rotation * v).y));
     place.position.y = from_double<S>(-lowest - random.in(0, 0.5) * std::min({half.x, half.y, half.z}));
     const auto found = this->collide_all(primitive_of(Box<S>{oracle::made<S>(half)}), place, plain);
