@@ -4,13 +4,19 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
+#include "isostep/collision/continuous/plane_impact.inl"
+#include "isostep/collision/continuous/shape_impact.inl"
+#include "isostep/collision/continuous/time_of_impact.inl"
 #include "isostep/collision/narrowphase/collide.inl"
+#include "isostep/collision/narrowphase/epa.inl"
 #include "isostep/collision/narrowphase/gjk.inl"
 #include "isostep/collision/narrowphase/pair_scalar.inl"
 #include "isostep/collision/narrowphase/polyhedra.inl"
 #include "isostep/collision/narrowphase/round_polyhedron.inl"
+#include "isostep/collision/narrowphase/v_clip.inl"
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
+#include "isostep/collision/query/shape_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
@@ -62,6 +68,12 @@
   ISO_POLYHEDRA_OF(, OwnScalar)                                                                                       \
   ISO_GJK_OF(, OwnScalar)                                                                                             \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                                \
+  ISO_EPA_OF(, OwnScalar)                                                                                             \
+  ISO_V_CLIP_OF(, OwnScalar)                                                                                          \
+  ISO_SHAPE_CAST_OF(, OwnScalar)                                                                                      \
+  ISO_TIME_OF_IMPACT_OF(, OwnScalar)                                                                                  \
+  ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                                    \
+  ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                                    \
   template class AabbTree<OwnScalar>;                                                                                 \
   template class PairSet<OwnScalar>;                                                                                  \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
