@@ -8,6 +8,7 @@
 
 #include "build.hpp"
 #include "limits.hpp"
+#include "named.hpp"
 #include "terrain.hpp"
 #include "trials/judges.hpp"
 
@@ -44,6 +45,9 @@ constexpr Bar kBars[] = {
     {"S11", Measure::penetration_mean, 0.001, 0.0003},
     {"S12", Measure::penetration, 0.02, 0.004},
     {"S12", Measure::penetration_mean, 0.001, 0.0003},
+    {"S13", Measure::through, 9, 1},
+    {"S13m", Measure::through, 9, 1},
+    {"S13d", Measure::through, 1, 1},
     {"S15", Measure::penetration, 0.015, 0.005},
     {"S15h", Measure::penetration, 0.015, 0.005},
     {"S16", Measure::bump, 0.01, 0.002},
@@ -91,6 +95,7 @@ class OwnFigure : public Judge {
       case Measure::joint_end: return joint_error_;
       case Measure::limit_passed:
       case Measure::bump: return passed_;
+      case Measure::through: return count_through(name_, start_, now_).value_or(0);
       default: return count_outside(name_, now_);
     }
   }
@@ -129,7 +134,7 @@ const char* name_of(Measure measure) {
   constexpr const char* kNames[] = {
       "height of the top", "drift",         "furthest way",  "stretch",          "bodies outside", "worst overlap",
       "mean overlap",      "unrest",        "worst joint",   "joint at the end", "limits passed",  "limits at the end",
-      "energy lost",       "energy gained", "time to sleep", "step asleep",      "bumps"};
+      "energy lost",       "energy gained", "time to sleep", "step asleep",      "bullets through", "bumps"};
   return kNames[static_cast<int>(measure)];
 }
 
@@ -147,6 +152,7 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
   const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" ||
                    scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
+  if (starts_with(scene, "S13")) return 0;  // where they come back to is free
   const bool hills = is_on_hills(scene);
   for (const BodySight& body : bodies) {
     if (!body.dynamic) continue;
@@ -160,7 +166,23 @@ int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) 
   return outside;
 }
 
+std::optional<int> count_through(std::string_view scene, const std::vector<BodySight>& start,
+                                 const std::vector<BodySight>& now) {
+  constexpr double kFarFace = 0.01, kPlate = 1;  // [m] x, [kg]
+  if (!starts_with(scene, "S13") || start.size() != now.size()) return std::nullopt;
+  int through = 0;
+  for (std::size_t i = 1; i < now.size(); ++i) {
+    if (scene != "S13d") through += now[i].centre.x > kFarFace ? 1 : 0;
+    else if (i % 2 == 1) {  // after its plate
+      const double mass = bullet_mass(static_cast<int>(i / 2)), full = start[i].velocity.x * mass / (kPlate + mass);
+      through += length_of(now[i - 1].velocity) < 0.1 * full ? 1 : 0;
+    }
+  }
+  return through;
+}
+
 Measure own_measure(std::string_view scene) {
+  if (starts_with(scene, "S13")) return Measure::through;
   if (starts_with(scene, "S16")) return Measure::bump;
   if (starts_with(scene, "S10") || is_on_hills(scene)) return Measure::outside;
   if (starts_with(scene, "S1")) return Measure::top;
@@ -170,11 +192,15 @@ Measure own_measure(std::string_view scene) {
   return scene == "S7" ? Measure::joint_end : Measure::outside;
 }
 
-std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
+bool is_benchmark(std::string_view scene) {
   constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
                                           "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S11",
-                                          "S12", "S15", "S15h", "S16", "S16h", "S20"};
-  if (std::find(std::begin(kScenes), std::end(kScenes), scene.name) == std::end(kScenes)) return nullptr;
+                                          "S12", "S13", "S13m", "S13d", "S15", "S15h", "S16", "S16h", "S20"};
+  return std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes);
+}
+
+std::unique_ptr<Judge> benchmark_judge(const Scene& scene) {
+  if (!is_benchmark(scene.name)) return nullptr;
   return std::make_unique<OwnFigure>(scene);
 }
 

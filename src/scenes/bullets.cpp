@@ -1,4 +1,4 @@
-// S13, S13d: bodies far faster than their size, and thin walls.
+// S13, S13m, S13d: bodies far faster than their size, and thin walls.
 // SPDX-License-Identifier: MIT
 #include "named.hpp"
 #include "shapes.hpp"
@@ -46,16 +46,43 @@ SceneBody plate(int n) {
   return body;
 }
 
+/// As large as the wall, of cells of 2 m, facing what comes.
+SceneBody sheet() {
+  constexpr int kRows = 30, kColumns = 20;
+  ScenePart part;
+  part.type = ShapeType::mesh;
+  for (int y = 0; y <= kRows; ++y) {
+    for (int z = 0; z <= kColumns; ++z) part.vertices.push_back({0, 2 * y - kRows, 2 * z - kColumns});
+  }
+  for (int y = 0; y < kRows; ++y) {
+    for (int z = 0; z < kColumns; ++z) {
+      const int at = y * (kColumns + 1) + z, above = at + kColumns + 1;
+      part.triangles.push_back({at, at + 1, above});
+      part.triangles.push_back({above + 1, above, at + 1});
+    }
+  }
+  SceneBody body = body_of(part, {0, 0, 0});
+  body.type = BodyType::static_;
+  return body;
+}
+
 }  // namespace
 
-Scene bullets(bool at_plates) {
+double bullet_mass(int n) {
+  constexpr double kMasses[] = {kDensity * 2 * kTurn / 3 * 0.05 * 0.05 * 0.05, kDensity * 0.1 * 0.1 * 0.1,
+                                kDensity * 0.02 * 0.02 * 0.5};
+  return kMasses[n % 3];
+}
+
+Scene bullets(BulletTarget at) {
   Scene scene = weightless(90);
   Draws draws(1313);
-  if (!at_plates) scene.bodies.push_back(fixed_box({0, 0, 0}, {0.01, 30, 20}));
+  if (at == BulletTarget::wall) scene.bodies.push_back(fixed_box({0, 0, 0}, {0.01, 30, 20}));
+  if (at == BulletTarget::sheet) scene.bodies.push_back(sheet());
   for (int n = 0; n < kBullets; ++n) {
-    if (at_plates) scene.bodies.push_back(plate(n));
+    if (at == BulletTarget::plates) scene.bodies.push_back(plate(n));
     scene.bodies.push_back(drawn_bullet(n, draws));
-    scene.bodies.back().bullet = at_plates;
+    scene.bodies.back().bullet = at == BulletTarget::plates;
   }
   return scene;
 }

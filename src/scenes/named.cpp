@@ -25,8 +25,9 @@ Scene thin_on_mesh() { return thin_bodies(false); }
 Scene thin_on_field() { return thin_bodies(true); }
 Scene sliders_on_mesh() { return sliders(false); }
 Scene sliders_on_field() { return sliders(true); }
-Scene bullets_at_a_wall() { return bullets(false); }
-Scene bullets_at_plates() { return bullets(true); }
+Scene bullets_at_a_wall() { return bullets(BulletTarget::wall); }
+Scene bullets_at_a_sheet() { return bullets(BulletTarget::sheet); }
+Scene bullets_at_plates() { return bullets(BulletTarget::plates); }
 Scene swinging_chain() { return chain(false); }
 Scene hanging_chain() { return chain(true); }
 Scene sleeping_pyramid() {
@@ -68,7 +69,8 @@ constexpr NamedScene kScenes[] = {
     {"S16", "40 bodies slide over a flat mesh", sliders_on_mesh},
     {"S16h", "S16 on a height field", sliders_on_field},
     {"S13", "1000 bullets and spinning rods at a thin wall", bullets_at_a_wall, false},
-    {"S13d", "the same, each at a plate of its own", bullets_at_plates, false},
+    {"S13m", "S13 at a sheet of triangles", bullets_at_a_sheet, false},
+    {"S13d", "S13 with each at a plate of its own", bullets_at_plates, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},

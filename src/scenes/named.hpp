@@ -40,10 +40,13 @@ Scene limited_ragdolls();
 Scene tilted_ragdolls();
 /// Bodies of a ragdoll: its parts follow each other.
 inline constexpr std::size_t kRagdollParts = 11;
-/// At a thin wall, or, with the flag, each at a plate of its own: the wall or first plate comes first, and each plate
-/// before its bullet.
-Scene bullets(bool at_plates);
+/// Bullets at a thin wall, a sheet of triangles that faces them, or, with their flag, each at a plate of its own. The
+/// wall, sheet or first plate comes first, and each plate before its bullet.
+enum class BulletTarget { wall, sheet, plates };
+Scene bullets(BulletTarget at);
 inline constexpr int kBullets = 1000;
+/// [kg] of the n-th.
+double bullet_mass(int n);
 Scene mixer();
 Scene mixed();
 Scene medley();

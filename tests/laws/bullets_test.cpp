@@ -25,8 +25,8 @@ std::ostream& operator<<(std::ostream& out, Through t) {
   return out << t.spheres << " spheres, " << t.boxes << " boxes, " << t.rods << " rods";
 }
 
-template <class S> Through through_the_wall() {
-  const scenes::Scene scene = scenes::bullets(false);
+template <class S> Through through_what_is_fixed(scenes::BulletTarget target) {
+  const scenes::Scene scene = scenes::bullets(target);
   World<S> w(scenes::settings_of<S>(scene));
   const scenes::Built<S> built = scenes::build(scene, w);
   for (int frame = 0; frame < scene.frames; ++frame) w.step();
@@ -38,7 +38,7 @@ template <class S> Through through_the_wall() {
 }
 /// A plate that got less than a tenth of the speed that a full stop gives was passed.
 template <class S> Through through_plates() {
-  const scenes::Scene scene = scenes::bullets(true);
+  const scenes::Scene scene = scenes::bullets(scenes::BulletTarget::plates);
   World<S> w(scenes::settings_of<S>(scene));
   const scenes::Built<S> built = scenes::build(scene, w);
   std::vector<double> speeds;
@@ -57,7 +57,12 @@ template <class S> class BulletScenes : public ::testing::Test {};
 using WideScalars = ::testing::Types<float, double, Q32_32>;
 TYPED_TEST_SUITE(BulletScenes, WideScalars);
 
-TYPED_TEST(BulletScenes, nothing_passes_a_thin_wall) { EXPECT_EQ(through_the_wall<TypeParam>(), Through{}); }
+TYPED_TEST(BulletScenes, nothing_passes_a_thin_wall) {
+  EXPECT_EQ(through_what_is_fixed<TypeParam>(scenes::BulletTarget::wall), Through{});
+}
+TYPED_TEST(BulletScenes, nothing_passes_a_sheet_of_triangles) {
+  EXPECT_EQ(through_what_is_fixed<TypeParam>(scenes::BulletTarget::sheet), Through{});
+}
 TYPED_TEST(BulletScenes, with_the_flag_nothing_passes_plates) { EXPECT_EQ(through_plates<TypeParam>(), Through{}); }
 
 // ---- rooms of thin walls: faces, edges and corners, from any direction, again and again

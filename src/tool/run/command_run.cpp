@@ -67,11 +67,12 @@ template <class Game> class Run {
   }
 
  private:
-  /// Trials are of rigid bodies, and named: no file's scene is one.
+  /// Trials and benchmarks are of rigid bodies, and named: no file's scene is one.
   void judge() {
     if constexpr (std::is_same_v<Scene, scenes::Scene>) {
       const scenes::Trial* const trial = scenes::find_trial(options_.scene);
       if (trial != nullptr) watch_->judge(*trial, scene_, game_->world);
+      if (scenes::is_benchmark(options_.scene)) watch_->count_lost(options_.scene, game_->world);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "isostep/geometry/shape_type.hpp"
 #include "tool/common/tool.hpp"
 
 namespace isostep::tool {
@@ -57,6 +58,26 @@ std::string line_of_trial(const TrialReport& r) {
                                    : "failed");
 }
 
+nlohmann::ordered_json json_of_blob(const BlobReport& blob) {
+  return {{"shape", blob.shape},
+          {"id", hex(blob.id.high) + hex(blob.id.low)},
+          {"bytes", blob.bytes},
+          {"uses", blob.uses}};
+}
+std::string lines_of_blobs(const std::vector<BlobReport>& blobs) {
+  std::string text;
+  for (const char* shape : kShapeNames) {
+    std::size_t count = 0, bytes = 0;
+    for (const BlobReport& blob : blobs) {
+      if (blob.shape != shape) continue;
+      ++count;
+      bytes += blob.bytes;
+    }
+    if (count > 0) text += line("blobs         %zu of type %s, %zu bytes", count, shape, bytes);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string json_of(const RunReport& r) {
@@ -76,6 +97,9 @@ std::string json_of(const RunReport& r) {
                                      {"faults", r.faults}});
   if (r.asleep_at >= 0) json["asleep_at"] = r.asleep_at;
   if (r.trial) json["trial"] = json_of_trial(*r.trial);
+  if (r.lost) json["lost"] = *r.lost;
+  if (r.through) json["through"] = *r.through;
+  for (const BlobReport& blob : r.blobs) json["blobs"].push_back(json_of_blob(blob));
   return json.dump() + "\n";
 }
 
@@ -95,6 +119,9 @@ std::string table_of(const RunReport& r) {
                r.unrest);
   text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);
   text += line("faults        %llu", static_cast<unsigned long long>(r.faults));
+  if (r.lost) text += line("lost          %d", *r.lost);
+  if (r.through) text += line("through       %d", *r.through);
+  text += lines_of_blobs(r.blobs);
   if (r.trial) text += line_of_trial(*r.trial);
   return text;
 }

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "isostep/particles/particle_world.hpp"
+#include "isostep/state/hash.hpp"
 #include "scenes/trials/trial.hpp"
 #include "tool/common/step_times.hpp"
 
@@ -30,11 +32,22 @@ struct TrialReport {
   bool over;  // false: the run was shorter than the trial, which has no verdict yet
 };
 
+/// A hull, mesh or height field of the world at the end.
+struct BlobReport {
+  const char* shape;
+  ContentId id;
+  std::size_t bytes;   // of its content
+  std::uint32_t uses;  // by parts of shapes
+};
+
 struct RunReport : AnyRunReport {
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
   double joint_error_max = 0;                                     // [m] over the run
   int asleep_at = -1;  // first frame, from 0, that ends with nobody awake; -1: none
   std::optional<TrialReport> trial;
+  std::optional<int> lost;     // bodies that are not where a benchmark scene keeps them, at the end
+  std::optional<int> through;  // bullets that passed what was in their way, of scenes that are about them
+  std::vector<BlobReport> blobs;
 
   // For people alone.
   double penetration_mean = 0;  // [m] over pairs closer than 1 cm

@@ -9,6 +9,7 @@
 
 #include "isostep/world/state.hpp"
 #include "run_report.hpp"
+#include "scenes/bars.hpp"
 #include "scenes/measure.hpp"
 #include "scenes/trials/trial_run.hpp"
 #include "tool/common/scene_game.hpp"
@@ -27,6 +28,11 @@ template <class S> class RigidWatch {
   /// Of a trial's scene as built; from now on it is judged.
   void judge(const scenes::Trial& trial, const scenes::Scene& scene, const World<S>& world) {
     trial_.emplace(trial, scene).see(world);
+  }
+  /// Of a benchmark scene as built: what leaves its place, or passes what is in its way.
+  void count_lost(const std::string& scene, const World<S>& world) {
+    benchmark_ = scene;
+    start_ = scenes::sight_of(world, 0).bodies;
   }
   /// `last_second`: of the run.
   void stepped(const World<S>& world, const StepReport& step, int frame, bool last_second) {
@@ -55,11 +61,27 @@ template <class S> class RigidWatch {
     report.penetration_mean = overlap.mean;
     report.energy_end = scenes::measure_energy(world).total();
     if (trial_) report.trial = TrialReport{&trial_->trial(), trial_->verdict(), trial_->over()};
+    if (!benchmark_.empty()) {
+      const std::vector<scenes::BodySight> now = scenes::sight_of(world, 0).bodies;
+      report.through = scenes::count_through(benchmark_, start_, now);
+      if (!report.through) report.lost = scenes::count_outside(benchmark_, now);
+    }
+    report.blobs = blobs_of(*world.state().geometry);
     for (const double value : unrest_) report.unrest += value / static_cast<double>(unrest_.size());
     return report;
   }
 
  private:
+  static std::vector<BlobReport> blobs_of(const GeometryStore& store) {
+    std::vector<BlobReport> blobs;
+    for (std::uint32_t place = 0; place < store.names().size(); ++place) {
+      if (!store.is_taken(place)) continue;
+      const Blob& blob = *store.content(place);
+      blobs.push_back({kShapeNames[static_cast<std::uint32_t>(blob.type())], store.names()[place].id,
+                       blob.bytes().size(), static_cast<std::uint32_t>(store.names()[place].uses)});
+    }
+    return blobs;
+  }
   void observe_joints(const World<S>& world) {
     if (!world.state().joint_slots.entries().empty()) {
       found_.joint_error_max = std::max(found_.joint_error_max, scenes::largest_joint_error(world));
@@ -69,6 +91,8 @@ template <class S> class RigidWatch {
   RunReport found_;
   std::optional<scenes::TrialRun> trial_;
   std::vector<double> unrest_;
+  std::string benchmark_;  // its name; empty: the scene is none
+  std::vector<scenes::BodySight> start_;
 };
 template <class S> RigidWatch<S> watch_of(const World<S>& world) { return RigidWatch<S>(world); }
 

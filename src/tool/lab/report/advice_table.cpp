@@ -27,7 +27,8 @@ Unit unit_of(Measure measure) {
     case Measure::asleep_at: return {1, "s"};
     case Measure::asleep_ms: return {1e3, "µs"};
     case Measure::bump: return {1e3, "mm/s"};
-    case Measure::outside: return {1, ""};
+    case Measure::outside:
+    case Measure::through: return {1, ""};
     default: return {1e3, "mm"};
   }
 }
