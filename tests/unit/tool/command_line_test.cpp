@@ -164,11 +164,21 @@ TEST_F(CommandLine, ReportsOneJsonObjectWithTheMembersOfTheManual) {
                           "\"ms_median_settled\":", "\"contacts\":5",        "\"points\":20",
                           "\"bodies\":6",           "\"awake\":5",           "\"penetration_max\":",
                           "\"joint_error_max\":0",  "\"energy_start\":",     "\"energy_end\":",
-                          "\"asleep_at\":null",     "\"faults\":0}\n"}) {
+                          "\"asleep_at\":null",     "\"faults\":0",        "\"lost\":0}\n"}) {
     const std::size_t found = answer.out.find(key, at);
     ASSERT_NE(found, std::string::npos) << key << " in " << answer.out;
     at = found;
   }
+}
+
+TEST_F(CommandLine, TellsWhatPassedAWallAndWhichBlobsAWorldHolds) {
+  const std::string wall = run({"run", "S13", "--frames", "2", "--json"}).out;
+  EXPECT_NE(wall.find(",\"through\":0}\n"), std::string::npos) << wall;
+  const std::string ground = run({"run", "S16", "--frames", "1", "--json"}).out;
+  EXPECT_NE(ground.find("\"lost\":0,\"blobs\":[{\"shape\":\"mesh\",\"id\":\""), std::string::npos) << ground;
+  EXPECT_NE(ground.find("{\"shape\":\"hull\",\"id\":\""), std::string::npos) << ground;
+  const Answer table = run({"run", "S16", "--frames", "1"});
+  EXPECT_NE(table.out.find("lost          0\nblobs         1 of type hull, "), std::string::npos) << table.out;
 }
 
 TEST_F(CommandLine, SolvesByTheSolverThatIsNamed) {
