@@ -9,7 +9,7 @@
 namespace isostep {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kUnplaced = 0xffffffffu;
 
 // ---- points
 
@@ -130,13 +130,13 @@ class EdgeFinder {
 
 WeldedMesh weld(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles) {
   const std::vector<std::uint32_t> first = first_equals(points);
-  std::vector<std::uint32_t> place(points.size(), kNone);
+  std::vector<std::uint32_t> place(points.size(), kUnplaced);
   WeldedMesh mesh;
   mesh.triangles.assign(triangles.begin(), triangles.end());
   for (MeshTriangle& triangle : mesh.triangles) {
     for (std::uint32_t& vertex : triangle.vertices) {
       std::uint32_t& to = place[first[vertex]];
-      if (to == kNone) {
+      if (to == kUnplaced) {
         to = static_cast<std::uint32_t>(mesh.points.size());
         mesh.points.push_back(points[vertex]);
       }
