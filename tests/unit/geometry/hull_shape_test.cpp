@@ -156,7 +156,9 @@ TYPED_TEST(HullShape, too_small_too_large_or_of_another_type_is_a_fault) {
   };
   EXPECT_EQ(fault_of(wedge(least, 2 * least, 2 * least)), ShapeFault::none);
   EXPECT_EQ(fault_of(wedge(least / 2, 2 * least, 2 * least)), ShapeFault::size_too_small);
-  if (most < 1e5) EXPECT_EQ(fault_of(wedge(most * 1.5, most * 1.5, most * 1.5)), ShapeFault::size_too_large);
+  if (most < 1e5) {
+    EXPECT_EQ(fault_of(wedge(most * 1.5, most * 1.5, most * 1.5)), ShapeFault::size_too_large);
+  }
   this->take(0);
   EXPECT_EQ(validate(this->children()), ShapeFault::blob_missing);
   const std::vector<BlobRef> strange = {Blob::make(ShapeType::hull, {1, 2, 3})};
