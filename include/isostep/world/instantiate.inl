@@ -17,6 +17,7 @@
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/collision/query/shape_cast.inl"
+#include "isostep/collision/query/solid_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
@@ -59,8 +60,8 @@
   ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                                                 \
   ISO_ROUND_TRIANGLE_OF(, OwnScalar)                                                                                  \
   ISO_POLYHEDRON_TRIANGLE_OF(, OwnScalar)                                                                             \
-  template bool ray_cast<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, Vec3<OwnScalar>,               \
-                                    Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
+  ISO_RAY_CAST_OF(, OwnScalar)                                                                                        \
+  ISO_SOLID_CAST_OF(, OwnScalar)                                                                                      \
   template ClosestPoint<OwnScalar> closest_point<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&,        \
                                                             Vec3<OwnScalar>);                                         \
   template class HullSolid<OwnScalar>;                                                                                \
