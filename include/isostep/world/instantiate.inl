@@ -33,6 +33,7 @@
 #include "isostep/world/debug_draw.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/queries.inl"
 #include "isostep/world/world.inl"
 
 /// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is
@@ -98,6 +99,7 @@
   template class WorstFirstResolver<OwnScalar>;                                                                       \
   template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
+  ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                            \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                               \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                                    \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \
