@@ -55,7 +55,8 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
   for (std::size_t i = 0; i < part.vertices.size(); ++i) {
     const std::string at = place + "/vertices/" + std::to_string(i) + "/";
     const Vector& v = part.vertices[i];
-    points.push_back({value_of<double>(v[0], at + "0"), value_of<double>(v[1], at + "1"), value_of<double>(v[2], at + "2")});
+    points.push_back(
+        {value_of<double>(v[0], at + "0"), value_of<double>(v[1], at + "1"), value_of<double>(v[2], at + "2")});
   }
   std::vector<MeshTriangle> triangles;
   for (std::size_t i = 0; i < part.triangles.size(); ++i) {

@@ -35,7 +35,7 @@ template <class S> WorldFindings try_world(std::uint64_t seed, SolverName solver
   const double speed = R::kMoverSpeed + R::most_throw(seed) + std::sqrt(2 * 10 * R::kTop);
   for (int frame = 0; frame < frames; ++frame) {
     StepReport report = random.play(static_cast<std::uint64_t>(frame));
-    if (R::most_throw(seed) > R::kThrow) report.clamped_speed = 0;  // glancing throws turn small bodies faster than that
+    if (R::most_throw(seed) > R::kThrow) report.clamped_speed = 0;  // glancing throws turn small bodies faster
     if (!report.clean()) ++f.faults;
     const World<S>& w = random.world;
     f.contacts = std::max(f.contacts, w.counts().contacts);

@@ -40,8 +40,8 @@ ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t 
   return best;
 }
 
-/// A face's corners over a plane: vertex(i) is where a vertex is seen from it, height(p) [m] above it. Edges of the face
-/// are named by their numbers.
+/// A face's corners over a plane: vertex(i) is where a vertex is seen from it, height(p) [m] above it. Edges of the
+/// face are named by their numbers.
 template <class S, class Vertex, class Height>
 ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, const Tangents<Unit<S>>& across,
                              const Vertex& vertex, const Height& height, FacePolygon<S>& polygon) {

@@ -65,7 +65,8 @@ template <class S> struct ShapePairs {
     add(half_space, hull, collide_views<S, collide_half_space_hull<S>>);
     add(hull, hull, collide_hull_hull<S>);
     for (const ShapeType surface : {mesh, height_field}) {
-      for (const ShapeType convex : {sphere, box, capsule, hull}) add(convex, surface, collide_views<S, collide_with_surface<S>>);
+      for (const ShapeType convex : {sphere, box, capsule, hull})
+        add(convex, surface, collide_views<S, collide_with_surface<S>>);
       add(half_space, surface, collide_never<S>);
       add(mesh, surface, collide_never<S>);
     }

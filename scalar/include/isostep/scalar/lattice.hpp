@@ -46,8 +46,8 @@ template <class S> ISO_INLINE constexpr std::int64_t floor_scaled(S a, int expon
 template <class S> ISO_INLINE constexpr std::int64_t nearest_scaled(S a, int exponent) {
   return (floor_scaled(a, exponent + 1) + 1) >> 1;
 }
-/// The largest exponent up to `finest` at which magnitudes up to `most` are below `limit` steps of 2^-exponent; -1 where
-/// they are not at 0.
+/// The largest exponent up to `finest` at which magnitudes up to `most` are below `limit` steps of 2^-exponent; -1
+/// where they are not at 0.
 template <class S> ISO_INLINE constexpr int finest_lattice(S most, std::int64_t limit, int finest) {
   int exponent = finest;
   while (exponent >= 0 && floor_scaled(most, exponent) + 1 >= limit) --exponent;
