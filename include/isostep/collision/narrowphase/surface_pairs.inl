@@ -3,6 +3,8 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/polyhedron_triangle.inl"
+#include "isostep/collision/narrowphase/revolved_pairs.hpp"
+#include "isostep/collision/narrowphase/revolved_triangle.inl"
 #include "isostep/collision/narrowphase/round_triangle.inl"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
@@ -11,13 +13,22 @@
 
 namespace isostep {
 
+namespace detail {
+/// Of a convex shape, in its frame [m].
+template <class S> ISO_INLINE Vec3<S> centre_of_mass(ShapeView<S> view) {
+  return visit_shape(view, [](const auto& shape) ISO_INLINE_LAMBDA {
+    if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return Vec3<S>::zero();
+    else return shape.centre_of_mass();
+  });
+}
+}  // namespace detail
+
 template <class S>
 void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
                            const Transform<S>& tb, S margin, Manifold<S>& out) {
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
-    const bool is_hull = a.primitive.type == ShapeType::hull;
-    const Vec3<S> centre = is_hull ? shape_as<Hull>(a).centre_of_mass() : Vec3<S>::zero();
+    const Vec3<S> centre = detail::centre_of_mass(a);
     const SurfaceFrame<S> frame(ta, centre, tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
@@ -31,6 +42,9 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
       }
       case ShapeType::hull:
         return collide_polyhedron_triangle(shape_as<Hull>(a).polyhedron(), ta, frame, baked, margin, out);
+      case ShapeType::cylinder:
+      case ShapeType::cone:
+        return collide_revolved_triangle(detail::revolved_of(a.primitive), ta, frame, baked, margin, out);
       default: return out.clear();
     }
   });
@@ -53,6 +67,13 @@ void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b
     out = found;
     return true;
   });
+}
+
+template <class S>
+void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                          Manifold<S>& out) {
+  collide_with_surface(b, tb, a, ta, margin, out);
+  out.normal = -out.normal;
 }
 
 }  // namespace isostep

@@ -1,0 +1,160 @@
+// Bodies of revolved_triangle.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/revolved_touch.hpp"
+#include "isostep/collision/narrowphase/revolved_triangle.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// What decides how a solid of revolution touches a triangle; all in the solid's frame.
+template <class S> class RevolvedOverTriangle {
+  using U = Unit<S>;
+  using Axis = RevolvedAxis<S>;
+
+ public:
+  ISO_INLINE RevolvedOverTriangle(const Revolved<S>& solid, const SurfaceTriangle<S>& triangle)
+      : solid_(solid), triangle_(triangle) {}
+
+  /// False: a disc is further off than `margin`.
+  ISO_INLINE bool look_at_discs(S margin, S tolerance, Axis& best) const {
+    for (int end = 0; end < 2; ++end) {
+      if (!(solid_.radii[end] > S(0))) continue;
+      const Vec3<U> n = unit_axis<U>(1, end == 0);
+      S heights[3];
+      S least = highest<S>();
+      for (int i = 0; i < 3; ++i) {
+        heights[i] = dot(n, triangle_.points[i]) - solid_.half;
+        least = min(least, heights[i]);
+      }
+      if (least > margin) return false;
+      const S lead = best.kind == Axis::cap ? S(0) : tolerance;
+      if (least > best.separation + lead && owns(-n, heights, least)) best.offer(Axis::cap, least, n, 0, end, lead);
+    }
+    return true;
+  }
+  /// Whether the plane of a neighbour, whose outer side the centre is on, is better: then it is that one's to touch.
+  ISO_INLINE bool is_of_neighbour(Vec3<S> centre, S tolerance, const Axis& best) const {
+    for (int k = 0; k < 3; ++k) {
+      const SurfaceEdge<S>& edge = triangle_.edges[k];
+      if (!edge.touchable || !edge.has_neighbour) continue;
+      if (dot(edge.other, centre - triangle_.points[k]) < S(0)) continue;
+      const S separation = -solid_.reach(-edge.other).most() - dot(edge.other, triangle_.points[k]);
+      if (separation > best.separation + (best.kind == Axis::face ? tolerance : S(0))) return true;
+    }
+    return false;
+  }
+  ISO_INLINE void look_at_edges(S tolerance, Axis& best) const {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const SurfaceEdge<S>& edge = triangle_.edges[k];
+      look_at_point(k, tolerance, best);
+      if (edge.touchable)
+        look_at_line(solid_, {triangle_.points[k], edge.along, {edge.inward, edge.away}}, k, tolerance, best);
+    }
+  }
+
+  ISO_INLINE void touch(const Axis& best, const RevolvedTouch<S>& touch) const {
+    const std::uint32_t name = kNoFace | static_cast<std::uint32_t>(best.kind) << 8 | best.feature << 4;
+    switch (best.kind) {
+      case Axis::face: return touch.over_face(plane());
+      case Axis::cap:
+        return touch.under_disc(
+            static_cast<int>(best.end), 3, [&](int i) ISO_INLINE_LAMBDA { return triangle_.points[i]; },
+            [](int i) ISO_INLINE_LAMBDA { return static_cast<std::uint32_t>(i); }, kNoFace | 1u << 24 | best.end << 20);
+      case Axis::side_edge:
+      case Axis::side_vertex: return beside(best, touch, name);
+      case Axis::rim: {
+        const Reach<S> reach = solid_.reach(best.normal);
+        const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
+        return touch.at(p + best.normal * (best.separation * S(0.5)), best.separation, best.normal, name | best.end);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNoFace = 1u << 30;
+  static constexpr double kAlongEdge = 0.02;  // sine within which a disc lies along an edge
+
+  /// Whether the surface can be touched from a direction, by its points that are lowest above a disc.
+  ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
+    for (int k = 0; k < 3; ++k) {
+      const bool along = abs(dot(direction, triangle_.edges[k].along)) <= U(kAlongEdge);
+      const bool ends = heights[k] == least || heights[(k + 1) % 3] == least;  // one of them is the least, exactly
+      if (along && ends && triangle_.owns_at_edge(k, direction)) return true;
+      if (heights[k] == least && triangle_.owns_at_point(k, direction)) return true;
+    }
+    return false;
+  }
+  ISO_INLINE void look_at_point(std::uint32_t i, S tolerance, Axis& best) const {
+    const Vec3<S> p = triangle_.points[i];
+    const Vec3<U> n = side_towards(solid_, p);
+    const S lead = best.kind >= Axis::side_vertex ? S(0) : tolerance;
+    const S separation = dot(n, p) - solid_.reach(n).most();
+    if (separation > best.separation + lead && triangle_.owns_at_point(static_cast<int>(i), -n))
+      best.offer(Axis::side_vertex, separation, n, i, 0, lead);
+  }
+  ISO_INLINE FaceOfOther<S> plane() const {
+    FaceOfOther<S> plane;
+    plane.normal = triangle_.normal;
+    plane.offset = triangle_.offset;
+    plane.own = triangle_feature::kOfConvexAlone;
+    plane.cut = 1u << 31;
+    const S slack = triangle_.slack();
+    for (int k = 0; k < 3; ++k) {
+      const SurfaceEdge<S>& edge = triangle_.edges[k];
+      plane.sides.sides[plane.sides.count++] = {-edge.inward, slack - dot(edge.inward, triangle_.points[k]),
+                                                kSideName + static_cast<std::uint32_t>(k), edge.flat};
+    }
+    return plane;
+  }
+  /// Along the edge that begins or ends there, or at a point of it.
+  ISO_INLINE void beside(const Axis& best, const RevolvedTouch<S>& touch, std::uint32_t name) const {
+    const auto along = [&](std::uint32_t k) ISO_INLINE_LAMBDA {
+      const SurfaceEdge<S>& edge = triangle_.edges[k];
+      return edge.touchable && triangle_.owns_at_edge(static_cast<int>(k), -best.normal) &&
+             touch.beside(triangle_.points[k], edge.along, edge.length, best.normal, kNoFace | 1u << 25 | k << 1);
+    };
+    if (along(best.feature)) return;
+    if (best.kind == Axis::side_vertex) {
+      if (along((best.feature + 2) % 3)) return;
+      const Vec3<S> p = triangle_.points[best.feature];
+      return touch.at(p - best.normal * (best.separation * S(0.5)), best.separation, best.normal, name);
+    }
+    const SurfaceEdge<S>& edge = triangle_.edges[best.feature];
+    const S half = edge.length * S(0.5);
+    const Segment<S> side = side_line(solid_, solid_.reach(best.normal).radial);
+    const Segment<S> rim = {triangle_.points[best.feature] + edge.along * half, edge.along, half};
+    const ClosestPair<S> closest = closest_points(side, rim);
+    touch.at((side.at(closest.s) + rim.at(closest.t)) * S(0.5), best.separation, best.normal, name);
+  }
+
+  const Revolved<S>& solid_;
+  const SurfaceTriangle<S>& triangle_;
+};
+
+}  // namespace detail
+
+template <class S>
+void collide_revolved_triangle(const detail::Revolved<S>& solid, const Transform<S>& ta, const SurfaceFrame<S>& frame,
+                               const BakedTriangle& baked, S margin, Manifold<S>& out) {
+  using namespace detail;
+  using Axis = RevolvedAxis<S>;
+  out.clear();
+  SurfaceTriangle<S> triangle(frame, baked);
+  if (triangle.height < S(0)) return;
+  const S lowest = -solid.reach(-triangle.normal).most();
+  Axis best = {Axis::face, lowest - triangle.offset, -triangle.normal, 0, 0};
+  if (best.separation > margin) return;
+  triangle.find_edges(frame, baked);
+  const S size = min(solid.half, solid.radii[0]);
+  const S tolerance = axis_tolerance(size, max_abs(frame.centre) + size);
+  const RevolvedOverTriangle<S> pair(solid, triangle);
+  if (!pair.look_at_discs(margin, tolerance, best)) return;
+  if (pair.is_of_neighbour(frame.centre, tolerance, best)) return;
+  pair.look_at_edges(tolerance, best);
+  if (best.separation > margin) return;
+  pair.touch(best, RevolvedTouch<S>(solid, ta, margin, tolerance * S(0.125), out));
+}
+
+}  // namespace isostep
