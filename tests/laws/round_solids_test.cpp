@@ -92,8 +92,6 @@ TYPED_TEST(RoundSolids, a_cylinder_rolls_for_ten_seconds_without_a_bump) {
       if (frame >= 60) rise = std::max(rise, std::fabs(to_double(world.velocity(body).y)));
     }
     const double speed = length(real(world.velocity(body)));
-    RecordProperty("rise", std::to_string(rise));
-    RecordProperty("speed", std::to_string(speed));
     EXPECT_LT(rise, 0.002) << static_cast<int>(floor);
     EXPECT_NEAR(speed, 1, pick<S>(1e-3, 1e-3, 0.02, 1e-3)) << static_cast<int>(floor);
     EXPECT_NEAR(this->y_of(world, body), 0.5, 0.006);
@@ -118,7 +116,6 @@ TYPED_TEST(RoundSolids, what_stands_on_a_disc_does_not_wander) {
     for (int n = 0; n < 3; ++n) {
       const D3 at = real(world.pose(bodies[static_cast<std::size_t>(n)]).position);
       const double wandered = std::hypot(at.x - 0.3 - 2 * n, at.z - 0.1);
-      RecordProperty("wandered", std::to_string(wandered));
       EXPECT_LT(wandered, pick<S>(1e-3, 1e-4, 0.01, 1e-4)) << n;
       EXPECT_GT(at.y, heights[n] - 0.006);
       EXPECT_GT(this->axis_of(world, bodies[static_cast<std::size_t>(n)]).y, 0.9999);
@@ -148,9 +145,6 @@ TYPED_TEST(RoundSolids, a_cone_rolls_in_a_circle) {
     if (frame > 60) rise = std::max(rise, std::fabs(to_double(world.velocity(body).y)));
   }
   const D3 apex = real(world.pose(body).position) + this->axis_of(world, body) * h;
-  RecordProperty("away", std::to_string(away));
-  RecordProperty("rise", std::to_string(rise));
-  RecordProperty("kept", std::to_string(length(real(world.velocity(body))) / at_first));
   EXPECT_LT(std::fabs(apex.y), 0.006);
   EXPECT_LT(away, 0.05);
   EXPECT_LT(rise, 0.004);
@@ -205,7 +199,6 @@ TYPED_TEST(RoundSolids, piles_of_them_gain_no_energy_and_come_to_rest) {
     if (frame < 840) continue;
     for (const BodyId body : bodies) fastest = std::max(fastest, length(real(world.velocity(body))));
   }
-  RecordProperty("fastest", std::to_string(fastest));
   EXPECT_LT(most, bound + 0.5);
   EXPECT_LT(fastest, pick<S>(0.05, 0.05, 0.2, 0.05));
   for (const BodyId body : bodies) EXPECT_GT(this->y_of(world, body), 0.1);

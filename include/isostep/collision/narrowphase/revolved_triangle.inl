@@ -14,8 +14,8 @@ template <class S> class RevolvedOverTriangle {
   using Axis = RevolvedAxis<S>;
 
  public:
-  ISO_INLINE RevolvedOverTriangle(const Revolved<S>& solid, const SurfaceTriangle<S>& triangle)
-      : solid_(solid), triangle_(triangle) {}
+  ISO_INLINE RevolvedOverTriangle(const Revolved<S>& solid, const SurfaceTriangle<S>& triangle, S slack)
+      : solid_(solid), triangle_(triangle), slack_(slack) {}
 
   /// False: a disc is further off than `margin`.
   ISO_INLINE bool look_at_discs(S margin, S tolerance, Axis& best) const {
@@ -45,13 +45,15 @@ template <class S> class RevolvedOverTriangle {
     }
     return false;
   }
-  ISO_INLINE void look_at_edges(S tolerance, Axis& best) const {
+  /// False: the triangle by itself is further off than `margin`, along whatever axis.
+  ISO_INLINE bool look_at_edges(S margin, S tolerance, Axis& best) const {
     for (std::uint32_t k = 0; k < 3; ++k) {
+      if (!look_at_point(k, margin, tolerance, best) || is_apart_at(k, margin)) return false;
       const SurfaceEdge<S>& edge = triangle_.edges[k];
-      look_at_point(k, tolerance, best);
       if (edge.touchable)
         look_at_line(solid_, {triangle_.points[k], edge.along, {edge.inward, edge.away}}, k, tolerance, best);
     }
+    return best.separation <= margin;
   }
 
   ISO_INLINE void touch(const Axis& best, const RevolvedTouch<S>& touch) const {
@@ -64,11 +66,7 @@ template <class S> class RevolvedOverTriangle {
             [](int i) ISO_INLINE_LAMBDA { return static_cast<std::uint32_t>(i); }, kNoFace | 1u << 24 | best.end << 20);
       case Axis::side_edge:
       case Axis::side_vertex: return beside(best, touch, name);
-      case Axis::rim: {
-        const Reach<S> reach = solid_.reach(best.normal);
-        const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
-        return touch.at(p + best.normal * (best.separation * S(0.5)), best.separation, best.normal, name | best.end);
-      }
+      case Axis::rim: return at_rim(best, touch, name | best.end);
     }
   }
 
@@ -86,13 +84,35 @@ template <class S> class RevolvedOverTriangle {
     }
     return false;
   }
-  ISO_INLINE void look_at_point(std::uint32_t i, S tolerance, Axis& best) const {
+  ISO_INLINE S lowest(Vec3<U> n) const {
+    const Vec3<S>(&p)[3] = triangle_.points;
+    return min(dot(n, p[0]), min(dot(n, p[1]), dot(n, p[2])));
+  }
+  ISO_INLINE bool look_at_point(std::uint32_t i, S margin, S tolerance, Axis& best) const {
     const Vec3<S> p = triangle_.points[i];
     const Vec3<U> n = side_towards(solid_, p);
     const S lead = best.kind >= Axis::side_vertex ? S(0) : tolerance;
-    const S separation = dot(n, p) - solid_.reach(n).most();
-    if (separation > best.separation + lead && triangle_.owns_at_point(static_cast<int>(i), -n))
-      best.offer(Axis::side_vertex, separation, n, i, 0, lead);
+    const S height = dot(n, p), least = lowest(n), reach = solid_.reach(n).most();
+    if (least - reach > margin) return false;
+    if (height - reach > best.separation + lead && height == least && triangle_.owns_at_point(static_cast<int>(i), -n))
+      best.offer(Axis::side_vertex, height - reach, n, i, 0, lead);
+    return true;
+  }
+  /// Whether an axis across an edge separates, though nothing may touch the surface along it.
+  ISO_INLINE bool is_apart_at(std::uint32_t k, S margin) const {
+    const SurfaceEdge<S>& edge = triangle_.edges[k];
+    const LineOfOther<S> line = {triangle_.points[k], edge.along, {edge.inward, edge.inward}};
+    const NormalsAcross<S> normals(solid_, line);
+    bool apart = false;
+    if (normals.is_parallel()) return false;
+    const auto look = [&](Vec3<U> n) ISO_INLINE_LAMBDA {
+      apart = apart || lowest(n) - solid_.reach(n).most() > margin;
+    };
+    normals.visit_side(look);
+    for (int end = 0; end < 2; ++end) {
+      if (solid_.radii[end] > S(0)) normals.visit_rim(end, look);
+    }
+    return apart;
   }
   ISO_INLINE FaceOfOther<S> plane() const {
     FaceOfOther<S> plane;
@@ -116,21 +136,37 @@ template <class S> class RevolvedOverTriangle {
              touch.beside(triangle_.points[k], edge.along, edge.length, best.normal, kNoFace | 1u << 25 | k << 1);
     };
     if (along(best.feature)) return;
+    const Segment<S> side = side_line(solid_, solid_.reach(best.normal).radial);
     if (best.kind == Axis::side_vertex) {
       if (along((best.feature + 2) % 3)) return;
       const Vec3<S> p = triangle_.points[best.feature];
-      return touch.at(p - best.normal * (best.separation * S(0.5)), best.separation, best.normal, name);
+      return between(side.at(side.nearest(p)), p, best, touch, name);
     }
-    const SurfaceEdge<S>& edge = triangle_.edges[best.feature];
+    const Segment<S> edge = edge_line(best.feature);
+    const ClosestPair<S> closest = closest_points(side, edge);
+    between(side.at(closest.s), edge.at(closest.t), best, touch, name);
+  }
+  ISO_INLINE void at_rim(const Axis& best, const RevolvedTouch<S>& touch, std::uint32_t name) const {
+    const Reach<S> reach = solid_.reach(best.normal);
+    const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
+    const Segment<S> edge = edge_line(best.feature);
+    between(p, edge.at(edge.nearest(p)), best, touch, name);
+  }
+  ISO_INLINE Segment<S> edge_line(std::uint32_t k) const {
+    const SurfaceEdge<S>& edge = triangle_.edges[k];
     const S half = edge.length * S(0.5);
-    const Segment<S> side = side_line(solid_, solid_.reach(best.normal).radial);
-    const Segment<S> rim = {triangle_.points[best.feature] + edge.along * half, edge.along, half};
-    const ClosestPair<S> closest = closest_points(side, rim);
-    touch.at((side.at(closest.s) + rim.at(closest.t)) * S(0.5), best.separation, best.normal, name);
+    return {triangle_.points[k] + edge.along * half, edge.along, half};
+  }
+  /// One point, unless it is beyond an end of what touches: then something else decides.
+  ISO_INLINE void between(Vec3<S> on_solid, Vec3<S> on_edge, const Axis& best, const RevolvedTouch<S>& touch,
+                          std::uint32_t name) const {
+    if (longer_than(on_edge - on_solid - best.normal * best.separation, slack_)) return;
+    touch.at((on_solid + on_edge) * S(0.5), best.separation, best.normal, name);
   }
 
   const Revolved<S>& solid_;
   const SurfaceTriangle<S>& triangle_;
+  const S slack_;  // [m]
 };
 
 }  // namespace detail
@@ -149,11 +185,10 @@ void collide_revolved_triangle(const detail::Revolved<S>& solid, const Transform
   triangle.find_edges(frame, baked);
   const S size = min(solid.half, solid.radii[0]);
   const S tolerance = axis_tolerance(size, max_abs(frame.centre) + size);
-  const RevolvedOverTriangle<S> pair(solid, triangle);
+  const RevolvedOverTriangle<S> pair(solid, triangle, tolerance * S(4));
   if (!pair.look_at_discs(margin, tolerance, best)) return;
   if (pair.is_of_neighbour(frame.centre, tolerance, best)) return;
-  pair.look_at_edges(tolerance, best);
-  if (best.separation > margin) return;
+  if (!pair.look_at_edges(margin, tolerance, best)) return;
   pair.touch(best, RevolvedTouch<S>(solid, ta, margin, tolerance * S(0.125), out));
 }
 
