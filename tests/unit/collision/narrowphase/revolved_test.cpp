@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "isostep/collision/narrowphase/surface_pairs.hpp"
+#include "isostep/geometry/baked/surface_blob.hpp"
 #include "unit/collision/narrowphase/convex_oracle.hpp"
 
 namespace isostep::test {
@@ -180,6 +182,54 @@ TYPED_TEST(Revolved, what_stands_on_a_disc_keeps_the_same_four_points) {
       }
       EXPECT_EQ(names.size(), 4u);
     }
+  }
+}
+
+/// The content of a mesh of a box's twelve triangles.
+template <class S> SurfaceContent<TriangleMesh> mesh_of_box(double half) {
+  std::vector<Vec3<double>> points;
+  for (int i = 0; i < 8; ++i)
+    points.push_back({(i & 1) != 0 ? half : -half, (i & 2) != 0 ? half : -half, (i & 4) != 0 ? half : -half});
+  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  std::vector<MeshTriangle> triangles;
+  for (const auto& q : quads) {
+    triangles.push_back({{q[0], q[1], q[2]}});
+    triangles.push_back({{q[0], q[2], q[3]}});
+  }
+  SurfaceContent<TriangleMesh> content;
+  content.surface = read_triangle_mesh(mesh_blob(points, triangles).value()->bytes()).value();
+  return content;
+}
+
+TYPED_TEST(Revolved, a_box_of_triangles_is_touched_where_the_box_is) {
+  using S = TypeParam;
+  const SurfaceContent<TriangleMesh> content = mesh_of_box<S>(0.5);
+  const Primitive<S> box = box_of<S>(0.5, 0.5, 0.5), mesh = primitive_of(Mesh<S>{1});
+  Random random(24);
+  for (const ShapeType type : kRound) {
+    int touching = 0, elsewhere = 0;
+    for (int n = 0; n < 60; ++n) {
+      auto pair = TestFixture::placed(random, ShapeType::box, type, 0.6, 0, {0, 0, 0});
+      pair.a = box;
+      double low = 0, high = 4;
+      const Point way = random.direction(), start = point_of(pair.ta.position);
+      const double depth = random.in(-0.005, 0.015);
+      for (int i = 0; i < 10; ++i) {
+        const double middle = (low + high) / 2;
+        pair.tb.position = vec_of<S>(start + way * middle);
+        (ConvexOracle::separation({box, pair.ta}, {pair.b, pair.tb}) < -depth ? low : high) = middle;
+      }
+      pair.tb.position = vec_of<S>(start + way * high);
+      const Manifold<S> solid = touch(box, pair.ta, pair.b, pair.tb);
+      Manifold<S> found;
+      collide(ShapeView<S>(mesh, &content), pair.ta, pair.b, pair.tb, from_double<S>(0.02), found);
+      if (solid.count == 0) continue;
+      ++touching;
+      if (found.count == 0 || std::abs(deepest(found) - deepest(solid)) > 0.005) ++elsewhere;
+    }
+    EXPECT_GT(touching, 40);
+    EXPECT_LE(elsewhere, 3);
   }
 }
 
