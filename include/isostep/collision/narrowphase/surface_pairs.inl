@@ -14,12 +14,11 @@
 namespace isostep {
 
 namespace detail {
-/// Of a convex shape, in its frame [m].
-template <class S> ISO_INLINE Vec3<S> centre_of_mass(ShapeView<S> view) {
-  return visit_shape(view, [](const auto& shape) ISO_INLINE_LAMBDA {
-    if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return Vec3<S>::zero();
-    else return shape.centre_of_mass();
-  });
+/// Where a convex shape must be in front of a triangle to touch it [m], in its frame.
+template <class S> ISO_INLINE Vec3<S> middle_of(ShapeView<S> view) {
+  if (view.primitive.type == ShapeType::hull) return shape_as<Hull>(view).centre_of_mass();
+  if (view.primitive.type == ShapeType::cone) return shape_as<Cone>(view).middle();
+  return Vec3<S>::zero();
 }
 }  // namespace detail
 
@@ -28,7 +27,7 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
                            const Transform<S>& tb, S margin, Manifold<S>& out) {
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
-    const Vec3<S> centre = detail::centre_of_mass(a);
+    const Vec3<S> centre = detail::middle_of(a);
     const SurfaceFrame<S> frame(ta, centre, tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);

@@ -43,12 +43,15 @@ template <class S = Literal> struct Cone {
   template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
     const detail::Revolved<S> solid = revolved();
     const Unit<S> part = inset == S(0) ? Unit<S>(0) : divide_to<Unit<S>>(inset, inner_radius());
-    const Vec3<S> middle = {S(0), -half_height * S(1.0 / 3), S(0)};
-    const auto add = [&](Vec3<S> v) ISO_INLINE_LAMBDA { point(v + (middle - v) * part); };
+    const Vec3<S> mean = middle();
+    const auto add = [&](Vec3<S> v) ISO_INLINE_LAMBDA { point(v + (mean - v) * part); };
     for (int k = 0; k < 16; ++k) add(solid.rim_point(0, k));
     for (int k = 0; k < 8; ++k) add(Vec3<S>{S(0), half_height, S(0)});
     return S(0);
   }
+
+  /// [m] The mean of the core's vertices: by it sweeps and contacts tell on which side of a surface it is.
+  ISO_INLINE Vec3<S> middle() const { return {S(0), -half_height * S(1.0 / 3), S(0)}; }
 
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(2 * detail::kPi / 3), radius, radius, half_height});
