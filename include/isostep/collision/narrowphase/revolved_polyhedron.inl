@@ -37,7 +37,7 @@ template <class S> class RevolvedFacets {
   }
   ISO_INLINE void touch(const Axis& best, const RevolvedTouch<S>& touch) const {
     switch (best.kind) {
-      case Axis::face: return touch.over_face(face(best.feature));
+      case Axis::face: touch.over_face(face(best.feature)); return;
       case Axis::cap: return on_cap(best, touch);
       case Axis::side_vertex: return at_vertex(best, touch);
       case Axis::side_edge: return at_edge(best, touch);

@@ -60,14 +60,15 @@ template <class S> class RevolvedTouch {
   ISO_INLINE RevolvedTouch(const Revolved<S>& solid, const Transform<S>& frame, S margin, S tie, Manifold<S>& out)
       : solid_(solid), frame_(frame), margin_(margin), tie_(tie), out_(out) {}
 
-  /// The normal is the face's, reversed.
-  ISO_INLINE void over_face(const FaceOfOther<S>& face) const {
+  /// The normal is the face's, reversed. False: nothing is over it.
+  ISO_INLINE bool over_face(const FaceOfOther<S>& face) const {
     const Vec3<U> n = -face.normal;
     const Reach<S> reach = solid_.reach(n);
     const int lower = n.y > U(0) ? 1 : 0;
     if (reach.across <= U(kFlatDisc) && solid_.radii[lower] > S(0)) disc_over_face(face, lower);
     else line_over_face(face, reach);
     if (out_.count > 0) out_.normal = frame_.rotation * n;
+    return out_.count > 0;
   }
   /// The corners [m] of the other's face over a disc; corner(i), and edge(i) names what leads from it to the next.
   template <class Corner, class Edge>

@@ -59,7 +59,9 @@ template <class S> class RevolvedOverTriangle {
   ISO_INLINE void touch(const Axis& best, const RevolvedTouch<S>& touch) const {
     const std::uint32_t name = kNoFace | static_cast<std::uint32_t>(best.kind) << 8 | best.feature << 4;
     switch (best.kind) {
-      case Axis::face: return touch.over_face(plane());
+      case Axis::face:
+        if (!touch.over_face(plane())) at_lowest(best, touch);
+        return;
       case Axis::cap:
         return touch.under_disc(
             static_cast<int>(best.end), 3, [&](int i) ISO_INLINE_LAMBDA { return triangle_.points[i]; },
@@ -105,9 +107,8 @@ template <class S> class RevolvedOverTriangle {
     const NormalsAcross<S> normals(solid_, line);
     bool apart = false;
     if (normals.is_parallel()) return false;
-    const auto look = [&](Vec3<U> n) ISO_INLINE_LAMBDA {
-      apart = apart || lowest(n) - solid_.reach(n).most() > margin;
-    };
+    const auto look = [&](Vec3<U> n)
+                          ISO_INLINE_LAMBDA { apart = apart || lowest(n) - solid_.reach(n).most() > margin; };
     normals.visit_side(look);
     for (int end = 0; end < 2; ++end) {
       if (solid_.radii[end] > S(0)) normals.visit_rim(end, look);
@@ -145,6 +146,17 @@ template <class S> class RevolvedOverTriangle {
     const Segment<S> edge = edge_line(best.feature);
     const ClosestPair<S> closest = closest_points(side, edge);
     between(side.at(closest.s), edge.at(closest.t), best, touch, name);
+  }
+  /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither side.
+  ISO_INLINE void at_lowest(const Axis& best, const RevolvedTouch<S>& touch) const {
+    const Reach<S> reach = solid_.reach(best.normal);
+    const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
+    for (int k = 0; k < 3; ++k) {
+      const S beyond = -triangle_.inside_of(k, p);
+      if (beyond > slack_ || (beyond > S(0) && triangle_.edges[k].flat)) return;
+    }
+    touch.at(p + best.normal * (best.separation * S(0.5)), best.separation, best.normal,
+             triangle_feature::kOfConvexAlone | kLowestEnd | static_cast<std::uint32_t>(reach.end()));
   }
   ISO_INLINE void at_rim(const Axis& best, const RevolvedTouch<S>& touch, std::uint32_t name) const {
     const Reach<S> reach = solid_.reach(best.normal);
