@@ -7,6 +7,8 @@
 #include "isostep/geometry/shape_view.hpp"
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
+#include "isostep/geometry/shapes/cone.hpp"
+#include "isostep/geometry/shapes/cylinder.hpp"
 #include "isostep/geometry/shapes/half_space.hpp"
 #include "isostep/geometry/shapes/height_field.hpp"
 #include "isostep/geometry/shapes/hull.hpp"
