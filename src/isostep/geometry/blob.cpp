@@ -31,11 +31,11 @@ Blob::~Blob() {
 }
 
 /// Two threads that ask at once may both make it; they are alike, and both are kept.
-const void* Blob::content(ContentMaker make) const {
+const void* Blob::content(ContentMaker maker) const {
   for (const Made* made = made_.load(std::memory_order_acquire); made != nullptr; made = made->next) {
-    if (made->maker == make) return made->content.get();
+    if (made->maker == maker) return made->content.get();
   }
-  Made* made = new Made{make, make(*this), made_.load(std::memory_order_relaxed)};
+  Made* made = new Made{maker, maker(*this), made_.load(std::memory_order_relaxed)};
   while (!made_.compare_exchange_weak(made->next, made, std::memory_order_release, std::memory_order_relaxed)) {
   }
   return made->content.get();
