@@ -6,12 +6,13 @@
 
 #include "hull_distance.hpp"
 #include "isostep/scalar/math.hpp"
+#include "round_distance.hpp"
 #include "surface_distance.hpp"
 
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 7,
+static_assert(kShapeTypes == 9,
               "an oracle knows each shape by itself: see reach(), core_distance(), signed_distance()");
 
 using V = Vec3<double>;
@@ -98,6 +99,7 @@ double core_distance(const Solid& a, const Solid& b) {
 
 double signed_distance(const Solid& a, const Solid& b) {
   if (a.surface != nullptr || b.surface != nullptr) return surface_distance(a, b);
+  if (is_revolved(a.type) || is_revolved(b.type)) return round_distance(a, b);
   if (a.type == ShapeType::hull || b.type == ShapeType::hull) return hull_distance(a, b);
   if (a.type == ShapeType::half_space && b.type == ShapeType::half_space)
     return std::numeric_limits<double>::infinity();

@@ -64,6 +64,7 @@ constexpr NamedScene kScenes[] = {
     {"S10s", "the first 200 bodies of S10", small_hull_pile},
     {"S11", "200 hulls, capsules and spheres fall on a mesh of hills", mesh_terrain},
     {"S12", "S11 on a height field", field_terrain},
+    {"S14", "1000 bodies hover over the hills, for rays and casts", scattered},
     {"S15", "300 thin boxes fall on the hills", thin_on_mesh, false},
     {"S15h", "S15 on a height field", thin_on_field, false},
     {"S16", "40 bodies slide over a flat mesh", sliders_on_mesh},

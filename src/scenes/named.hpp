@@ -32,6 +32,8 @@ Scene rain();
 Scene terrain(bool field);
 Scene thin_bodies(bool field);
 Scene sliders(bool field);
+/// A thousand bodies over the hills, for queries: queries.hpp.
+Scene scattered();
 Scene chain(bool hanging);
 Scene ragdolls();
 /// The same with cones, twists and hinges that bend as far as a body's do.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "distance.hpp"
@@ -31,10 +33,20 @@ inline Vec3<double> nearest_on_triangle(Vec3<double> p, const std::array<Vec3<do
   return above ? p - normal * (dot(normal, p - t[0]) / dot(normal, normal)) : best;
 }
 
-/// The points whose hull the core of a solid is, in its own frame: a hull's vertices, else the corners of `half`.
+/// The points whose hull the core of a solid is, in its own frame: a hull's vertices, 64 of each rim of a cylinder, cone,
+/// else the corners of `half`.
 inline std::vector<Vec3<double>> core_points(const Solid& solid) {
   if (solid.type == ShapeType::hull) return {solid.hull->vertices.begin(), solid.hull->vertices.end()};
   std::vector<Vec3<double>> points;
+  if (solid.type == ShapeType::cylinder || solid.type == ShapeType::cone) {
+    for (int k = 0; k < 64; ++k) {
+      const double turn = k * std::numbers::pi / 32, x = std::cos(turn), z = std::sin(turn);
+      const double top = solid.type == ShapeType::cylinder ? solid.radius : 0.0;
+      points.push_back({solid.radius * x, -solid.half.y, solid.radius * z});
+      points.push_back({top * x, solid.half.y, top * z});
+    }
+    return points;
+  }
   for (int corner = 0; corner < 8; ++corner) {
     const auto side = [&](int axis) { return (corner >> axis & 1) != 0 ? solid.half[axis] : -solid.half[axis]; };
     points.push_back({side(0), side(1), side(2)});

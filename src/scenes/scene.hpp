@@ -41,8 +41,8 @@ inline Rotation no_rotation() { return {0, 0, 0, 1}; }
 struct ScenePart {
   ShapeType type = ShapeType::box;
   Vector half_extents = zero_vector();  // [m] box
-  Number radius = 0;                    // [m] sphere, capsule
-  Number half_height = 0;               // [m] capsule
+  Number radius = 0;                    // [m] sphere, capsule, cylinder, cone
+  Number half_height = 0;               // [m] capsule, cylinder, cone
   Vector normal = {0, 1, 0};            // [1] half-space
   Number offset = 0;                    // [m] half-space
   std::vector<Vector> points;           // [m] hull

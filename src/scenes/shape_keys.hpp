@@ -40,6 +40,14 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<HeightField>, Par
   visit("heights", part.heights, SizeRule::required);
   visit("materials", part.materials, SizeRule::optional);
 }
+template <class Part, class Visit> void visit_sizes(ShapeClass<Cylinder>, Part& part, const Visit& visit) {
+  visit("radius", part.radius, SizeRule::positive);
+  visit("half_height", part.half_height, SizeRule::positive);
+}
+template <class Part, class Visit> void visit_sizes(ShapeClass<Cone>, Part& part, const Visit& visit) {
+  visit("radius", part.radius, SizeRule::positive);
+  visit("half_height", part.half_height, SizeRule::positive);
+}
 template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
   visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
 }
@@ -69,6 +77,12 @@ template <class S, class Read> Mesh<S> shape_of(ShapeClass<Mesh>, const ScenePar
 template <class S, class Read>
 HeightField<S> shape_of(ShapeClass<HeightField>, const ScenePart& part, const Read& read) {
   return {read.height_field(part)};
+}
+template <class S, class Read> Cylinder<S> shape_of(ShapeClass<Cylinder>, const ScenePart& part, const Read& read) {
+  return {read.size("radius", part.radius), read.size("half_height", part.half_height)};
+}
+template <class S, class Read> Cone<S> shape_of(ShapeClass<Cone>, const ScenePart& part, const Read& read) {
+  return {read.size("radius", part.radius), read.size("half_height", part.half_height)};
 }
 
 }  // namespace isostep::scenes

@@ -6,6 +6,7 @@
 
 #include "isostep/scalar/math.hpp"
 #include "nearest_point.hpp"
+#include "round_distance.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -31,8 +32,9 @@ double height_over(V p, const SolidSurface& surface, const std::vector<std::size
   return sign * least;
 }
 
-/// By how far a point is inside of a box or hull, in its own frame.
+/// By how far a point is inside of a solid that is no ball or capsule, in its own frame.
 double depth_inside(V p, const Solid& body) {
+  if (is_revolved(body.type)) return depth_in_round(body, p);
   double depth = kFar;
   if (body.type == ShapeType::hull) {
     for (std::size_t f = 0; f < body.hull->normals.size(); ++f) {
@@ -46,7 +48,7 @@ double depth_inside(V p, const Solid& body) {
   return depth;
 }
 
-double round_distance(const Solid& body, const Solid& ground, const std::vector<std::size_t>& near) {
+double thick_distance(const Solid& body, const Solid& ground, const std::vector<std::size_t>& near) {
   constexpr int kSamples = 32;  // of a capsule's core, ends included: planes are nearest to those
   const V middle = transposed_times(ground.axes, body.centre - ground.centre);
   const V half = transposed_times(ground.axes, body.axes * body.half);
@@ -67,7 +69,7 @@ double surface_distance(const Solid& a, const Solid& b) {
   for (const V corner : corners) reach = max(reach, length(corner) + a.radius);
   const std::vector<std::size_t> near = b.surface->near(in_ground(a.centre), reach + 1);
   if (near.empty()) return kFar;
-  if (a.type == ShapeType::sphere || a.type == ShapeType::capsule) return round_distance(a, b, near);
+  if (a.type == ShapeType::sphere || a.type == ShapeType::capsule) return thick_distance(a, b, near);
   double least = kFar;
   for (const V corner : corners)
     least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near));

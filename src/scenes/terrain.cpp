@@ -94,6 +94,16 @@ double hill_height(double x, double z) {
   return corner + (1 - s) * (hill(i, k + 1) - corner) + (1 - t) * (hill(i + 1, k) - corner);
 }
 
+double hill_corner(double x, double z) {
+  return hill(static_cast<int>(std::floor((x + kGroundHalf) / kApart)),
+              static_cast<int>(std::floor((z + kGroundHalf) / kApart)));
+}
+Scene hills() {
+  Scene scene;
+  add_ground(scene, false, hill);
+  return scene;
+}
+
 Scene terrain(bool field) {
   Scene scene;
   add_ground(scene, field, hill);

@@ -10,8 +10,7 @@ class BlobShape : public ListProbe {
  protected:
   void add_shape() {
     copy("tests/lists/probe_blob_shape.hpp", "include/isostep/geometry/shapes/probe.hpp");
-    edit("include/isostep/geometry/shape_type.hpp", "X(height_field, HeightField)",
-         "X(height_field, HeightField) X(probe, Probe)");
+    edit("include/isostep/geometry/shape_type.hpp", "X(cone, Cone)", "X(cone, Cone) X(probe, Probe)");
     edit("include/isostep/geometry/shape.hpp", "#include \"isostep/geometry/shapes/sphere.hpp\"",
          "#include \"isostep/geometry/shapes/sphere.hpp\"\n#include \"isostep/geometry/shapes/probe.hpp\"");
     edit("include/isostep/collision/narrowphase/shape_pairs.hpp", "    add(hull, hull, collide_hull_hull<S>);",
@@ -19,6 +18,7 @@ class BlobShape : public ListProbe {
          "    add(box, probe, collide_never<S>);\n    add(capsule, probe, collide_never<S>);\n"
          "    add(half_space, probe, collide_never<S>);\n    add(hull, probe, collide_never<S>);\n"
          "    add(mesh, probe, collide_never<S>);\n    add(height_field, probe, collide_never<S>);\n"
+         "    add(cylinder, probe, collide_never<S>);\n    add(cone, probe, collide_never<S>);\n"
          "    add(probe, probe, collide_never<S>);");
   }
 };

@@ -25,6 +25,7 @@ template <class S = Literal> struct Probe {
       const auto side = [&](std::size_t at) { return S(load_le<std::uint32_t>(&bytes[at])) / S(1000); };
       return std::make_shared<Content>(Content{true, {side(0), side(4), side(8)}});
     }
+    std::size_t memory() const { return sizeof *this; }
   };
 
   std::uint32_t blob;                // as Primitive has it

@@ -9,8 +9,7 @@ namespace {
 class ShapeList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/geometry/shape_type.hpp", "X(height_field, HeightField)",
-         "X(height_field, HeightField) X(probe, Probe)");
+    edit("include/isostep/geometry/shape_type.hpp", "X(cone, Cone)", "X(cone, Cone) X(probe, Probe)");
   }
   void add_file() {
     copy("tests/lists/probe_shape.hpp", "include/isostep/geometry/shapes/probe.hpp");
@@ -24,7 +23,8 @@ class ShapeList : public ListProbe {
          "    add(box, probe, collide_records<S, collide_box_box<S>>);\n"
          "    add(capsule, probe, collide_never<S>);\n    add(half_space, probe, collide_never<S>);\n"
          "    add(hull, probe, collide_never<S>);\n    add(mesh, probe, collide_never<S>);\n"
-         "    add(height_field, probe, collide_never<S>);\n"
+         "    add(height_field, probe, collide_never<S>);\n    add(cylinder, probe, collide_never<S>);\n"
+         "    add(cone, probe, collide_never<S>);\n"
          "    add(probe, probe, collide_records<S, collide_box_box<S>>);");
   }
   void add_keys() {

@@ -22,16 +22,20 @@ struct DrawnShape {
   double reach;  // [m]
 };
 
-static_assert(kShapeTypes == 7, "random worlds have every shape that moves: see draw_primitive()");
-/// `blobs` are those of its shape. Half of the boxes are hulls in a box of that size, drawn by dice of their own: what
-/// is drawn after them is as it was before there were hulls.
+static_assert(kShapeTypes == 9, "random worlds have every shape that moves: see draw_primitive()");
+/// `blobs` are those of its shape. Half of the boxes are hulls in a box of that size, and a third each of the capsules
+/// cylinders and cones, drawn by dice of their own: what is drawn after them is as it was before there were those.
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::vector<BlobRef>& blobs) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
   const std::uint32_t kind = dice.below(3);
   *reach = kind == 0 ? a : kind == 1 ? length({a, b, c}) : a + b;
   if (kind == 0) return primitive_of(Sphere<S>{num<S>(a)});
-  if (kind == 2) return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
   Dice own = dice;
+  if (kind == 2) {
+    const std::uint32_t round = own.below(3);
+    if (round == 0) return primitive_of(Capsule<S>{num<S>(a), num<S>(b)});
+    return round == 1 ? primitive_of(Cylinder<S>{num<S>(a), num<S>(b)}) : primitive_of(Cone<S>{num<S>(a), num<S>(b)});
+  }
   if (own.one_in(2)) return primitive_of(Box<S>{vec<S>(a, b, c)});
   blobs.push_back(draw_hull(own, {a, b, c}));
   return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size())});

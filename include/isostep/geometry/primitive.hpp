@@ -7,13 +7,13 @@
 
 namespace isostep {
 
-/// A core box (a point for spheres, a segment along y for capsules) thickened by a radius, or a half-space. No padding:
-/// 2 x 4 bytes and eight numbers of one width. Fields that the type does not use are 0.
+/// A core box (a point for spheres, a segment along y for capsules) thickened by a radius; a half-space; a cylinder or
+/// cone. No padding: 2 x 4 bytes and eight numbers of one width. Fields that the type does not use are 0.
 template <class S> struct Primitive {
   ShapeType type;
   std::uint32_t blob;    // 1 + the place of its blob, for shapes that have one; else 0
-  Vec3<S> half;          // [m] half extents of the core
-  S radius;              // [m] added around the core, which then holds the whole shape
+  Vec3<S> half;          // [m] half extents of the core; of a cylinder or cone its half height is y
+  S radius;              // [m] added around the core, which then holds the whole shape; of a cylinder or cone its own
   Vec3<Unit<S>> normal;  // [1] half-space only
   S offset;              // [m] half-space only
 

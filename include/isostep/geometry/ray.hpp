@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/math.hpp"
 
@@ -12,6 +14,8 @@ template <class S> struct LocalHit {
   enum Kind { missed, inside, entered } kind;
   S fraction;  // [1] of the translation
   Vec3<Unit<S>> normal;
+  std::uint32_t triangle = 0;  // of a surface
+  std::uint8_t material = 0;   // that triangle's
 };
 template <class S> ISO_INLINE LocalHit<S> no_hit() { return {LocalHit<S>::missed, S(0), Vec3<Unit<S>>::zero()}; }
 template <class S> ISO_INLINE LocalHit<S> inside_hit() { return {LocalHit<S>::inside, S(0), Vec3<Unit<S>>::zero()}; }

@@ -7,6 +7,8 @@
 #include "isostep/geometry/shape_view.hpp"
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
+#include "isostep/geometry/shapes/cone.hpp"
+#include "isostep/geometry/shapes/cylinder.hpp"
 #include "isostep/geometry/shapes/half_space.hpp"
 #include "isostep/geometry/shapes/height_field.hpp"
 #include "isostep/geometry/shapes/hull.hpp"
@@ -44,7 +46,8 @@ concept Solid = requires(Shape<S> shape, S s) {
   // returns the radius [m] around them.
   { shape.visit_core(s, detail::NoPoint{}) } -> std::same_as<S>;
 };
-/// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it.
+/// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it,
+/// memory() [bytes] what it takes.
 template <template <class> class Shape, class S>
 concept MadeOfPrimitive = requires(Primitive<S> stored) {
   { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;
@@ -54,6 +57,7 @@ concept MadeOfBlob = requires(Primitive<S> stored, const typename Shape<S>::Cont
   { Shape<S>::of(stored, content) } -> std::same_as<Shape<S>>;
   { Shape<S>::Content::make(bytes) } -> std::same_as<std::shared_ptr<const void>>;
   { Shape<S>::fault_of(*content) } -> std::same_as<ShapeFault>;
+  { content->memory() } -> std::same_as<std::size_t>;
 };
 /// Inertia over mass and s^2 [1] about the centre of mass, s as above.
 template <template <class> class Shape, class S>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -74,6 +75,7 @@ template <class T> class ColumnsArray {
     for (std::uint32_t i = at; i < 16; ++i) blocks_.back().set(i, v);
   }
   ISO_INLINE ColumnsView<T> view() const { return {blocks_.data(), count_}; }
+  ISO_INLINE std::size_t memory() const { return blocks_.size() * sizeof blocks_[0]; }  // [bytes] that it points to
 
  private:
   std::vector<Columns<T, 16>> blocks_;

@@ -36,10 +36,10 @@ struct DrawnBody {
 struct DrawnPart {
   ShapeType type;
   std::uint32_t child;  // its place in the shape
-  DrawnPose pose;   // of its centre; a capsule lies along its y; of a half-space: its point nearest the body's origin;
+  DrawnPose pose;   // of its centre; round ones lie along its y; of a half-space: its point nearest the body's origin;
                     // of a part with content: of the frame that its points are in
-  float half[3];    // [m] of a box; of a capsule y alone, the cylinder's
-  float radius;     // [m] of a sphere or capsule
+  float half[3];    // [m] of a box; of a capsule, cylinder or cone y alone
+  float radius;     // [m] of a sphere, capsule, cylinder or cone
   float normal[3];  // [1] of a half-space, world, out of the ground
   /// The name of its blob, of a shape that has one (hull): parts of equal content have equal triangles, see
   /// DebugDraw::wants_triangles. All 0: the numbers above say everything.

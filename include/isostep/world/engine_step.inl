@@ -12,7 +12,6 @@
 #include "isostep/world/island_wake.inl"
 #include "isostep/world/narrow_phase.inl"
 #include "isostep/world/proxies.inl"
-#include "isostep/world/queries.inl"
 #include "isostep/world/render_poses.inl"
 #include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/step_solver.inl"
@@ -90,7 +89,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 
 }  // namespace isostep
 
-/// What a game calls every frame: the step, the systems that it calls, and queries.
+/// What a game calls every frame: the step, and the systems that it calls.
 #define ISO_INSTANTIATE_WORLD_STEP(S)                                                                       \
   template class BodyMap<S>;                                                                                \
   template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
@@ -106,5 +105,4 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class SensorOverlaps<S>;                                                                         \
   template class ContactEvents<S>;                                                                          \
   template class RenderPoses<S>;                                                                            \
-  template class Queries<S>;                                                                                \
   template StepReport WorldEngine<S>::step(const StageObserver&);

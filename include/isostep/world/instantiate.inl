@@ -17,6 +17,7 @@
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/collision/query/shape_cast.inl"
+#include "isostep/collision/query/solid_cast.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
@@ -32,6 +33,7 @@
 #include "isostep/world/debug_draw.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/queries.inl"
 #include "isostep/world/world.inl"
 
 /// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is
@@ -59,8 +61,8 @@
   ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                                                 \
   ISO_ROUND_TRIANGLE_OF(, OwnScalar)                                                                                  \
   ISO_POLYHEDRON_TRIANGLE_OF(, OwnScalar)                                                                             \
-  template bool ray_cast<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&, Vec3<OwnScalar>,               \
-                                    Vec3<OwnScalar>, OwnScalar, RayHit<OwnScalar>&);                                  \
+  ISO_RAY_CAST_OF(, OwnScalar)                                                                                        \
+  ISO_SOLID_CAST_OF(, OwnScalar)                                                                                      \
   template ClosestPoint<OwnScalar> closest_point<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&,        \
                                                             Vec3<OwnScalar>);                                         \
   template class HullSolid<OwnScalar>;                                                                                \
@@ -97,6 +99,7 @@
   template class WorstFirstResolver<OwnScalar>;                                                                       \
   template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
+  ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                            \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                               \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                                    \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \

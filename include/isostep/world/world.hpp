@@ -19,6 +19,7 @@
 #include "isostep/world/command.hpp"
 #include "isostep/world/definitions.hpp"
 #include "isostep/world/events.hpp"
+#include "isostep/world/query_types.hpp"
 #include "isostep/world/settings.hpp"
 #include "isostep/world/stages.hpp"
 
@@ -27,20 +28,6 @@ namespace isostep {
 template <class S> struct WorldState;
 template <class S> class WorldEngine;
 
-/// What a ray met first.
-template <class S> struct RayCastHit {
-  BodyId body;
-  Vec3<S> point;         // [m] world
-  Vec3<Unit<S>> normal;  // [1] of the surface, against the ray
-  S fraction;            // [1] of the translation
-};
-/// What is nearest to a point.
-template <class S> struct ClosestBody {
-  BodyId body;
-  Vec3<S> point;         // [m] on its surface
-  Vec3<Unit<S>> normal;  // [1] outward
-  S distance;            // [m] negative: inside
-};
 /// What the world keeps of a body, for effects that meet shapes themselves. Holds until the next command, step or load.
 template <class S> struct BodyView {
   const BodyState<S>* state = nullptr;  // null: a stale id
@@ -49,14 +36,6 @@ template <class S> struct BodyView {
   Contents<S> contents;                // of the blobs that they name
   Pose<S> pose = Pose<S>::identity();  // of the body's origin
 };
-/// A query sees bodies whose category meets the mask, sensors only when asked, and not the one to be ignored: who looks
-/// is in the way of its own ray. A stale id ignores nobody.
-struct QueryFilter {
-  std::uint32_t mask = 0xffffffffu;
-  bool sensors = false;
-  BodyId ignore = {};
-};
-
 /// A pose for drawing, in float whatever the scalar: interpolated, never state.
 struct RenderPose {
   BodyId body;
@@ -189,16 +168,40 @@ template <class S> class World final {
   std::vector<JointId> joints() const;
   WorldCounts counts() const;
 
-  // Queries, as of the last step or command.
-  /// The nearest hit; of equally near ones that of the lowest slot.
+  // Queries, as of the last step or command. QueryFilter (query_types.hpp) says what they see. Their answers are a
+  // function of the state: a world that loads a snapshot gives those of the world that saved it.
+  /// The first hit.
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter = {}) const;
-  /// The first hit of every body on the way, the nearest first and equally near ones by slot, appended to `out`.
+  /// The first hit of every body on the way, or of every child or triangle, in order, appended to `out`.
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                     QueryFilter filter = {}) const;
+  /// As many of them as `out` has room for, and their number. Allocates nothing.
+  std::size_t cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::span<RayCastHit<S>> out,
+                           QueryFilter filter = {}) const;
+  /// The first hit of a convex shape that moves from a pose along a translation without turning. Overlaps of up to
+  /// 1/64 m at the start, and up to a quarter of the shape's inner radius, are touch: what touches and moves away or
+  /// along misses. Deeper is inside.
+  std::optional<ShapeCastHit<S>> cast_shape(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
+                                            QueryFilter filter = {}) const;
+  void cast_shape_all(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
+                      std::vector<ShapeCastHit<S>>& out, QueryFilter filter = {}) const;
+  std::size_t cast_shape_all(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
+                             std::span<ShapeCastHit<S>> out, QueryFilter filter = {}) const;
+  /// Many at once, on the world's threads; the hits are those of one by one, whatever their number. `hits` has room for
+  /// the same number of hits for each, one or more: the nearest ones, in order, then some without a body. False: at
+  /// least one was refused, and has no hits; the fault is that of the first. Allocates nothing.
+  bool cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits) const;
+  bool cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits) const;
   std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
-  void overlap_shape(const Primitive<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+  void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                      QueryFilter filter = {}) const;
+  /// The same with the child and triangle of each: of every body, or of every child or triangle.
+  void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
+                     QueryFilter filter = {}) const;
+  /// The first of them. Allocates nothing.
+  std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
+                                          QueryFilter filter = {}) const;
   /// Bodies whose bounds, with the broad phase's margin of 0.1 m at most, meet the box, ascending by slot, appended to
   /// `out`. A cheap first query: allocates nothing but room in `out`, and where more than 32 are found.
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter = {}) const;

@@ -39,7 +39,6 @@ Result<void> check_count(const char* list, std::uint64_t count, std::uint64_t ex
 struct Offset {
   std::int32_t i, k;
 };
-constexpr Offset kPoints[3] = {{0, 0}, {0, 1}, {1, 0}};
 constexpr Offset kOpposite[3] = {{-1, 1}, {1, 1}, {1, -1}};  // across edge k
 constexpr Offset kCells[3] = {{-1, 0}, {0, 0}, {0, -1}};     // from the cell to the one across edge k
 
@@ -75,7 +74,7 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   const auto at = [&](Offset o) -> MeshPoint {
     return {x + o.i * pitch, corner[o.i * column + o.k * row] * unit, z + o.k * pitch};
   };
-  BakedTriangle baked = {{at(kPoints[0]), at(kPoints[1]), at(kPoints[2])}, {}, {}, materials_[id / 2]};
+  BakedTriangle baked = {corners(id), {}, {}, materials_[id / 2]};
   for (int e = 0; e < 3; ++e) {
     if (cell_across(place, e) == kNoTriangle) continue;
     const MeshPoint a = baked.points[e], b = baked.points[(e + 1) % 3], c = baked.points[(e + 2) % 3];
@@ -134,7 +133,7 @@ BakedHeightField::Span BakedHeightField::computed_span(Block block) const {
   if (block.level > 0) {
     Block parts[4];
     int count = 0;
-    push_parts(block, parts, count);
+    push_parts(block, 0, parts, count);
     for (int i = 0; i < count; ++i) {
       const Span part = span_of(parts[i]);
       span = {std::min(span.low, part.low), std::max(span.high, part.high)};

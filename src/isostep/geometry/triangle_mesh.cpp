@@ -95,10 +95,8 @@ Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<
 }
 
 BakedTriangle TriangleMesh::triangle(std::uint32_t id) const {
-  BakedTriangle baked = {};
-  baked.material = materials_[id];
+  BakedTriangle baked = {corners(id), {}, {}, materials_[id]};
   for (int k = 0; k < 3; ++k) {
-    baked.points[k] = points_[triangles_[id].vertices[k]];
     const MeshEdge across = edges_[id].edges[k];
     baked.edges[k] = across.kind();
     if (baked.edges[k] == EdgeKind::border) continue;

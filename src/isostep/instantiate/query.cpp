@@ -5,8 +5,8 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)                                                                       \
-  template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&); \
+#define ISO_INSTANTIATE(S) \
+  ISO_RAY_CAST_OF(, S)     \
   template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

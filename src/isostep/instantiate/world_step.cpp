@@ -1,4 +1,4 @@
-// The step of World<S>, and its queries, for every shipped scalar.
+// The step of World<S> for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/world/engine_step.inl"
 

@@ -3,6 +3,7 @@
 #include "scene_numbers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "scenes/hull_points.hpp"
@@ -10,7 +11,7 @@
 namespace isostep::scenes {
 namespace {
 
-static_assert(kShapeTypes == 7,
+static_assert(kShapeTypes == 9,
               "a judge knows each shape by itself: see volume_of(), centre_of(), gyration_of(), least_reach()");
 
 std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {
@@ -23,7 +24,10 @@ double volume_of(const ScenePart& part) {
   const double r = value(part.radius);
   const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
   if (part.type == ShapeType::box) return 8 * half.x * half.y * half.z;
-  return part.type == ShapeType::capsule ? ball + 2 * value(part.half_height) * std::numbers::pi * r * r : ball;
+  const double cylinder = 2 * value(part.half_height) * std::numbers::pi * r * r;
+  if (part.type == ShapeType::cylinder) return cylinder;
+  if (part.type == ShapeType::cone) return cylinder / 3;
+  return part.type == ShapeType::capsule ? ball + cylinder : ball;
 }
 double volume_of(const SceneBody& body) {
   double volume = 0;
@@ -34,6 +38,7 @@ double volume_of(const SceneBody& body) {
 /// [m] of mass, in the body's frame: parts stand as the body does.
 Vec3<double> centre_of(const ScenePart& part) {
   const Vec3<double> position = value(part.position);
+  if (part.type == ShapeType::cone) return position + Vec3<double>{0, value(part.half_height) / -2, 0};
   return part.type == ShapeType::hull ? position + hull_of(part)->centre : position;
 }
 
@@ -55,6 +60,11 @@ Vec3<double> principal_gyration_of(const ScenePart& part) {
     const double along = r * r * (0.4 * ball + 0.5 * cylinder);
     const double across = ball * (0.4 * r * r + h * h + 0.75 * h * r) + cylinder * (r * r / 4 + h * h / 3);
     return {across, along, across};
+  }
+  if (part.type == ShapeType::cylinder || part.type == ShapeType::cone) {
+    const double r = value(part.radius), h = value(part.half_height);
+    if (part.type == ShapeType::cone) return {0.15 * (r * r + h * h), 0.3 * r * r, 0.15 * (r * r + h * h)};
+    return {r * r / 4 + h * h / 3, r * r / 2, r * r / 4 + h * h / 3};
   }
   const Vec3<double> half = value(part.half_extents);
   const Vec3<double> square = {half.x * half.x / 3, half.y * half.y / 3, half.z * half.z / 3};
@@ -95,6 +105,11 @@ Mat3<double> inertia_of(const SceneBody& body) {
 double least_reach(const SceneBody& body) {
   const ScenePart& part = body.parts.front();
   if (part.type == ShapeType::hull) return hull_of(part)->inner_radius;
+  if (part.type == ShapeType::cylinder) return std::min(value(part.radius), value(part.half_height));
+  if (part.type == ShapeType::cone) {
+    const double r = value(part.radius), height = 2 * value(part.half_height);
+    return r * height / (r + std::hypot(r, height));
+  }
   if (part.type != ShapeType::box) return value(part.radius);
   const Vec3<double> half = value(part.half_extents);
   return std::min({half.x, half.y, half.z});

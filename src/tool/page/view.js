@@ -67,13 +67,15 @@ class View {
     this.scene.add(sun, sun.target);
   }
 
-  // Every primitive is a unit one, stretched: boxes, balls, and of capsules the tube between two balls. Surfaces are
-  // drawn as they are.
+  // Every primitive is a unit one, stretched: boxes, balls, cylinders, cones, and of capsules the tube between two
+  // balls. Surfaces are drawn as they are.
   addBodies() {
     const lists = this.listParts(), many = this.run.actors.length > 3000;
     const shapes = {
       box: new THREE.BoxGeometry(1, 1, 1),
       tube: new THREE.CylinderGeometry(1, 1, 1, 20, 1, true),
+      cylinder: new THREE.CylinderGeometry(1, 1, 1, many ? 16 : 32),
+      cone: new THREE.ConeGeometry(1, 1, many ? 16 : 32),
       ball: new THREE.SphereGeometry(1, many ? 10 : 24, many ? 7 : 16)
     };
     this.meshes = [];
@@ -119,6 +121,8 @@ class View {
         else if (surface !== undefined)
           add(index, this.surfaces.listOf(surface), at, turn, [1, 1, 1], surface,
               type === 'hull' && this.isWall(index, at, size));
+        else if (type === 'cylinder' || type === 'cone')
+          add(index, type, at, turn, [r, 2 * part.half[1], r]);
         else if (type !== 'capsule')
           add(index, 'box', at, turn, size, undefined, this.isWall(index, at, size));
         else {

@@ -62,18 +62,21 @@ nlohmann::ordered_json json_of_blob(const BlobReport& blob) {
   return {{"shape", blob.shape},
           {"id", hex(blob.id.high) + hex(blob.id.low)},
           {"bytes", blob.bytes},
+          {"memory", blob.memory},
           {"uses", blob.uses}};
 }
 std::string lines_of_blobs(const std::vector<BlobReport>& blobs) {
   std::string text;
   for (const char* shape : kShapeNames) {
-    std::size_t count = 0, bytes = 0;
+    std::size_t count = 0, bytes = 0, memory = 0;
     for (const BlobReport& blob : blobs) {
       if (blob.shape != shape) continue;
       ++count;
       bytes += blob.bytes;
+      memory += blob.memory;
     }
-    if (count > 0) text += line("blobs         %zu of type %s, %zu bytes", count, shape, bytes);
+    if (count > 0)
+      text += line("blobs         %zu of type %s: %zu bytes in files, %zu in memory", count, shape, bytes, memory);
   }
   return text;
 }

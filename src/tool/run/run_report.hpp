@@ -36,7 +36,8 @@ struct TrialReport {
 struct BlobReport {
   const char* shape;
   ContentId id;
-  std::size_t bytes;   // of its content
+  std::size_t bytes;   // as a file holds it
+  std::size_t memory;  // [bytes] of its content in the world's scalar
   std::uint32_t uses;  // by parts of shapes
 };
 

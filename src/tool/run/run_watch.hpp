@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "isostep/geometry/content.hpp"
 #include "isostep/world/state.hpp"
 #include "run_report.hpp"
 #include "scenes/bars.hpp"
@@ -78,9 +79,16 @@ template <class S> class RigidWatch {
       if (!store.is_taken(place)) continue;
       const Blob& blob = *store.content(place);
       blobs.push_back({kShapeNames[static_cast<std::uint32_t>(blob.type())], store.names()[place].id,
-                       blob.bytes().size(), static_cast<std::uint32_t>(store.names()[place].uses)});
+                       blob.bytes().size(), memory_of(blob), static_cast<std::uint32_t>(store.names()[place].uses)});
     }
     return blobs;
+  }
+  static std::size_t memory_of(const Blob& blob) {
+    return visit_shape_type(blob.type(), [&](auto tag) -> std::size_t {
+      using Shape = typename decltype(tag)::template Of<S>;
+      if constexpr (!Shape::kHasBlob) return 0;
+      else return static_cast<const typename Shape::Content*>(content_of<S>(blob))->memory();
+    });
   }
   void observe_joints(const World<S>& world) {
     if (!world.state().joint_slots.entries().empty()) {

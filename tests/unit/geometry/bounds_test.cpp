@@ -28,6 +28,9 @@ template <class S> Transform<S> any_transform(oracle::Random& random) {
 
 /// Furthest reach of the primitive along a unit direction of its own frame.
 double support(const Primitive<double>& p, D3 d) {
+  const double across = std::hypot(d.x, d.z) * p.radius;
+  if (p.type == ShapeType::cylinder) return std::fabs(d.y) * p.half.y + across;
+  if (p.type == ShapeType::cone) return std::fmax(across - d.y * p.half.y, d.y * p.half.y);
   const double core = std::fabs(d.x) * p.half.x + std::fabs(d.y) * p.half.y + std::fabs(d.z) * p.half.z;
   return core + p.radius * oracle::length(d);
 }
@@ -36,14 +39,15 @@ TYPED_TEST(BoundsTest, EverySideTouchesTheShape) {
   using S = TypeParam;
   oracle::Random random(1);
   for (int n = 0; n < 300; ++n) {
-    const Primitive<S> p = random.primitive<S>(n % 3, 0.05, 8);
+    const Primitive<S> p = random.primitive<S>(n % 5, 0.05, 8);
     const Transform<S> t = any_transform<S>(random);
     const Aabb<S> box = bounds(p, t);
     const Transform<double> real = oracle::real(t);
     for (int axis = 0; axis < 3; ++axis) {
-      const double reach = support(oracle::real(p), real.rotation.rows[axis]);
-      EXPECT_NEAR(to_double(box.high[axis]), real.position[axis] + reach, this->slack()) << n;
-      EXPECT_NEAR(to_double(box.low[axis]), real.position[axis] - reach, this->slack()) << n;
+      const double up = support(oracle::real(p), real.rotation.rows[axis]);
+      const double down = support(oracle::real(p), -real.rotation.rows[axis]);
+      EXPECT_NEAR(to_double(box.high[axis]), real.position[axis] + up, this->slack()) << n;
+      EXPECT_NEAR(to_double(box.low[axis]), real.position[axis] - down, this->slack()) << n;
     }
   }
 }
@@ -52,7 +56,7 @@ TYPED_TEST(BoundsTest, NoSurfacePointLiesOutside) {
   using S = TypeParam;
   oracle::Random random(2);
   for (int n = 0; n < 100; ++n) {
-    const Primitive<S> p = random.primitive<S>(n % 3, 0.05, 8);
+    const Primitive<S> p = random.primitive<S>(n % 5, 0.05, 8);
     const Transform<S> t = any_transform<S>(random);
     const Aabb<S> box = bounds(p, t);
     const Primitive<double> shape = oracle::real(p);

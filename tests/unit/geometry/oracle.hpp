@@ -48,11 +48,13 @@ class Random {
     return normalise(Quat<U>{from_double<U>(axis.x * std::sin(half)), from_double<U>(axis.y * std::sin(half)),
                              from_double<U>(axis.z * std::sin(half)), from_double<U>(std::cos(half))});
   }
-  /// kind 0 sphere, 1 box, 2 capsule.
+  /// kind 0 sphere, 1 box, 2 capsule, 3 cylinder, 4 cone.
   template <class S> Primitive<S> primitive(int kind, double low, double high) {
     const double a = size(low, high), b = size(low, high), c = size(low, high);
     if (kind == 0) return primitive_of(Sphere<S>{from_double<S>(a)});
     if (kind == 1) return primitive_of(Box<S>{made<S>({a, b, c})});
+    if (kind == 3) return primitive_of(Cylinder<S>{from_double<S>(a), from_double<S>(b)});
+    if (kind == 4) return primitive_of(Cone<S>{from_double<S>(a), from_double<S>(b)});
     return primitive_of(Capsule<S>{from_double<S>(a), from_double<S>(b)});
   }
 
@@ -60,7 +62,20 @@ class Random {
   std::mt19937 engine_;
 };
 
-static_assert(kShapeTypes == 7, "an oracle knows each shape by itself: see signed_distance() and cloud_of()");
+static_assert(kShapeTypes == 9, "an oracle knows each shape by itself: see signed_distance() and cloud_of()");
+
+/// In the half-plane of a point x from a cone's axis: the side's line, else the nearest of the outline's two segments.
+inline double cone_distance(double r, double h, double x, double y) {
+  const double slant = std::hypot(2 * h, r);
+  const double within = std::fmax((2 * h * x + r * (y - h)) / slant, -y - h);
+  if (within <= 0) return within;
+  const auto to_segment = [&](double ax, double ay, double bx, double by) {
+    const double dx = bx - ax, dy = by - ay;
+    const double t = std::fmin(std::fmax(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0), 1);
+    return std::hypot(x - ax - t * dx, y - ay - t * dy);
+  };
+  return std::fmin(to_segment(0, -h, r, -h), to_segment(r, -h, 0, h));
+}
 
 /// Signed distance of p, in the primitive's frame: exact everywhere.
 inline double signed_distance(const Primitive<double>& s, D3 p) {
@@ -70,6 +85,12 @@ inline double signed_distance(const Primitive<double>& s, D3 p) {
     const double past = std::fabs(p.y) - s.half.y;
     return (past > 0 ? std::hypot(p.x, past, p.z) : std::hypot(p.x, p.z)) - s.radius;
   }
+  if (s.type == ShapeType::cylinder) {
+    const double aside = std::hypot(p.x, p.z) - s.radius, above = std::fabs(p.y) - s.half.y;
+    const double within = std::fmax(aside, above);
+    return within < 0 ? within : std::hypot(std::fmax(aside, 0), std::fmax(above, 0));
+  }
+  if (s.type == ShapeType::cone) return cone_distance(s.radius, s.half.y, std::hypot(p.x, p.z), p.y);
   const D3 q = {std::fabs(p.x) - s.half.x, std::fabs(p.y) - s.half.y, std::fabs(p.z) - s.half.z};
   const double inside = std::fmax(q.x, std::fmax(q.y, q.z));
   return inside < 0 ? inside : std::hypot(std::fmax(q.x, 0), std::fmax(q.y, 0), std::fmax(q.z, 0));
@@ -120,6 +141,11 @@ inline std::vector<PointMass> cloud_of(const Primitive<double>& p) {
         for (double c : z) cloud.push_back({{a, b, c}, p.half.x * p.half.y * p.half.z});
       }
     }
+    return cloud;
+  }
+  if (p.type == ShapeType::cylinder || p.type == ShapeType::cone) {
+    const bool cone = p.type == ShapeType::cone;
+    add_revolved(cloud, -h, h, [&](double y) { return cone ? r * r * (h - y) * (h - y) / (4 * h * h) : r * r; });
     return cloud;
   }
   add_revolved(cloud, -h - r, -h, [&](double y) { return r * r - (y + h) * (y + h); });

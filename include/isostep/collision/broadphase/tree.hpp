@@ -343,8 +343,8 @@ ISO_INLINE void AabbTree<S>::sweep(const Sweep<S>& sweep, Visit&& visit) const {
     }
     const Aabb<S>& left = nodes_[node.child].box;
     const Aabb<S>& right = nodes_[node.child + 1u].box;
-    const std::uint32_t right_first =
-        dot_sum(test.displacement, right.low + right.high) < dot_sum(test.displacement, left.low + left.high);
+    const Vec3<S> to_right = (right.low - left.low) + (right.high - left.high);
+    const std::uint32_t right_first = dot_sum(test.displacement, to_right) < product(S(0), S(0)) ? 1u : 0u;
     stack[waiting++] = node.child + 1u - right_first;
     stack[waiting++] = node.child + right_first;
   }

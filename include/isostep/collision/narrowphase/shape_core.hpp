@@ -15,6 +15,10 @@ template <class S> class ShapeCore {
   template <class Shape> ISO_INLINE ShapeCore(const Shape& shape, const Transform<S>& t, S inset) {
     radius_ = shape.visit_core(inset, [&](Vec3<S> v) ISO_INLINE_LAMBDA { add(to_world(t, v)); });
   }
+  /// In the shape's own frame.
+  template <class Shape> ISO_INLINE ShapeCore(const Shape& shape, S inset) {
+    radius_ = shape.visit_core(inset, [&](Vec3<S> v) ISO_INLINE_LAMBDA { add(v); });
+  }
   ShapeCore(const ShapeCore&) = delete;
   ShapeCore& operator=(const ShapeCore&) = delete;
 

@@ -7,6 +7,7 @@
 #include "isostep/collision/narrowphase/capsule_pairs.hpp"
 #include "isostep/collision/narrowphase/half_space_pairs.hpp"
 #include "isostep/collision/narrowphase/hull_pairs.hpp"
+#include "isostep/collision/narrowphase/revolved_pairs.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 
@@ -71,6 +72,17 @@ template <class S> struct ShapePairs {
       add(mesh, surface, collide_never<S>);
     }
     add(height_field, height_field, collide_never<S>);
+    for (const ShapeType round : {cylinder, cone}) {
+      add(sphere, round, collide_views<S, collide_sphere_round<S>>);
+      add(box, round, collide_views<S, collide_box_round<S>>);
+      add(capsule, round, collide_views<S, collide_capsule_round<S>>);
+      add(half_space, round, collide_views<S, collide_half_space_round<S>>);
+      add(hull, round, collide_views<S, collide_hull_round<S>>);
+      add(mesh, round, collide_views<S, collide_surface_with<S>>);
+      add(height_field, round, collide_views<S, collide_surface_with<S>>);
+      add(cylinder, round, collide_views<S, collide_round_round<S>>);
+    }
+    add(cone, cone, collide_views<S, collide_round_round<S>>);
   }
   ISO_INLINE constexpr CollideShapes<S> of(ShapeType a, ShapeType b) const {
     return by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)];

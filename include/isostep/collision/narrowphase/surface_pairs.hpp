@@ -36,10 +36,17 @@ template <class S>
 void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
 
+/// The same for a convex b, which the list of shapes has after surfaces: the normal points out of surface a.
+template <class S>
+void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                          Manifold<S>& out);
+
 #define ISO_SURFACE_PAIRS_OF(extern, S)                                                                              \
   extern template void collide_with_triangle<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, std::uint32_t,      \
                                                 const Transform<S>&, S, Manifold<S>&);                               \
   extern template void collide_with_surface<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, \
+                                               S, Manifold<S>&);                                                     \
+  extern template void collide_surface_with<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, \
                                                S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_SURFACE_PAIRS_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

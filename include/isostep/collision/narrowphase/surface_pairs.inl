@@ -3,6 +3,8 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/polyhedron_triangle.inl"
+#include "isostep/collision/narrowphase/revolved_pairs.hpp"
+#include "isostep/collision/narrowphase/revolved_triangle.inl"
 #include "isostep/collision/narrowphase/round_triangle.inl"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
@@ -11,13 +13,21 @@
 
 namespace isostep {
 
+namespace detail {
+/// Where a convex shape must be in front of a triangle to touch it [m], in its frame.
+template <class S> ISO_INLINE Vec3<S> middle_of(ShapeView<S> view) {
+  if (view.primitive.type == ShapeType::hull) return shape_as<Hull>(view).centre_of_mass();
+  if (view.primitive.type == ShapeType::cone) return shape_as<Cone>(view).middle();
+  return Vec3<S>::zero();
+}
+}  // namespace detail
+
 template <class S>
 void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
                            const Transform<S>& tb, S margin, Manifold<S>& out) {
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
-    const bool is_hull = a.primitive.type == ShapeType::hull;
-    const Vec3<S> centre = is_hull ? shape_as<Hull>(a).centre_of_mass() : Vec3<S>::zero();
+    const Vec3<S> centre = detail::middle_of(a);
     const SurfaceFrame<S> frame(ta, centre, tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
@@ -31,6 +41,9 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
       }
       case ShapeType::hull:
         return collide_polyhedron_triangle(shape_as<Hull>(a).polyhedron(), ta, frame, baked, margin, out);
+      case ShapeType::cylinder:
+      case ShapeType::cone:
+        return collide_revolved_triangle(detail::revolved_of(a.primitive), ta, frame, baked, margin, out);
       default: return out.clear();
     }
   });
@@ -53,6 +66,13 @@ void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b
     out = found;
     return true;
   });
+}
+
+template <class S>
+void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
+                          Manifold<S>& out) {
+  collide_with_surface(b, tb, a, ta, margin, out);
+  out.normal = -out.normal;
 }
 
 }  // namespace isostep

@@ -60,7 +60,7 @@ template <class S> struct SurfaceTriangle {
   SurfaceEdge<S> edges[3];
 
   /// Edges come later: most triangles are ruled out before.
-  ISO_INLINE SurfaceTriangle(const SurfaceFrame<S>& frame, const BakedTriangle& baked) {
+  ISO_INLINE SurfaceTriangle(const SurfaceFrame<S>& frame, const TriangleCorners& baked) {
     Vec3<S> nearest = frame.beside(baked.points[0]);
     points[0] = frame.centre + frame.turn * nearest;
     for (int i = 1; i < 3; ++i) {

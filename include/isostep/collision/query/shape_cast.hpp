@@ -12,6 +12,8 @@ template <class S> struct CastMotion {
   Vec3<S> translation;   // [m] world frame
   Unit<S> max_fraction;  // [1] of it that is looked at, 0 ... 1
   S touch;               // [m] cores that overlap by no more than this at the start touch; deeper is inside
+  /// [1] A hit after this is of no interest: it may be missed, and changes no other.
+  Unit<S> latest = Unit<S>(1);
 };
 
 template <class S> struct CastHit {

@@ -28,7 +28,7 @@ template <class F> class CoreCast {
   F extent;                       // [m] of both together
   Transform<F> b_in_a;            // at the start
   Vec3<F> way;                    // [m] of b, for a fraction of 1
-  U end;                          // [1]
+  U end, latest;                  // [1] see CastMotion; latest by no less
   F touch, resolution;            // [m]
 
   ISO_INLINE CoreHit<F> run() const {
@@ -49,6 +49,7 @@ template <class F> class CoreCast {
       const F closing = -dot(way, found.normal);
       if (found.distance != F(0)) {
         if (!(closing > F(0)) || gap >= closing * (end - t)) return {};
+        if (latest < end && gap > closing * (latest - t) + isostep::resolution<F>() * F(4)) return {};
         last.hit = true;
         if (round == 0 || is_clear(found, noise)) last.normal = found.normal, last.on_b = found.on_b - way * t;
       }
@@ -99,6 +100,9 @@ bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCor
   cast.b_in_a = fine_relative(ta, tb);
   cast.way = -transposed_times(turn, finer_of<F>(motion.translation));
   cast.end = finer<Unit<F>>(motion.max_fraction);
+  // A fraction is rounded down to a step of S: what gives the latest one is found whatever the rounding.
+  cast.latest = min(finer<Unit<F>>(motion.latest), Unit<F>(1)) + finer<Unit<F>>(resolution<Unit<S>>()) +
+                Unit<F>(0x1p-20);
   cast.touch = finer<F>(motion.touch);
   cast.resolution = finer<F>(resolution<S>());
   const CoreHit<F> found = cast.run();

@@ -21,25 +21,29 @@ enum class EdgeKind : std::uint8_t {
 };
 
 /// In steps of its geometry's grid. The outward side is where its points run counter-clockwise.
-struct BakedTriangle {
+struct TriangleCorners {
   MeshPoint points[3];
+
+  /// [steps^2] Outward; its length is twice the area.
+  ISO_INLINE constexpr GridVector normal() const { return cross(points[1] - points[0], points[2] - points[0]); }
+  ISO_INLINE constexpr MeshBox bounds() const {
+    MeshBox box = MeshBox::empty();
+    for (const MeshPoint p : points) box.add(p);
+    return box;
+  }
+};
+/// With what is beside it.
+struct BakedTriangle : TriangleCorners {
   MeshPoint
       opposite[3];  // the neighbour's vertex off edge k, which leads from points[k] to the next; 0, 0, 0 at a border
   EdgeKind edges[3];
   std::uint8_t material;
 
   ISO_INLINE constexpr bool has_neighbour(int k) const { return edges[k] != EdgeKind::border; }
-  /// [steps^2] Outward; its length is twice the area.
-  ISO_INLINE constexpr GridVector normal() const { return cross(points[1] - points[0], points[2] - points[0]); }
   /// [steps^2] Of the neighbour across edge k, which there is.
   ISO_INLINE constexpr GridVector neighbour_normal(int k) const {
     const MeshPoint at = points[(k + 1) % 3];
     return cross(points[k] - at, opposite[k] - at);
-  }
-  ISO_INLINE constexpr MeshBox bounds() const {
-    MeshBox box = MeshBox::empty();
-    for (const MeshPoint p : points) box.add(p);
-    return box;
   }
 };
 
@@ -66,7 +70,8 @@ struct AnyVisit {
 /// `query` calls visit(id) for every triangle whose own box touches the box. `traverse` descends where overlaps(box of
 /// a node) is true and calls visit(id) for the triangles of the leaves it reaches, whose own boxes it does not look at;
 /// `overlaps` is asked as late as possible, so it may become stricter while triangles are visited. Both end when visit
-/// returns false, and then return false. Their order follows from the content of the geometry alone.
+/// returns false, and then return false. Their order follows from the content of the geometry alone; with a way before
+/// the others, `traverse` takes what lies first along it first, as a rule.
 template <class G>
 concept TriangleGeometry = requires(const G& geometry, const MeshBox& box, std::uint32_t id) {
   { geometry.exponent() } -> std::same_as<int>;  // a step is 2^-exponent m
@@ -74,9 +79,11 @@ concept TriangleGeometry = requires(const G& geometry, const MeshBox& box, std::
   { geometry.bounds() } -> std::same_as<MeshBox>;
   { geometry.has_triangle(id) } -> std::same_as<bool>;
   { geometry.neighbour(id, 0) } -> std::same_as<std::uint32_t>;  // across edge k, or kNoTriangle
+  { geometry.corners(id) } -> std::same_as<TriangleCorners>;  // of triangle(id)
   { geometry.triangle(id) } -> std::same_as<BakedTriangle>;
   { geometry.query(box, detail::AnyVisit{}) } -> std::same_as<bool>;
   { geometry.traverse(detail::AnyOverlap{}, detail::AnyVisit{}) } -> std::same_as<bool>;
+  { geometry.traverse(GridVector{}, detail::AnyOverlap{}, detail::AnyVisit{}) } -> std::same_as<bool>;
 };
 
 }  // namespace isostep

@@ -64,6 +64,12 @@ class BakedHeightField {
   ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangle_count() && materials_[id / 2] != kHole; }
   /// Across edge k of a triangle that is there, or kNoTriangle.
   std::uint32_t neighbour(std::uint32_t id, int k) const;
+  ISO_INLINE TriangleCorners corners(std::uint32_t id) const {
+    const std::uint32_t i = id / 2 % cells_x(), k = id / 2 / cells_x();
+    const MeshPoint right = point(i + 1, k), below = point(i, k + 1);
+    if (id % 2 == 0) return {{point(i, k), below, right}};
+    return {{point(i + 1, k + 1), right, below}};
+  }
   BakedTriangle triangle(std::uint32_t id) const;
 
   /// See TriangleGeometry. Ids ascend.
@@ -86,6 +92,11 @@ class BakedHeightField {
     return true;
   }
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
+    return traverse({0, 0, 0}, overlaps, visit);
+  }
+  template <class Overlaps, class Visit>
+  ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
+    const std::uint32_t first = (way.x < 0 ? 1u : 0u) + (way.z < 0 ? 2u : 0u);  // of a block's parts
     Block stack[kStack];
     int size = 0;
     stack[size++] = {0, 0, levels_ - 1};
@@ -93,7 +104,7 @@ class BakedHeightField {
       const Block block = stack[--size];
       const Span span = span_of(block);
       if (span.low > span.high || !overlaps(box_of(block))) continue;
-      if (block.level > 0) push_parts(block, stack, size);
+      if (block.level > 0) push_parts(block, first, stack, size);
       else if (!traverse_cells(block, overlaps, visit)) return false;
     }
     return true;
@@ -148,6 +159,10 @@ class BakedHeightField {
   ISO_INLINE std::int32_t height(std::uint32_t i, std::uint32_t k) const {
     return heights_[static_cast<std::size_t>(k) * grid_.columns + i];
   }
+  ISO_INLINE MeshPoint point(std::uint32_t i, std::uint32_t k) const {
+    return {static_cast<std::int32_t>(i * grid_.pitch), height(i, k) * (1 << grid_.height_shift),
+            static_cast<std::int32_t>(k * grid_.pitch)};
+  }
   ISO_INLINE std::int64_t steps_of(std::int32_t height) const {
     return std::int64_t{height} * (1 << grid_.height_shift);
   }
@@ -197,8 +212,9 @@ class BakedHeightField {
     const std::int64_t pitch = grid_.pitch;
     return {{pitch * i, steps_of(low), pitch * k}, {pitch * end_i, steps_of(high), pitch * end_k}};
   }
-  ISO_INLINE void push_parts(Block block, Block* stack, int& size) const {
-    for (std::uint32_t part = 4; part-- > 0;) {
+  ISO_INLINE void push_parts(Block block, std::uint32_t first, Block* stack, int& size) const {
+    for (std::uint32_t i = 4; i-- > 0;) {
+      const std::uint32_t part = i ^ first;
       const Block below = {2 * block.x + part % 2, 2 * block.z + part / 2, block.level - 1};
       if (below.x < blocks_x(below.level) && below.z < blocks_z(below.level)) stack[size++] = below;
     }

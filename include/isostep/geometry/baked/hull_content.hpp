@@ -24,6 +24,7 @@ template <class S> struct HullContent {
   Mat3<Unit<S>> inertia = Mat3<Unit<S>>::diagonal(Vec3<Unit<S>>::zero());
 
   static std::shared_ptr<const void> make(Bytes bytes);
+  ISO_INLINE std::size_t memory() const { return sizeof *this + solid.memory(); }  // [bytes]
 };
 
 #define ISO_EXTERN(S) extern template struct HullContent<S>;

@@ -79,23 +79,37 @@ class MeshTree {
 
   /// visit(triangle) for all triangles of the leaves that overlaps(box) reaches. Ends when visit returns false.
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
+    return traverse_in_order([](std::uint32_t node, std::uint32_t* stack, int& size)
+                                 ISO_INLINE_LAMBDA { push(node, stack, size); },
+                             overlaps, visit);
+  }
+  /// The same; of a node's children first that whose box begins first along `way`, whose components are below 2^32.
+  template <class Overlaps, class Visit>
+  ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
+    return traverse_in_order([&](std::uint32_t node, std::uint32_t* stack, int& size)
+                                 ISO_INLINE_LAMBDA { push_along(way, node, stack, size); },
+                             overlaps, visit);
+  }
+
+ private:
+  friend class MeshTreeBuilder;
+
+  template <class Push, class Overlaps, class Visit>
+  ISO_INLINE bool traverse_in_order(const Push& push_children, Overlaps&& overlaps, Visit&& visit) const {
     std::uint32_t stack[kStack];  // 4 node + lane
     int size = 0;
     if (nodes_.empty() || !overlaps(bounds_)) return true;
-    push(0, stack, size);
+    push_children(0, stack, size);
     while (size > 0) {
       const std::uint32_t top = stack[--size], lane = top % 4;
       const MeshNode& node = nodes_[top / 4];
       const std::uint32_t child = node.children[lane];
       if (child == MeshNode::kNoChild || !overlaps(box_of(node, lane))) continue;
-      if (!(child & MeshNode::kLeaf)) push(child, stack, size);
+      if (!(child & MeshNode::kLeaf)) push_children(child, stack, size);
       else if (!visit_leaf(child, visit)) return false;
     }
     return true;
   }
-
- private:
-  friend class MeshTreeBuilder;
 
   /// A box as the lanes of nodes have it, all four alike.
   struct Lanes {
@@ -150,6 +164,23 @@ class MeshTree {
   }
   static ISO_INLINE void push(std::uint32_t node, std::uint32_t* stack, int& size) {
     for (std::uint32_t lane = 4; lane-- > 0;) stack[size++] = 4 * node + lane;
+  }
+  ISO_INLINE void push_along(GridVector way, std::uint32_t node, std::uint32_t* stack, int& size) const {
+    const std::int64_t along[3] = {way.x, way.y, way.z};
+    std::int64_t begins[4];
+    std::uint32_t* const top = stack + size;  // the furthest first: the last is taken first
+    for (std::uint32_t lane = 0; lane < 4; ++lane) {
+      begins[lane] = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::uint64_t* const side = along[axis] < 0 ? nodes_[node].high : nodes_[node].low;
+        const auto cells = static_cast<std::int64_t>(side[axis] >> (16 * lane) & 0x7fffu);
+        begins[lane] += (cells << shift_[axis]) * along[axis];
+      }
+      std::uint32_t place = lane;
+      for (; place > 0 && begins[top[place - 1] % 4] <= begins[lane]; --place) top[place] = top[place - 1];
+      top[place] = 4 * node + lane;
+    }
+    size += 4;
   }
 
   MeshBox bounds_ = {};

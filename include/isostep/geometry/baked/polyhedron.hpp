@@ -37,6 +37,8 @@ template <class S> class HullSolid {
   ISO_INLINE Polyhedron<S> polyhedron() const {
     return {vertices_.view(), half_edges_, faces_, normals_.view(), offsets_, directions_.view(), inner_radius_};
   }
+  /// [bytes] that it points to.
+  std::size_t memory() const;
 
  private:
   ColumnsArray<S> vertices_;

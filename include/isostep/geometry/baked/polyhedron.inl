@@ -34,4 +34,9 @@ HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull
   }
 }
 
+template <class S> std::size_t HullSolid<S>::memory() const {
+  return vertices_.memory() + normals_.memory() + directions_.memory() + half_edges_.size() * sizeof(HalfEdge) +
+         faces_.size() * sizeof faces_[0] + offsets_.size() * sizeof(S);
+}
+
 }  // namespace isostep

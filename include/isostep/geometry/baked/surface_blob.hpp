@@ -38,6 +38,7 @@ Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const doub
 template <class G> struct SurfaceContent {
   std::optional<G> surface;
   static std::shared_ptr<const void> make(Bytes bytes);
+  ISO_INLINE std::size_t memory() const { return sizeof *this + (surface ? surface->memory() : 0); }  // [bytes]
 };
 extern template struct SurfaceContent<TriangleMesh>;
 extern template struct SurfaceContent<BakedHeightField>;

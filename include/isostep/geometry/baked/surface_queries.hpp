@@ -11,10 +11,26 @@
 
 namespace isostep {
 
+/// What of a ray's way is of interest.
+template <class S> struct RayReach {
+  S max_fraction = S(1);    // [1]
+  bool back_faces = false;  // hits triangles from behind too: the normal is theirs turned round
+};
+/// Takes hits one by one, in no order.
+template <class S> struct RayTaker {
+  void* user;
+  void (*take)(void* user, const detail::LocalHit<S>& hit);
+};
+
 /// Where a ray first enters a surface from its outward side; of triangles hit at once the one with the lowest id. In
 /// the surface's frame. Watertight: the ray is put on a grid once, and on which side of an edge it passes is an exact
-/// integer that both neighbours share.
-template <class G, class S> detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray);
+/// integer that both neighbours share. The reach decides what is found, never a bit of it.
+template <class G, class S>
+detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach);
+/// Every triangle that the ray enters within its reach; where it passes an edge, those on both sides.
+template <class G, class S>
+void cast_through_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach,
+                          const RayTaker<S>& taker);
 
 /// The point of a surface that is nearest to another, of equally near triangles that with the lowest id. Surfaces have
 /// no inside: the distance is never negative, and the normal leads to `query`; where that is on the surface, outward.
@@ -24,7 +40,10 @@ template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface,
 template <class G, class S> Aabb<S> box_of_surface(const G& surface);
 
 #define ISO_SURFACE_QUERIES_OF_ONE(extern, G, S)                                                           \
-  extern template detail::LocalHit<S> cast_on_surface<G, S>(const G&, const detail::LocalRay<S>&);         \
+  extern template detail::LocalHit<S> cast_on_surface<G, S>(const G&, const detail::LocalRay<S>&,          \
+                                                            const RayReach<S>&);                           \
+  extern template void cast_through_surface<G, S>(const G&, const detail::LocalRay<S>&, const RayReach<S>&, \
+                                                  const RayTaker<S>&);                                     \
   extern template ClosestPoint<S> nearest_on_surface<G, S>(const G&, Vec3<S>);                             \
   extern template Aabb<S> box_of_surface<G, S>(const G&);
 #define ISO_SURFACE_QUERIES_OF(extern, S)              \

@@ -61,27 +61,34 @@ struct GridRay {
     }
     return true;
   }
-  /// Where the way passes a triangle from its outward side, in 2^-30 of it; negative: it does not.
-  ISO_INLINE std::int64_t enter(const BakedTriangle& triangle) const {
+  struct Entry {
+    std::int64_t at;  // in 2^-30 of the way; negative: the way does not pass it
+    bool from_behind;
+  };
+  /// Where the way passes a triangle from its outward side, or from either.
+  ISO_INLINE Entry enter(const TriangleCorners& triangle, bool back_faces) const {
+    constexpr Entry kNone = {-1, false};
     const GridVector p[3] = {on_grid(triangle.points[0]), on_grid(triangle.points[1]), on_grid(triangle.points[2])};
-    Int128 sum = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Int128 side = wide_dot(cross(p[k], p[(k + 1) % 3]), way);
-      if (side > Int128(0)) return -1;
-      sum = sum + side;
+    const Int128 sides[3] = {wide_dot(cross(p[0], p[1]), way), wide_dot(cross(p[1], p[2]), way),
+                             wide_dot(cross(p[2], p[0]), way)};
+    const Int128 sum = sides[0] + sides[1] + sides[2];
+    const bool behind = sum > Int128(0);
+    if (sum == Int128(0) || (behind && !back_faces)) return kNone;
+    for (const Int128& side : sides) {
+      if (behind ? side < Int128(0) : side > Int128(0)) return kNone;
     }
-    if (sum == Int128(0)) return -1;
     const GridVector e = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
                      f = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
     const Int128 height = wide_dot(cross(e, f), p[0]);
-    if (height > Int128(0) || height < sum) return -1;
-    UInt128Parts n = parts(-height), d = parts(-sum);
+    const Int128 fall = behind ? sum : -sum, start = behind ? height : -height;
+    if (start < Int128(0) || start > fall) return kNone;
+    const UInt128Parts n = parts(start), d = parts(fall);
     const int right = d.high == 0 ? 0 : static_cast<int>(std::bit_width(d.high));
     const auto shifted = [right](UInt128Parts v) ISO_INLINE_LAMBDA {
       return right == 0 ? v.low : (v.low >> right) | (v.high << (64 - right));
     };
     const std::uint64_t divisor = shifted(d), numerator = shifted(n);
-    return static_cast<std::int64_t>(divide({numerator >> 34, numerator << 30}, divisor).quotient);
+    return {static_cast<std::int64_t>(divide({numerator >> 34, numerator << 30}, divisor).quotient), behind};
   }
 };
 
@@ -133,26 +140,85 @@ template <class G, class S> Aabb<S> box_of_surface(const G& surface) {
   return result;
 }
 
-template <class G, class S> detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray) {
-  const Aabb<S> box = box_of_surface<G, S>(surface);
-  const S slack = detail::gap_noise(max(max_abs(box.low), max_abs(box.high)) + max_abs(ray.origin));
-  S entry, exit;
-  if (!detail::clip_ray(ray, grow(box, slack + from_lattice<S>(1, surface.exponent())), entry, exit))
-    return detail::no_hit<S>();
-  const detail::GridRay grid = detail::grid_ray(surface, ray, entry, exit);
-  constexpr std::int64_t kWhole = std::int64_t{1} << 30;
-  std::int64_t best = kWhole;
-  std::uint32_t triangle = kNoTriangle;
-  surface.traverse([&](const MeshBox& of) ISO_INLINE_LAMBDA { return grid.meets(of, best); },
-                   [&](std::uint32_t id) ISO_INLINE_LAMBDA {
-                     const std::int64_t at = grid.enter(surface.triangle(id));
-                     if (at >= 0 && (at < best || (at == best && id < triangle))) best = at, triangle = id;
-                     return true;
-                   });
-  if (triangle == kNoTriangle) return detail::no_hit<S>();
-  const S distance = entry + (exit - entry) * from_lattice<Unit<S>>(best, 30);
-  return {detail::LocalHit<S>::entered, min(distance / ray.length, S(1)),
-          detail::unit_of_steps<Unit<S>>(surface.triangle(triangle).normal())};
+namespace detail {
+
+/// A ray and a surface, on the grid that they share.
+template <class G, class S> class SurfaceCrossing {
+  static constexpr std::int64_t kWhole = std::int64_t{1} << 30;
+
+ public:
+  ISO_INLINE SurfaceCrossing(const G& surface, const LocalRay<S>& ray) : surface_(surface), ray_(ray) {
+    const Aabb<S> box = box_of_surface<G, S>(surface);
+    const S slack = gap_noise(max(max_abs(box.low), max_abs(box.high)) + max_abs(ray.origin));
+    meets_ = clip_ray(ray, grow(box, slack + from_lattice<S>(1, surface.exponent())), entry_, exit_);
+    if (meets_) grid_ = grid_ray(surface, ray, entry_, exit_);
+  }
+
+  ISO_INLINE LocalHit<S> first(const RayReach<S>& reach) const {
+    std::int64_t best = most_of(reach.max_fraction);
+    std::uint32_t triangle = kNoTriangle;
+    bool from_behind = false;
+    visit(reach.back_faces, best, [&](std::uint32_t id, GridRay::Entry entry) ISO_INLINE_LAMBDA {
+      if (entry.at < best || id < triangle) best = entry.at, triangle = id, from_behind = entry.from_behind;
+    });
+    return triangle == kNoTriangle ? no_hit<S>() : hit_of(triangle, {best, from_behind});
+  }
+  ISO_INLINE void all(const RayReach<S>& reach, const RayTaker<S>& taker) const {
+    const std::int64_t most = most_of(reach.max_fraction);
+    visit(reach.back_faces, most, [&](std::uint32_t id, GridRay::Entry entry) ISO_INLINE_LAMBDA {
+      const LocalHit<S> hit = hit_of(id, entry);
+      if (hit.fraction <= reach.max_fraction) taker.take(taker.user, hit);
+    });
+  }
+
+ private:
+  /// Those entered by `most`, which may become less on the way; the nearest first, as a rule.
+  template <class Visit> ISO_INLINE void visit(bool back_faces, const std::int64_t& most, const Visit& found) const {
+    if (!meets_ || most < 0) return;
+    surface_.traverse(
+        grid_.way, [&](const MeshBox& box) ISO_INLINE_LAMBDA { return grid_.meets(box, most); },
+        [&](std::uint32_t id) ISO_INLINE_LAMBDA {
+          const GridRay::Entry entry = grid_.enter(surface_.corners(id), back_faces);
+          if (entry.at >= 0 && entry.at <= most) found(id, entry);
+          return true;
+        });
+  }
+  ISO_INLINE S fraction_of(std::int64_t at) const {
+    return min((entry_ + (exit_ - entry_) * from_lattice<Unit<S>>(at, 30)) / ray_.length, S(1));
+  }
+  /// No less than any place whose fraction is not more: fractions ascend with places, so a guess needs one check.
+  ISO_INLINE std::int64_t most_of(S max_fraction) const {
+    if (!meets_ || !(max_fraction < S(1)) || !(ray_.length > S(0))) return kWhole;
+    if (fraction_of(0) > max_fraction) return -1;
+    const S slack = gap_noise(ray_.length) + resolution<S>() * ray_.length;
+    const S part = max_fraction * ray_.length + slack - entry_, whole = exit_ - entry_;
+    if (!(part < whole) || !(part > S(0))) return kWhole;
+    const std::int64_t guess = min(floor_scaled(divide_to<Unit<S>>(part, whole), 30) + 1, kWhole);
+    return fraction_of(guess) > max_fraction ? guess : kWhole;
+  }
+  ISO_INLINE LocalHit<S> hit_of(std::uint32_t id, GridRay::Entry entry) const {
+    const BakedTriangle baked = surface_.triangle(id);
+    const Vec3<Unit<S>> normal = unit_of_steps<Unit<S>>(baked.normal());
+    return {LocalHit<S>::entered, fraction_of(entry.at), entry.from_behind ? -normal : normal, id, baked.material};
+  }
+
+  const G& surface_;
+  const LocalRay<S>& ray_;
+  S entry_, exit_;  // [m] of the stretch inside the surface's box
+  bool meets_;
+  GridRay grid_;
+};
+
+}  // namespace detail
+
+template <class G, class S>
+detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach) {
+  return detail::SurfaceCrossing<G, S>(surface, ray).first(reach);
+}
+template <class G, class S>
+void cast_through_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach,
+                          const RayTaker<S>& taker) {
+  detail::SurfaceCrossing<G, S>(surface, ray).all(reach, taker);
 }
 
 template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface, Vec3<S> query) {

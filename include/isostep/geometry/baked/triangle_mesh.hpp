@@ -74,6 +74,10 @@ class TriangleMesh {
   ISO_INLINE MeshEdge edge(std::uint32_t triangle, int k) const { return edges_[triangle].edges[k]; }
   ISO_INLINE std::uint32_t neighbour(std::uint32_t triangle, int k) const { return edge(triangle, k).triangle(); }
   ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangles_.size(); }
+  ISO_INLINE TriangleCorners corners(std::uint32_t id) const {
+    const std::uint32_t(&of)[3] = triangles_[id].vertices;
+    return {{points_[of[0]], points_[of[1]], points_[of[2]]}};
+  }
   BakedTriangle triangle(std::uint32_t id) const;
 
   /// See TriangleGeometry.
@@ -83,6 +87,10 @@ class TriangleMesh {
   }
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
     return tree_.traverse(overlaps, visit);
+  }
+  template <class Overlaps, class Visit>
+  ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
+    return tree_.traverse(way, overlaps, visit);
   }
 
   /// [bytes] Of this object and all it holds.

@@ -88,7 +88,7 @@ template <class S, ShapeType Type, class G> struct SurfaceShape {
   ISO_INLINE Vec3<Unit<S>> relative_inertia(S) const { return Vec3<Unit<S>>::zero(); }
 
   ISO_INLINE detail::LocalHit<S> cast(const Transform<S>& t, Vec3<S> origin, Vec3<S> translation) const {
-    return cast_on_surface(surface(), detail::LocalRay<S>::of(t, origin, translation));
+    return cast_on_surface(surface(), detail::LocalRay<S>::of(t, origin, translation), RayReach<S>{});
   }
   ISO_INLINE ClosestPoint<S> closest(const Transform<S>& t, Vec3<S> query) const {
     const ClosestPoint<S> nearest = nearest_on_surface(surface(), to_local(t, query));

@@ -1,0 +1,64 @@
+// Solids that are cast along a line against a stored shape of any type.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/collision/query/shape_cast.hpp"
+#include "isostep/geometry/surfaces.hpp"
+
+namespace isostep {
+
+/// A solid, its place at the start, and its way.
+template <class S> struct SolidCast {
+  ConvexCore<S> core;     // in the solid's frame
+  Transform<S> start;     // [m] from there to the world
+  CastMotion<S> motion;
+  bool back_faces;        // meets triangles from behind too
+  /// Passes what it overlaps by more than motion.touch at the start; of a surface, every triangle that it touches then.
+  bool skip_inside;
+};
+
+template <class S> struct SolidHit {
+  Unit<S> fraction;        // [1] of the translation
+  Vec3<Unit<S>> normal;    // [1] of the shape's surface, world frame, against the solid
+  Vec3<S> point;           // [m] of the shape's surface, world frame
+  bool inside;             // they overlap at the start by more than `touch`
+  std::uint8_t material;   // of the triangle; 0 where the shape has none
+  std::uint32_t triangle;  // of a mesh or height field; else 0
+};
+/// Takes hits one by one, in no order.
+template <class S> struct SolidHitTaker {
+  void* user;
+  void (*take)(void* user, const SolidHit<S>& hit);
+};
+
+/// The first fraction at which the solid touches the shape: cast_convex for every shape of the list. `hit` is written
+/// only when the result is true; of triangles hit at once the lowest is reported.
+/// Half-spaces: their plane, in one step instead of a search.
+/// Triangles:   are hit on the side that the solid moves against, which must be the outward one or `back_faces` asked
+///              for. One that the solid overlaps from the start is hit if the mean of the solid's vertices is on that
+///              side of it; the normal is the triangle's. What touches a triangle's plane at the start and moves along
+///              or away misses that triangle: nothing catches on the edges of a flat floor.
+/// Error:       that of cast_convex. Limits: its own, and surfaces within Limits<S>::extent().
+template <class S>
+bool cast_solid(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform, SolidHit<S>& hit);
+/// All of them: every triangle that it would hit if that were alone; one of another shape.
+template <class S>
+void cast_solid_all(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform,
+                    const SolidHitTaker<S>& taker);
+
+namespace detail {
+/// [m] By how much a cast may be looked for beyond a box, more than what passes a shape that near can hit.
+template <class S> ISO_INLINE S cast_margin(S farthest) { return gap_noise(farthest) * S(8); }
+}  // namespace detail
+
+#define ISO_SOLID_CAST_OF(extern, S)                                                                            \
+  extern template bool cast_solid<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&, SolidHit<S>&);     \
+  extern template void cast_solid_all<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&,                \
+                                         const SolidHitTaker<S>&);
+#define ISO_EXTERN(S) ISO_SOLID_CAST_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,75 @@
+// Bodies of solid_cast.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/shape_core.hpp"
+#include "isostep/collision/query/plane_cast.hpp"
+#include "isostep/collision/query/solid_cast.hpp"
+#include "isostep/collision/query/surface_cast.hpp"
+
+namespace isostep {
+namespace detail {
+
+template <class S> ISO_INLINE SolidHit<S> of_whole_shape(const CastHit<S>& hit) {
+  return {hit.fraction, hit.normal, hit.point, hit.inside, 0, 0};
+}
+
+/// Against what is no surface: a solid, or a half-space.
+template <class S>
+bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Transform<S>& t, CastHit<S>& hit) {
+  return visit_shape(shape, [&](const auto& visited) ISO_INLINE_LAMBDA {
+    using Shape = std::remove_cvref_t<decltype(visited)>;
+    if constexpr (std::same_as<Shape, HalfSpace<S>>) {
+      return cast_plane(cast.core, cast.start, visited.normal, visited.offset, t, cast.motion, hit);
+    } else if constexpr (kIsSolid<Shape>) {
+      const ShapeCore<S> other(visited, S(0));
+      return cast_convex(cast.core, cast.start, other.core(), t, cast.motion, hit);
+    } else {
+      return false;
+    }
+  });
+}
+
+}  // namespace detail
+
+template <class S>
+bool cast_solid(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform, SolidHit<S>& hit) {
+  using namespace detail;
+  if (!is_surface(shape.primitive.type)) {
+    CastHit<S> found;
+    if (!cast_whole(cast, shape, transform, found) || (found.inside && cast.skip_inside)) return false;
+    hit = of_whole_shape(found);
+    return hit.fraction <= cast.motion.latest;
+  }
+  bool any = false;
+  visit_surface(shape, [&](const auto& surface) ISO_INLINE_LAMBDA {
+    SurfaceCast<S, std::remove_cvref_t<decltype(surface)>>(cast, surface, transform)
+        .run([&](const SolidHit<S>& found) ISO_INLINE_LAMBDA {
+          const bool sooner = !any || found.fraction < hit.fraction ||
+                              (found.fraction == hit.fraction && found.triangle < hit.triangle);
+          if (sooner && found.fraction <= cast.motion.latest) hit = found, any = true;
+          return any ? hit.fraction : cast.motion.latest;
+        });
+  });
+  return any;
+}
+
+template <class S>
+void cast_solid_all(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform,
+                    const SolidHitTaker<S>& taker) {
+  using namespace detail;
+  if (!is_surface(shape.primitive.type)) {
+    SolidHit<S> hit;
+    if (cast_solid(cast, shape, transform, hit)) taker.take(taker.user, hit);
+    return;
+  }
+  visit_surface(shape, [&](const auto& surface) ISO_INLINE_LAMBDA {
+    SurfaceCast<S, std::remove_cvref_t<decltype(surface)>>(cast, surface, transform)
+        .run([&](const SolidHit<S>& found) ISO_INLINE_LAMBDA {
+          if (found.fraction <= cast.motion.latest) taker.take(taker.user, found);
+          return cast.motion.latest;
+        });
+  });
+}
+
+}  // namespace isostep

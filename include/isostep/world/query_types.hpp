@@ -1,0 +1,98 @@
+// What queries of worlds are given and return.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/id.hpp"
+#include "isostep/geometry/primitive.hpp"
+#include "isostep/math/transform.hpp"
+
+namespace isostep {
+
+/// What a ray or cast says of what it is inside of from the start. A mesh or height field has no inside: a ray starts
+/// outside of it, a cast inside of triangles that it overlaps.
+enum class StartInside : std::uint8_t {
+  report,  // a hit at fraction 0
+  ignore   // nothing, wherever it goes
+};
+/// What `all` lists one hit of, the first.
+enum class HitPer : std::uint8_t {
+  body,
+  child,    // of a body's shape
+  triangle  // of a mesh or height field; of other children as `child`
+};
+
+/// A query sees bodies whose category meets the mask, sensors only when asked, and neither the one to be ignored nor
+/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody.
+struct QueryFilter {
+  std::uint32_t mask = 0xffffffffu;
+  bool sensors = false;
+  BodyId ignore = {};
+  std::uint32_t group = 0;  // bodies of this Filter::group are not seen; 0: none
+  bool back_faces = false;  // rays and casts hit triangles from behind too
+  StartInside start_inside = StartInside::report;
+  HitPer per = HitPer::body;
+};
+
+/// Hits are ordered by fraction, of equal fractions by the body's slot, child, triangle.
+template <class S, class Fraction> struct QueryHit {
+  BodyId body;             // null: nothing was hit
+  std::uint32_t child;     // of the body's shape
+  std::uint32_t triangle;  // of a mesh or height field; else 0
+  Vec3<S> point;           // [m] of the surface, world
+  Vec3<Unit<S>> normal;    // [1] of the surface, against the ray or the shape that is cast
+  Fraction fraction;       // [1] of the translation
+  std::uint8_t material;   // of the triangle; 0 where there is none
+  bool inside;             // from the start: the normal is the way back of a ray, the shortest way out of a shape
+};
+/// What a ray met.
+template <class S> using RayCastHit = QueryHit<S, S>;
+/// What a shape that was cast met, rounded down: at the fraction the two do not overlap.
+template <class S> using ShapeCastHit = QueryHit<S, Unit<S>>;
+
+/// What a shape overlaps. In order of the slot, child, triangle.
+struct OverlapHit {
+  BodyId body;
+  std::uint32_t child;     // of the body's shape
+  std::uint32_t triangle;  // the lowest, of a mesh or height field; else 0
+  std::uint8_t material;   // of the triangle; 0 where there is none
+
+  friend ISO_INLINE bool operator==(const OverlapHit& a, const OverlapHit& b) {
+    return a.body == b.body && a.child == b.child && a.triangle == b.triangle && a.material == b.material;
+  }
+};
+
+/// What is nearest to a point.
+template <class S> struct ClosestBody {
+  BodyId body;
+  Vec3<S> point;         // [m] on its surface
+  Vec3<Unit<S>> normal;  // [1] outward
+  S distance;            // [m] negative: inside
+};
+
+/// A convex shape to ask with: one of the world, of a single part, or a primitive without a blob.
+template <class S> struct QueryShape {
+  bool of_world;
+  ShapeId id = {};             // where it is of the world
+  Primitive<S> primitive = {};  // else
+
+  ISO_INLINE QueryShape(ShapeId shape) : of_world(true), id(shape) {}
+  ISO_INLINE QueryShape(const Primitive<S>& shape) : of_world(false), primitive(shape) {}
+};
+
+/// One of many rays.
+template <class S> struct RayCast {
+  Vec3<S> origin;       // [m] world
+  Vec3<S> translation;  // [m]
+  QueryFilter filter = {};
+};
+/// One of many casts.
+template <class S> struct ShapeCast {
+  QueryShape<S> shape;
+  Pose<S> pose;         // [m] of the shape's frame at the start, world
+  Vec3<S> translation;  // [m]
+  QueryFilter filter = {};
+};
+
+}  // namespace isostep
