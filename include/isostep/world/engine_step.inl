@@ -38,7 +38,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_manifolds);
   const bool watched = observer.after != nullptr || journal_.is_tracing();
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
-  finisher_.finish(render_poses_.start(), report_);
+  finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
