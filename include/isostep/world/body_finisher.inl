@@ -3,13 +3,15 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/step_context.hpp"
+#include "isostep/math/shortened.hpp"
 #include "isostep/world/body_finisher.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/fat_box.inl"
 
 namespace isostep {
 
-template <class S> void BodyFinisher<S>::finish(std::span<const Pose<S>> start, StepReport& report) {
+template <class S>
+void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut, StepReport& report) {
   const Settings<S>& settings = state_.settings;
   const Velocity<S> angular_limit =
       angular_speed_limit<S>(integration_rate(settings.solver, settings.hz, settings.substeps));
@@ -17,7 +19,8 @@ template <class S> void BodyFinisher<S>::finish(std::span<const Pose<S>> start, 
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
     stop_if_not_finite(state, start[i], report);
-    clamp_speed(state, angular_limit, report);
+    const bool too_fast = clamp_speed(state, angular_limit);
+    report.clamped_speed += too_fast || (!cut.empty() && cut[i] != 0);
     clamp_position(state, report);
     detail::renew_fat_box(map_, state, body, false);
     proxies_.place(state, body, true);
@@ -39,35 +42,18 @@ ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const P
   ++report.stopped;
 }
 
-namespace detail {
-/// Most are not half as long along any axis, and need no square root.
-template <class V> bool is_longer(Vec3<V> v, V limit) { return limit * V(0.5) < max_abs(v) && limit < length(v); }
-/// To `limit`, or to 2^-12 less where rounding leads beyond.
-template <class V> Vec3<V> shortened(Vec3<V> v, V limit) {
-  if (!is_longer(v, limit)) return v;
-  const auto way = direction_of(v.x, v.y, v.z);
-  const auto along = [&](V length) {
-    const auto part = [&](auto x) { return round_to<V>(product(length, x)); };
-    return Vec3<V>{part(way.x), part(way.y), part(way.z)};
-  };
-  const Vec3<V> cut = along(limit);
-  return is_longer(cut, limit) ? along(limit - limit * V(0x1p-12)) : cut;
-}
-}  // namespace detail
-
-template <class S>
-ISO_INLINE void BodyFinisher<S>::clamp_speed(BodyState<S>& state, Velocity<S> angular_limit, StepReport& report) {
+template <class S> ISO_INLINE bool BodyFinisher<S>::clamp_speed(BodyState<S>& state, Velocity<S> angular_limit) {
   using V = Velocity<S>;
   const V speed = convert<V>(Limits<S>::speed());
   const bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, state.fat);
   if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_limit) ||
         rotates_too_fast))
-    return;
+    return false;
   const S most = rotates_too_fast ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low)
                                   : Limits<S>::angular_speed();
   state.velocity = detail::shortened(state.velocity, speed);
   state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_limit, convert<V>(most)));
-  ++report.clamped_speed;
+  return true;
 }
 
 /// A body at the edge of the world does not move on.

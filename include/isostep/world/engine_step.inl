@@ -38,7 +38,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_manifolds);
   const bool watched = observer.after != nullptr || journal_.is_tracing();
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
-  finisher_.finish(render_poses_.start(), report_);
+  finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
   continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs());
   after(Stage::continuous);

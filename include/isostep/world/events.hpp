@@ -68,7 +68,7 @@ struct UntoldEvents {
 
 /// What a step had to mend. Identical on every peer.
 struct StepReport {
-  std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>
+  std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>, or whose turn to a radian a sub-step
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once
   std::uint32_t clamped_position = 0;  // bodies held at the edge of the world
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite

@@ -32,6 +32,8 @@ template <class S> class StepSolver {
   }
   /// [m/s] Parallel to the contacts, of the whole step.
   ISO_INLINE std::span<const Velocity<S>> impulses() const { return impulses_; }
+  /// Parallel to the awake bodies: 1 for what turned faster than a step of integration bears.
+  ISO_INLINE std::span<const std::uint8_t> cut() const { return cut_; }
 
   template <class Visit> void visit_forces(const Visit& visit) { visit("accelerations", accelerations_); }
   template <class Visit> void visit_impulses(const Visit& visit) { visit("step_impulses", impulses_); }
@@ -51,6 +53,7 @@ template <class S> class StepSolver {
   std::vector<Acceleration<S>> accelerations_;  // by awake body, or empty
   std::vector<JointEnds<S>> joint_ends_;
   std::vector<Velocity<S>> impulses_;
+  std::vector<std::uint8_t> cut_;
 };
 
 #define ISO_EXTERN(S) extern template class StepSolver<S>;

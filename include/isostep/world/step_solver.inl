@@ -30,6 +30,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
     joint_ends_[i] = {end_at(joint.body_a), end_at(joint.body_b)};
   }
   impulses_.resize(state_.contacts.size());
+  cut_.assign(state_.awake.states.size(), 0);
   return {state_.awake.states,
           state_.awake.properties,
           accelerations_,
@@ -46,7 +47,8 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           tools.runner,
           tools.contact_kernels,
           tools.tree_kernels,
-          carried};
+          carried,
+          cut_};
 }
 
 }  // namespace isostep

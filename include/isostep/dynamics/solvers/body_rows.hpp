@@ -21,7 +21,18 @@ template <class S> class BodyRows {
 
   // Bodies first..end-1, by 1 / rate seconds.
   void integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
-  void integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+  /// Whether contacts are to follow any of them.
+  bool integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+
+  /// Whether contacts follow the row's body, for it turns fast: contact_follow.hpp; any at all as the step began.
+  ISO_INLINE bool is_followed(const StepContext<S>& context, std::uint32_t row) const {
+    const Velocity<S> turns = max_abs(rows_.velocity[row].angular);
+    return row != 0 && angular_speed_to_renew<S>(context.hz, true) < turns &&
+           is_uneven(context.properties[row - 1], context.hz, turns);
+  }
+  ISO_INLINE bool began_with_followed() const { return began_with_followed_; }
+  /// The row's inertia about the world's axes becomes that of now.
+  void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
   /// Velocities back into context.states, after integration at that rate.
   void store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const;
@@ -40,9 +51,15 @@ template <class S> class BodyRows {
     bool solid;
   };
 
+  static bool is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed);
+  template <bool Special>
+  void move(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+  bool limit_turn(const StepContext<S>& context, std::int32_t rate, std::size_t body);
+
   SolverBodies<S> rows_;
   std::vector<Vec3<S>> start_;  // [m] centres when the step began
   std::vector<Gyro> gyro_;      // where the gyroscopic term acts
+  bool began_with_followed_ = false;
 };
 
 #define ISO_EXTERN_BODY_ROWS(S) extern template class BodyRows<S>;

@@ -140,6 +140,8 @@ template <class S> class DirectSolver {
 
   // direct.inl
   void place_rows(const StepContext<S>& context, Island& island);
+  void follow(const StepContext<S>& context, Island& island);
+  void take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k);
   void solve(const StepContext<S>& context, Island& island, Pass pass);
   void scale_right_sides(Island& island);
   void apply(const Island& island);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/solvers/contact_follow.hpp"
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/direct_contacts.inl"
 #include "isostep/dynamics/solvers/direct_islands.inl"
@@ -44,6 +45,55 @@ template <class S> void DirectSolver<S>::place_rows(const StepContext<S>& contex
   }
   for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(context, island, k);
   island.system.assemble();
+}
+
+/// As contact_follow.hpp has it: what the answers are without stays what the bodies have, less what they give now.
+/// What joints hold follows as the next sub-step begins.
+template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, Island& island) {
+  bool any = false;
+  for (const std::uint32_t row : island.bodies) {
+    if (!bodies_.is_followed(context, row)) continue;
+    any = true;
+    bodies_.renew_inertia(context, row);
+    if (!island.joints.empty()) continue;
+    find_root(row, bodies_.rows().mass[row].kappa);
+    free_velocity_[row].angular = bodies_.rows().velocity[row].angular;
+  }
+  if (!any || !island.joints.empty()) return;
+  const std::vector<SolverMass<S>>& mass = bodies_.rows().mass;
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) {
+    const std::uint32_t c = island.contacts[k];
+    const ContactGeometry<S>& g = context.geometry[c];
+    const auto points = static_cast<std::int32_t>(context.contacts[c].count);
+    FollowedContact<S>(memory_[c].bytes, 1, points, rolls(context, c)).follow(mass[g.row_a].kappa, mass[g.row_b].kappa);
+    take_back_turns(context, island, k);
+    place_contact(context, island, k);
+  }
+  island.system.assemble();
+}
+
+/// Of a contact's answers, out of the free velocities of bodies that it follows.
+template <class S>
+void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k) {
+  const std::uint32_t c = island.contacts[k];
+  const ContactGeometry<S>& g = context.geometry[c];
+  const DirectPatch<N>& patch = island.system.patches()[k];
+  const bool of_a = bodies_.is_followed(context, g.row_a), of_b = bodies_.is_followed(context, g.row_b);
+  const auto take = [&](std::uint32_t r, const AngularRow<S, 1>& row) {
+    const V impulse = impulse_of(island, r);
+    const auto turn = [&](const S(&response)[3][1]) {
+      return Vec3<V>{scaled(response[0][0], impulse), scaled(response[1][0], impulse), scaled(response[2][0], impulse)};
+    };
+    if (of_a) free_velocity_[g.row_a].angular += turn(row.response_a);
+    if (of_b) free_velocity_[g.row_b].angular -= turn(row.response_b);
+  };
+  const Block& block = block_of(context, c);
+  for (std::uint32_t t = 0; t < 2; ++t) take(patch.first + t, block.tangents[t].row);
+  if (patch.points > 1) take(patch.first + 2, block.twist);
+  for (std::uint32_t p = 0; p < patch.points; ++p) take(patch.normal + p, block.normals[p].row);
+  if (patch.rolling == DirectPatch<N>::kNoRolling) return;
+  const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);
+  for (std::uint32_t r = 0; r < 2; ++r) take(patch.rolling + r, rolling.rows[r]);
 }
 
 /// A common exponent, and room for answers that are larger.
@@ -149,9 +199,10 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
       place_rows(context, islands_[i]);
       solve(context, islands_[i], Pass::biased);
     }
-    bodies_.integrate_positions(context, rate_, 0, count);
+    const bool any_followed = bodies_.integrate_positions(context, rate_, 0, count);
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       Island& island = islands_[i];
+      if (any_followed) follow(context, island);
       solve(context, island, Pass::relaxed);
       for (std::size_t k = 0; k < island.joints.size(); ++k) {
         keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);

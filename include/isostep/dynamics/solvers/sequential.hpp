@@ -69,7 +69,8 @@ template <class S> class Sequential {
     solve_joints,
     solve,
     integrate_positions,
-    carry,
+    begin_contacts,
+    follow,
     relax_joints,
     relax,
     store_joints,
@@ -100,6 +101,9 @@ template <class S> class Sequential {
   void store_slice(const StepContext<S>& context, const PassPlan::Slice& slice);
   void find_carried(const StepContext<S>& context);
   void carry(const StepContext<S>& context);
+  template <class Act> void each_followed(const StepContext<S>& context, const Act& act);
+  void forget_impulses(const StepContext<S>& context);
+  void follow(const StepContext<S>& context);
 
   // sequential_stages.inl
   void run(const StepContext<S>& context);
@@ -130,6 +134,7 @@ template <class S> class Sequential {
   PassPlan colours_[detail::kDepths];  // colour after colour, of contacts of this depth and beyond
   PassPlan all_;                       // every block at once, for what touches no body
   std::uint32_t body_pieces_ = 1;
+  std::vector<std::uint8_t> any_followed_;  // of each piece of bodies: whether contacts are to follow any
   std::vector<Stage> stages_;
   std::vector<std::uint32_t> pieces_;  // of each stage
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "isostep/dynamics/solvers/contact_follow.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 #include "isostep/dynamics/solvers/sequential_stages.inl"
 
@@ -112,6 +113,7 @@ template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
   const auto threads = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
   body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads);
+  any_followed_.assign(body_pieces_, bodies_.began_with_followed());
   for (PassPlan& plan : colours_) plan.begin(threads);
   all_.begin(threads);
   for (std::uint32_t i = 0; i < runs_.size(); ++i) {
@@ -186,6 +188,40 @@ template <class S> void Sequential<S>::find_carried(const StepContext<S>& contex
 template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
   for (std::size_t i = 0; i < carried_.size(); ++i)
     set_surface<S>(carried_[i].words, carried_[i].width, context.carried[i].surface(bodies_.rows()));
+}
+
+/// Bodies that turn so fast are rare: where there is one, all contacts are looked through.
+template <class S>
+template <class Act>
+void Sequential<S>::each_followed(const StepContext<S>& context, const Act& act) {
+  bool any = false;
+  for (const std::uint8_t some : any_followed_) any = any || some != 0;
+  if (!any) return;
+  for (const Run& run : runs_) {
+    const detail::Variant shape = detail::Variant::of(run.variant);
+    const auto width = static_cast<std::uint32_t>(run.kernels->width);
+    for (std::uint32_t at = 0; at < run.count; ++at) {
+      const ContactGeometry<S>& g = context.geometry[order_[run.first + at]];
+      const bool of_a = bodies_.is_followed(context, g.row_a), of_b = bodies_.is_followed(context, g.row_b);
+      if (!of_a && !of_b) continue;
+      unsigned char* words = memory_.data() + place_of(run, at / width) + (at % width) * sizeof(S);
+      act(g, of_a, of_b, FollowedContact<S>(words, width, shape.points, shape.rolling));
+    }
+  }
+}
+template <class S> void Sequential<S>::forget_impulses(const StepContext<S>& context) {
+  if (!schedule_.relaxes) return;
+  each_followed(context, [](const ContactGeometry<S>&, bool, bool, const FollowedContact<S>& contact) {
+    contact.forget_impulses();
+  });
+}
+template <class S> void Sequential<S>::follow(const StepContext<S>& context) {
+  const std::vector<SolverMass<S>>& mass = bodies_.rows().mass;
+  each_followed(context, [&](const ContactGeometry<S>& g, bool of_a, bool of_b, const FollowedContact<S>& contact) {
+    if (of_a) bodies_.renew_inertia(context, g.row_a);
+    if (of_b) bodies_.renew_inertia(context, g.row_b);
+    contact.follow(mass[g.row_a].kappa, mass[g.row_b].kappa);
+  });
 }
 
 }  // namespace isostep

@@ -51,7 +51,8 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::integrate_velocities:
     case Work::integrate_positions:
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
-    case Work::carry: return solver.carry(job.context);
+    case Work::begin_contacts: solver.carry(job.context); return solver.forget_impulses(job.context);
+    case Work::follow: return solver.follow(job.context);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -79,7 +80,9 @@ template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std:
   const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
   switch (work) {
     case Work::integrate_velocities: return bodies_.integrate_velocities(job.context, schedule_.rate, first, end);
-    case Work::integrate_positions: return bodies_.integrate_positions(job.context, schedule_.rate, first, end);
+    case Work::integrate_positions:
+      any_followed_[piece] = bodies_.integrate_positions(job.context, schedule_.rate, first, end);
+      return;
     default: return bodies_.store(job.context, schedule_.rate, first, end);
   }
 }
@@ -106,7 +109,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
     add_stage(Work::integrate_velocities, body_pieces_);
-    if (!carried_.empty()) add_stage(Work::carry, 1);
+    add_stage(Work::begin_contacts, 1);
     add_stage(Work::warm_start_joints, joints);
     add_stages(Work::warm_start, colours_[detail::kShallow]);
     for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
@@ -115,6 +118,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
     }
     if (schedule_.relaxes) add_stages(Work::solve, colours_[detail::kPressed]);
     add_stage(Work::integrate_positions, body_pieces_);
+    if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
     add_stage(Work::relax_joints, joints);
     if (!schedule_.relaxes) continue;
     add_stages(Work::relax, colours_[detail::kShallow]);

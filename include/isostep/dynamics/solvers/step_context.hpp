@@ -28,8 +28,9 @@ template <class S> struct Acceleration {
   }
 };
 
-/// No body turns by more than a radian about an axis in a step of integration [rad/s]: beyond, a turn is no longer
-/// small.
+/// No body turns by more than a radian in a step of integration [rad/s]: beyond, a turn is no longer small. What turns
+/// faster is slowed to that before it moves, and reported: to turn it less than its velocity says, or about another
+/// axis, would change its energy, of a rod by hundreds of times.
 template <class S> ISO_INLINE constexpr Velocity<S> angular_speed_limit(std::int32_t rate) {
   return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(rate)));
 }
@@ -53,6 +54,7 @@ template <class S> struct StepContext {
   const ContactKernels<S>* contact_kernels;
   const TreeKernels<S>* tree_kernels;
   std::span<const Carried<S>> carried = {};  // ascending by contact
+  std::span<std::uint8_t> cut = {};          // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.

@@ -69,6 +69,7 @@ template <class S> class WorstFirstResolver {
   void load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row);
   void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, Point& row);
   void list_neighbours();
+  void follow(const StepContext<S>& context);
   template <class Look, class Apply> void resolve(const Look& look, const Apply& apply);
   void leave_island(std::uint32_t row);
   template <class Look>
@@ -112,7 +113,8 @@ template <class S> class WorstFirstResolver {
   IslandBudgets budgets_;                  // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
   TournamentTree worst_;                   // of urgency_
-  std::uint32_t islands_left_ = 0;         // by the passes of this step, with something still to be done
+  bool any_followed_ = false;
+  std::uint32_t islands_left_ = 0;  // by the passes of this step, with something still to be done
 };
 
 #define ISO_EXTERN_WORST_FIRST_RESOLVER(S) extern template class WorstFirstResolver<S>;

@@ -117,6 +117,29 @@ void WorstFirstResolver<S>::add_rolling(const ContactGeometry<S>& g, std::uint32
   rolling_.push_back(pair);
 }
 
+/// As contact_follow.hpp has it.
+template <class S> void WorstFirstResolver<S>::follow(const StepContext<S>& context) {
+  const SolverBodies<S>& bodies = bodies_.rows();
+  for (Point& row : points_) {
+    const bool by_a = bodies_.is_followed(context, row.a), by_b = bodies_.is_followed(context, row.b);
+    if (!by_a && !by_b) continue;
+    if (by_a) bodies_.renew_inertia(context, row.a);
+    if (by_b) bodies_.renew_inertia(context, row.b);
+    const auto renew = [&](JointRow<S>& r) {
+      r = detail::weighed_row(r.linear, r.angular_a, r.angular_b, bodies.mass[row.a], bodies.mass[row.b], row.share);
+    };
+    const auto renew_pair = [&](TangentPair<S>& pair, S linear) {
+      for (JointRow<S>& r : pair.rows) renew(r);
+      detail::invert_pair(pair, linear);
+    };
+    const S linear = row.share.a + row.share.b;
+    renew(row.normal);
+    row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
+    renew_pair(row.friction, linear);
+    if (row.rolling != kNoPair) renew_pair(rolling_[row.rolling], S(0));
+  }
+}
+
 /// Only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
 template <class S> void WorstFirstResolver<S>::list_neighbours() {
   const std::size_t bodies = bodies_.rows().mass.size();
@@ -202,6 +225,7 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return joints_[held_[i - points]]; };
   islands_left_ = 0;
+  any_followed_ = bodies_.began_with_followed();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     begin_velocities(context, step);
     resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },
@@ -209,7 +233,8 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<
               if (i < points) resolve_motion(points_[i]);
               else resolve_motion(joint(i), step);
             });
-    bodies_.integrate_positions(context, rate, 0, bodies_.count());
+    any_followed_ = bodies_.integrate_positions(context, rate, 0, bodies_.count());
+    if (any_followed_) follow(context);
     begin_positions(step);
     resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
             [&](std::uint32_t i) {

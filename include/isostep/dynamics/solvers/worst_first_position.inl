@@ -60,26 +60,28 @@ Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, cons
   return detail::kProjectionTolerance<S> < most ? most : V(0);
 }
 
-/// Linear and angular parts by inverse inertia (pp. 323-328).
+/// Linear and angular parts by inverse inertia (pp. 323-328). What turns fast is only moved: its angular velocity would
+/// stay while its axes turn from under it, and that is energy.
 template <class S> void WorstFirstResolver<S>::project(const StepContext<S>& context, const Point& row) {
   const V missing = saturating_subtract(row.least_gap, gap(row));
   const V amount = saturate_to<V>(product(row.mass, missing));
-  const auto part = [&](S share, Vec3<S> angular, Vec3<S> turn, V way) {
+  const auto part = [&](std::uint32_t body, S share, Vec3<S> angular, Vec3<S> turn, V way) {
     Motion m = Motion::zero();
     V linear = saturate_to<V>(product(share, way));
     const Vec3<V> rotation = detail::pushed(Vec3<V>::zero(), turn, way, highest<V>());
-    const V turned = max_abs(rotation);
+    const V turned = max_abs(rotation),
+            most = bodies_.is_followed(context, body) ? V(0) : detail::kMostProjectedTurn<S>;
     m.angular = rotation;
-    if (detail::kMostProjectedTurn<S> < turned) {
-      const V keep = divide_to<V>(detail::kMostProjectedTurn<S>, turned);
+    if (most < turned) {
+      const V keep = divide_to<V>(most, turned);
       m.angular = {rotation.x * keep, rotation.y * keep, rotation.z * keep};
       linear = saturating_add(linear, saturate_to<V>(dot_sum(angular, rotation - m.angular)));
     }
     m.linear = detail::pushed(Vec3<V>::zero(), row.normal.linear, linear, highest<V>());
     return m;
   };
-  move(context, row.a, part(row.share.a, row.normal.angular_a, row.normal.turn_a, -amount));
-  move(context, row.b, part(row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
+  move(context, row.a, part(row.a, row.share.a, row.normal.angular_a, row.normal.turn_a, -amount));
+  move(context, row.b, part(row.b, row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
 }
 
 /// As solve_joint() has it, of positions: a limit that is passed is a row, a drive within its limits none.

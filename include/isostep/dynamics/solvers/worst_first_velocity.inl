@@ -39,9 +39,10 @@ void WorstFirstResolver<S>::begin_velocities(const StepContext<S>& context, cons
   }
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
   const V widest = divide_to<V>(S(64), step.rate);
+  const auto is_followed = [&](std::uint32_t body) { return any_followed_ && bodies_.is_followed(context, body); };
   for (Point& row : points_) {
     row.total_impulse = saturating_add(row.total_impulse, row.impulse);
-    if (row.least_speed < row.target) forget_impact(row);
+    if (row.least_speed < row.target || is_followed(row.a) || is_followed(row.b)) forget_impact(row);
     row.least_speed = -scaled(step.rate, clamp(gap(row), V(0), widest));
     row.target = row.least_speed;
     warm_start(row);
