@@ -20,8 +20,8 @@ struct Solid {
   double radius;        // [m] around the core; of a cylinder or cone its own
   Vec3<double> normal;  // [1] half-space, world
   double offset;        // [m] half-space, world: normal . p <= offset is inside
-  std::shared_ptr<const SolidHull> hull;
-  std::shared_ptr<const SolidSurface> surface;
+  std::shared_ptr<const SolidHull> hull = nullptr;
+  std::shared_ptr<const SolidSurface> surface = nullptr;
 };
 
 /// Greater than 0: the gap [m], or less than it where no axis shows all of it; less than 0: the overlap, the shortest

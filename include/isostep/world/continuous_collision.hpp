@@ -51,6 +51,10 @@ template <class S> class ContinuousCollision {
   struct Cut {
     Unit<S> fraction;  // [1]
     Pose<S> pose;      // of the centre of mass
+    // Of a part's middle, which is stopped alone.
+    Unit<S> fraction_of_middle;  // [1]
+    Vec3<S> middle, place;       // [m] in the body's frame, and in the world where it is stopped
+    Vec3<Unit<S>> normal;        // [1] where it may not go on; zero: where a kinematic body stops it
   };
   /// Where an obstacle is while a body is swept. `carrier`: where the frame is at the end, if it is a kinematic body's.
   struct Rest {
@@ -80,6 +84,7 @@ template <class S> class ContinuousCollision {
   void find_met_by_kinematic(S least);
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   void cut(const Mover& mover, bool moving);
+  void stop_middle(BodyState<S>& state, const Cut& cut) const;
   void find_obstacles(const Mover& mover, bool moving);
   void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
   void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,

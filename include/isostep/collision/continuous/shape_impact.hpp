@@ -18,16 +18,27 @@ template <class S> struct PlacedShape {
 /// at most 1 m. A surface without an inside has none.
 template <class S> S thickness(const ShapeView<S>& shape);
 
-/// The fraction of its motion, 0 ... 1, up to which `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`.
-/// Placed in the frames of the poses.
-/// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less): what
-///          does not touch that one grazes. Where it touches, the fraction is that at which all of `a` does: there the
-///          two are apart by a quarter to a half of kGraze. Where all of `a` touches from the start, it is the former.
-///          If even that does, the solid a quarter of the inner radius deep in `a` is swept, then balls in its middle
-///          of three quarters and one quarter of that radius. The last goes nowhere but away from what it touches.
+/// How far a solid gets, and its frame's pose there.
+template <class S> struct FreeWay {
+  Unit<S> fraction;      // [1] 0 ... 1; 1: all the way
+  Pose<S> pose;
+  bool is_held;          // only its middle is stopped there: it may turn
+  Vec3<S> middle;        // [m] in its frame, if it is held
+  Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
+};
+
+/// Up to where, on its motion, `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`. Placed in the frames of
+/// the poses.
+/// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
+///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
+///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
+///          What touches at the start goes as if it turned about that point, not about its centre of mass.
+///          What overlaps by as much from the start is swept as the solid a quarter of the inner radius deep in `a`. If
+///          even that does, what is swept is a ball in its middle, of three quarters or one quarter of that radius; the
+///          smaller goes nowhere but away from what it touches.
 template <class S>
-Unit<S> free_fraction(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
-                      const Pose<S>& pose_of_b);
+FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
+                    const Pose<S>& pose_of_b);
 
 namespace detail {
 template <class S> inline constexpr S kThick = S(1);           // [m]
@@ -36,8 +47,8 @@ template <class S> inline constexpr S kGraze = S(0.00390625);  // [m]
 
 #define ISO_SHAPE_IMPACT_OF(extern, S)                                                    \
   extern template S thickness<S>(const ShapeView<S>&);                                    \
-  extern template Unit<S> free_fraction<S>(const PlacedShape<S>&, const CoreMotion<S>&,   \
-                                           const PlacedShape<S>&, const Pose<S>&);
+  extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&,     \
+                                         const PlacedShape<S>&, const Pose<S>&);
 #define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -48,7 +48,7 @@ template <class S> class Passage {
   ISO_INLINE Passage(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b, const Pose<S>& pose)
       : a_(a), motion_(motion), b_(b), pose_(pose) {}
 
-  ISO_INLINE Unit<S> free_fraction() const {
+  ISO_INLINE FreeWay<S> free_way() {
     return visit_shape(a_.shape, [&](const auto& solid) ISO_INLINE_LAMBDA { return of_solid(solid); });
   }
 
@@ -59,29 +59,45 @@ template <class S> class Passage {
     S ball;   // [m] not 0: the radius of a ball in its middle
   };
 
-  template <class Shape> Unit<S> of_solid(const Shape& solid) const {
+  template <class Shape> FreeWay<S> of_solid(const Shape& solid) {
     if constexpr (kIsSolid<Shape>) {
       const S inner = solid.inner_radius(), graze = min(inner * S(0.25), kGraze<S>), target = graze * S(0.5);
-      const TimeOfImpact<S> grazing = impact(solid, {graze, S(0)}, target);
-      if (grazing.impact == Impact::none) return Unit<S>(1);
-      if (grazing.impact != Impact::at_start) {
-        const TimeOfImpact<S> whole = impact(solid, {S(0), S(0)}, target);
-        return whole.impact == Impact::at_start ? grazing.fraction : min(whole.fraction, grazing.fraction);
-      }
-      const Smaller smaller[] = {{inner * S(0.25), S(0)}, {S(0), inner * S(0.75)}};
-      for (const Smaller& by : smaller) {
-        const TimeOfImpact<S> found = impact(solid, by, target);
-        if (found.impact != Impact::at_start) return found.fraction;
-      }
-      return of_middle(solid, inner * S(0.25), target);
+      TimeOfImpact<S> whole = impact(solid, {graze, S(0)}, target);
+      if (whole.impact == Impact::none) return up_to(Unit<S>(1));
+      if (turn_about_touch(solid, graze)) whole = impact(solid, {graze, S(0)}, target);
+      if (whole.impact == Impact::at_start && graze < inner * S(0.25))
+        whole = impact(solid, {inner * S(0.25), S(0)}, target);
+      return whole.impact == Impact::at_start ? of_middle(solid, inner, target) : up_to(whole.fraction);
     }
-    return Unit<S>(1);
+    return up_to(Unit<S>(1));
+  }
+  ISO_INLINE FreeWay<S> up_to(Unit<S> fraction) const {
+    return {fraction, pose_at(motion_, fraction), false, Vec3<S>::zero(), Vec3<Unit<S>>::zero()};
+  }
+  /// What touches at the start, by half of `graze` or less apart, turns about the point there. With its middle on a
+  /// straight line a rod that tips over would dip that end into the ground, and stay where it is for ever.
+  template <class Shape> bool turn_about_touch(const Shape& solid, S graze) {
+    const TimeOfImpact<S> near = impact(solid, {graze, S(0)}, graze * S(3));
+    if (near.impact != Impact::at_start || near.normal == Vec3<Unit<S>>::zero()) return false;
+    motion_.centre = transposed_times(to_matrix(motion_.start.orientation), near.on_a - motion_.start.position);
+    return true;
   }
   /// A ball that has come as near as it may goes nowhere but away.
-  template <class Shape> Unit<S> of_middle(const Shape& solid, S ball, S target) const {
-    const TimeOfImpact<S> found = impact(solid, {S(0), ball}, target);
-    if (found.impact != Impact::at_start) return found.fraction;
-    return impact(solid, {S(0), ball}, target * S(0.5)).impact == Impact::touch ? Unit<S>(0) : Unit<S>(1);
+  template <class Shape> FreeWay<S> of_middle(const Shape& solid, S inner, S target) const {
+    TimeOfImpact<S> ball = impact(solid, {S(0), inner * S(0.75)}, target);
+    if (ball.impact == Impact::at_start) ball = impact(solid, {S(0), inner * S(0.25)}, target);
+    if (ball.impact == Impact::at_start) {
+      ball = impact(solid, {S(0), inner * S(0.25)}, target * S(0.5));
+      if (ball.impact != Impact::touch) return up_to(Unit<S>(1));
+      ball.fraction = Unit<S>(0);
+    }
+    FreeWay<S> way = up_to(ball.fraction);
+    ShapeCore<S> core(solid, a_.at, S(0));
+    core.become_ball(inner);
+    way.is_held = ball.impact != Impact::none;
+    way.middle = core.core().vertices[0];
+    way.normal = ball.normal;
+    return way;
   }
   template <class Shape> TimeOfImpact<S> impact(const Shape& solid, Smaller by, S target) const {
     ShapeCore<S> core(solid, a_.at, by.inset);
@@ -92,7 +108,7 @@ template <class S> class Passage {
   }
 
   const PlacedShape<S>& a_;
-  const CoreMotion<S>& motion_;
+  CoreMotion<S> motion_;
   const PlacedShape<S>& b_;
   const Pose<S>& pose_;
 };
@@ -105,9 +121,9 @@ template <class S> S thickness(const ShapeView<S>& shape) {
 }
 
 template <class S>
-Unit<S> free_fraction(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
-                      const Pose<S>& pose_of_b) {
-  return detail::Passage<S>(a, motion, b, pose_of_b).free_fraction();
+FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
+                    const Pose<S>& pose_of_b) {
+  return detail::Passage<S>(a, motion, b, pose_of_b).free_way();
 }
 
 }  // namespace isostep
