@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kBlobFileMagic[8] = {0x89, 'I', 'S', 'B', '\r', '\
 /// its bytes, u32; its bytes. The name covers type and bytes.
 std::vector<std::uint8_t> blob_file(const Blob& blob);
 
-/// The blob of such a file, from bytes nobody vouches for. Whether its bytes are a shape's, who adds it to a world tells.
+/// The blob of such a file, from bytes nobody vouches for. Whether they make a shape, `validate` and worlds tell.
 /// Errors: ErrorCode::invalid for what does not begin with the magic, and for a type that no shape has;
 /// ErrorCode::truncated; ErrorCode::corrupt where name and content differ, or bytes follow; ErrorCode::limit for more
 /// than kMaxBlobBytes.

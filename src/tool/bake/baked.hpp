@@ -1,4 +1,4 @@
-// Polygons into a blob: rounded to the grid, cut into triangles or wrapped into a hull, with an account of what is left out.
+// Polygons into a blob: rounded to the grid, cut into triangles or wrapped into a hull; and what was left out.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -10,8 +10,7 @@
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <sstream>
 #include <string_view>
 
@@ -29,28 +28,41 @@ std::string_view next_word(std::string_view& line) {
   line.remove_prefix(word.size());
   return word;
 }
+std::size_t take(std::string_view& word, const char* any_of, std::size_t most = std::string_view::npos) {
+  const std::size_t n = std::min({word.find_first_not_of(any_of), word.size(), most});
+  word.remove_prefix(n);
+  return n;
+}
+/// As tinyobjloader reads one to its end.
 bool is_number(std::string_view word) {
-  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  constexpr const char* kDigits = "0123456789";
+  take(word, "+-", 1);
+  std::size_t digits = take(word, kDigits);
+  if (take(word, ".", 1) > 0) digits += take(word, kDigits);
+  if (digits == 0) return false;
+  if (take(word, "eE", 1) == 0) return word.empty();
+  take(word, "+-", 1);
+  return take(word, kDigits) > 0 && word.empty();
 }
 
-/// tinyobjloader reads what is no number as 0.
-void check_numbers(std::string_view text, const std::string& path) {
+/// tinyobjloader reads what is no number as 0. How many lines of lines and points there are, which it passes over.
+std::size_t check_lines(std::string_view text, const std::string& path) {
+  std::size_t bare = 0;
   for (std::size_t line_number = 1; !text.empty(); ++line_number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    if (next_word(line) != "v") continue;
+    std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+    text.remove_prefix(line.size());
+    if (take(text, "\r", 1) + take(text, "\n", 1) == 0) text = {};
+    const std::string_view word = next_word(line);
+    if (word == "l" || word == "p") ++bare;
+    if (word != "v") continue;
     for (int i = 0; i < 3; ++i) {
-      const std::string_view word = next_word(line);
-      if (is_number(word)) continue;
-      fail(path, "line " + std::to_string(line_number) + ": expected three finite numbers after v, found \"" +
-                     std::string(word) + "\"");
+      const std::string_view number = next_word(line);
+      if (is_number(number)) continue;
+      fail(path, "line " + std::to_string(line_number) + ": expected three numbers after v, found \"" +
+                     std::string(number) + "\"");
     }
   }
+  return bare;
 }
 
 /// What tinyobjloader calls with the lines of a file.
@@ -126,8 +138,10 @@ class Lines {
 SourceMesh read_obj(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_file(path);
   const std::string text(bytes.begin(), bytes.end());
-  check_numbers(text, path);
-  return Lines(path).run(text);
+  const std::size_t bare = check_lines(text, path);
+  SourceMesh mesh = Lines(path).run(text);
+  mesh.bare += bare;
+  return mesh;
 }
 
 }  // namespace isostep::tool::bake
