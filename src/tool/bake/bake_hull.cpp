@@ -49,8 +49,9 @@ Baked bake_hull(const SourceMesh& source, const BakeOptions& options) {
   }
   const Result<BlobRef> blob = hull_blob(points, baked.exponent);
   if (!blob.ok())
-    fail(options, said(blob.error()) +
-                      (blob.error().code == ErrorCode::limit ? " (--points N takes the N that reach furthest)" : ""));
+    fail(options, said(blob.error()) + (blob.error().code == ErrorCode::limit
+                                            ? " (--points N takes the N that reach furthest; 44 always fit)"
+                                            : ""));
   baked.blob = blob.value();
   const Result<GridHull> hull = read_hull(baked.blob->bytes());
   baked.outside = outside(all, hull.value());
