@@ -26,7 +26,7 @@ PeerPart peer_part(const scenes::ScenePart& part) {
                    real(part.normal), real(part.offset),       real(part.position), real(part.orientation),
                    nullptr,           {}};
   if (part.type != ShapeType::hull) return made;
-  made.hull = scenes::hull_of_points(part.points, "peer");
+  made.hull = scenes::hull_of_part(part, "peer");
   made.points = scenes::solid_hull(*made.hull)->vertices;
   return made;
 }

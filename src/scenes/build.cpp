@@ -39,8 +39,8 @@ template <class S> struct ReadSizes {
   S size(const char* key, const Number& number) const { return read<S>(number, place + "/" + key); }
   Vec3<S> sizes(const char* key, const Vector& v) const { return read<S>(v, place + "/" + key); }
   Vec3<Unit<S>> direction(const char* key, const Vector& v) const { return read<Unit<S>>(v, place + "/" + key); }
-  std::uint32_t hull(const char* key, const std::vector<Vector>& points) const {
-    blobs.push_back(hull_of_points(points, place + "/" + key));
+  std::uint32_t hull(const ScenePart& part) const {
+    blobs.push_back(hull_of_part(part, place));
     return static_cast<std::uint32_t>(blobs.size());
   }
   std::uint32_t mesh(const ScenePart& part) const {
@@ -54,8 +54,14 @@ template <class S> struct ReadSizes {
 };
 template <class S>
 Primitive<S> primitive(const ScenePart& part, std::vector<BlobRef>& blobs, const std::string& place) {
-  return visit_shape_type(part.type,
-                          [&](auto tag) { return primitive_of(shape_of<S>(tag, part, ReadSizes<S>{place, blobs})); });
+  return visit_shape_type(part.type, [&](auto tag) {
+    return primitive_of(shape_of<S>(tag, part, ReadSizes<S>{place, blobs}));
+  });
+}
+
+[[noreturn]] void fail_part(const ScenePart& part, const std::string& place, ShapeFault fault) {
+  if (part.file.empty()) throw SceneError(place, describe(fault));
+  throw SceneError(place + "/file", part.file + ": " + describe(fault));
 }
 
 template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, const std::string& place) {
@@ -71,7 +77,7 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
                        std::string("a ") + kShapeNames[static_cast<std::size_t>(shape.type)] + " is for static bodies");
     }
     const ShapeFault fault = validate(std::span<const Child<S>>(&children.back(), 1), blobs);
-    if (fault != ShapeFault::none) throw SceneError(at, describe(fault));
+    if (fault != ShapeFault::none) fail_part(body.parts[i], at, fault);
   }
   const ShapeId shape = world.add_shape(std::span<const Child<S>>(children), blobs);
   if (!shape) {
@@ -133,6 +139,7 @@ std::string text_of(const std::vector<Number>& numbers) {
   for (const Number& number : numbers) text += text_of(number);
   return text;
 }
+std::string text_of(const std::string& file) { return ' ' + std::to_string(file.size()) + ':' + file; }
 /// Bodies of equal parts share one shape.
 std::string key_of(const SceneBody& body) {
   std::string key;

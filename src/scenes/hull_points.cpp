@@ -39,15 +39,17 @@ void add_mass(SolidHull& hull) {
 
 }  // namespace
 
-BlobRef hull_of_points(const std::vector<Vector>& points, const std::string& place) {
+BlobRef hull_of_part(const ScenePart& part, const std::string& place) {
+  if (part.blob != nullptr) return part.blob;
+  const std::vector<Vector>& points = part.points;
   std::vector<V> numbers;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::string at = place + "/" + std::to_string(i) + "/";
+    const std::string at = place + "/points/" + std::to_string(i) + "/";
     numbers.push_back({value_of<double>(points[i][0], at + "0"), value_of<double>(points[i][1], at + "1"),
                        value_of<double>(points[i][2], at + "2")});
   }
   const Result<BlobRef> hull = hull_blob(std::span<const V>(numbers));
-  if (!hull.ok()) throw SceneError(place, std::string(hull.error().message.view()));
+  if (!hull.ok()) throw SceneError(place + "/points", std::string(hull.error().message.view()));
   return hull.value();
 }
 

@@ -12,8 +12,8 @@
 
 namespace isostep::scenes {
 
-/// The hull of a part's points. Throws SceneError.
-BlobRef hull_of_points(const std::vector<Vector>& points, const std::string& place);
+/// The hull of a part's points, or of its baked file. Throws SceneError.
+BlobRef hull_of_part(const ScenePart& part, const std::string& place);
 
 /// A hull in double, from its exact faces: judges do not ask the engine that they judge.
 struct SolidHull {

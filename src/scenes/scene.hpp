@@ -11,6 +11,7 @@
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/solver_name.hpp"
+#include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/scalar/text.hpp"
 
@@ -52,6 +53,8 @@ struct ScenePart {
   Number pitch = 0;                     // [m] height field: between columns, and between rows
   std::vector<Number> heights;          // [m] height field, by rows
   std::vector<Number> materials;        // [1] mesh: of each triangle; height field: of each cell, 255 a hole; or none
+  std::string file;                     // hull, mesh, height field: a baked file in place of the numbers, or empty
+  BlobRef blob;                         // its content
   Vector position = zero_vector();      // [m] in the body's frame
   Rotation orientation = no_rotation();
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file.hpp"
 
+#include "blob_files.hpp"
 #include "object_reader.hpp"
 #include "scene_keys.hpp"
 #include "shape_keys.hpp"
@@ -13,18 +14,35 @@ std::string item(const std::string& place, const char* list, std::size_t i) {
   return place + "/" + list + "/" + std::to_string(i);
 }
 
-ScenePart read_part(const JsonNode& node, const std::string& place) {
-  ObjectReader reader(node, place);
-  ScenePart part;
-  part.type = static_cast<ShapeType>(reader.choice("type", kShapeNames));
+void read_sizes(ObjectReader& reader, ScenePart& part) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if (rule != SizeRule::optional) reader.require(key);
-    if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
+    if constexpr (std::is_same_v<decltype(size), std::string&>) reader.text(key, size);
+    else if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
     else if constexpr (std::is_same_v<decltype(size), std::vector<Number>&>) reader.list(key, size);
     else if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
     else if (rule == SizeRule::positive) reader.positive(key, size);
     else reader.number(key, size);
   });
+}
+/// In place of the sizes of a part.
+void read_baked(ObjectReader& reader, ScenePart& part, BlobFiles& files) {
+  visit_sizes(part, [&](const char* key, const auto&, SizeRule) {
+    if (reader.has(key)) throw SceneError(reader.place_of(key), "what \"file\" holds has no other sizes");
+  });
+  reader.text("file", part.file);
+  bool printable = !part.file.empty();
+  for (const char c : part.file) printable = printable && static_cast<unsigned char>(c) >= 0x20;
+  if (!printable) throw SceneError(reader.place_of("file"), "expected the name of a file");
+  part.blob = files.read(part.file, part.type, reader.place_of("file"));
+}
+
+ScenePart read_part(const JsonNode& node, const std::string& place, BlobFiles& files) {
+  ObjectReader reader(node, place);
+  ScenePart part;
+  part.type = static_cast<ShapeType>(reader.choice("type", kShapeNames));
+  if (has_blob(part.type) && reader.has("file")) read_baked(reader, part, files);
+  else read_sizes(reader, part);
   reader.vector("position", part.position);
   reader.rotation("orientation", part.orientation);
   reader.finish();
@@ -39,7 +57,7 @@ void read_flags(ObjectReader& reader, std::span<const FlagKey> keys, std::uint32
   }
 }
 
-SceneBody read_body(const JsonNode& node, const std::string& place) {
+SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& files) {
   ObjectReader reader(node, place);
   SceneBody body;
   body.type = static_cast<BodyType>(reader.choice("type", kBodyNames));
@@ -67,7 +85,8 @@ SceneBody read_body(const JsonNode& node, const std::string& place) {
   reader.flag("sensor", body.sensor);
   reader.flag("bullet", body.bullet);
   const auto parts = reader.array("shapes");
-  for (std::size_t i = 0; i < parts.size(); ++i) body.parts.push_back(read_part(parts[i], item(place, "shapes", i)));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    body.parts.push_back(read_part(parts[i], item(place, "shapes", i), files));
   if (parts.empty()) throw SceneError(place, "a body needs \"shapes\", one or more");
   reader.finish();
   return body;
@@ -116,7 +135,7 @@ int read_count(ObjectReader& reader, const char* key, int least, int most, int o
 
 }  // namespace
 
-Scene read_scene(std::string_view json) {
+Scene read_scene(std::string_view json, const std::string& folder) {
   const JsonNode root = parse_json(json);
   ObjectReader reader(root, "");
   Scene scene;
@@ -130,7 +149,9 @@ Scene read_scene(std::string_view json) {
   if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
   reader.require("bodies");
   const auto bodies = reader.array("bodies");
-  for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(read_body(bodies[i], item("", "bodies", i)));
+  BlobFiles files(folder);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    scene.bodies.push_back(read_body(bodies[i], item("", "bodies", i), files));
   const auto joints = reader.array("joints");
   for (std::size_t i = 0; i < joints.size(); ++i) {
     scene.joints.push_back(read_joint(joints[i], item("", "joints", i), scene.bodies.size()));

@@ -44,6 +44,7 @@ class ObjectWriter {
   template <class T> void member(const char* key, const T& value, const T& otherwise) {
     if (!(value == otherwise)) member(key, value);
   }
+  void member(const char* key, const std::string& value) { raw(key, quoted(value)); }
   std::string text() const { return "{" + text_ + "}"; }
 
  private:

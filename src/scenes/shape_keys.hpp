@@ -48,13 +48,15 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<Cone>, Part& part
   visit("radius", part.radius, SizeRule::positive);
   visit("half_height", part.half_height, SizeRule::positive);
 }
+/// A part of a baked file has no sizes but its name.
 template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
+  if (!part.file.empty()) return visit("file", part.file, SizeRule::required);
   visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
 }
 
 // shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>,
-// read.hull(key, vectors) the number that a Primitive has of the blob of their hull, read.mesh(part) and
-// read.height_field(part) those of the surfaces.
+// read.hull(part) the number that a Primitive has of the blob of a hull, read.mesh(part) and read.height_field(part)
+// those of the surfaces.
 
 template <class S, class Read> Sphere<S> shape_of(ShapeClass<Sphere>, const ScenePart& part, const Read& read) {
   return {read.size("radius", part.radius)};
@@ -69,7 +71,7 @@ template <class S, class Read> HalfSpace<S> shape_of(ShapeClass<HalfSpace>, cons
   return {read.direction("normal", part.normal), read.size("offset", part.offset)};
 }
 template <class S, class Read> Hull<S> shape_of(ShapeClass<Hull>, const ScenePart& part, const Read& read) {
-  return {read.hull("points", part.points)};
+  return {read.hull(part)};
 }
 template <class S, class Read> Mesh<S> shape_of(ShapeClass<Mesh>, const ScenePart& part, const Read& read) {
   return {read.mesh(part)};

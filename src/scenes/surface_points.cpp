@@ -51,6 +51,7 @@ int cell_of(double metres) { return static_cast<int>(std::floor(metres)); }
 }  // namespace
 
 BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
+  if (part.blob != nullptr) return part.blob;
   std::vector<V> points;
   for (std::size_t i = 0; i < part.vertices.size(); ++i) {
     const std::string at = place + "/vertices/" + std::to_string(i) + "/";
@@ -70,6 +71,7 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
 }
 
 BlobRef height_field_of_part(const ScenePart& part, const std::string& place) {
+  if (part.blob != nullptr) return part.blob;
   const HeightSheet sheet = {count_of(part.columns, 0xffffffffu, place + "/columns"),
                              count_of(part.rows, 0xffffffffu, place + "/rows"),
                              value_of<double>(part.pitch, place + "/pitch")};

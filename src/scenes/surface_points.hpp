@@ -14,7 +14,7 @@
 
 namespace isostep::scenes {
 
-/// Throw SceneError.
+/// Of a part's numbers, or of its baked file. Throw SceneError.
 BlobRef mesh_of_part(const ScenePart& part, const std::string& place);
 BlobRef height_field_of_part(const ScenePart& part, const std::string& place);
 

@@ -4,6 +4,7 @@
 
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/particles/settings.hpp"
+#include "tool/bake/commands.hpp"
 #include "tool/common/program.hpp"
 #include "tool/common/scene_game.hpp"
 #include "tool/demo/commands.hpp"
@@ -22,6 +23,7 @@ class ToolCommands {
   explicit ToolCommands(CommandLine& line) : line_(line) {
     add_scenes();
     add_run();
+    add_bake();
     demo_ = add_demo_commands(line);
     add_diff();
     add_selftest();
@@ -74,6 +76,27 @@ class ToolCommands {
         ->needs(beside)
         ->capture_default_str();
     command->add_flag("--json", run_.json, "one JSON object");
+  }
+  void add_bake() {
+    CLI::App* command = line_.add("bake", "turn a file of polygons into a blob that scenes load",
+                                  [this] { return command_bake(bake_); });
+    command->add_option("file", bake_.file, "OBJ, glTF, or another format that assimp reads")->required();
+    CommandLine::add_path(command, "-o,--out", bake_.out, "the blob's file")->required();
+    command->add_option("--as", bake_.as, "a static surface, or a convex body")
+        ->check(CLI::IsMember(std::vector<std::string>{"mesh", "hull"}))
+        ->capture_default_str();
+    command->add_option("--object", bake_.object, "bake the faces of this object alone [all]");
+    command->add_option("--scale", bake_.scale, "metres that a unit of the file is")
+        ->check(CLI::Range(1e-9, 1e9))
+        ->capture_default_str();
+    command->add_option("--up", bake_.up, "the axis of the file that points up")
+        ->check(CLI::IsMember(std::vector<std::string>{"y", "z"}))
+        ->capture_default_str();
+    command->add_option("--exponent", bake_.exponent, "round to steps of 2^-N m [the finest that hold all]")
+        ->check(CLI::Range(0, 16));
+    command->add_option("--points", bake_.points, "of a hull, at most: those that reach furthest [all]")
+        ->check(CLI::Range(4, 128));
+    command->add_flag("--json", bake_.json, "one JSON object");
   }
   void add_diff() {
     CLI::App* command =
@@ -180,6 +203,7 @@ class ToolCommands {
   std::shared_ptr<void> demo_;
   ScenesOptions scenes_;
   RunOptions run_;
+  BakeOptions bake_;
   DiffOptions diff_;
   SelftestOptions selftest_;
   RegenerateOptions regenerate_;

@@ -43,6 +43,7 @@ const std::map<std::string, int> kFloors = {
     {"tool/common", 9},
     {"tool/page", 10},
     {"tool/run", 11},
+    {"tool/bake", 11},
     {"tool/diff", 11},
     {"tool/verify", 11},
     {"tool/match", 11},

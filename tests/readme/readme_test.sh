@@ -32,7 +32,13 @@ while IFS= read -r command; do
       eval "\"\$tool\" ${arguments%&}" >/dev/null 2>&1 &
       background="$background $!"
       ;;
-    *) eval "\"\$tool\" $arguments" >/dev/null 2>&1 || complain "'$command' exits $?" ;;
+    *)
+      eval "\"\$tool\" $arguments" >/dev/null 2>&1
+      case $?,$arguments in
+        0,* | 69,bake\ *) ;;  # 69: what reads such files was not there when the tool was built
+        *) complain "'$command' exits $?" ;;
+      esac
+      ;;
   esac
 done <<LIST
 $commands

@@ -9,7 +9,7 @@ namespace {
 
 using Id = ParticleSceneId;
 
-constexpr ParticleScene kScenes[] = {
+constexpr ParticleScene kParticleScenes[] = {
     {Id::ballistic, "ballistic", "four kinds of rounds from a pool of 16", 300},
     {Id::fireworks, "fireworks", "nine kinds of fireworks that burst into each other", 400},
     {Id::bridge, "bridge", "a load walks over a rope bridge", 1200},
@@ -32,10 +32,10 @@ constexpr ParticleScene kScenes[] = {
 
 }  // namespace
 
-std::span<const ParticleScene> particle_scenes() { return kScenes; }
+std::span<const ParticleScene> particle_scenes() { return kParticleScenes; }
 
 const ParticleScene* find_particle_scene(std::string_view name) {
-  for (const ParticleScene& scene : kScenes) {
+  for (const ParticleScene& scene : kParticleScenes) {
     if (name == scene.name) return &scene;
   }
   return nullptr;

@@ -15,7 +15,7 @@ static_assert(kShapeTypes == 9,
               "a judge knows each shape by itself: see volume_of(), centre_of(), gyration_of(), least_reach()");
 
 std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {
-  return solid_hull(*hull_of_points(part.points, "points"));
+  return solid_hull(*hull_of_part(part, "hull"));
 }
 
 double volume_of(const ScenePart& part) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_game.hpp"
 
+#include <filesystem>
+
 #include "files.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -25,7 +27,8 @@ scenes::Scene load_scene_file(const std::string& name_or_file) {
   }
   const std::vector<std::uint8_t> bytes = read_file(name_or_file);
   try {
-    return scenes::read_scene(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    return scenes::read_scene(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                              std::filesystem::path(name_or_file).parent_path().string());
   } catch (const scenes::SceneError& error) {
     fail_scene(name_or_file, error);
   }

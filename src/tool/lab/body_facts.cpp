@@ -19,7 +19,7 @@ struct ReadSizes {
   double size(const char*, const scenes::Number& number) const { return value_of(number); }
   Vec3<double> sizes(const char*, const scenes::Vector& v) const { return value_of(v); }
   Vec3<double> direction(const char*, const scenes::Vector& v) const { return value_of(v); }
-  std::uint32_t hull(const char*, const std::vector<scenes::Vector>&) const { return 1; }
+  std::uint32_t hull(const scenes::ScenePart&) const { return 1; }
   std::uint32_t mesh(const scenes::ScenePart&) const { return 1; }
   std::uint32_t height_field(const scenes::ScenePart&) const { return 1; }
 };
@@ -41,7 +41,7 @@ scenes::Solid solid_of(const scenes::ScenePart& part, const Primitive<double>& s
   if (part.type == ShapeType::mesh) solid.surface = scenes::solid_surface(*scenes::mesh_of_part(part, "mesh"));
   if (part.type == ShapeType::height_field)
     solid.surface = scenes::solid_surface(*scenes::height_field_of_part(part, "height field"));
-  if (part.type == ShapeType::hull) solid.hull = scenes::solid_hull(*scenes::hull_of_points(part.points, "points"));
+  if (part.type == ShapeType::hull) solid.hull = scenes::solid_hull(*scenes::hull_of_part(part, "hull"));
   return solid;
 }
 double volume_of(const scenes::Solid& solid, const Primitive<double>& shape) {
