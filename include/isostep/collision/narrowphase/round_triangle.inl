@@ -73,8 +73,7 @@ ISO_INLINE TriangleEdgeTouch<S> touched_edge(const SurfaceTriangle<S>& triangle,
     const Heading<S> gap = heading_of(core.at(closest.s) - side.at(closest.t));
     if (gap.length <= gap_noise(max_abs(side.centre))) continue;
     const bool between = abs(closest.t) < half;
-    const Unit<S> half_unit = Unit<S>(0.5);  // the sum of two directions need not fit
-    const bool below = between && dot(gap.direction, triangle.normal * half_unit + edge.other * half_unit) < Unit<S>(0);
+    const bool below = between && triangle.is_under_edge(k, gap.direction);
     const Vec3<Unit<S>> normal = below ? -gap.direction : gap.direction;
     const S separation = below ? -gap.length : gap.length;
     const int vertex = closest.t < S(0) ? k : (k + 1) % 3;
