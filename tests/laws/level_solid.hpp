@@ -20,9 +20,11 @@ class LevelSolid {
       for (const ScenePart& part : body.parts) {
         const Vec3<double> at = number(body.position) + number(part.position);
         if (part.type == ShapeType::mesh) {
-          for (const Triangle& t : solid_surface(*mesh_of_part(part, ""))->triangles) add(t, at);
+          const auto surface = solid_surface(*mesh_of_part(part, ""));
+          for (const Triangle& t : surface->triangles) add(t, at);
         } else {
-          for (const Triangle& t : solid_hull(*hull_of_points(part.points, ""))->triangles) add(t, at);
+          const auto hull = solid_hull(*hull_of_points(part.points, ""));
+          for (const Triangle& t : hull->triangles) add(t, at);
         }
       }
     }

@@ -71,16 +71,36 @@ template <class C> class LevelLaws : public ::testing::Test {
     }
   }
 
+  /// The same of limbs, thinner than what they move in a step: they may dip in and must come out.
+  void expect_none_stays_inside(int frame) {
+    inside_.resize(built_.bodies.size());
+    for (std::size_t i = fixed(); i < built_.bodies.size(); ++i) {
+      const V p = place(i);
+      inside_[i] = solid_.holds(p) ? inside_[i] + 1 : 0;
+      ASSERT_LT(inside_[i], 10) << "frame " << frame << ": body " << i << " at " << p.x << " " << p.y << " " << p.z;
+      ASSERT_GT(p.y, -4) << "frame " << frame << ": body " << i;
+    }
+  }
+
   Level level_;
   LevelSolid solid_;
   Scene scene_;  // the level, and who visits it
   World<S> world_;
   Built<S> built_;
+  std::vector<int> inside_;  // frames in a row
 };
 
 using Cases = ::testing::Types<Case<float, Town>, Case<double, Town>, Case<Q16_16, Town>, Case<Q32_32, Town>,
                                Case<float, Yard>, Case<double, Yard>, Case<Q16_16, Yard>, Case<Q32_32, Yard>>;
 TYPED_TEST_SUITE(LevelLaws, Cases);
+
+/// The oracle itself: under each part there is something, and nothing above it.
+TYPED_TEST(LevelLaws, are_solid_under_every_part) {
+  for (const LevelSpot& spot : this->spots({Kind::top, Kind::wall})) {
+    EXPECT_TRUE(this->solid_.holds(in(spot.at) - in(spot.outward) * 0.015625)) << spot.name;
+    EXPECT_FALSE(this->solid_.holds(in(spot.at) + in(spot.outward) * 0.015625)) << spot.name;
+  }
+}
 
 TYPED_TEST(LevelLaws, a_ray_meets_every_part_where_it_is) {
   this->start();
@@ -201,13 +221,20 @@ TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_expl
     add_ragdoll(this->scene_, {spot.at.x, spot.at.y + 1.25, spot.at.z}, 0.05 * (n++ % 7 - 3), true);
   for (std::size_t i = this->fixed(); i < this->scene_.bodies.size(); ++i) this->scene_.bodies[i].group = 1;
   this->start();
+  const std::size_t joints = this->built_.joints.size() / this->spots({Kind::top}).size();
   double energy = measure_energy(this->world_).total(), torn = 0, fastest = 0;
+  std::string where;  // the worst is
   for (int frame = 1; frame <= kFrames; ++frame) {
     this->world_.step();
-    torn = std::max(torn, largest_joint_error(this->world_));
-    if (frame % 5 != 0) continue;
-    this->expect_all_outside(frame);
+    for (std::size_t i = 0; i < this->built_.joints.size(); ++i) {
+      const double error = to_double(this->world_.joint_error(this->built_.joints[i]));
+      if (error <= torn) continue;
+      torn = error;
+      where = this->spots({Kind::top})[i / joints].name + " in frame " + std::to_string(frame);
+    }
+    this->expect_none_stays_inside(frame);
     if (this->HasFatalFailure()) return;
+    if (frame % 5 != 0) continue;
     for (std::size_t i = this->fixed(); i < this->built_.bodies.size(); ++i)
       fastest = std::max(fastest, length(this->velocity(i)));
     const double now = measure_energy(this->world_).total();
@@ -216,7 +243,7 @@ TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_expl
   }
   EXPECT_GT(fastest, 3);
   EXPECT_LT(fastest, kFastest);
-  EXPECT_LT(torn, kTorn);
+  EXPECT_LT(torn, kTorn) << where;
   EXPECT_LT(largest_joint_error(this->world_), kApart);
 }
 

@@ -114,7 +114,7 @@ void TownPieces::add_tall_house(Point at) {
   mesh_.use(kStairs);
   mesh_.add_cells(steps, [](int, int j, int k) { return j <= k; }, moved(foot));
   for (int i = 0; i < kSteps; ++i)
-    tell_top(numbered("outer stairs", i), sum(foot, {0.8, 0.25 * (i + 1), 0.375 * (i + 0.5)}), kStairs);
+    tell_top(numbered("outer stairs", i), sum(foot, {1, 0.25 * (i + 1), 0.375 * (i + 0.5)}), kStairs);
   tell_top("flat roof", sum(at, {-1, kTop, 1}), kWall);
   tell_top("parapet", sum(at, {-4.875, 6, 1.5}), kWall);
   tell_wall("parapet from inside", sum(at, {-4.75, 5.75, 1.5}), {1, 0, 0}, kWall);
