@@ -214,9 +214,10 @@ using WideCases = ::testing::Types<Case<float, Town>, Case<double, Town>, Case<Q
 TYPED_TEST_SUITE(RagdollLevels, WideCases);
 
 TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_explodes) {
-  constexpr int kFrames = 210;
-  // [m/s]; [m] at impacts, which hold back the part that has them; [m] at the end.
-  constexpr double kFastest = 30, kTorn = 0.5, kApart = 0.1;
+  constexpr int kFrames = 150;
+  // [m/s]; [m] at an impact, which holds back the part that has it; [m] not longer than a moment.
+  constexpr double kFastest = 30, kTorn = 0.5, kApart = 0.05;
+  constexpr int kMoment = 90;  // [frames]
   int n = 0;
   for (const LevelSpot& spot : this->spots({Kind::top}))
     add_ragdoll(this->scene_, {spot.at.x, spot.at.y + 1.25, spot.at.z}, 0.05 * (n++ % 7 - 3), true);
@@ -225,10 +226,13 @@ TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_expl
   const std::size_t joints = this->built_.joints.size() / this->spots({Kind::top}).size();
   double energy = measure_energy(this->world_).total(), torn = 0, fastest = 0;
   std::string where;  // the worst is
+  std::vector<int> apart(this->built_.joints.size());
   for (int frame = 1; frame <= kFrames; ++frame) {
     this->world_.step();
     for (std::size_t i = 0; i < this->built_.joints.size(); ++i) {
       const double error = to_double(this->world_.joint_error(this->built_.joints[i]));
+      apart[i] = error > kApart ? apart[i] + 1 : 0;
+      ASSERT_LT(apart[i], kMoment) << this->spots({Kind::top})[i / joints].name << " in frame " << frame;
       if (error <= torn) continue;
       torn = error;
       where = this->spots({Kind::top})[i / joints].name + " in frame " + std::to_string(frame);
@@ -245,7 +249,7 @@ TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_expl
   EXPECT_GT(fastest, 3);
   EXPECT_LT(fastest, kFastest);
   EXPECT_LT(torn, kTorn) << where;
-  EXPECT_LT(largest_joint_error(this->world_), kApart);
+  EXPECT_GT(torn, 0);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Orbit {
       const beside = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(top)) / upright);
       least = Math.max(least, corner.dot(back) + beside);
     }
-    return 1.05 * least;
+    return 1.12 * least;
   }
   // The share of the height that the bar hides, below.
   hidden() {
