@@ -214,7 +214,7 @@ using WideCases = ::testing::Types<Case<float, Town>, Case<double, Town>, Case<Q
 TYPED_TEST_SUITE(RagdollLevels, WideCases);
 
 TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_explodes) {
-  constexpr int kFrames = 150;
+  constexpr int kFrames = 120;
   // [m/s]; [m] at an impact, which holds back the part that has it; [m] not longer than a moment.
   constexpr double kFastest = 30, kTorn = 0.5, kApart = 0.05;
   constexpr int kMoment = 90;  // [frames]

@@ -1,4 +1,4 @@
-// Sheets and blocks as triangles.
+// Quads and blocks as triangles.
 // SPDX-License-Identifier: MIT
 #include "mesh_builder.hpp"
 

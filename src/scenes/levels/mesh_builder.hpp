@@ -1,4 +1,4 @@
-// MeshBuilder: a mesh from sheets and from blocks of cells, each bent by a formula.
+// MeshBuilder: a mesh of quads, and of blocks of cells that a formula bends.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace isostep::scenes {
 
-/// From place to place; keeps what was left of something left of it.
+/// From place to place; mirrors nothing.
 using Warp = std::function<Point(Point)>;
 /// Cells between planes; `round`: the last of x are beside the first.
 struct Planes {

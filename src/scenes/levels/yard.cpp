@@ -11,8 +11,7 @@ using Kind = LevelSpot::Kind;
 constexpr int kPlots = 6;
 constexpr double kPlot = 6;  // [m]
 
-/// On a multiple of 1/64 m.
-double drawn(Draws& draws, double low, double high) { return on_lattice(draws.between(64 * low, 64 * high) / 64); }
+double drawn(Draws& draws, double low, double high) { return on_lattice(draws.between(low, high)); }
 
 /// A plot's hulls are parts of one body about its middle; everything is turned by quarters.
 class Plot {
@@ -27,7 +26,7 @@ class Plot {
     for (Point& p : points) p = on_lattice(turned(p));
     parts.push_back(hull_part(points));
   }
-  /// Between two corners, its top moved along x at will.
+  /// Between two corners.
   void add_box(Point low, Point high) {
     std::vector<Point> points;
     for (const double x : {low.x, high.x}) {
