@@ -1,6 +1,7 @@
 // `town` and `yard`: what falls, rolls, tumbles and is shot in the levels.
 // SPDX-License-Identifier: MIT
 #include "level_bodies.hpp"
+
 #include "scenes/hull_recipes.hpp"
 #include "scenes/named.hpp"
 #include "scenes/ragdolls.hpp"
@@ -66,7 +67,7 @@ Scene town() {
   add_crates(scene, {-12, 0, -0.5});
   for (int n = 0; n < 3; ++n) add_bullet(scene, {25.0 + 2 * n, 0.75 + 0.5 * n, 0.3 - 0.3 * n}, {-120, 0, 0});
   add_bullet(scene, {-9.125, 1, 2}, {0, 0, -120});  // in at a door, and out at the other
-  for (int n = 0; n < 12; ++n)  // from the hill
+  for (int n = 0; n < 12; ++n)                      // from the hill
     scene.bodies.push_back(drawn_visitor(n, {15.0 + n % 4, 6.0 + n / 4, -18.0 + n % 3}, draws));
   for (int n = 0; n < 6; ++n)  // on roofs
     scene.bodies.push_back(drawn_visitor(n, {-22.0 + 12 * (n % 2), 6.5, -22.0 + 12 * (n / 2 % 2) + n / 4}, draws));

@@ -25,8 +25,7 @@ bool is_between(const std::vector<double>& planes, int i, double from, double to
 
 double MeshBuilder::vertex(Point p) {
   const Point at = on_lattice(p);
-  const auto [known, fresh] =
-      vertices_.try_emplace({at.x, at.y, at.z}, static_cast<double>(part_.vertices.size()));
+  const auto [known, fresh] = vertices_.try_emplace({at.x, at.y, at.z}, static_cast<double>(part_.vertices.size()));
   if (fresh) part_.vertices.push_back(vector_of(at));
   return known->second;
 }
@@ -88,7 +87,8 @@ void MeshBuilder::add_column(Point foot, double radius, double height, int sides
     const SinCos<double> angle = sin_cos(p.x);
     return Point{foot.x + p.z * angle.sin, foot.y + p.y, foot.z + p.z * angle.cos};
   };
-  add_cells(planes, [](int, int, int) { return true; }, round);
+  add_cells(
+      planes, [](int, int, int) { return true; }, round);
 }
 
 }  // namespace isostep::scenes

@@ -60,16 +60,21 @@ void tell_ground(std::vector<LevelSpot>& spots) {
     double x, z;
     int material;
   };
-  constexpr Place kPlaces[] = {{"street to the west", -20, 0.5, kStreet}, {"street to the south", 0.5, 14, kStreet},
-                               {"grass", 27.5, 4, kGrass},                {"hilltop", 17, -17, kGrass},
-                               {"hill to the west", 12.5, -17, kGrass},   {"hill to the south", 17, -11, kGrass},
-                               {"hill to the north", 20, -21, kGrass},    {"dell", -16, 11, kGrass},
-                               {"dell to the west", -21, 12, kGrass},     {"dell to the south", -12, 21, kGrass}};
+  constexpr Place kPlaces[] = {{"street to the west", -20, 0.5, kStreet},
+                               {"street to the south", 0.5, 14, kStreet},
+                               {"grass", 27.5, 4, kGrass},
+                               {"hilltop", 17, -17, kGrass},
+                               {"hill to the west", 12.5, -17, kGrass},
+                               {"hill to the south", 17, -11, kGrass},
+                               {"hill to the north", 20, -21, kGrass},
+                               {"dell", -16, 11, kGrass},
+                               {"dell to the west", -21, 12, kGrass},
+                               {"dell to the south", -12, 21, kGrass}};
   for (const Place& p : kPlaces) {
     const double x = kPitch * (std::floor(p.x / kPitch) + 0.25), z = kPitch * (std::floor(p.z / kPitch) + 0.25);
     const Slope slope = slope_at(x, z);
-    spots.push_back({p.name, LevelSpot::Kind::top, {x, slope.height, z}, unit_of({-slope.by_x, 1, -slope.by_z}),
-                     p.material});
+    spots.push_back(
+        {p.name, LevelSpot::Kind::top, {x, slope.height, z}, unit_of({-slope.by_x, 1, -slope.by_z}), p.material});
   }
 }
 

@@ -79,8 +79,11 @@ void TownPieces::add_roof(Point at) {
   constexpr double kLow = kEaves - 0.0625, kHigh = kLow + 0.25;
   const Planes planes = {evenly(-4.5, 4.5, 6), {kLow, kHigh}, {-4, -2.5, -1.25, 0, 1.25, 2.5, 4}};
   mesh_.use(kRoof);
-  mesh_.add_cells(planes, [](int, int, int) { return true; },
-                  [&](Point p) { return sum(at, {p.x, p.y + gable(p.z), p.z}); });
+  mesh_.add_cells(
+      planes, [](int, int, int) { return true; },
+      [&](Point p) {
+        return sum(at, {p.x, p.y + gable(p.z), p.z});
+      });
   const std::string roof = name_at("roof", at);
   const double drop = kRidge / 4;
   tell(roof + ", south side", Kind::top, sum(at, {1, kHigh + gable(2), 2}), unit_of({0, 1, drop}), kRoof);
@@ -112,7 +115,8 @@ void TownPieces::add_tall_house(Point at) {
   Planes steps = {{0, 1.5625}, {-0.5}, evenly(0, 0.375 * kSteps, kSteps)};
   for (int i = 1; i <= kSteps; ++i) steps.y.push_back(0.25 * i);
   mesh_.use(kStairs);
-  mesh_.add_cells(steps, [](int, int j, int k) { return j <= k; }, moved(foot));
+  mesh_.add_cells(
+      steps, [](int, int j, int k) { return j <= k; }, moved(foot));
   for (int i = 0; i < kSteps; ++i)
     tell_top(numbered("outer stairs", i), sum(foot, {1, 0.25 * (i + 1), 0.375 * (i + 0.5)}), kStairs);
   tell_top("flat roof", sum(at, {-1, kTop, 1}), kWall);
@@ -134,10 +138,12 @@ void TownPieces::add_grand_stairs(Point at) {
   for (const double x : {kTerrace + 2, kRamp, kRamp + 2, kRamp + 4, kRamp + 6, kRamp + 8, kRamp + 11})
     planes.x.push_back(x);
   mesh_.use(kStairs);
-  mesh_.add_cells(planes, [](int i, int j, int) { return j <= i; }, [&](Point p) {
-    const double down = p.x > kRamp ? kFall * (p.x - kRamp) / (kTop + 0.5) : 0;
-    return sum(at, {p.x, -0.5 + (p.y + 0.5) * (1 - down), p.z});
-  });
+  mesh_.add_cells(
+      planes, [](int i, int j, int) { return j <= i; },
+      [&](Point p) {
+        const double down = p.x > kRamp ? kFall * (p.x - kRamp) / (kTop + 0.5) : 0;
+        return sum(at, {p.x, -0.5 + (p.y + 0.5) * (1 - down), p.z});
+      });
   for (int i = 0; i < kSteps; ++i)
     tell_top(numbered("grand stairs", i), sum(at, {kRun * (i + 0.5), kRise * (i + 1), 1.5}), kStairs);
   tell_top("terrace", sum(at, {kTerrace + 3, kTop, 1.5}), kStairs);
@@ -157,16 +163,20 @@ void TownPieces::add_tower(Point at) {
   const auto place = [&](double side, double y, double radius) { return round({side, y, radius}); };
   const Planes walls = {evenly(0, kSides, kSides), {-0.5, 1, 2.25, 3.5, 4.5, kTop, kTop + 0.75}, {3.5, 4}, true};
   mesh_.use(kTower);
-  mesh_.add_cells(walls, [&](int i, int j, int) {
-    const bool door = (i == 0 || i == kSides - 1) && is_between(walls.y, j, -1, 2.25);
-    const bool window = i % 6 == 3 && is_between(walls.y, j, 3.5, 4.5);
-    const bool crown = is_between(walls.y, j, kTop, kTop + 1) && i % 2 == 1;
-    return !door && !window && !crown;
-  }, round);
+  mesh_.add_cells(
+      walls,
+      [&](int i, int j, int) {
+        const bool door = (i == 0 || i == kSides - 1) && is_between(walls.y, j, -1, 2.25);
+        const bool window = i % 6 == 3 && is_between(walls.y, j, 3.5, 4.5);
+        const bool crown = is_between(walls.y, j, kTop, kTop + 1) && i % 2 == 1;
+        return !door && !window && !crown;
+      },
+      round);
   Planes steps = {evenly(2, kSteps + 2, kSteps), {-0.5}, {1, 3.625}};
   for (int i = 1; i <= kSteps; ++i) steps.y.push_back(kStep * i);
   mesh_.use(kStairs);
-  mesh_.add_cells(steps, [](int i, int j, int) { return j <= i; }, round);
+  mesh_.add_cells(
+      steps, [](int i, int j, int) { return j <= i; }, round);
   mesh_.use(kTower);
   mesh_.add_column(sum(at, {0, -0.5, 0}), 1.0625, 5.5, kSides);
   for (int i = 0; i < kSteps; ++i) tell_top(numbered("spiral", i), place(i + 2.5, kStep * (i + 1), 2.25), kStairs);
@@ -185,8 +195,11 @@ void TownPieces::add_bridge(Point at) {
   const auto arch = [](double x) { return kArch * (1 - x * x / (kReach * kReach)) - 0.125; };
   const Planes planes = {evenly(-kReach, kReach, 24), {-0.5, 0, 0.75}, {-1.75, -1.5, 0, 1.5, 1.75}};
   mesh_.use(kBridge);
-  mesh_.add_cells(planes, [&](int, int j, int k) { return j == 0 || !is_inner(planes.z, k); },
-                  [&](Point p) { return sum(at, {p.x, p.y + arch(p.x), p.z}); });
+  mesh_.add_cells(
+      planes, [&](int, int j, int k) { return j == 0 || !is_inner(planes.z, k); },
+      [&](Point p) {
+        return sum(at, {p.x, p.y + arch(p.x), p.z});
+      });
   for (const double x : {-4.0, 4.0}) mesh_.add_column(sum(at, {x, -3.5, 0}), 0.5, 3.5 + arch(x) - 0.25, 12);
   for (const int x : {-10, -6, -1, 4, 9}) {
     const double here = arch(x), next = arch(x + 1), slope = next - here;
@@ -201,8 +214,11 @@ void TownPieces::add_ramp(const std::string& name, Point at, double length, doub
   const double slope = height / length;
   const Planes planes = {evenly(-1, length, 5), {0, 1}, evenly(0, width, 2)};
   mesh_.use(kRamp);
-  mesh_.add_cells(planes, [](int, int, int) { return true; },
-                  [&](Point p) { return sum(at, {p.x, p.y == 0 ? -1 : slope * p.x, p.z}); });
+  mesh_.add_cells(
+      planes, [](int, int, int) { return true; },
+      [&](Point p) {
+        return sum(at, {p.x, p.y == 0 ? -1 : slope * p.x, p.z});
+      });
   for (const double share : {0.3125, 0.8125}) {
     const double x = share * length;
     tell(numbered(name, static_cast<int>(100 * share)), Kind::top, sum(at, {x, slope * x, 0.375 * width}),
@@ -223,8 +239,11 @@ void TownPieces::add_ramps(Point at) {
   mesh_.use(kRamp);
   const double lip = round(planes.x[kPieces]);
   const auto height = [&](double x) { return x > planes.x[kPieces] ? lip : round(x); };
-  mesh_.add_cells(planes, [](int, int, int) { return true; },
-                  [&](Point p) { return sum(foot, {p.x, p.y == 0 ? -1 : height(p.x), p.z}); });
+  mesh_.add_cells(
+      planes, [](int, int, int) { return true; },
+      [&](Point p) {
+        return sum(foot, {p.x, p.y == 0 ? -1 : height(p.x), p.z});
+      });
   for (const std::size_t i : {4u, 7u, 10u}) {
     const double x = planes.x[i], next = planes.x[i + 1];
     const double low = on_lattice(round(x)), high = on_lattice(round(next));
@@ -239,10 +258,12 @@ void TownPieces::add_fountain(Point at) {
   constexpr int kSides = 24;
   const Planes planes = {evenly(0, kTurn, kSides), {-0.5, 0.25, 0.625}, {1.5, 1.875}, true};
   mesh_.use(kTower);
-  mesh_.add_cells(planes, [](int, int, int) { return true; }, [&](Point p) {
-    const SinCos<double> angle = sin_cos(p.x);
-    return sum(at, {p.z * angle.sin, p.y, p.z * angle.cos});
-  });
+  mesh_.add_cells(
+      planes, [](int, int, int) { return true; },
+      [&](Point p) {
+        const SinCos<double> angle = sin_cos(p.x);
+        return sum(at, {p.z * angle.sin, p.y, p.z * angle.cos});
+      });
   mesh_.add_column(sum(at, {0, -0.5, 0}), 0.25, 1.5, 12);
   tell_top("fountain", sum(at, {0.75, 0, 0.25}), kStreet);
 }

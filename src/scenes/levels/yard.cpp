@@ -111,8 +111,9 @@ void add_columns(Plot& plot, Draws& draws) {
     for (const double z : {-1.5, 1.5}) {
       const double radius = drawn(draws, 0.25, 0.625), height = drawn(draws, 1, 4);
       plot.add_rings({{radius, 0}, {radius, height}}, 12, {x, 0, z});
-      plot.tell_top("column at " + std::to_string(static_cast<int>(2 * x)) + " " +
-                        std::to_string(static_cast<int>(2 * z)), {x, height, z});
+      plot.tell_top(
+          "column at " + std::to_string(static_cast<int>(2 * x)) + " " + std::to_string(static_cast<int>(2 * z)),
+          {x, height, z});
     }
   }
 }
@@ -145,8 +146,8 @@ struct Sort {
   const char* name;
   void (*add)(Plot& plot, Draws& draws);
 };
-constexpr Sort kSorts[] = {{"wall", add_wall},       {"gate", add_gate},         {"stairs", add_stairs},
-                           {"ramp", add_ramp},       {"columns", add_columns},   {"boulders", add_boulders},
+constexpr Sort kSorts[] = {{"wall", add_wall},  {"gate", add_gate},       {"stairs", add_stairs},
+                           {"ramp", add_ramp},  {"columns", add_columns}, {"boulders", add_boulders},
                            {"mound", add_mound}};
 constexpr int kSortCount = sizeof kSorts / sizeof kSorts[0];
 

@@ -1,7 +1,5 @@
 // The levels as geometry: on a lattice, closed, of the size that they say, and every part told once.
 // SPDX-License-Identifier: MIT
-#include "scenes/levels/level.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "scenes/build.hpp"
+#include "scenes/levels/level.hpp"
 
 namespace isostep::scenes {
 namespace {
