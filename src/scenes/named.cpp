@@ -73,6 +73,8 @@ constexpr NamedScene kScenes[] = {
     {"S13m", "S13 at a sheet of triangles", bullets_at_a_sheet, false},
     {"S13d", "S13 with each at a plate of its own", bullets_at_plates, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
+    {"town", "a mesh of streets, houses, stairs, ramps, a hill; who falls, rolls, tumbles, is shot", town, false},
+    {"yard", "the same on static hulls, placed by a seed", yard, false},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
     {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},

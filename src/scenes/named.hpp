@@ -34,6 +34,9 @@ Scene thin_bodies(bool field);
 Scene sliders(bool field);
 /// A thousand bodies over the hills, for queries: queries.hpp.
 Scene scattered();
+/// What happens in the levels of levels/level.hpp.
+Scene town();
+Scene yard();
 Scene chain(bool hanging);
 Scene ragdolls();
 /// The same with cones, twists and hinges that bend as far as a body's do.

@@ -1,7 +1,8 @@
 // S7, S20: ragdolls, their joints free or with the limits of a body's.
 // SPDX-License-Identifier: MIT
+#include "ragdolls.hpp"
+
 #include "named.hpp"
-#include "shapes.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -61,7 +62,8 @@ void limit(SceneJoint& joint, const RagdollJoint& of, const SinCos<double>& half
   joint.upper = of.upper;
 }
 
-/// Upright, then tilted about x.
+}  // namespace
+
 void add_ragdoll(Scene& scene, Point origin, double tilt, bool limited) {
   const SinCos<double> whole = sin_cos(tilt), half = sin_cos(tilt / 2);
   const auto place = [&](double x, double y) {
@@ -85,6 +87,8 @@ void add_ragdoll(Scene& scene, Point origin, double tilt, bool limited) {
     scene.joints.push_back(joint);
   }
 }
+
+namespace {
 
 Scene pit_of_ragdolls(bool limited) {
   Scene scene;

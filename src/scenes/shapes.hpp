@@ -49,6 +49,12 @@ inline ScenePart capsule_part(double radius, double half_height) {
   part.half_height = half_height;
   return part;
 }
+/// A capsule, cylinder or cone.
+inline ScenePart round_part(ShapeType type, double radius, double half_height) {
+  ScenePart part = capsule_part(radius, half_height);
+  part.type = type;
+  return part;
+}
 inline SceneBody body_of(ScenePart part, Point at) {
   SceneBody body;
   body.parts.push_back(std::move(part));

@@ -36,5 +36,9 @@ function extentOf(run) {
       box.union(new THREE.Box3().setFromCenterAndSize(place, new THREE.Vector3(1, 1, 1).multiplyScalar(1.1 * reach)));
   });
   if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
-  return {centre: box.getCenter(new THREE.Vector3()), size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.2)};
+  return {
+    box,
+    centre: box.getCenter(new THREE.Vector3()),
+    size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.2)
+  };
 }

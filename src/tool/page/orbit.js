@@ -34,17 +34,34 @@ class Orbit {
   }
   home() {
     this.target = this.extent.centre.clone();
-    this.target.y -= 0.03 * this.extent.size;  // the bar hides what is lowest
-    this.distance = this.extent.size * this.fit();
     this.around = 0.72;
     this.up = 0.38;
+    this.distance = this.fit();
     this.moved = true;
   }
-  // How many times its size away one sees a ball whole, above the bar.
+  // [m] From where one sees the extent's box whole, above the bar.
   fit() {
-    const wide = innerWidth / this.views / Math.max(1, innerHeight),
-          upright = THREE.MathUtils.degToRad(0.5 * this.camera.fov);
-    return 0.47 / Math.sin(Math.min(0.88 * upright, Math.atan(wide * Math.tan(upright))));
+    const tangent = Math.tan(THREE.MathUtils.degToRad(0.5 * this.camera.fov)), upright = tangent * (1 - this.hidden()),
+          wide = tangent * innerWidth / this.views / Math.max(1, innerHeight);
+    const back = this.back(), right = new THREE.Vector3(back.z, 0, -back.x).normalize(),
+          top = new THREE.Vector3().crossVectors(back, right), {min, max} = this.extent.box;
+    let least = 0.2 * this.extent.size;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new THREE.Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z);
+      corner.sub(this.target);
+      const beside = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(top)) / upright);
+      least = Math.max(least, corner.dot(back) + beside);
+    }
+    return 1.12 * least;
+  }
+  // The share of the height that the bar hides, below.
+  hidden() {
+    return Math.min(0.4, (document.getElementById('bar').offsetHeight + 16) / Math.max(1, innerHeight));
+  }
+  // From the target to the camera.
+  back() {
+    const flat = Math.cos(this.up);
+    return new THREE.Vector3(flat * Math.sin(this.around), Math.sin(this.up), flat * Math.cos(this.around));
   }
   turn(dx, dy) {
     this.around -= 0.006 * dx;
@@ -62,12 +79,10 @@ class Orbit {
     this.moved = true;
   }
   place(aspect) {
-    const flat = Math.cos(this.up) * this.distance;
-    this.camera.position.set(
-        this.target.x + flat * Math.sin(this.around), this.target.y + Math.sin(this.up) * this.distance,
-        this.target.z + flat * Math.cos(this.around));
+    this.camera.position.copy(this.target).addScaledVector(this.back(), this.distance);
     this.camera.lookAt(this.target);
     this.camera.aspect = aspect;
+    this.camera.setViewOffset(aspect, 1, 0, 0.5 * this.hidden(), aspect, 1);  // the target is in the middle of the rest
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrix();
     return this.camera;

@@ -44,25 +44,27 @@ class Surfaces {
   listOf(index) {
     return 'surface' + Math.ceil(Math.log2(this.all[index].triangles));
   }
-  // An instance for each of the parts, all of one list.
-  mesh(parts, material) {
+  // An instance for each of the parts, all of one list; `fixed`: of what nothing moves, tinted by slope.
+  mesh(parts, material, fixed) {
     const most = Math.max(...parts.map((part) => this.all[part.surface].triangles));
     const spans = new Float32Array(2 * parts.length);
     parts.forEach(({surface}, i) => spans.set([this.all[surface].first, 3 * this.all[surface].triangles], 2 * i));
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(9 * most), 3));  // counts alone
     geometry.setAttribute('span', new THREE.InstancedBufferAttribute(spans, 2));
-    const mesh = new THREE.InstancedMesh(geometry, this.finding(material), parts.length);
+    const mesh = new THREE.InstancedMesh(geometry, this.finding(material, fixed), parts.length);
     mesh.customDepthMaterial = this.finding(new THREE.MeshDepthMaterial({depthPacking: THREE.RGBADepthPacking}));
     return mesh;
   }
   // A material whose vertices are corners from the texture, their normals across their triangle.
-  finding(material) {
+  finding(material, fixed) {
     material.onBeforeCompile = (shader) => {
       shader.uniforms.corners = {value: this.texture};
       shader.vertexShader = shader.vertexShader.replace('#include <common>', kCornerShader)
                                 .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = normalHere();')
                                 .replace('#include <begin_vertex>', 'vec3 transformed = cornerHere(gl_VertexID);');
+      if (fixed)
+        shader.vertexShader = shader.vertexShader.replace('#include <color_vertex>', '#include <color_vertex>\n' + kTint);
     };
     return material;
   }
@@ -75,6 +77,13 @@ class Surfaces {
     return geometry;
   }
 }
+
+// What is level looks like ground, what is upright like a wall, and slopes like roofs.
+const kTint = `
+float rise = normalize(mat3(instanceMatrix) * normalHere()).y;
+vec3 slope = mix(vec3(1.0, 0.98, 0.94), vec3(0.98, 0.86, 0.74), smoothstep(0.1, 0.4, rise));
+vColor.rgb *= mix(slope, vec3(0.83, 0.9, 0.76), smoothstep(0.9, 0.995, rise));
+`;
 
 // Beyond its own triangles an instance draws points, of which nothing is seen.
 const kCornerShader = `

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 const kColours = [0x4f86c6, 0xe0925b, 0x6bab7f, 0xc9697b, 0x8d7cc0, 0xd4b04c, 0x5aa9b0, 0xa9815e];
-const kStaticColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4;
+const kMostOutlined = 400;  // parts that nothing moves; of more one would see lines and nothing else
+const kStaticColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4,
+      kOutlineColour = 0x8fa0b3;
 
 // A drawing repeated over a surface.
 function textureOf(width, height, paint) {
@@ -84,8 +86,9 @@ class View {
       const material = new THREE.MeshStandardMaterial(
           {roughness: 0.72, metalness: 0.02, transparent: clear, opacity: clear ? 0.13 : 1, depthWrite: !clear});
       if (shape === 'ball' && !this.run.about.particles) material.map = ballTexture();
+      if (shape.startsWith('fixed_')) Object.assign(material, {polygonOffset: true, polygonOffsetFactor: 1});
       const mesh = shape in shapes ? new THREE.InstancedMesh(shapes[shape], material, parts.length) :
-                                     this.surfaces.mesh(parts, material);
+                                     this.surfaces.mesh(parts, material, shape.startsWith('fixed_'));
       mesh.castShadow = !clear;
       mesh.receiveShadow = !clear;
       mesh.frustumCulled = false;
@@ -99,12 +102,16 @@ class View {
   // By what is drawn in one call.
   listParts() {
     const lists = {};
-    this.walls = [];
+    this.outlines = [];
+    const fixed = (actor) => actor.type === 'static' && !actor.sensor;
+    const outlined = this.run.actors.reduce((n, actor) => n + (fixed(actor) ? (actor.parts || []).length : 0), 0) <=
+        kMostOutlined;
     const add = (actor, shape, at, turn, scale, surface, wall = false) => {
       const local = new THREE.Matrix4().compose(
           new THREE.Vector3(...at), new THREE.Quaternion(...turn), new THREE.Vector3(...scale));
       const part = {actor, local, surface}, name = (wall || this.run.actors[actor].sensor ? 'clear_' : '') + shape;
-      if (wall) this.addWall(part);
+      if (wall || outlined && fixed(this.run.actors[actor]) && (surface !== undefined || shape === 'box'))
+        this.addOutline(part);
       (lists[name] = lists[name] || []).push(part);
     };
     const least = 0.006 * this.extent.size;
@@ -119,7 +126,7 @@ class View {
         if (type === 'sphere')
           add(index, 'ball', at, turn, [r, r, r]);
         else if (surface !== undefined)
-          add(index, this.surfaces.listOf(surface), at, turn, [1, 1, 1], surface,
+          add(index, (fixed(actor) ? 'fixed_' : '') + this.surfaces.listOf(surface), at, turn, [1, 1, 1], surface,
               type === 'hull' && this.isWall(index, at, size));
         else if (type === 'cylinder' || type === 'cone')
           add(index, type, at, turn, [r, 2 * part.half[1], r]);
@@ -147,15 +154,16 @@ class View {
     const top = this.run.poses.all[7 * this.run.place(0, actor) + 1] + at[1] + 0.5 * scale[1];
     return !(scale[1] < 0.5 * Math.min(scale[0], scale[2]) && top < this.extent.centre.y);
   }
-  addWall(part) {
+  // Where faces meet at more than 20 degrees.
+  addOutline(part) {
     const solid =
         part.surface === undefined ? new THREE.BoxGeometry(1, 1, 1) : this.surfaces.geometry(part.surface);
     const edges = new THREE.LineSegments(
-        new THREE.EdgesGeometry(solid), new THREE.LineBasicMaterial({color: 0x8fa0b3}));
+        new THREE.EdgesGeometry(solid, 20), new THREE.LineBasicMaterial({color: kOutlineColour}));
     edges.matrixAutoUpdate = false;
     edges.frustumCulled = false;
     this.scene.add(edges);
-    this.walls.push({part, edges});
+    this.outlines.push({part, edges});
   }
 
   // Half-spaces of static bodies, planes and lines of particles.
@@ -222,7 +230,7 @@ class View {
       });
       mesh.instanceMatrix.needsUpdate = true;
     }
-    for (const {part, edges} of this.walls) {
+    for (const {part, edges} of this.outlines) {
       edges.visible = this.run.state(frame, part.actor) !== kGone;
       body.compose(this.position(part.actor, from), turn.fromArray(this.at, 7 * part.actor + 3), one);
       edges.matrix.multiplyMatrices(body, part.local);

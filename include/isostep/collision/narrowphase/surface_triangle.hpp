@@ -108,6 +108,11 @@ template <class S> struct SurfaceTriangle {
     return edge.touchable && dot(direction, edge.away) <= Unit<S>(kAcross) &&
            dot(direction, edge.inward) <= Unit<S>(kAcross);
   }
+  /// Whether a direction from edge k leads under both planes that meet there, by more than kAcross. What lies in the
+  /// plane of one of them may be beyond its far edge, outside of everything.
+  ISO_INLINE bool is_under_edge(int k, Vec3<Unit<S>> direction) const {
+    return dot(direction, normal) < Unit<S>(-kAcross) && dot(direction, edges[k].other) < Unit<S>(-kAcross);
+  }
   /// At point i: beyond neither of the neighbours that meet there.
   ISO_INLINE bool owns_at_point(int i, Vec3<Unit<S>> direction) const {
     return is_short_of(i, direction) && is_short_of((i + 2) % 3, direction);

@@ -34,6 +34,21 @@ struct Sheet {
         triangles.push_back({{below + 1, at + 1, below}});
       }
     }
+    bake();
+  }
+  /// The closed surface of a box about the origin.
+  explicit Sheet(D3 half) {
+    for (int i = 0; i < 8; ++i)
+      points.push_back({i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
+    constexpr std::uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                            {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (const auto& q : kQuads) {
+      triangles.push_back({{q[0], q[1], q[2]}});
+      triangles.push_back({{q[2], q[3], q[0]}});
+    }
+    bake();
+  }
+  void bake() {
     const BlobRef blob = mesh_blob(points, triangles).value();
     content.surface = read_triangle_mesh(blob->bytes()).value();
   }
@@ -179,6 +194,26 @@ TYPED_TEST(Triangles, are_the_same_far_out) {
         EXPECT_EQ(near[i].points[p].separation, far[i].points[p].separation);
     }
   }
+}
+
+/// Upright over the edge of a slab, its core in the plane of a side, and a hair beside it.
+TYPED_TEST(Triangles, that_have_a_capsule_in_their_plane_push_it_off_the_near_edge_alone) {
+  using S = TypeParam;
+  const Sheet slab(D3{2, 0.5, 1});
+  const Capsule<S> capsule = {from_double<S>(0.25), from_double<S>(0.25)};
+  int touches = 0;
+  for (const double beside : {0.0, 1e-4, -1e-4, 1.0 / 1024, -1.0 / 1024}) {
+    for (const double z : {1.0, -1.0}) {
+      const D3 place = {0.3, 0.5 + 0.25 + 0.2, z + beside};
+      const Transform<S> at = Transform<S>::of({oracle::made<S>(place), Quat<Unit<S>>::identity()});
+      for (const Manifold<S>& m : this->collide_all(primitive_of(capsule), at, slab)) {
+        EXPECT_LT(to_double(m.normal.y), -0.99) << beside;  // from the capsule down
+        for (int i = 0; i < m.count; ++i) EXPECT_NEAR(to_double(m.points[i].separation), 0.2 - 0.25, 5e-4) << beside;
+        ++touches;
+      }
+    }
+  }
+  EXPECT_GE(touches, 10);
 }
 
 }  // namespace
