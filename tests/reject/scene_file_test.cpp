@@ -125,8 +125,8 @@ TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
       list += (i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
     return list;
   };
-  EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "cone"}])")),
-            "/bodies/1/shapes/0/type: expected " + words(kShapeNames) + ", found \"cone\"");
+  EXPECT_EQ(refusal(with_body(R"("type": "static", "shapes": [{"type": "torus"}])")),
+            "/bodies/1/shapes/0/type: expected " + words(kShapeNames) + ", found \"torus\"");
   EXPECT_EQ(refusal(with_joint(R"({"type": "rope"})")),
             "/joints/0/type: expected " + words(kJointNames) + ", found \"rope\"");
 }

@@ -1,5 +1,6 @@
 // Cylinders and cones against polyhedra, triangles, capsules and each other, for every shipped scalar.
 // SPDX-License-Identifier: MIT
+#include "isostep/collision/narrowphase/capsule_revolved.inl"
 #include "isostep/collision/narrowphase/revolved_polyhedron.inl"
 #include "isostep/collision/narrowphase/revolved_revolved.inl"
 #include "isostep/collision/narrowphase/revolved_triangle.inl"

@@ -104,22 +104,6 @@ TYPED_TEST(NarrowPhaseLaws, PointsLieWithinHalfTheirSeparationOfBothShapes) {
   }
 }
 
-TYPED_TEST(NarrowPhaseLaws, NormalsAreUnitAndPointsWithinTheMarginWithUniqueFeatures) {
-  using S = TypeParam;
-  Random random(3);
-  for (int n = 0; n < kPairs; ++n) {
-    const Pair<S> p = random_pair<S>(random);
-    const auto m = touch(p.a, p.ta, p.b, p.tb, kMargin);
-    ASSERT_GE(m.count, 0);
-    ASSERT_LE(m.count, kMaxContactPoints);
-    EXPECT_NEAR(length3(point_of(m.normal)), m.count > 0 ? 1 : 0, 64 * to_double(resolution<Unit<S>>()) + 1e-15);
-    for (int i = 0; i < m.count; ++i) {
-      EXPECT_LE(to_double(m.points[i].separation), to_double(from_double<S>(kMargin)));
-      for (int j = 0; j < i; ++j) EXPECT_NE(m.points[i].feature, m.points[j].feature) << "pair " << n;
-    }
-  }
-}
-
 /// Moving b by its depth along the normal parts the shapes: the normal and the separation belong together.
 TYPED_TEST(NarrowPhaseLaws, MovingBAlongTheNormalByTheDepthPartsTheShapes) {
   using S = TypeParam;
@@ -186,28 +170,6 @@ TYPED_TEST(NarrowPhaseLaws, TinyMotionKeepsTheFeatures) {
     }
   }
   EXPECT_GT(kept, total * 0.995);  // the rest crosses from one feature to the next
-}
-
-/// Positions enter by their difference only, so a fixed-point manifold moves with its shapes bit for bit.
-TYPED_TEST(NarrowPhaseLaws, ShiftingBothShapesShiftsTheManifold) {
-  using S = TypeParam;
-  Random random(7);
-  for (int n = 0; n < kPairs; ++n) {
-    Pair<S> p = random_pair<S>(random);
-    const auto m = touch(p.a, p.ta, p.b, p.tb, kMargin);
-    const Vec3<S> shift = vec_of<S>(random.point(20));
-    p.ta.position += shift;
-    p.tb.position += shift;
-    const auto w = touch(p.a, p.ta, p.b, p.tb, kMargin);
-    if (!kIsFixed<S>) continue;
-    ASSERT_EQ(m.count, w.count);
-    EXPECT_TRUE(m.normal == w.normal);
-    for (int i = 0; i < m.count; ++i) {
-      EXPECT_TRUE(m.points[i].position + shift == w.points[i].position);
-      EXPECT_TRUE(m.points[i].separation == w.points[i].separation);
-      EXPECT_EQ(m.points[i].feature, w.points[i].feature);
-    }
-  }
 }
 
 }  // namespace

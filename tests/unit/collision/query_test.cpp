@@ -277,7 +277,7 @@ TYPED_TEST(QueryTest, ABallOverlapsWhatItsCentreIsNearEnoughTo) {
   using S = TypeParam;
   oracle::Random random(4);
   int inside = 0, outside = 0;
-  for (int n = 0; n < 600; ++n) {
+  for (int n = 0; n < 1200; ++n) {
     const bool plane = n % 6 == 5;
     const Primitive<S> p = plane ? any_half_space<S>(random) : random.primitive<S>(n % 6, 0.1, 2);
     const Transform<S> t = any_transform<S>(random, 5);

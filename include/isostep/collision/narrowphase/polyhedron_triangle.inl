@@ -217,16 +217,20 @@ ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const
   }
 }
 
+/// Where the edges cross. If what is nearest of them is not one above the other, to `slack` [m], they do not touch, nor
+/// do the shapes there.
 template <class S>
 ISO_INLINE void touch_edge(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
-                           const TriangleAxis<S>& axis, Manifold<S>& out) {
+                           const TriangleAxis<S>& axis, S slack, Manifold<S>& out) {
   const SurfaceEdge<S>& edge = triangle.edges[axis.edge];
   const S half = edge.length * S(0.5);
   const Segment<S> of_a = edge_of(a, axis.feature),
                    of_triangle = {triangle.points[axis.edge] + edge.along * half, edge.along, half};
   const ClosestPair<S> closest = closest_points(of_a, of_triangle);
+  const Vec3<S> on_a = of_a.at(closest.s), on_triangle = of_triangle.at(closest.t);
+  if (longer_than(on_triangle - on_a - axis.normal * axis.separation, slack)) return;
   out.normal = ta.rotation * axis.normal;
-  out.add(to_world(ta, (of_a.at(closest.s) + of_triangle.at(closest.t)) * S(0.5)), axis.separation,
+  out.add(to_world(ta, (on_a + on_triangle) * S(0.5)), axis.separation,
           1u << 29 | axis.feature << 8 | static_cast<std::uint32_t>(axis.edge));
 }
 
@@ -254,7 +258,7 @@ void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta,
   switch (best.kind) {
     case Axis::plane: return touch_plane(a, ta, triangle, lowest.vertex, margin, tolerance * S(0.125), out);
     case Axis::face: return touch_face(a, ta, triangle, best.feature, margin, out);
-    case Axis::edges: return touch_edge(a, ta, triangle, best, out);
+    case Axis::edges: return touch_edge(a, ta, triangle, best, tolerance * S(4), out);
     case Axis::neighbour: return;
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/narrowphase/capsule_revolved.inl"
 #include "isostep/collision/narrowphase/revolved_pairs.hpp"
 #include "isostep/collision/narrowphase/revolved_polyhedron.inl"
 #include "isostep/collision/narrowphase/revolved_revolved.inl"

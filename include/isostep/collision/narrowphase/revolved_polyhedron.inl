@@ -44,6 +44,20 @@ template <class S> class RevolvedFacets {
       case Axis::rim: return at_rim(best, touch);
     }
   }
+  /// Of a disc that lies flat, where no point of its rim is over the other: of the lowest vertices, to `tie` [m], that
+  /// which is nearest to the axis. Else the lowest point of the rim.
+  ISO_INLINE void at_lowest(const Axis& best, S tie, const RevolvedTouch<S>& touch) const {
+    if (solid_.reach(best.normal).across > U(kFlatDisc)) return at_rim(best, touch);
+    const S limit = lowest(best.normal) + tie;
+    Vec3<S> nearest = vertices_[0];
+    S least = highest<S>();
+    for (std::uint32_t i = 0; i < b_.vertices.size(); ++i) {
+      const Vec3<S> p = vertices_[i];
+      const S aside = direction_of(p.x, S(0), p.z).length;
+      if (dot(best.normal, p) <= limit && aside < least) least = aside, nearest = p;
+    }
+    touch.at(nearest - best.normal * (best.separation * S(0.5)), best.separation, best.normal, name_of(best));
+  }
   ISO_INLINE void at_rim(const Axis& best, const RevolvedTouch<S>& touch) const {
     const Reach<S> reach = solid_.reach(best.normal);
     const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
@@ -170,7 +184,7 @@ void collide_revolved_polyhedron(const detail::Revolved<S>& solid, const Transfo
   if (!facets.find(margin, tolerance, best)) return;
   const RevolvedTouch<S> touch(solid, ta, margin, tolerance * S(0.125), out);
   facets.touch(best, touch);
-  if (out.count == 0 && best.separation <= S(0)) facets.at_rim(best, touch);
+  if (out.count == 0 && best.separation <= S(0)) facets.at_lowest(best, tolerance, touch);
 }
 
 template <class S>

@@ -4,6 +4,7 @@
 
 #include "isostep/collision/narrowphase/face_clip.hpp"
 #include "isostep/collision/narrowphase/revolved_axes.hpp"
+#include "isostep/geometry/baked/convex_hull.hpp"
 
 namespace isostep::detail {
 
@@ -172,7 +173,7 @@ template <class S> class RevolvedTouch {
     const bool before = p.before >= kSideName, after = p.after >= kSideName;
     return (before || after) && (!before || sides.has_flat(p.before)) && (!after || sides.has_flat(p.after));
   }
-  /// Side k of the polygon of a rim's sixteen points.
+  /// Side k of the polygon of sixteen around a rim: nothing that is under the disc is beyond it.
   ISO_INLINE bool clip_to_rim(int end, int k, const RimPolygon<S>& from, RimPolygon<S>& to) const {
     constexpr U kQuarter[4] = {U(0.9807852804032304), U(0.8314696123025452), U(0.5555702330196022),
                                U(0.1950903220161283)};
@@ -182,7 +183,7 @@ template <class S> class RevolvedTouch {
       return i < 4 ? kQuarter[i] : -kQuarter[7 - i];
     };
     const U x = cosine(k), z = cosine(k - 4);
-    const S offset = solid_.radii[end] * kQuarter[0];
+    const S offset = solid_.radii[end];
     S beyond[kRimPolygon];
     for (int i = 0; i < from.count; ++i)
       beyond[i] = round_to<S>(product(from.points[i].u, x) + product(from.points[i].v, z)) - offset;

@@ -147,7 +147,8 @@ template <class S> class RevolvedOverTriangle {
     const ClosestPair<S> closest = closest_points(side, edge);
     between(side.at(closest.s), edge.at(closest.t), best, touch, name);
   }
-  /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither side.
+  /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither
+  /// side.
   ISO_INLINE void at_lowest(const Axis& best, const RevolvedTouch<S>& touch) const {
     const Reach<S> reach = solid_.reach(best.normal);
     const Vec3<S> p = solid_.rim(reach.end(), reach.radial);
@@ -198,10 +199,16 @@ void collide_revolved_triangle(const detail::Revolved<S>& solid, const Transform
   const S size = min(solid.half, solid.radii[0]);
   const S tolerance = axis_tolerance(size, max_abs(frame.centre) + size);
   const RevolvedOverTriangle<S> pair(solid, triangle, tolerance * S(4));
-  if (!pair.look_at_discs(margin, tolerance, best)) return;
-  if (pair.is_of_neighbour(frame.centre, tolerance, best)) return;
-  if (!pair.look_at_edges(margin, tolerance, best)) return;
-  pair.touch(best, RevolvedTouch<S>(solid, ta, margin, tolerance * S(0.125), out));
+  const Axis plane = best;
+  // Where what was preferred touches nothing, the best of all decides.
+  for (int round = 0; round < 2 && out.count == 0 && best.separation <= (round == 0 ? margin : S(0)); ++round) {
+    const S lead = round == 0 ? tolerance : S(0);
+    best = plane;
+    if (!pair.look_at_discs(margin, lead, best)) return;
+    if (pair.is_of_neighbour(frame.centre, lead, best)) return;
+    if (!pair.look_at_edges(margin, lead, best)) return;
+    pair.touch(best, RevolvedTouch<S>(solid, ta, margin, tolerance * S(0.125), out));
+  }
 }
 
 }  // namespace isostep

@@ -55,7 +55,8 @@ ISO_INLINE TriangleStretch<S> stretch_over(const SurfaceTriangle<S>& triangle, c
 }
 
 /// The best of the edges that a core may touch. One that it is under counts only where the core is as near as its
-/// radius: what is deeper is beyond another side, or a face's to push out.
+/// radius, and where a stretch of it is over the triangle, `is_over`: what is deeper, or beside it, is beyond another
+/// side, or a face's to push out.
 template <class S> struct TriangleEdgeTouch {
   S separation;  // [m] of the core
   Vec3<Unit<S>> normal;
@@ -63,7 +64,8 @@ template <class S> struct TriangleEdgeTouch {
   int edge;  // -1: none
 };
 template <class S>
-ISO_INLINE TriangleEdgeTouch<S> touched_edge(const SurfaceTriangle<S>& triangle, const Segment<S>& core, S radius) {
+ISO_INLINE TriangleEdgeTouch<S> touched_edge(const SurfaceTriangle<S>& triangle, const Segment<S>& core, S radius,
+                                             bool is_over) {
   TriangleEdgeTouch<S> best = {highest<S>(), triangle.normal, S(0), -1};
   for (int k = 0; k < 3; ++k) {
     const SurfaceEdge<S>& edge = triangle.edges[k];
@@ -75,6 +77,7 @@ ISO_INLINE TriangleEdgeTouch<S> touched_edge(const SurfaceTriangle<S>& triangle,
     if (gap.length <= gap_noise(max_abs(side.centre))) continue;
     const bool between = abs(closest.t) < half;
     const bool below = between && gap.length <= radius && triangle.is_under_edge(k, gap.direction);
+    if (below && !is_over) continue;
     const Vec3<Unit<S>> normal = below ? -gap.direction : gap.direction;
     const S separation = below ? -gap.length : gap.length;
     const int vertex = closest.t < S(0) ? k : (k + 1) % 3;
@@ -140,7 +143,7 @@ void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, c
   if (triangle.height < S(0) || lowest - radius > margin) return;
   triangle.find_edges(frame, baked);
   const TriangleStretch<S> over = stretch_over(triangle, core);
-  const TriangleEdgeTouch<S> edge = touched_edge(triangle, core, radius);
+  const TriangleEdgeTouch<S> edge = touched_edge(triangle, core, radius, over.any);
   const Vec3<S> ends[2] = {core.at(over.at[0]), core.at(over.at[1])};
   const S heights[2] = {triangle.height_of(ends[0]), triangle.height_of(ends[1])};
   const S tolerance = axis_tolerance(radius, max_abs(core.centre) + half_height);

@@ -1,5 +1,5 @@
-// Cylinders and cones against every convex shape: separations beside an oracle that knows no features, points on both
-// surfaces, mirrored order, features that stay.
+// Cylinders and cones: features that stay as they roll and stand, and a box of triangles beside the box. The laws that
+// they share with all shapes are in every_pair_test.cpp.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -54,94 +54,10 @@ template <class S> class Revolved : public testing::Test {
     pair.ta.position = vec_of<S>(start + far);
     return pair;
   }
-  static double smallest(const Primitive<S>& p) {
-    if (p.type == ShapeType::half_space) return 1e9;
-    if (p.type == ShapeType::sphere || p.type == ShapeType::capsule) return to_double(p.radius);
-    if (p.type == ShapeType::box) return to_double(min(p.half.x, min(p.half.y, p.half.z)));
-    return to_double(min(p.radius, p.half.y));
-  }
 };
 TYPED_TEST_SUITE(Revolved, Scalars);
 
-constexpr ShapeType kOthers[] = {ShapeType::sphere,     ShapeType::box,      ShapeType::capsule,
-                                 ShapeType::half_space, ShapeType::cylinder, ShapeType::cone};
 constexpr ShapeType kRound[] = {ShapeType::cylinder, ShapeType::cone};
-
-/// What prefers faces may lose 1/128 of the smaller inner radius twice, rims of two 1/1000, and the points of a disc on
-/// a face 0.0006 radii; a face that the lowest point is beside shows what is over it.
-TYPED_TEST(Revolved, the_deepest_point_is_as_deep_as_the_shapes_overlap) {
-  using S = TypeParam;
-  Random random(20);
-  for (const ShapeType a : kOthers) {
-    for (const ShapeType b : kRound) {
-      int touching = 0, far_off = 0;
-      for (int n = 0; n < 40; ++n) {
-        const double depth = random.in(-0.015, 0.03);
-        const Point far = n % 4 == 3 ? Point{20, -15, 30} : Point{0, 0, 0};
-        const auto pair = TestFixture::placed(random, a, b, 1, depth, far);
-        const Convex solid_a(pair.a, pair.ta), solid_b(pair.b, pair.tb);
-        const double truth = ConvexOracle::separation(solid_a, solid_b);
-        const Manifold<S> m = touch(pair.a, pair.ta, pair.b, pair.tb, 0.02);
-        const double noise = 40 * rounding<S>(length3(far) + 4) + 1e-6;
-        if (m.count == 0) {
-          EXPECT_GT(truth, -noise) << static_cast<int>(a) << " " << static_cast<int>(b) << " " << n;
-          continue;
-        }
-        ++touching;
-        const double small = std::min(TestFixture::smallest(pair.a), TestFixture::smallest(pair.b));
-        const double along =
-            a == ShapeType::half_space ? truth : ConvexOracle::along(solid_a, solid_b, point_of(m.normal));
-        EXPECT_LT(along, truth + 0.002 + noise) << static_cast<int>(a) << " " << static_cast<int>(b) << " " << n;
-        EXPECT_GT(along, truth - small / 60 - noise) << static_cast<int>(a) << " " << static_cast<int>(b) << " " << n;
-        if (std::abs(deepest(m) - along) > 0.002 + small / 60 + noise) ++far_off;
-      }
-      EXPECT_GT(touching, 25) << static_cast<int>(a) << " " << static_cast<int>(b);
-      EXPECT_LE(far_off, 2) << static_cast<int>(a) << " " << static_cast<int>(b);
-    }
-  }
-}
-
-TYPED_TEST(Revolved, points_lie_midway_between_the_surfaces_and_have_names_of_their_own) {
-  using S = TypeParam;
-  Random random(21);
-  for (const ShapeType a : kOthers) {
-    for (const ShapeType b : kRound) {
-      for (int n = 0; n < 25; ++n) {
-        const auto pair = TestFixture::placed(random, a, b, 1, random.in(-0.01, 0.01), {0, 0, 0});
-        const Convex solid_a(pair.a, pair.ta), solid_b(pair.b, pair.tb);
-        const Manifold<S> m = touch(pair.a, pair.ta, pair.b, pair.tb, 0.02);
-        std::set<std::uint32_t> names;
-        const Point normal = point_of(m.normal);
-        for (int i = 0; i < m.count; ++i) {
-          const Point p = point_of(m.points[i].position);
-          const double half = to_double(m.points[i].separation) / 2;
-          EXPECT_LT(solid_a.distance(p - normal * half), 0.03)
-              << static_cast<int>(a) << static_cast<int>(b) << " " << n;
-          EXPECT_LT(solid_b.distance(p + normal * half), 0.03)
-              << static_cast<int>(a) << static_cast<int>(b) << " " << n;
-          names.insert(m.points[i].feature);
-        }
-        EXPECT_EQ(names.size(), static_cast<std::size_t>(m.count));
-        EXPECT_NEAR(length3(normal), m.count > 0 ? 1 : 0, 1e-4);
-      }
-    }
-  }
-}
-
-TYPED_TEST(Revolved, the_other_order_gives_the_same_mirrored) {
-  using S = TypeParam;
-  Random random(22);
-  for (const ShapeType a : kOthers) {
-    for (const ShapeType b : kRound) {
-      for (int n = 0; n < 15; ++n) {
-        const auto pair = TestFixture::placed(random, a, b, 1, random.in(-0.01, 0.01), {0, 0, 0});
-        const Manifold<S> m = touch(pair.a, pair.ta, pair.b, pair.tb), w = touch(pair.b, pair.tb, pair.a, pair.ta);
-        ASSERT_EQ(m.count, w.count) << static_cast<int>(a) << static_cast<int>(b) << " " << n;
-        EXPECT_LE(length3(point_of(m.normal) + point_of(w.normal)), a == b ? 0.02 : 0.0);
-      }
-    }
-  }
-}
 
 TYPED_TEST(Revolved, a_cylinder_touches_a_plane_along_one_line_however_it_rolls) {
   using S = TypeParam;
