@@ -13,6 +13,17 @@ std::string item(const std::string& place, const char* list, std::size_t i) {
   return place + "/" + list + "/" + std::to_string(i);
 }
 
+void read_surfaces(ObjectReader& reader, const char* key, std::vector<SceneSurface>& surfaces) {
+  const auto nodes = reader.array(key);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    ObjectReader of_one(nodes[i], item(reader.place(), key, i));
+    SceneSurface& surface = surfaces.emplace_back();
+    of_one.number("friction", surface.friction);
+    of_one.number("restitution", surface.restitution);
+    of_one.finish();
+  }
+}
+
 ScenePart read_part(const JsonNode& node, const std::string& place) {
   ObjectReader reader(node, place);
   ScenePart part;
@@ -22,6 +33,7 @@ ScenePart read_part(const JsonNode& node, const std::string& place) {
     if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
     else if constexpr (std::is_same_v<decltype(size), std::vector<Number>&>) reader.list(key, size);
     else if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
+    else if constexpr (std::is_same_v<decltype(size), std::vector<SceneSurface>&>) read_surfaces(reader, key, size);
     else if (rule == SizeRule::positive) reader.positive(key, size);
     else reader.number(key, size);
   });
