@@ -263,21 +263,33 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
   const bool moving = other.type == BodyType::dynamic;
   const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
   const Aabb<S> swept = detail::swept_box(motion, mover.reach);
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  const auto sweep_parts = [&](const Child<S>& child, const Child<S>& child_of_other) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
-    const S inner = thickness<S>(part.shape);
-    for (const Child<S>& child_of_other : map_.children_of(other.shape)) {
-      const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
-      if (far < (inner + (moving ? S(0) : thickness<S>(obstacle.shape))) * S(0.5)) continue;
-      if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) continue;
-      const U fraction = free_fraction(part, motion, obstacle, rest.pose);
-      if (fraction == U(1)) continue;
-      const U all = detail::share_of<S>(piece, mover.pieces) + fraction * detail::share_of<S>(1, mover.pieces);
-      if (!(all < cut.fraction)) continue;
-      const Pose<S> there = pose_at(motion, fraction);
-      cut = {all, rest.carrier == nullptr ? there : compose(*rest.carrier, there)};
+    const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
+    const S thick = thickness<S>(part.shape) + (moving ? S(0) : thickness<S>(obstacle.shape));
+    if (far < thick * S(0.5)) return;
+    if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) return;
+    const U fraction = free_fraction(part, motion, obstacle, rest.pose);
+    if (fraction == U(1)) return;
+    const U all = detail::share_of<S>(piece, mover.pieces) + fraction * detail::share_of<S>(1, mover.pieces);
+    if (!(all < cut.fraction)) return;
+    const Pose<S> there = pose_at(motion, fraction);
+    cut = {all, rest.carrier == nullptr ? there : compose(*rest.carrier, there)};
+  };
+  const std::span<const Child<S>> children = map_.children_of(body.shape), obstacles = map_.children_of(other.shape);
+  const ChildTree<S>* const tree = map_.tree_of(other.shape);
+  if (tree == nullptr) {
+    for (const Child<S>& child : children) {
+      for (const Child<S>& obstacle : obstacles) sweep_parts(child, obstacle);
     }
+    return;
   }
+  Transform<S> origin = Transform<S>::of(rest.pose);
+  origin.position = origin.position - origin.rotation * other.local_centre;
+  tree->query(origin, swept, [&](std::uint32_t i) {
+    for (const Child<S>& child : children) sweep_parts(child, obstacles[i]);
+    return true;
+  });
 }
 
 template <class S> void ContinuousCollision<S>::cut(const Mover& mover, bool moving) {

@@ -31,6 +31,7 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     if (blob != 0) blob = 1 + state_.geometry.change().take(blobs[blob - 1]);
   }
   if (!blobs.empty()) map_.renew_contents();
+  map_.renew_tree(id.slot);
   return id;
 }
 
@@ -76,6 +77,7 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
     if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
   }
   shapes[slot] = {0, 0};
+  map_.renew_tree(slot);
   state_.shape_slots.give_back(slot);
   return true;
 }
