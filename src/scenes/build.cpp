@@ -140,6 +140,11 @@ std::string text_of(const std::vector<Number>& numbers) {
   return text;
 }
 std::string text_of(const std::string& file) { return ' ' + std::to_string(file.size()) + ':' + file; }
+std::string text_of(const std::vector<SceneSurface>& surfaces) {
+  std::string text;
+  for (const SceneSurface& s : surfaces) text += text_of(s.friction) + text_of(s.restitution);
+  return text;
+}
 /// Bodies of equal parts share one shape.
 std::string key_of(const SceneBody& body) {
   std::string key;

@@ -38,6 +38,12 @@ using Rotation = std::array<Number, 4>;  // x y z w
 inline Vector zero_vector() { return {0, 0, 0}; }
 inline Rotation no_rotation() { return {0, 0, 0, 1}; }
 
+/// What a number among a part's materials stands for.
+struct SceneSurface {
+  Number friction = 0.5;   // [1]
+  Number restitution = 0;  // [1]
+};
+
 /// One primitive of a body; of the sizes only those of its type count.
 struct ScenePart {
   ShapeType type = ShapeType::box;
@@ -53,6 +59,7 @@ struct ScenePart {
   Number pitch = 0;                     // [m] height field: between columns, and between rows
   std::vector<Number> heights;          // [m] height field, by rows
   std::vector<Number> materials;        // [1] mesh: of each triangle; height field: of each cell, 255 a hole; or none
+  std::vector<SceneSurface> surfaces;   // what materials 0, 1 ... are; those beyond: as the body's
   std::string file;                     // hull, mesh, height field: a baked file in place of the numbers, or empty
   BlobRef blob;                         // its content
   Vector position = zero_vector();      // [m] in the body's frame

@@ -14,6 +14,17 @@ std::string item(const std::string& place, const char* list, std::size_t i) {
   return place + "/" + list + "/" + std::to_string(i);
 }
 
+void read_surfaces(ObjectReader& reader, const char* key, std::vector<SceneSurface>& surfaces) {
+  const auto nodes = reader.array(key);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    ObjectReader of_one(nodes[i], item(reader.place(), key, i));
+    SceneSurface& surface = surfaces.emplace_back();
+    of_one.number("friction", surface.friction);
+    of_one.number("restitution", surface.restitution);
+    of_one.finish();
+  }
+}
+
 void read_sizes(ObjectReader& reader, ScenePart& part) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if (rule != SizeRule::optional) reader.require(key);
@@ -21,6 +32,7 @@ void read_sizes(ObjectReader& reader, ScenePart& part) {
     else if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
     else if constexpr (std::is_same_v<decltype(size), std::vector<Number>&>) reader.list(key, size);
     else if constexpr (std::is_same_v<decltype(size), Vector&>) reader.vector(key, size);
+    else if constexpr (std::is_same_v<decltype(size), std::vector<SceneSurface>&>) read_surfaces(reader, key, size);
     else if (rule == SizeRule::positive) reader.positive(key, size);
     else reader.number(key, size);
   });

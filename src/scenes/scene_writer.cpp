@@ -23,6 +23,14 @@ std::string list(const std::vector<Number>& numbers) {
   for (const Number& n : numbers) text += (text.size() == 1 ? "" : ", ") + n.text();
   return text + "]";
 }
+std::string list(const std::vector<SceneSurface>& surfaces) {
+  std::string text = "[";
+  for (const SceneSurface& s : surfaces) {
+    text += (text.size() == 1 ? "" : ", ") + ("{\"friction\": " + s.friction.text());
+    text += ", \"restitution\": " + s.restitution.text() + "}";
+  }
+  return text + "]";
+}
 std::string list(bool flag) { return flag ? "true" : "false"; }
 
 std::string quoted(const std::string& text) {
@@ -55,7 +63,8 @@ std::string text_of(const ScenePart& part) {
   const ScenePart plain;
   ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
   visit_sizes(part, [&](const char* key, const auto& size, SizeRule) {
-    if constexpr (std::is_same_v<decltype(size), const std::vector<Number>&>) {
+    if constexpr (std::is_same_v<decltype(size), const std::vector<Number>&> ||
+                  std::is_same_v<decltype(size), const std::vector<SceneSurface>&>) {
       if (size.empty()) return;
     }
     out.member(key, size);

@@ -32,6 +32,7 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<Mesh>, Part& part
   visit("vertices", part.vertices, SizeRule::required);
   visit("triangles", part.triangles, SizeRule::required);
   visit("materials", part.materials, SizeRule::optional);
+  visit("surfaces", part.surfaces, SizeRule::optional);
 }
 template <class Part, class Visit> void visit_sizes(ShapeClass<HeightField>, Part& part, const Visit& visit) {
   visit("columns", part.columns, SizeRule::positive);
@@ -39,6 +40,7 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<HeightField>, Par
   visit("pitch", part.pitch, SizeRule::positive);
   visit("heights", part.heights, SizeRule::required);
   visit("materials", part.materials, SizeRule::optional);
+  visit("surfaces", part.surfaces, SizeRule::optional);
 }
 template <class Part, class Visit> void visit_sizes(ShapeClass<Cylinder>, Part& part, const Visit& visit) {
   visit("radius", part.radius, SizeRule::positive);

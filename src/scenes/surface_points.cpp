@@ -28,6 +28,17 @@ std::vector<std::uint8_t> materials_of(const ScenePart& part, const std::string&
   }
   return materials;
 }
+std::vector<SurfaceMaterial> table_of(const ScenePart& part, const std::string& place) {
+  std::vector<SurfaceMaterial> table;
+  for (std::size_t i = 0; i < part.surfaces.size(); ++i) {
+    const std::string at = place + "/surfaces/" + std::to_string(i);
+    const auto material = surface_material(value_of<double>(part.surfaces[i].friction, at + "/friction"),
+                                           value_of<double>(part.surfaces[i].restitution, at + "/restitution"));
+    if (!material.ok()) throw SceneError(at, std::string(material.error().message.view()));
+    table.push_back(material.value());
+  }
+  return table;
+}
 BlobRef checked(const Result<BlobRef>& blob, const std::string& place) {
   if (!blob.ok()) throw SceneError(place, std::string(blob.error().message.view()));
   return blob.value();
@@ -67,7 +78,7 @@ BlobRef mesh_of_part(const ScenePart& part, const std::string& place) {
     for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = count_of(t[k], 0xffffffffu, at + std::to_string(k));
     triangles.push_back(triangle);
   }
-  return checked(mesh_blob(points, triangles, materials_of(part, place)), place);
+  return checked(mesh_blob(points, triangles, {materials_of(part, place), table_of(part, place)}), place);
 }
 
 BlobRef height_field_of_part(const ScenePart& part, const std::string& place) {
@@ -78,7 +89,7 @@ BlobRef height_field_of_part(const ScenePart& part, const std::string& place) {
   std::vector<double> heights;
   for (std::size_t i = 0; i < part.heights.size(); ++i)
     heights.push_back(value_of<double>(part.heights[i], place + "/heights/" + std::to_string(i)));
-  return checked(height_field_blob(sheet, heights, materials_of(part, place)), place);
+  return checked(height_field_blob(sheet, heights, {materials_of(part, place), table_of(part, place)}), place);
 }
 
 std::shared_ptr<const SolidSurface> solid_surface(const Blob& blob) {

@@ -55,6 +55,7 @@ template <class S> class RandomWorld {
   /// For worlds that are saved and loaded, where no book is kept: of the state, the seed and the frame alone.
   static void command(World<S>& w, std::uint64_t seed, std::uint64_t frame,
                       std::vector<AppliedForce>* forces = nullptr) {
+    dig(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -136,6 +137,34 @@ template <class S> class RandomWorld {
     d.type = BodyType::kinematic;
     d.user_data = kLift;
     world.create(d);
+  }
+  /// Now and then the height field, if there is one, is lower somewhere, or has a hole: never higher, which would lift
+  /// what lies on it. Dice of its own: what is drawn after it is as it was before there was this.
+  static void dig(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    Dice dice(seed * 104729 + frame * 7907 + 3);
+    if (!dice.one_in(12)) return;
+    const BakedHeightField* field = nullptr;
+    ShapeId shape;
+    for (const BodyId id : w.bodies()) {
+      const std::uint32_t slot = w.view(id).properties->shape;
+      shape = w.state().shape_slots.template id_of<ShapeId>(slot);
+      if ((field = w.height_field(shape)) != nullptr) break;
+    }
+    if (field == nullptr) return;
+    const HeightGrid grid = field->grid();
+    const std::uint32_t wide = 1 + dice.below(3), deep = 1 + dice.below(3);
+    HeightPatch patch = {dice.below(grid.columns - wide + 1), dice.below(grid.rows - deep + 1), wide, deep, {}, {}};
+    std::vector<std::int16_t> heights;
+    const std::int32_t lower = static_cast<std::int32_t>(dice.below(1u << (grid.exponent - grid.height_shift)) / 8);
+    const std::int32_t least = -(1 << (grid.exponent - grid.height_shift));  // [units] 1 m: where the plane below is
+    for (std::uint32_t n = 0; n < wide * deep; ++n) {
+      const std::size_t at = (patch.row + n / wide) * std::size_t{grid.columns} + patch.column + n % wide;
+      heights.push_back(static_cast<std::int16_t>(std::max(field->heights()[at] - lower, least)));
+    }
+    const std::vector<std::uint8_t> holes((wide - 1) * (deep - 1), BakedHeightField::kHole);
+    patch.heights = heights;
+    if (dice.one_in(4)) patch.materials = holes;
+    w.set_heights(shape, 0, patch);
   }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {

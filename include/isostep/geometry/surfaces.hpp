@@ -26,6 +26,17 @@ template <class S> ISO_INLINE std::uint32_t leaves_of(ShapeView<S> view) {
   return detail::visit_surface(view, [](const auto& surface) ISO_INLINE_LAMBDA { return surface.triangle_count(); });
 }
 
+/// What a triangle's number stands for; null: for the material of the body, as what is no surface does.
+template <class S> ISO_INLINE const SurfaceMaterial* listed_material(ShapeView<S> view, std::uint32_t triangle) {
+  if (!is_surface(view.primitive.type)) return nullptr;
+  return detail::visit_surface(view, [&](const auto& surface) ISO_INLINE_LAMBDA -> const SurfaceMaterial* {
+    const std::span<const SurfaceMaterial> table = surface.table();
+    if (table.empty()) return nullptr;
+    const std::size_t number = surface.material(triangle);
+    return number < table.size() ? &table[number] : nullptr;
+  });
+}
+
 struct Leaf {
   std::uint32_t child, triangle;
 };

@@ -17,13 +17,14 @@ template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
 template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at);
 
 /// visit(child_a, child_b) for every two parts whose bounds meet within the margin, in order of their indices, until it
-/// returns false or `looks`, which counts down, are used up. False: that came before the end.
+/// returns false or `looks`, which counts down, are used up. False: that came before the end. Looks at all of them: for
+/// bodies of few parts.
 template <class S, class Visit>
 ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                             Visit&& visit);
 
-/// The same of leaves, where one of the bodies has surfaces: those of a convex part and a triangle whose boxes meet. In
-/// an order that follows from the shapes.
+/// The same of leaves, where one of the bodies has surfaces or many parts: of a convex part and a triangle those whose
+/// boxes meet. In an order that follows from the shapes.
 template <class S, class Visit>
 ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                              Visit&& visit);
@@ -32,6 +33,10 @@ ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S mar
 template <class S>
 void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
                    std::uint32_t j, S margin, Manifold<S>& out);
+
+/// Of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table.
+template <class S>
+Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
 
 /// Whether two bodies have a contact.
 template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b);

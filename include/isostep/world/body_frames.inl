@@ -9,6 +9,11 @@
 
 namespace isostep {
 
+/// Whether pairs with it are to be found by visit_leaves.
+template <class S> ISO_INLINE bool is_large(const BodyFrame<S>& body) {
+  return body.surfaces || body.tree != nullptr;
+}
+
 namespace detail {
 template <class S> ISO_INLINE Transform<S> placed(const Transform<S>& origin, const Child<S>& child) {
   return child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
@@ -26,7 +31,9 @@ template <class S> ISO_INLINE bool has_surfaces(std::span<const Child<S>> childr
   return false;
 }
 template <class S> ISO_INLINE Leaf leaf_at(const BodyFrame<S>& frame, std::uint32_t index) {
-  return frame.surfaces ? isostep::leaf_at(parts_of(frame), frame.contents, index) : Leaf{index, 0};
+  if (!frame.surfaces) return {index, 0};
+  return frame.tree != nullptr ? frame.tree->leaf_at(index)
+                               : isostep::leaf_at(parts_of(frame), frame.contents, index);
 }
 }  // namespace detail
 
@@ -37,12 +44,15 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
   const Mat3<Unit<S>> turn = to_matrix(state.orientation);
   const Primitive<S>& first = children[0].primitive;
   const bool plain = children.size() == 1 && children[0].pose.is_identity();
+  const ChildTree<S>* const tree = map.tree_of(body.shape);
+  const bool surfaces = tree != nullptr ? tree->has_surfaces() : detail::has_surfaces(children);
   return {first.half,
           first.radius,
           state.centre,
           {-(turn * body.local_centre), turn},
           children.data(),
           map.contents(),
+          tree,
           static_cast<std::uint32_t>(children.size()),
           state.slot,
           at.set == Location::kAwake ? at.index + 1 : 0,
@@ -50,7 +60,7 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
           plain,
           (body.flags & body_flag::kSensor) != 0,
           at.is_asleep(),
-          body.type != BodyType::dynamic && detail::has_surfaces(children)};
+          surfaces};
 }
 
 template <class S, class Visit>
@@ -100,25 +110,54 @@ ISO_INLINE bool visit_leaves_of(const PlacedLeaves<S>& a, const PlacedLeaves<S>&
 }
 }  // namespace detail
 
+namespace detail {
+/// visit(child, its first leaf) -> bool for all children of a body, or for those that its tree finds to meet a box.
+template <class S, class Visit>
+ISO_INLINE bool visit_children_near(const BodyFrame<S>& body, const Transform<S>& origin, const Aabb<S>& box,
+                                    const Visit& visit) {
+  if (body.tree != nullptr) {
+    return body.tree->query(origin, box, [&](std::uint32_t i)
+                                             ISO_INLINE_LAMBDA { return visit(i, body.tree->first_leaf(i)); });
+  }
+  std::uint32_t first = 0;
+  for (std::uint32_t i = 0; i < body.child_count; ++i) {
+    if (!visit(i, first)) return false;
+    first += leaves_of(part(body, i));
+  }
+  return true;
+}
+/// visit(leaves of outer, leaves of inner) -> bool for the children of two bodies. `inner` has a tree, or neither has.
+template <class S, class Visit>
+ISO_INLINE bool visit_near_children(const BodyFrame<S>& outer, const Transform<S>& of_outer, const BodyFrame<S>& inner,
+                                    const Transform<S>& of_inner, S margin, const Visit& visit) {
+  Aabb<S> box = {};
+  if (outer.tree != nullptr) box = grow(inner.tree->bounds(of_inner), margin);
+  return visit_children_near(outer, of_outer, box, [&](std::uint32_t i, std::uint32_t first_i) ISO_INLINE_LAMBDA {
+    const PlacedLeaves<S> own = {part(outer, i), placed(of_outer, outer.children[i]), first_i};
+    Aabb<S> near = {};
+    if (inner.tree != nullptr) near = grow(bounds(own.shape, own.at), margin);
+    return visit_children_near(inner, of_inner, near, [&](std::uint32_t j, std::uint32_t first_j) ISO_INLINE_LAMBDA {
+      return visit(own, PlacedLeaves<S>{part(inner, j), placed(of_inner, inner.children[j]), first_j});
+    });
+  });
+}
+}  // namespace detail
+
 template <class S, class Visit>
 ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                              Visit&& visit) {
   using Leaves = detail::PlacedLeaves<S>;
   const Transform<S> origin_b = origin_beside(a, b);
-  std::uint32_t first_a = 0;
-  for (std::uint32_t i = 0; i < a.child_count; ++i) {
-    const Leaves of_a = {detail::part(a, i), detail::placed(a.origin, a.children[i]), first_a};
-    std::uint32_t first_b = 0;
-    for (std::uint32_t j = 0; j < b.child_count; ++j) {
-      if (looks == 0) return false;
-      --looks;
-      const Leaves of_b = {detail::part(b, j), detail::placed(origin_b, b.children[j]), first_b};
-      if (!detail::visit_leaves_of(of_a, of_b, margin, visit)) return false;
-      first_b += leaves_of(of_b.shape);
-    }
-    first_a += leaves_of(of_a.shape);
-  }
-  return true;
+  const auto look = [&](const Leaves& of_a, const Leaves& of_b) {  // no inline lambda: called from many places
+    if (looks == 0) return false;
+    --looks;
+    return detail::visit_leaves_of(of_a, of_b, margin, visit);
+  };
+  const bool b_is_inner = b.tree != nullptr || a.tree == nullptr;
+  if (b_is_inner) return detail::visit_near_children(a, a.origin, b, origin_b, margin, look);
+  return detail::visit_near_children(
+      b, origin_b, a, a.origin, margin,
+      [&](const Leaves& of_b, const Leaves& of_a) { return look(of_a, of_b); });
 }
 
 template <class S>
@@ -133,6 +172,17 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
   collide_leaves(part_a, ta, part_b, tb, margin, out, polyhedra);
 }
 
+template <class S>
+Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own) {
+  const Leaf leaf = detail::leaf_at(body, i);
+  const SurfaceMaterial* const listed = listed_material(detail::part(body, leaf.child), leaf.triangle);
+  if (listed == nullptr) return own;
+  Material<S> material = own;
+  material.friction = from_lattice<S>(listed->friction, SurfaceMaterial::kBits);
+  material.restitution = from_lattice<S>(listed->restitution, SurfaceMaterial::kBits);
+  return material;
+}
+
 template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b) {
   constexpr S kMargin = detail::kSpeculativeDistance<S>;
   const BodyFrame<S> a = frame_at(map, map.location(slot_a)), b = frame_at(map, map.location(slot_b));
@@ -144,7 +194,7 @@ template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a
     touch = manifold.count > 0;
     return !touch;
   };
-  if (a.surfaces || b.surfaces) visit_leaves(a, b, kMargin, looks, visit);
+  if (is_large(a) || is_large(b)) visit_leaves(a, b, kMargin, looks, visit);
   else visit_parts(a, b, kMargin, looks, visit);
   return touch;
 }

@@ -53,6 +53,10 @@ template <class S> class BodyMap {
   /// Of a body that does not sleep, to be changed.
   BodyProperties<S>& change_properties(std::uint32_t slot);
   std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  /// Null: the shape has few children.
+  ISO_INLINE const ChildTree<S>* tree_of(std::uint32_t shape_slot) const {
+    return shape_slot < state_.trees->size() ? (*state_.trees)[shape_slot].get() : nullptr;
+  }
   /// Of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
@@ -77,6 +81,10 @@ template <class S> class BodyMap {
   void make_room();
   /// After the state's blobs have changed.
   void renew_contents();
+  /// After a shape's children have, or the content of what they name; then contents come first.
+  void renew_tree(std::uint32_t shape_slot);
+  /// Of a state that came without them.
+  void renew_trees();
 
   template <class Visit> void visit_scratch(const Visit& visit) {
     visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));

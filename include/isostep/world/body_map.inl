@@ -111,6 +111,18 @@ template <class S> void BodyMap<S>::count_names(const SleepingIsland<S>& island,
 
 template <class S> void BodyMap<S>::renew_contents() { find_contents<S>(state_.geometry->contents(), contents_); }
 
+template <class S> void BodyMap<S>::renew_tree(std::uint32_t shape_slot) {
+  const std::span<const Child<S>> children = children_of(shape_slot);
+  const bool many = children.size() >= ChildTree<S>::kLeastChildren;
+  if (!many && tree_of(shape_slot) == nullptr) return;
+  ChildTrees<S>& trees = state_.trees.change();
+  if (trees.size() <= shape_slot) trees.resize(shape_slot + 1);
+  trees[shape_slot] = many ? std::make_shared<const ChildTree<S>>(children, contents()) : nullptr;
+}
+template <class S> void BodyMap<S>::renew_trees() {
+  for (std::uint32_t shape = 0; shape < state_.shapes->size(); ++shape) renew_tree(shape);
+}
+
 template <class S> void BodyMap<S>::make_room() {
   const std::size_t bodies = state_.body_slots.entries().size(), joints = state_.joint_slots.entries().size();
   if (locations_.size() < bodies) {

@@ -167,6 +167,33 @@ template <class S> struct SetJoint {
   }
 };
 
+/// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The field of the shape becomes
+/// another one, with a name of its own, for all bodies of the shape; what is above or below the rectangle wakes.
+struct SetHeights {
+  static constexpr std::uint32_t kMost = 1u << 26;  // heights in a file; fields have fewer places
+
+  ShapeId shape;
+  std::uint32_t child;  // of the shape: a height field
+  std::uint32_t column, row, columns, rows;
+  std::vector<std::int16_t> heights;
+  std::vector<std::uint8_t> materials = {};
+
+  ISO_INLINE HeightPatch patch() const { return {column, row, columns, rows, heights, materials}; }
+  ISO_INLINE void write(Writer& writer) const {
+    writer.write(shape);
+    for (const std::uint32_t number : {child, column, row, columns, rows}) writer.write(number);
+    writer.write_array(heights);
+    writer.write_bytes(materials);
+  }
+  ISO_INLINE void read(Reader& reader) {
+    reader.read(shape);
+    for (std::uint32_t* const number : {&child, &column, &row, &columns, &rows}) reader.read(*number);
+    reader.read_array(heights, kMost);
+    const Bytes bytes = reader.read_bytes(kMost);
+    materials.assign(bytes.begin(), bytes.end());
+  }
+};
+
 /// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
 /// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
 /// one: its record above, its line here, its `execute`; see README.md. The position is the number in replays: append,
@@ -188,7 +215,8 @@ template <class S> struct SetJoint {
   X(set_gravity, SetGravity<S>, bool, S)      \
   X(create_joint, CreateJoint<S>, JointId, S) \
   X(destroy_joint, DestroyJoint, bool, S)     \
-  X(set_joint, SetJoint<S>, bool, S)
+  X(set_joint, SetJoint<S>, bool, S)          \
+  X(set_heights, SetHeights, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

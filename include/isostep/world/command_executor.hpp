@@ -55,6 +55,9 @@ template <class S> class CommandExecutor {
   bool may_push(BodyId body);
   bool mark_for_destruction(BodyId body);
   bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
+  bool accept_patch(const Result<BakedHeightField>& changed);
+  void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
+  void renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed);
   bool check(const BodyDefinition<S>& definition);
   bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
   bool check_ends(const JointProperties<S>& joint);

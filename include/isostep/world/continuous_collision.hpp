@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/collision/continuous/core_motion.hpp"
+#include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
@@ -55,6 +56,8 @@ template <class S> class ContinuousCollision {
     Unit<S> fraction_of_middle;  // [1]
     Vec3<S> middle, place;       // [m] in the body's frame, and in the world where it is stopped
     Vec3<Unit<S>> normal;        // [1] where it may not go on; zero: where a kinematic body stops it
+
+    void add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest);
   };
   /// Where an obstacle is while a body is swept. `carrier`: where the frame is at the end, if it is a kinematic body's.
   struct Rest {

@@ -211,6 +211,20 @@ template <class S> void ContinuousCollision<S>::find_way(Mover& mover) const {
 
 // ---- what stops them
 
+/// `all`: of the whole motion, `there` in the world; `at_rest`: no kinematic body stops it.
+template <class S>
+void ContinuousCollision<S>::Cut::add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest) {
+  if (!way.is_held && all < fraction) {
+    fraction = all;
+    pose = there;
+  } else if (way.is_held && all < fraction_of_middle) {
+    fraction_of_middle = all;
+    middle = way.middle;
+    place = there.position + rotate(there.orientation, way.middle);
+    normal = at_rest ? way.normal : Vec3<Unit<S>>::zero();
+  }
+}
+
 /// `moving`: dynamic bodies that are no bullets; else static and kinematic ones.
 template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std::uint32_t slot, bool moving) const {
   constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
@@ -270,28 +284,32 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
   const bool moving = other.type == BodyType::dynamic;
   const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
   const Aabb<S> swept = detail::swept_box(motion, mover.reach);
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  const auto sweep_parts = [&](const Child<S>& child, const Child<S>& child_of_other) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
-    const S inner = thickness<S>(part.shape);
-    for (const Child<S>& child_of_other : map_.children_of(other.shape)) {
-      const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
-      if (far < (inner + (moving ? S(0) : thickness<S>(obstacle.shape))) * S(0.5)) continue;
-      if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) continue;
-      const FreeWay<S> way = free_way(part, motion, obstacle, rest.pose);
-      if (way.fraction == U(1)) continue;
-      const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
-      const Pose<S> there = rest.carrier == nullptr ? way.pose : compose(*rest.carrier, way.pose);
-      if (!way.is_held && all < cut.fraction) {
-        cut.fraction = all;
-        cut.pose = there;
-      } else if (way.is_held && all < cut.fraction_of_middle) {
-        cut.fraction_of_middle = all;
-        cut.middle = way.middle;
-        cut.place = there.position + rotate(there.orientation, way.middle);
-        cut.normal = rest.carrier == nullptr ? way.normal : Vec3<U>::zero();
-      }
+    const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
+    const S thick = thickness<S>(part.shape) + (moving ? S(0) : thickness<S>(obstacle.shape));
+    if (far < thick * S(0.5)) return;
+    if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) return;
+    const FreeWay<S> way = free_way(part, motion, obstacle, rest.pose);
+    if (way.fraction == U(1)) return;
+    const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
+    const Pose<S> there = rest.carrier == nullptr ? way.pose : compose(*rest.carrier, way.pose);
+    cut.add(way, all, there, rest.carrier == nullptr);
+  };
+  const std::span<const Child<S>> children = map_.children_of(body.shape), obstacles = map_.children_of(other.shape);
+  const ChildTree<S>* const tree = map_.tree_of(other.shape);
+  if (tree == nullptr) {
+    for (const Child<S>& child : children) {
+      for (const Child<S>& obstacle : obstacles) sweep_parts(child, obstacle);
     }
+    return;
   }
+  Transform<S> origin = Transform<S>::of(rest.pose);
+  origin.position = origin.position - origin.rotation * other.local_centre;
+  tree->query(origin, swept, [&](std::uint32_t i) {
+    for (const Child<S>& child : children) sweep_parts(child, obstacles[i]);
+    return true;
+  });
 }
 
 template <class S> void ContinuousCollision<S>::cut(const Mover& mover, bool moving) {

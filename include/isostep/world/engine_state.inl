@@ -74,7 +74,9 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
     if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
   }
   const Result<void> result = reader.result("world");
-  if (reader.ok()) load(next);
+  if (!reader.ok()) return result;
+  load(next);
+  map_.renew_trees();
   return result;
 }
 

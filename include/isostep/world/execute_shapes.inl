@@ -4,6 +4,7 @@
 
 #include "isostep/geometry/validate.hpp"
 #include "isostep/world/command_executor.hpp"
+#include "isostep/world/fat_box.hpp"
 
 namespace isostep {
 
@@ -31,6 +32,7 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     if (blob != 0) blob = 1 + state_.geometry.change().take(blobs[blob - 1]);
   }
   if (!blobs.empty()) map_.renew_contents();
+  map_.renew_tree(id.slot);
   return id;
 }
 
@@ -76,8 +78,75 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
     if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
   }
   shapes[slot] = {0, 0};
+  map_.renew_tree(slot);
   state_.shape_slots.give_back(slot);
   return true;
+}
+
+/// Old and new heights decide together what the change is about: who stood on the one, or lies under the other.
+template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
+  if (!known(state_.shape_slots, command.shape, "shape")) return false;
+  const std::uint32_t shape = command.shape.slot;
+  const std::span<const Child<S>> children = map_.children_of(shape);
+  if (command.child >= children.size() || children[command.child].primitive.type != ShapeType::height_field)
+    return journal_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
+  const Child<S> child = children[command.child];
+  const HeightPatch patch = command.patch();
+  const BakedHeightField& field = shape_as<HeightField>(map_.contents().view(child.primitive)).surface();
+  const Result<BakedHeightField> changed = field.with_heights(patch);
+  if (!accept_patch(changed)) return false;
+  const int exponent = field.exponent();
+  const Aabb<S> about = merge(detail::box_of_steps<S>(field.bounds_about(patch), exponent),
+                              detail::box_of_steps<S>(changed.value().bounds_about(patch), exponent));
+  replace_blob(shape, command.child, height_field_blob(changed.value()));  // the field itself may be gone now
+  for (std::uint32_t body = 0; body < map_.slots(); ++body) {
+    if (map_.location(body).set != Location::kNone && map_.properties_at(map_.location(body)).shape == shape)
+      renew_ground(body, child.pose, about);
+  }
+  return true;
+}
+
+template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeightField>& changed) {
+  if (!changed.ok() && changed.error().place == "heights")
+    return journal_.refuse({Fault::bad_argument, "", "heights", "one a place of a rectangle inside the field"});
+  if (!changed.ok())
+    return journal_.refuse({Fault::bad_argument, "", "materials", "none, or one a cell, and somewhere no hole"});
+  const ShapeFault fault = detail::fault_of_surface<S>(changed.value());
+  if (fault != ShapeFault::none) return journal_.refuse({Fault::bad_shape, "", describe(fault), ""});
+  const bool fits = state_.geometry->names().size() < kMaxBlobs;
+  return fits || journal_.refuse({Fault::bad_shape, "", "heights", "fewer than kMaxBlobs in a world"});
+}
+/// An asset stays one: what the store or the game's assets have by that name is taken from there.
+template <class S>
+void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob) {
+  const BlobRef known = state_.geometry->find(BlobMention{blob->id(), nullptr}, assets_);
+  const std::uint32_t place = (*state_.shapes)[shape].first_child + child;
+  std::uint32_t& name = state_.children.change()[place].primitive.blob;
+  GeometryStore& store = state_.geometry.change();
+  const std::uint32_t old = name - 1;
+  name = 1 + store.take(known != nullptr ? known : blob);
+  store.give_back(old);
+  map_.renew_contents();
+  map_.renew_tree(shape);
+}
+/// A body whose field, at a pose in its frame, has changed inside a box of the field's frame.
+template <class S>
+void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed) {
+  const Location at = map_.location(body);
+  if (at.is_asleep()) wake_.wake_for_change(body);
+  const Location now = map_.location(body);
+  const BodyProperties<S>& properties = map_.properties_at(now);
+  BodyState<S> state = map_.state_at(now);
+  const Transform<S> placed =
+      compose(Transform<S>::of(BodyMap<S>::origin_pose(state, properties)), Transform<S>::of(field));
+  const Aabb<S> fat = state.fat;
+  detail::renew_fat_box(map_, state, properties, true);
+  if (!(state.fat == fat)) {
+    BodySet<S>& set = now.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
+    set.states[now.index].fat = state.fat;
+    proxies_.place(set.states[now.index], set.properties[now.index], now.set == Location::kAwake);
+  }
+  wake_.wake_touching(grow(detail::turned_box(changed, placed), detail::kFatMargin<S>), body);
 }
 
 }  // namespace isostep

@@ -34,6 +34,8 @@ template <class S> class IslandWake {
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.
   void wake_touching(std::uint32_t slot);
+  /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
+  void wake_touching(const Aabb<S>& box, std::uint32_t slot);
   /// Every island with a joint to, or a contact with, a body that no island holds. Its box need not meet theirs any
   /// more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);

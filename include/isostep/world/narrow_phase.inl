@@ -199,7 +199,10 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   g.row_a = a.row;
   g.row_b = b.row;
   g.normal = manifold.normal;
-  g.material = mix(materials[parts.frame_a], materials[parts.frame_b]);
+  const Material<S>&of_a = materials[parts.frame_a], &of_b = materials[parts.frame_b];
+  g.material = a.surfaces   ? mix(material_of_leaf(a, parts.child_a, of_a), of_b)
+               : b.surfaces ? mix(of_a, material_of_leaf(b, parts.child_b, of_b))
+                            : mix(of_a, of_b);
   const Vec3<S> from_a_to_b = b.centre - a.centre;
   for (int p = 0; p < kMaxContactPoints; ++p) {
     if (p == manifold.count) break;

@@ -101,7 +101,7 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
     return true;
   };
   const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
-  const bool whole = a.surfaces || b.surfaces ? visit_sorted_leaves(a, b, margin, looks, visit)
+  const bool whole = is_large(a) || is_large(b) ? visit_sorted_leaves(a, b, margin, looks, visit)
                                               : visit_parts(a, b, margin, looks, visit);
   all.looks -= most_looks - looks;
   all.parts -= most_parts - parts;

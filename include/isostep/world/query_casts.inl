@@ -27,26 +27,33 @@ void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& lis
 template <class S>
 template <class Probe, class List>
 void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const {
-  using Hit = typename Probe::Hit;
   const Transform<S> placed = Transform<S>::of(pose_of(slot));
-  const std::span<const Child<S>> children = map_.children_of(map_.properties_at(map_.location(slot)).shape);
+  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
+  const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);
-  Hit first = {};
-  for (std::uint32_t i = 0; i < children.size(); ++i) {
+  typename Probe::Hit first = {};
+  const auto latest = [&] { return first.body ? min(first.fraction, list.latest()) : list.latest(); };
+  const auto meet_child = [&](std::uint32_t i) {
     const ShapeView<S> part = map_.contents().view(children[i].primitive);
     const bool is_placed = children[i].pose.is_identity();
     const Transform<S> at = is_placed ? placed : compose(placed, Transform<S>::of(children[i].pose));
     if (filter.per == HitPer::triangle) {
       detail::PartSink<Probe, List> sink = {probe, list, body, i};
-      probe.all(part, at, list.latest(), sink);
-      continue;
+      return probe.all(part, at, list.latest(), sink);
     }
-    const bool is_more = static_cast<bool>(first.body);
     typename Probe::PartHit found;
-    if (!probe.first(part, at, is_more ? min(first.fraction, list.latest()) : list.latest(), found)) continue;
-    const Hit hit = probe.hit_of(body, i, found);
+    if (!probe.first(part, at, latest(), found)) return;
+    const typename Probe::Hit hit = probe.hit_of(body, i, found);
     if (filter.per == HitPer::child) list.add(hit);
-    else if (!is_more || hit.fraction < first.fraction) first = hit;
+    else if (!first.body || detail::comes_before(hit, first)) first = hit;
+  };
+  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
+    tree->sweep(placed, probe.sweep(), [&](std::uint32_t i, Unit<S> most) {
+      meet_child(i);
+      return min(most, probe.beyond(latest()));
+    });
+  } else {
+    for (std::uint32_t i = 0; i < children.size(); ++i) meet_child(i);
   }
   if (first.body) list.add(first);
 }

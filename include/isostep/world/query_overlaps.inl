@@ -41,7 +41,20 @@ template <class S> auto Queries<S>::asked_of(const QueryShape<S>& shape, const P
 namespace detail {
 template <class S> ISO_INLINE std::uint8_t material_of(const ShapeView<S>& surface, std::uint32_t triangle) {
   return visit_surface(surface,
-                       [&](const auto& of) ISO_INLINE_LAMBDA { return of.triangle(triangle).material; });
+                       [&](const auto& of) ISO_INLINE_LAMBDA { return of.material(triangle); });
+}
+/// Ascending.
+template <class S>
+std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transform<S>& t, const Aabb<S>& box) {
+  std::vector<std::uint32_t> near;
+  tree.query(t, box, [&](std::uint32_t child) {
+    near.push_back(child);
+    return true;
+  });
+  const auto count = static_cast<std::uint32_t>(near.size());
+  std::vector<std::uint32_t> scratch(count <= kInsertionSortLimit ? 0 : count);
+  stable_sort(near.data(), scratch.data(), count, OwnKey{});
+  return near;
 }
 }  // namespace detail
 
@@ -55,9 +68,10 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
   placed.position -= asked.pose.position;  // relative, as the narrow phase wants it
   const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
                      there = Transform<S>::of(placed);
-  const std::span<const Child<S>> children = map_.children_of(map_.properties_at(map_.location(slot)).shape);
+  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
+  const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);
-  for (std::uint32_t i = 0; i < children.size(); ++i) {
+  const auto visit_child = [&](std::uint32_t i) {  // false: visit wants no more
     const ShapeView<S> part = map_.contents().view(children[i].primitive);
     const Transform<S> at = compose(there, Transform<S>::of(children[i].pose));
     Manifold<S> manifold;
@@ -74,13 +88,21 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
       collide(asked.view(), here, part, at, S(0), manifold);
       if (manifold.count != 0) lowest = 0;
     } else if (!visit_triangles_near(asked.view(), here, part, at, S(0), touches)) {
-      return;
+      return false;
     }
-    if (lowest == kNoTriangle) continue;
+    if (lowest == kNoTriangle) return true;
     const bool told = each && !is_whole;
     const std::uint8_t material = is_whole ? std::uint8_t{0} : detail::material_of(part, lowest);
-    if (!told && !visit(OverlapHit{body, i, lowest, material})) return;
-    if (filter.per == HitPer::body) return;
+    return (told || visit(OverlapHit{body, i, lowest, material})) && filter.per != HitPer::body;
+  };
+  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
+    for (const std::uint32_t i : detail::children_near(*tree, there, bounds(asked.view(), here))) {
+      if (!visit_child(i)) return;
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < children.size(); ++i) {
+    if (!visit_child(i)) return;
   }
 }
 

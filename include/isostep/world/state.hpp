@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "isostep/collision/broadphase/child_tree.hpp"
 #include "isostep/core/paged_array.hpp"
 #include "isostep/core/shared.hpp"
 #include "isostep/core/slot_map.hpp"
@@ -112,6 +113,7 @@ template <class S> struct WorldState {
   Shared<std::vector<ShapeRecord>> shapes;  // by slot
   Shared<std::vector<Child<S>>> children;   // the shapes' pool
   Shared<GeometryStore> geometry;           // what they name
+  Shared<ChildTrees<S>> trees;              // no state of its own: follows from the children and what they name
   Shared<BodySet<S>> static_bodies;
   BodySet<S> awake;
   std::vector<Contact<S>> contacts;  // ascending by key
@@ -121,7 +123,7 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
 
-  /// All of it, in the order of the hash and of the portable form: see state/members.hpp.
+  /// All of it but the trees, in the order of the hash and of the portable form: see state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);

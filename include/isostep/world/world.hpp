@@ -96,6 +96,10 @@ template <class S> class World final {
   /// `blobs`: what the children name by Primitive::blob, 1 + its index here.
   ShapeId add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
   bool remove_shape(ShapeId shape);
+  /// Other heights, and materials, for a part of the field that is that child of the shape.
+  bool set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch);
+  /// As it is until the next command or load; null: the child is no height field.
+  const BakedHeightField* height_field(ShapeId shape, std::uint32_t child = 0) const;
 
   // Bodies.
   BodyId create(const BodyDefinition<S>& definition);

@@ -96,6 +96,22 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   return apply(command);
 }
 template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
+template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch) {
+  return apply(SetHeights{shape,
+                          child,
+                          patch.column,
+                          patch.row,
+                          patch.columns,
+                          patch.rows,
+                          {patch.heights.begin(), patch.heights.end()},
+                          {patch.materials.begin(), patch.materials.end()}});
+}
+template <class S> const BakedHeightField* World<S>::height_field(ShapeId shape, std::uint32_t child) const {
+  if (!contains(shape)) return nullptr;
+  const std::span<const Child<S>> children = engine_->map_.children_of(shape.slot);
+  if (child >= children.size() || children[child].primitive.type != ShapeType::height_field) return nullptr;
+  return &shape_as<HeightField>(engine_->map_.contents().view(children[child].primitive)).surface();
+}
 template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {
   return apply(CreateBody<S>{definition});
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "isostep/state/archive.hpp"
+#include "material_table.hpp"
 
 namespace isostep {
 namespace {
@@ -34,6 +35,8 @@ Result<void> check_count(const char* list, std::uint64_t count, std::uint64_t ex
   message.append_number(count).append(" ").append(list).append(" for ").append_number(expected);
   return fault(list, message.append(" ").append(places));
 }
+
+constexpr char kNothingThere[] = "every cell is a hole or a ghost";
 
 /// From the corner of half 0, in columns and rows; of half 1 from the opposite corner, with the sign turned.
 struct Offset {
@@ -142,58 +145,84 @@ BakedHeightField::Span BakedHeightField::computed_span(Block block) const {
   }
   for (std::uint32_t k = block.z * kBlock; k < std::min((block.z + 1) * kBlock, cells_z()); ++k) {
     for (std::uint32_t i = block.x * kBlock; i < std::min((block.x + 1) * kBlock, cells_x()); ++i) {
-      if (materials_[static_cast<std::size_t>(k) * cells_x() + i] != kHole) add_cell(span, i, k);
+      if (is_solid(static_cast<std::size_t>(k) * cells_x() + i)) add_cell(span, i, k);
     }
   }
   return span;
 }
 
 Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
-                                 std::span<const std::uint8_t> materials) {
+                                      const SurfaceMaterials& materials) {
+  const std::span<const std::uint8_t> numbers = materials.numbers;
   const Result<void> checked = check_grid(grid);
   if (!checked) return checked.error();
   const std::uint32_t cells = (grid.columns - 1) * (grid.rows - 1);
   const Result<void> places = check_count("heights", heights.size(), std::uint64_t{grid.columns} * grid.rows, "places");
   if (!places) return places.error();
-  const Result<void> of_cells = check_count("materials", materials.empty() ? cells : materials.size(), cells, "cells");
+  const Result<void> of_cells = check_count("materials", numbers.empty() ? cells : numbers.size(), cells, "cells");
   if (!of_cells) return of_cells.error();
+  const Result<void> of_table = check_table(materials.table);
+  if (!of_table) return of_table.error();
 
   BakedHeightField field;
   field.grid_ = grid;
   field.heights_.assign(heights.begin(), heights.end());
-  field.materials_.assign(materials.begin(), materials.end());
+  field.materials_.assign(numbers.begin(), numbers.end());
   field.materials_.resize(cells, 0);
+  field.table_.assign(materials.table.begin(), materials.table.end());
   field.lay_out();
   field.refresh({{0, 0}, {grid.columns - 2, grid.rows - 2}, 0, 0});
-  const BakedHeightField::Span all = field.spans_.back();
-  if (all.low > all.high) return fault("materials", "every cell is a hole");
+  if (field.is_empty()) return fault("materials", kNothingThere);
   return field;
 }
 
-Result<BakedHeightField> BakedHeightField::with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
-                                              std::uint32_t rows, std::span<const std::int16_t> heights) const {
-  const bool inside =
-      column <= grid_.columns && columns <= grid_.columns - column && row <= grid_.rows && rows <= grid_.rows - row;
-  if (!inside) return fault("heights", "the rectangle leaves the field");
-  const Result<void> places = check_count("heights", heights.size(), std::uint64_t{columns} * rows, "places");
-  if (!places) return places.error();
-  BakedHeightField field = *this;
-  if (heights.empty()) return field;
-  for (std::uint32_t k = 0; k < rows; ++k) {
-    const std::span<const std::int16_t> from = heights.subspan(static_cast<std::size_t>(k) * columns, columns);
-    const std::size_t to = static_cast<std::size_t>(row + k) * grid_.columns + column;
-    std::copy(from.begin(), from.end(), field.heights_.begin() + static_cast<std::ptrdiff_t>(to));
-  }
+/// As CellRange: the heights say nothing.
+BakedHeightField::CellRange BakedHeightField::cells_about(const HeightPatch& patch) const {
   const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
-  field.refresh({{before(column), before(row)},
-                 {std::min(column + columns - 1, cells_x() - 1), std::min(row + rows - 1, cells_z() - 1)},
-                 0,
-                 0});
+  return {{before(patch.column), before(patch.row)},
+          {std::min(patch.column + patch.columns - 1, cells_x() - 1),
+           std::min(patch.row + patch.rows - 1, cells_z() - 1)},
+          0,
+          0};
+}
+MeshBox BakedHeightField::bounds_about(const HeightPatch& patch) const {
+  const CellRange cells = cells_about(patch);
+  Span span = {INT16_MAX, INT16_MIN};
+  for (std::uint32_t k = cells.low[1]; k <= cells.high[1]; ++k) {
+    for (std::uint32_t i = cells.low[0]; i <= cells.high[0]; ++i) add_cell(span, i, k);
+  }
+  return box_of(cells.low[0], cells.low[1], cells.high[0] + 1, cells.high[1] + 1, span.low, span.high);
+}
+
+Result<BakedHeightField> BakedHeightField::with_heights(const HeightPatch& patch) const {
+  const bool inside = patch.columns > 0 && patch.rows > 0 && patch.column <= grid_.columns &&
+                      patch.columns <= grid_.columns - patch.column && patch.row <= grid_.rows &&
+                      patch.rows <= grid_.rows - patch.row;
+  if (!inside) return fault("heights", "the rectangle is empty or leaves the field");
+  const std::uint64_t wide = patch.columns - 1, deep = patch.rows - 1;
+  const Result<void> places =
+      check_count("heights", patch.heights.size(), std::uint64_t{patch.columns} * patch.rows, "places");
+  if (!places) return places.error();
+  const std::uint64_t numbers = patch.materials.size();
+  const Result<void> cells = check_count("materials", numbers, numbers == 0 ? 0 : wide * deep, "cells");
+  if (!cells) return cells.error();
+  BakedHeightField field = *this;
+  const auto copy_row = [&](auto from, auto& to, std::uint64_t length, std::uint64_t k, std::uint64_t line) {
+    const auto row = from.subspan(k * length, length);
+    std::copy(row.begin(), row.end(), to.begin() + static_cast<std::ptrdiff_t>((patch.row + k) * line + patch.column));
+  };
+  const std::uint64_t numbered = numbers == 0 ? 0 : deep;
+  for (std::uint64_t k = 0; k < patch.rows; ++k)
+    copy_row(patch.heights, field.heights_, patch.columns, k, grid_.columns);
+  for (std::uint64_t k = 0; k < numbered; ++k) copy_row(patch.materials, field.materials_, wide, k, cells_x());
+  field.refresh(cells_about(patch));
+  if (field.is_empty()) return fault("materials", kNothingThere);
   return field;
 }
 
 std::size_t BakedHeightField::memory() const {
-  return sizeof(*this) + heights_.size() * sizeof(std::int16_t) + materials_.size() + spans_.size() * sizeof(Span);
+  return sizeof(*this) + heights_.size() * sizeof(std::int16_t) + materials_.size() +
+         table_.size() * sizeof(SurfaceMaterial) + spans_.size() * sizeof(Span);
 }
 
 std::vector<std::uint8_t> BakedHeightField::bytes() const {
@@ -203,6 +232,7 @@ std::vector<std::uint8_t> BakedHeightField::bytes() const {
   writer.write(grid_);
   writer.write_records(heights_.data(), heights_.size());
   writer.write_raw(materials_);
+  write_table(writer, table_);
   return bytes;
 }
 
@@ -220,10 +250,11 @@ Result<BakedHeightField> read_height_field(Bytes bytes) {
   else heights.resize(places);
   reader.read_records(heights.data(), heights.size());
   const Bytes materials = reader.read_view((grid.columns - 1) * (grid.rows - 1));
+  const std::vector<SurfaceMaterial> table = read_table(reader);
   reader.expect_end();
   const Result<void> whole = reader.result("height field");
   if (!whole) return whole.error();
-  return height_field(grid, heights, materials);
+  return height_field(grid, heights, {materials, table});
 }
 
 }  // namespace isostep

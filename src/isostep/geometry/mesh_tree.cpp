@@ -278,6 +278,10 @@ class MeshTreeBuilder {
 
 MeshTree MeshTree::build(std::span<const MeshBox> boxes, int levels) { return MeshTreeBuilder(boxes).run(levels); }
 
+void MeshTree::rename(std::span<const std::uint32_t> ids) {
+  for (std::uint32_t& triangle : order_) triangle = ids[triangle];
+}
+
 std::size_t MeshTree::memory() const {
   return sizeof(*this) + nodes_.size() * sizeof(MeshNode) + order_.size() * sizeof(std::uint32_t);
 }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/triangle_mesh.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "isostep/state/archive.hpp"
+#include "material_table.hpp"
 #include "mesh_topology.hpp"
 
 namespace isostep {
@@ -35,6 +37,13 @@ Result<void> check_counts(std::uint64_t points, std::uint64_t triangles, std::ui
   return Error{ErrorCode::invalid, message, "materials"};
 }
 
+Result<void> check_materials(const SurfaceMaterials& materials) {
+  const auto is_ghost = [](std::uint8_t number) { return number == kGhostMaterial; };
+  if (!materials.numbers.empty() && std::all_of(materials.numbers.begin(), materials.numbers.end(), is_ghost))
+    return Error{ErrorCode::invalid, "every triangle is a ghost", "materials"};
+  return check_table(materials.table);
+}
+
 Result<void> check_points(std::span<const MeshPoint> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].in_range()) return fault_at("points", i, "a coordinate has more than 23 bits and a sign");
@@ -58,23 +67,32 @@ Result<void> check_triangles(std::span<const MeshPoint> points, std::span<const 
   return {};
 }
 
-MeshTree tree_of(const WeldedMesh& mesh) {
+/// Of the triangles that are no ghosts, one or more.
+MeshTree tree_of(const WeldedMesh& mesh, std::span<const std::uint8_t> materials) {
   std::vector<MeshBox> boxes;
+  std::vector<std::uint32_t> ids;
   boxes.reserve(mesh.triangles.size());
-  for (const MeshTriangle& triangle : mesh.triangles) {
+  ids.reserve(mesh.triangles.size());
+  for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
+    if (materials[id] == kGhostMaterial) continue;
     MeshBox box = MeshBox::empty();
-    for (const std::uint32_t vertex : triangle.vertices) box.add(mesh.points[vertex]);
+    for (const std::uint32_t vertex : mesh.triangles[id].vertices) box.add(mesh.points[vertex]);
     boxes.push_back(box);
+    ids.push_back(id);
   }
-  return MeshTree::build(boxes);
+  MeshTree tree = MeshTree::build(boxes);
+  tree.rename(ids);
+  return tree;
 }
 
 }  // namespace
 
 Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles,
-                                   std::span<const std::uint8_t> materials, int exponent) {
-  const Result<void> counts = check_counts(points.size(), triangles.size(), materials.size(), exponent);
+                                   const SurfaceMaterials& materials, int exponent) {
+  const Result<void> counts = check_counts(points.size(), triangles.size(), materials.numbers.size(), exponent);
   if (!counts) return counts.error();
+  const Result<void> named = check_materials(materials);
+  if (!named) return named.error();
   const Result<void> in_range = check_points(points);
   if (!in_range) return in_range.error();
   const Result<void> sound = check_triangles(points, triangles);
@@ -85,12 +103,13 @@ Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<
 
   TriangleMesh mesh;
   mesh.exponent_ = exponent;
-  mesh.tree_ = tree_of(welded);
+  mesh.materials_.assign(materials.numbers.begin(), materials.numbers.end());
+  mesh.materials_.resize(triangles.size(), 0);
+  mesh.table_.assign(materials.table.begin(), materials.table.end());
+  mesh.tree_ = tree_of(welded, mesh.materials_);
   mesh.points_ = std::move(welded.points);
   mesh.triangles_ = std::move(welded.triangles);
   mesh.edges_ = std::move(edges.value());
-  mesh.materials_.assign(materials.begin(), materials.end());
-  mesh.materials_.resize(triangles.size(), 0);
   return mesh;
 }
 
@@ -107,7 +126,8 @@ BakedTriangle TriangleMesh::triangle(std::uint32_t id) const {
 
 std::size_t TriangleMesh::memory() const {
   return sizeof(*this) - sizeof(tree_) + tree_.memory() + points_.size() * sizeof(MeshPoint) +
-         triangles_.size() * (sizeof(MeshTriangle) + sizeof(MeshEdges) + sizeof(std::uint8_t));
+         triangles_.size() * (sizeof(MeshTriangle) + sizeof(MeshEdges) + sizeof(std::uint8_t)) +
+         table_.size() * sizeof(SurfaceMaterial);
 }
 
 std::vector<std::uint8_t> TriangleMesh::bytes() const {
@@ -118,6 +138,7 @@ std::vector<std::uint8_t> TriangleMesh::bytes() const {
   writer.write_array(points_);
   writer.write_array(triangles_);
   writer.write_raw(materials_);
+  write_table(writer, table_);
   return bytes;
 }
 
@@ -131,10 +152,11 @@ Result<TriangleMesh> read_triangle_mesh(Bytes bytes) {
   reader.read_array(points, TriangleMesh::kMaxPoints);
   reader.read_array(triangles, TriangleMesh::kMaxTriangles);
   const Bytes materials = reader.read_view(triangles.size());
+  const std::vector<SurfaceMaterial> table = read_table(reader);
   reader.expect_end();
   const Result<void> whole = reader.result("triangle mesh");
   if (!whole) return whole.error();
-  Result<TriangleMesh> mesh = triangle_mesh(points, triangles, materials, static_cast<int>(exponent));
+  Result<TriangleMesh> mesh = triangle_mesh(points, triangles, {materials, table}, static_cast<int>(exponent));
   if (!mesh) return mesh;
   const std::span<const MeshPoint> kept = mesh.value().points();
   bool is_canonical = kept.size() == points.size();

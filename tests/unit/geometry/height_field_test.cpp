@@ -26,7 +26,7 @@ Materials random_materials(Random& random, std::uint32_t count) {
   Materials materials(count);
   for (std::uint8_t& m : materials) {
     const bool is_hole = random() % 6 == 0;
-    m = static_cast<std::uint8_t>(is_hole ? BakedHeightField::kHole : random() % 255);
+    m = static_cast<std::uint8_t>(is_hole ? BakedHeightField::kHole : random() % kGhostMaterial);
   }
   materials[count / 2] = 7;
   return materials;
@@ -106,6 +106,42 @@ TEST(HeightField, has_the_triangles_of_a_mesh_with_holes_and_every_scale) {
   }
 }
 
+/// Cells that are no one's own tell their neighbours how the ground goes on, and are nowhere found.
+TEST(HeightField, ghosts_are_neighbours_and_nothing_else) {
+  Random random(11);
+  const std::uint32_t columns = 21, rows = 17, cells = (columns - 1) * (rows - 1);
+  const HeightGrid grid = {10, 1, columns, rows, 300};
+  const Heights heights = random_heights(random, columns * rows, 500);
+  Materials solid(cells, 3), ghosts(cells, 3), holes(cells, 3);
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    if (random() % 4 == 0) ghosts[cell] = kGhostMaterial, holes[cell] = BakedHeightField::kHole;
+  }
+  const BakedHeightField whole = height_field(grid, heights, solid).value(),
+                         with = height_field(grid, heights, ghosts).value(),
+                         without = height_field(grid, heights, holes).value();
+  const TriangleMesh mesh = [&] {
+    const Surface surface = surface_of(grid, heights);
+    Materials of_triangles;
+    for (const std::uint8_t number : ghosts) of_triangles.insert(of_triangles.end(), 2, number);
+    return triangle_mesh(surface.points, surface.triangles, of_triangles, 10).value();
+  }();
+  EXPECT_EQ(queried(with, whole.bounds()), queried(without, whole.bounds()));
+  std::vector<std::uint32_t> of_mesh = queried(mesh, whole.bounds());
+  std::sort(of_mesh.begin(), of_mesh.end());
+  EXPECT_EQ(of_mesh, queried(with, whole.bounds()));
+  ASSERT_NO_FATAL_FAILURE(expect_queries_find_all(with, 5, 200));
+  ASSERT_NO_FATAL_FAILURE(expect_queries_find_all(mesh, 5, 200));
+  for (std::uint32_t id = 0; id < whole.triangle_count(); ++id) {
+    const bool there = ghosts[id / 2] != kGhostMaterial;
+    ASSERT_EQ(with.has_triangle(id), there);
+    ASSERT_EQ(mesh.has_triangle(id), there);
+    if (!there) continue;
+    ASSERT_TRUE(with.triangle(id) == whole.triangle(id)) << "with the neighbours of the whole";
+    ASSERT_TRUE(mesh.triangle(id) == whole.triangle(id));
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(with.neighbour(id, k), whole.neighbour(id, k));
+  }
+}
+
 TEST(HeightField, queries_find_what_all_triangles_say) {
   Random random(2);
   for (std::uint32_t trial = 0; trial < 60; ++trial) {
@@ -161,20 +197,24 @@ TEST(HeightField, other_heights_give_the_field_that_they_would_have_made) {
   Random random(6);
   const std::uint32_t columns = 37, rows = 23;
   const HeightGrid grid = {10, 2, columns, rows, 100};
-  const Materials materials = random_materials(random, (columns - 1) * (rows - 1));
+  Materials materials = random_materials(random, (columns - 1) * (rows - 1));
   Heights heights = random_heights(random, columns * rows, 1000);
   BakedHeightField field = height_field(grid, heights, materials).value();
   for (int trial = 0; trial < 300; ++trial) {
     const std::uint32_t column = random() % columns, row = random() % rows;
-    const std::uint32_t wide = random() % (columns - column + 1), deep = random() % (rows - row + 1);
+    const std::uint32_t wide = 1 + random() % (columns - column), deep = 1 + random() % (rows - row);
     const Heights patch = random_heights(random, wide * deep, 1 + random() % 3000);
+    const bool materials_too = wide > 1 && deep > 1 && trial % 2 == 0;
+    const Materials numbers = materials_too ? random_materials(random, (wide - 1) * (deep - 1)) : Materials{};
     const std::vector<std::uint8_t> before = field.bytes();
-    const Result<BakedHeightField> changed = field.with_heights(column, row, wide, deep, patch);
+    const Result<BakedHeightField> changed = field.with_heights({column, row, wide, deep, patch, numbers});
     ASSERT_TRUE(changed.ok()) << fault_text(changed);
     EXPECT_EQ(field.bytes(), before) << "the field itself stays";
     for (std::uint32_t k = 0; k < deep; ++k) {
       for (std::uint32_t i = 0; i < wide; ++i) heights[(row + k) * columns + column + i] = patch[k * wide + i];
     }
+    for (std::uint32_t cell = 0; cell < numbers.size(); ++cell)
+      materials[(row + cell / (wide - 1)) * (columns - 1) + column + cell % (wide - 1)] = numbers[cell];
     const BakedHeightField fresh = height_field(grid, heights, materials).value();
     ASSERT_EQ(changed.value().bytes(), fresh.bytes());
     std::vector<MeshBox> nodes, fresh_nodes;  // all of the pyramid
@@ -196,12 +236,22 @@ TEST(HeightField, other_heights_give_the_field_that_they_would_have_made) {
     }
     field = changed.value();
   }
-  EXPECT_EQ(fault_text(field.with_heights(30, 0, 8, 1, Heights(8))), "heights: the rectangle leaves the field");
-  EXPECT_EQ(fault_text(field.with_heights(0, 20, 1, 4, Heights(4))), "heights: the rectangle leaves the field");
-  EXPECT_EQ(fault_text(field.with_heights(38, 0, 1, 1, Heights(1))), "heights: the rectangle leaves the field");
-  EXPECT_EQ(fault_text(field.with_heights(0, 24, 1, 1, Heights(1))), "heights: the rectangle leaves the field");
-  EXPECT_EQ(fault_text(field.with_heights(1, 0, 0xffffffffu, 1, {})), "heights: the rectangle leaves the field");
-  EXPECT_EQ(fault_text(field.with_heights(0, 0, 2, 2, Heights(3))), "heights: 3 heights for 4 places");
+  const char* const kLeaves = "heights: the rectangle is empty or leaves the field";
+  const auto fault = [&](std::uint32_t column, std::uint32_t row, std::uint32_t wide, std::uint32_t deep,
+                         const Heights& patch, const Materials& numbers = {}) {
+    return fault_text(field.with_heights({column, row, wide, deep, patch, numbers}));
+  };
+  EXPECT_EQ(fault(30, 0, 8, 1, Heights(8)), kLeaves);
+  EXPECT_EQ(fault(0, 20, 1, 4, Heights(4)), kLeaves);
+  EXPECT_EQ(fault(38, 0, 1, 1, Heights(1)), kLeaves);
+  EXPECT_EQ(fault(0, 24, 1, 1, Heights(1)), kLeaves);
+  EXPECT_EQ(fault(1, 0, 0xffffffffu, 1, {}), kLeaves);
+  EXPECT_EQ(fault(1, 0, 0, 1, {}), kLeaves);
+  EXPECT_EQ(fault(0, 0, 2, 2, Heights(3)), "heights: 3 heights for 4 places");
+  EXPECT_EQ(fault(0, 0, 3, 2, Heights(6), Materials(3)), "materials: 3 materials for 2 cells");
+  EXPECT_EQ(fault(0, 0, columns, rows, Heights(columns * rows),
+                  Materials((columns - 1) * (rows - 1), BakedHeightField::kHole)),
+            "materials: every cell is a hole or a ghost");
 }
 
 std::string fault_of(const HeightGrid& grid, std::size_t heights = 6, const Materials& materials = {}) {
@@ -224,8 +274,8 @@ TEST(HeightField, names_what_it_refuses) {
   EXPECT_EQ(fault_of({10, 0, 4098, 4097, 1}), "cells: 16781312 cells, at most 16777216 are possible");
   EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 5), "heights: 5 heights for 6 places");
   EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 6, {1}), "materials: 1 materials for 2 cells");
-  EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 6, {255, 255}), "materials: every cell is a hole");
-  EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 6, {255, 254}), "");
+  EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 6, {255, 255}), "materials: every cell is a hole or a ghost");
+  EXPECT_EQ(fault_of({10, 0, 3, 2, 5}, 6, {255, 253}), "");
 }
 
 TEST(HeightField, heights_reach_as_far_as_they_may) {

@@ -48,6 +48,24 @@ TEST(SceneFile, NumbersKeepTheirText) {
   EXPECT_EQ(scene.gravity[2].text(), "0.10000000000000000000000001");
 }
 
+TEST(SceneFile, SaysWhatTheMaterialsOfTrianglesAre) {
+  const std::string text = R"({"bodies": [{"type": "static", "shapes": [{"type": "height_field",
+    "columns": 3, "rows": 2, "pitch": 1, "heights": [0, 0, 0, 0, 0, 0], "materials": [1, 254],
+    "surfaces": [{"friction": 0.25}, {"friction": 0.75, "restitution": 0.5}]}]}]})";
+  const auto field_of = [](const Scene& scene) {
+    World<double> world(settings_of<double>(scene));
+    build(scene, world);
+    return *world.height_field(ShapeId{0, 1});
+  };
+  const BakedHeightField field = field_of(read_scene(text));
+  ASSERT_EQ(field.table().size(), 2u);
+  EXPECT_EQ(field.table()[0].friction, 256);
+  EXPECT_EQ(field.table()[1].restitution, 512);
+  EXPECT_FALSE(field.has_triangle(2)) << "a ghost";
+  EXPECT_EQ(field_of(read_scene(write_scene(read_scene(text)))).bytes(), field.bytes());
+  EXPECT_THROW(field_of(read_scene(std::string(text).replace(text.find("0.75"), 4, "77  "))), SceneError);
+}
+
 TEST(SceneFile, NamesTheRateAndTheSolver) {
   const std::string text = R"({"hz": 120, "substeps": 3, "solver": "pgs", "bodies": []})";
   const Settings<float> settings = settings_of<float>(read_scene(text));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "determinism/mess.hpp"
+#include "isostep/geometry/baked/surface_blob.hpp"
 #include "isostep/state/verify.hpp"
 #include "isostep/world/recorder.hpp"
 
@@ -58,7 +59,15 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_TRUE(both(DestroyJoint{{0, 1}}, [](auto& w) { return w.destroy(JointId{0, 1}); }));
   EXPECT_TRUE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
   EXPECT_FALSE(both(DestroyBody{a}, [&](auto& w) { return w.destroy(a); }));
-  static_assert(std::variant_size_v<Command<S>> == 17, "a command more: test it here");
+  const std::vector<std::int16_t> heights(9, 0), one = {5};
+  const BlobRef field = height_field_blob(height_field({10, 0, 3, 3, 512}, heights, {}).value());
+  const ShapeId ground = called.add_shape(field);
+  EXPECT_EQ(told.add_shape(field), ground);
+  EXPECT_TRUE(both(SetHeights{ground, 0, 1, 1, 1, 1, one},
+                   [&](auto& w) { return w.set_heights(ground, 0, {1, 1, 1, 1, one}); }));
+  EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one},
+                    [&](auto& w) { return w.set_heights(ground, 1, {1, 1, 1, 1, one}); }));
+  static_assert(std::variant_size_v<Command<S>> == 18, "a command more: test it here");
 }
 
 TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {

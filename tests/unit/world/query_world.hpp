@@ -186,10 +186,20 @@ template <class S> class QueryWorld {
       children[0].primitive = primitive_of(Mesh<S>{1});
     }
     children.push_back(part_at(primitive_of(Box<S>{vec<S>(0.5, 1, 0.5)}), {2, 0.5, 2}));
+    if (field) add_fence(children);
     BodyDefinition<S> d = still<S>(world.add_shape(std::span<const Child<S>>(children), blobs), at);
     d.orientation = turn<S>({0, 1, 0}, field ? 0.3 : -0.2);
     d.filter.category = 3;
     world.create(d);
+  }
+  /// So many parts that they have a tree, one of them without an end.
+  static void add_fence(std::vector<Child<S>>& children) {
+    children.push_back(
+        {primitive_of(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, num<S>(-3)}), Pose<S>::identity()});
+    for (int i = 0; i < 12; ++i) {
+      children.push_back(part_at(primitive_of(Box<S>{vec<S>(0.1, 0.7, 0.1)}), {i - 5.5, 0.2, 0.4 * i - 2}));
+      children.back().pose.orientation = turn<S>({0, 0, 1}, 0.2 * i);
+    }
   }
   ShapeId draw_shape(int kind) {
     const D3 half = {dice.in(0.15, 0.7), dice.in(0.15, 0.7), dice.in(0.15, 0.7)};

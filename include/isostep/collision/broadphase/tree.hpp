@@ -120,6 +120,11 @@ template <class S> class AabbTree {
   /// A visitor of this class is a struct with an ISO_INLINE call operator wherever weak symbols matter.
   template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const;
 
+  /// The same for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way and
+  /// of their own. False: visit wanted no more.
+  template <class Overlaps, class Visit>
+  ISO_INLINE bool traverse(const Overlaps& overlaps, const Visit& visit) const;
+
   /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
   /// box, nearest in the tree first; false ends it. enter(node) -> bool, of `fold`: whether to look at a node at all.
   template <class Enter, class Visit>
@@ -211,6 +216,25 @@ template <class S> template <class Visit> ISO_INLINE void AabbTree<S>::query(con
     if (overlap(nodes_[node.child + 1u].box, box)) stack[waiting++] = node.child + 1u;
     if (overlap(nodes_[node.child].box, box)) stack[waiting++] = node.child;
   }
+}
+
+template <class S>
+template <class Overlaps, class Visit>
+ISO_INLINE bool AabbTree<S>::traverse(const Overlaps& overlaps, const Visit& visit) const {
+  if (size_ == 0 || !overlaps(nodes_[kRoot].box)) return true;
+  std::uint32_t stack[kMaxHeight + 1u];
+  std::uint32_t waiting = 0;
+  stack[waiting++] = kRoot;
+  while (waiting != 0) {
+    const Node& node = nodes_[stack[--waiting]];
+    if (node.height == 0) {
+      if (!visit(node.child)) return false;
+      continue;
+    }
+    if (overlaps(nodes_[node.child + 1u].box)) stack[waiting++] = node.child + 1u;
+    if (overlaps(nodes_[node.child].box)) stack[waiting++] = node.child;
+  }
+  return true;
 }
 
 /// False: the visitor wants no more.

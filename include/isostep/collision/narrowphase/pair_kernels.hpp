@@ -13,6 +13,8 @@
 
 namespace isostep {
 
+template <class S> class ChildTree;
+
 /// What a pair's kernel depends on.
 enum class PartKind : std::uint32_t { sphere, box, other };
 ISO_INLINE constexpr PartKind part_kind_of(ShapeType type) {
@@ -27,6 +29,7 @@ template <class S> struct BodyFrame {
   Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
   const Child<S>* children;
   Contents<S> contents;  // of their blobs
+  const ChildTree<S>* tree;  // of many children; null: there are few
   std::uint32_t child_count;
   std::uint32_t slot;
   std::uint32_t row;  // of SolverBodies: 0 unless awake

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "isostep/geometry/baked/mesh_point.hpp"
+#include "isostep/geometry/baked/surface_material.hpp"
 
 namespace isostep {
 
@@ -65,7 +66,9 @@ struct AnyVisit {
 };
 }  // namespace detail
 
-/// Triangles with ids 0 to triangle_count() - 1, not all of which need be there.
+/// Triangles with ids 0 to triangle_count() - 1, not all of which need be there. Ghosts (kGhostMaterial) are neighbours
+/// and have corners, and else are not there: has_triangle is false, and neither query nor traverse visits them. So a
+/// tile that has the first triangles of the next one as ghosts is as smooth at its rim as inside.
 ///
 /// `query` calls visit(id) for every triangle whose own box touches the box. `traverse` descends where overlaps(box of
 /// a node) is true and calls visit(id) for the triangles of the leaves it reaches, whose own boxes it does not look at;
@@ -78,9 +81,11 @@ concept TriangleGeometry = requires(const G& geometry, const MeshBox& box, std::
   { geometry.triangle_count() } -> std::same_as<std::uint32_t>;
   { geometry.bounds() } -> std::same_as<MeshBox>;
   { geometry.has_triangle(id) } -> std::same_as<bool>;
-  { geometry.neighbour(id, 0) } -> std::same_as<std::uint32_t>;  // across edge k, or kNoTriangle
+  { geometry.neighbour(id, 0) } -> std::same_as<std::uint32_t>;  // across edge k, a ghost too, or kNoTriangle
   { geometry.corners(id) } -> std::same_as<TriangleCorners>;  // of triangle(id)
   { geometry.triangle(id) } -> std::same_as<BakedTriangle>;
+  { geometry.material(id) } -> std::same_as<std::uint8_t>;  // its number
+  { geometry.table() } -> std::same_as<std::span<const SurfaceMaterial>>;  // see SurfaceMaterials
   { geometry.query(box, detail::AnyVisit{}) } -> std::same_as<bool>;
   { geometry.traverse(detail::AnyOverlap{}, detail::AnyVisit{}) } -> std::same_as<bool>;
   { geometry.traverse(GridVector{}, detail::AnyOverlap{}, detail::AnyVisit{}) } -> std::same_as<bool>;

@@ -34,6 +34,15 @@ struct HeightGrid {
   }
 };
 
+/// A rectangle of a field's places and what stands there now: columns times rows heights, by rows; and of the cells
+/// between its places, (columns - 1) times (rows - 1), materials, or none at all: they stay.
+struct HeightPatch {
+  std::uint32_t column, row;    // of its first place
+  std::uint32_t columns, rows;  // places along each side
+  std::span<const std::int16_t> heights;
+  std::span<const std::uint8_t> materials = {};
+};
+
 /// Immutable. Cell (i, k) is number k (columns - 1) + i and lies between columns i, i + 1 and rows k, k + 1. It is cut
 /// from (i + 1, k) to (i, k + 1); both triangles face up. Triangle 2 cell + half: half 0 has the corner (i, k) and the
 /// points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1).
@@ -42,7 +51,7 @@ struct HeightGrid {
 class BakedHeightField {
  public:
   static constexpr std::uint32_t kMaxExponent = 16, kMaxHeightShift = 7, kMaxCells = 1u << 24;
-  static constexpr std::uint8_t kHole = 255;  // material of a cell without triangles
+  static constexpr std::uint8_t kHole = 255;  // material of a cell without triangles; kGhostMaterial: with ghosts
 
   // As the compiler makes them, but no weak functions in the files that hold height fields.
   ISO_INLINE BakedHeightField(const BakedHeightField&) = default;
@@ -57,11 +66,13 @@ class BakedHeightField {
   ISO_INLINE std::span<const std::int16_t> heights() const { return heights_; }
   /// By cells.
   ISO_INLINE std::span<const std::uint8_t> materials() const { return materials_; }
-  /// Those of holes included.
+  ISO_INLINE std::uint8_t material(std::uint32_t id) const { return materials_[id / 2]; }
+  ISO_INLINE std::span<const SurfaceMaterial> table() const { return table_; }
+  /// Those of holes and ghosts included.
   ISO_INLINE std::uint32_t triangle_count() const { return 2 * cells_x() * cells_z(); }
   ISO_INLINE MeshBox bounds() const { return box_of({0, 0, levels_ - 1}); }
 
-  ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangle_count() && materials_[id / 2] != kHole; }
+  ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangle_count() && is_solid(id / 2); }
   /// Across edge k of a triangle that is there, or kNoTriangle.
   std::uint32_t neighbour(std::uint32_t id, int k) const;
   ISO_INLINE TriangleCorners corners(std::uint32_t id) const {
@@ -110,19 +121,22 @@ class BakedHeightField {
     return true;
   }
 
-  /// The field with other heights from that column and row on, by rows. ErrorCode::invalid, whose place is "heights":
-  /// the rectangle leaves the field, or there are not as many heights as it has places.
-  Result<BakedHeightField> with_heights(std::uint32_t column, std::uint32_t row, std::uint32_t columns,
-                                        std::uint32_t rows, std::span<const std::int16_t> heights) const;
+  /// The field with other heights, and other materials. ErrorCode::invalid: "heights", the rectangle leaves the field,
+  /// or there are not as many heights as it has places; "materials" of another count, or all that is left are holes.
+  Result<BakedHeightField> with_heights(const HeightPatch& patch) const;
+  /// [steps] Of the cells that have one of the patch's places as a corner, as they are now; the rectangle must be
+  /// inside the field.
+  MeshBox bounds_about(const HeightPatch& patch) const;
 
   /// [bytes] Of this object and all it holds.
   std::size_t memory() const;
-  /// The canonical content, little-endian: the fields of the grid, u32 each; heights i16; materials u8.
+  /// The canonical content, little-endian: the fields of the grid, u32 each; heights i16; materials u8; if there is a
+  /// table, its count u32 and u16 x 2 each.
   std::vector<std::uint8_t> bytes() const;
 
  private:
   friend Result<BakedHeightField> height_field(const HeightGrid&, std::span<const std::int16_t>,
-                                          std::span<const std::uint8_t>);
+                                               const SurfaceMaterials&);
   ISO_INLINE BakedHeightField() = default;
 
   static constexpr std::uint32_t kBlock = 4, kBlockBits = 2;  // cells along a block of level 0
@@ -130,7 +144,7 @@ class BakedHeightField {
   /// A block leaves three of its parts waiting and goes on with the fourth.
   static constexpr int kStack = 3 * kLevels + 1;
 
-  /// Heights of the cells of a block that are no holes; low above high: there are none.
+  /// Heights of the cells of a block that are neither holes nor ghosts; low above high: there are none.
   struct Span {
     std::int16_t low, high;
   };
@@ -148,6 +162,7 @@ class BakedHeightField {
     std::int32_t low_height, high_height;  // closed
   };
 
+  ISO_INLINE bool is_solid(std::size_t cell) const { return materials_[cell] < kGhostMaterial; }
   ISO_INLINE std::uint32_t cells_x() const { return grid_.columns - 1; }
   ISO_INLINE std::uint32_t cells_z() const { return grid_.rows - 1; }
   ISO_INLINE std::uint32_t blocks_x(std::uint32_t level) const { return ((cells_x() - 1) >> (kBlockBits + level)) + 1; }
@@ -167,7 +182,7 @@ class BakedHeightField {
     return std::int64_t{height} * (1 << grid_.height_shift);
   }
   Place place_of(std::uint32_t id) const;
-  /// The number of the cell across edge k, or kNoTriangle where it is outside or a hole.
+  /// The number of the cell across edge k, of a ghost too, or kNoTriangle where it is outside or a hole.
   std::uint32_t cell_across(Place place, int k) const;
 
   bool range_of(const MeshBox& box, CellRange& range) const;
@@ -189,7 +204,7 @@ class BakedHeightField {
   template <class Visit>
   ISO_INLINE bool visit_cell(std::uint32_t i, std::uint32_t k, const CellRange& range, Visit&& visit) const {
     const std::uint32_t cell = k * cells_x() + i;
-    if (materials_[cell] == kHole) return true;
+    if (!is_solid(cell)) return true;
     const std::int32_t a = height(i + 1, k), b = height(i, k + 1);
     const std::int32_t low = a < b ? a : b, high = a < b ? b : a;
     if (touches(low, high, height(i, k), range) && !visit(2 * cell)) return false;
@@ -224,7 +239,7 @@ class BakedHeightField {
     for (std::uint32_t k = block.z * kBlock; k < (block.z + 1) * kBlock && k < cells_z(); ++k) {
       for (std::uint32_t i = block.x * kBlock; i < (block.x + 1) * kBlock && i < cells_x(); ++i) {
         const std::uint32_t cell = k * cells_x() + i;
-        if (materials_[cell] == kHole) continue;
+        if (!is_solid(cell)) continue;
         Span span = {INT16_MAX, INT16_MIN};
         add_cell(span, i, k);
         if (!overlaps(box_of(i, k, i + 1, k + 1, span.low, span.high))) continue;
@@ -242,24 +257,28 @@ class BakedHeightField {
     }
   }
 
+  ISO_INLINE bool is_empty() const { return spans_.back().low > spans_.back().high; }
   void lay_out();
   void refresh(const CellRange& cells);
   Span computed_span(Block block) const;
+  CellRange cells_about(const HeightPatch& patch) const;
 
   HeightGrid grid_ = {};
   std::uint32_t levels_ = 0;
   std::size_t starts_[kLevels] = {};  // of each level, in spans_
   std::vector<std::int16_t> heights_;
   std::vector<std::uint8_t> materials_;
+  std::vector<SurfaceMaterial> table_;
   std::vector<Span> spans_;
 };
 
-/// `heights` has columns times rows numbers, `materials` one a cell, or none at all, which is 0 for each.
+/// `heights` has columns times rows numbers.
 /// ErrorCode::invalid: "exponent" above 16; "height_shift" above 7; "columns" or "rows" below 2; "pitch" 0, or so large
 /// that a coordinate leaves the range of MeshPoint; "heights" or "materials" of another count; "materials" that are all
-/// holes. ErrorCode::limit: more "cells" than kMaxCells.
+/// holes or ghosts; at "table[i]" a material out of range. ErrorCode::limit: more "cells" than kMaxCells, or a longer
+/// "table".
 Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
-                                 std::span<const std::uint8_t> materials);
+                                      const SurfaceMaterials& materials);
 
 /// What `bytes` gave, from bytes nobody vouches for.
 Result<BakedHeightField> read_height_field(Bytes bytes);

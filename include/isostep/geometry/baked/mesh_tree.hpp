@@ -53,6 +53,8 @@ class MeshTree {
   ISO_INLINE std::span<const MeshNode> nodes() const { return nodes_; }
   /// Triangles as the leaves have them.
   ISO_INLINE std::span<const std::uint32_t> order() const { return order_; }
+  /// Triangle i of the leaves is ids[i] from now on; ids ascend.
+  void rename(std::span<const std::uint32_t> ids);
   std::size_t memory() const;
 
   /// visit(triangle) for all triangles of the leaves whose bounds touch the box. Ends when visit returns false.

@@ -21,7 +21,7 @@ BlobRef height_field_blob(const BakedHeightField& field, BlobHome home = BlobHom
 /// to 128 m from the origin, 2^-15 m up to 256 m, and so on.
 /// Errors: of triangle_mesh; ErrorCode::invalid for a coordinate that is not finite or beyond 8388607 m.
 Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const MeshTriangle> triangles,
-                          std::span<const std::uint8_t> materials = {}, BlobHome home = BlobHome::carried);
+                          const SurfaceMaterials& materials = {}, BlobHome home = BlobHome::carried);
 
 /// Heights [m] over a grid whose columns and rows are `pitch` [m] apart, by rows: column i is at x = i pitch, row k at
 /// z = k pitch. The pitch is rounded to 2^-16 m or, of a large field, coarser, heights to the finest steps that hold
@@ -32,7 +32,7 @@ struct HeightSheet {
   double pitch;  // [m]
 };
 Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const double> heights,
-                                  std::span<const std::uint8_t> materials = {}, BlobHome home = BlobHome::carried);
+                                  const SurfaceMaterials& materials = {}, BlobHome home = BlobHome::carried);
 
 /// What a blob's bytes are; the same for all scalars. No surface: they are none.
 template <class G> struct SurfaceContent {

@@ -67,13 +67,17 @@ class TriangleMesh {
   ISO_INLINE std::span<const MeshPoint> points() const { return points_; }
   ISO_INLINE std::span<const MeshTriangle> triangles() const { return triangles_; }
   ISO_INLINE std::span<const std::uint8_t> materials() const { return materials_; }
+  ISO_INLINE std::uint8_t material(std::uint32_t id) const { return materials_[id]; }
+  ISO_INLINE std::span<const SurfaceMaterial> table() const { return table_; }
   ISO_INLINE const MeshTree& tree() const { return tree_; }
   ISO_INLINE MeshBox bounds() const { return tree_.bounds(); }
 
   /// Across edge k, from vertex k to the one after it.
   ISO_INLINE MeshEdge edge(std::uint32_t triangle, int k) const { return edges_[triangle].edges[k]; }
   ISO_INLINE std::uint32_t neighbour(std::uint32_t triangle, int k) const { return edge(triangle, k).triangle(); }
-  ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangles_.size(); }
+  ISO_INLINE bool has_triangle(std::uint32_t id) const {
+    return id < triangles_.size() && materials_[id] != kGhostMaterial;
+  }
   ISO_INLINE TriangleCorners corners(std::uint32_t id) const {
     const std::uint32_t(&of)[3] = triangles_[id].vertices;
     return {{points_[of[0]], points_[of[1]], points_[of[2]]}};
@@ -96,12 +100,12 @@ class TriangleMesh {
   /// [bytes] Of this object and all it holds.
   std::size_t memory() const;
   /// The canonical content, little-endian: exponent u32; count u32 and points i32 x 3; count u32 and vertices u32 x 3;
-  /// materials u8. All else follows from it.
+  /// materials u8; if there is a table, its count u32 and u16 x 2 each. All else follows from it.
   std::vector<std::uint8_t> bytes() const;
 
  private:
   friend Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint>, std::span<const MeshTriangle>,
-                                            std::span<const std::uint8_t>, int);
+                                            const SurfaceMaterials&, int);
   ISO_INLINE TriangleMesh() = default;
 
   /// Beyond the range of points nothing changes.
@@ -133,18 +137,19 @@ class TriangleMesh {
   std::vector<MeshPoint> points_;
   std::vector<MeshTriangle> triangles_;
   std::vector<std::uint8_t> materials_;
+  std::vector<SurfaceMaterial> table_;
   std::vector<MeshEdges> edges_;
-  MeshTree tree_;
+  MeshTree tree_;  // of what is no ghost
 };
 
-/// `materials` has one number a triangle, or none at all, which is 0 for each. Points with equal coordinates become
-/// one, points without a triangle are dropped. Borders may be open.
-/// ErrorCode::invalid: "exponent" above 16; "materials" of another count; "triangles" that are none; at "points[i]" a
+/// Points with equal coordinates become one, points without a triangle are dropped. Borders may be open.
+/// ErrorCode::invalid: "exponent" above 16; "materials" of another count, or all ghosts; at "table[i]" a material out of
+/// range; "triangles" that are none; at "points[i]" a
 /// coordinate out of range; at "triangles[i]" a vertex that is no point, a triangle without area (exactly), one that is
 /// there already, more than two triangles at an edge, two that run along an edge in the same direction.
-/// ErrorCode::limit: more "points" or "triangles" than there may be.
+/// ErrorCode::limit: more "points" or "triangles" than there may be, or a longer "table".
 Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles,
-                                   std::span<const std::uint8_t> materials, int exponent);
+                                   const SurfaceMaterials& materials, int exponent);
 
 /// What `bytes` gave, from bytes nobody vouches for. Accepts no others than `bytes` gives: one content, one form.
 Result<TriangleMesh> read_triangle_mesh(Bytes bytes);

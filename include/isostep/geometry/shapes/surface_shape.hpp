@@ -10,17 +10,24 @@ namespace isostep {
 namespace detail {
 
 /// All points of a surface are within the extent of a shape.
-template <class S, class Content> ISO_INLINE ShapeFault fault_of_surface(const Content& content) {
-  if (!content.surface) return ShapeFault::blob_not_valid;
-  const MeshBox box = content.surface->bounds();
-  const std::int64_t extent = floor_scaled(Limits<S>::extent(), content.surface->exponent());
+template <class S, class G> ISO_INLINE ShapeFault fault_of_surface(const G& surface) {
+  const MeshBox box = surface.bounds();
+  const std::int64_t extent = floor_scaled(Limits<S>::extent(), surface.exponent());
   for (int axis = 0; axis < 3; ++axis) {
     if (-box.low[axis] > extent || box.high[axis] > extent) return ShapeFault::size_too_large;
   }
   return ShapeFault::none;
 }
-template <class G, class S> ISO_INLINE Aabb<S> bounds_of_surface(const G& surface, const Transform<S>& t) {
-  const Aabb<S> box = box_of_surface<G, S>(surface);
+template <class S> ISO_INLINE Aabb<S> box_of_steps(const MeshBox& box, int exponent) {
+  Aabb<S> metres;
+  for (int axis = 0; axis < 3; ++axis) {
+    metres.low[axis] = from_lattice<S>(box.low[axis], exponent);
+    metres.high[axis] = from_lattice<S>(box.high[axis], exponent);
+  }
+  return metres;
+}
+/// Around a box in another frame.
+template <class S> ISO_INLINE Aabb<S> turned_box(const Aabb<S>& box, const Transform<S>& t) {
   Vec3<S> low = t.rotation * box.low, high = low;
   for (int corner = 1; corner < 8; ++corner) {
     const Vec3<S> p = t.rotation * Vec3<S>{(corner & 1) != 0 ? box.high.x : box.low.x,
@@ -30,6 +37,9 @@ template <class G, class S> ISO_INLINE Aabb<S> bounds_of_surface(const G& surfac
     high = max(high, p);
   }
   return {t.position + low, t.position + high};
+}
+template <class G, class S> ISO_INLINE Aabb<S> bounds_of_surface(const G& surface, const Transform<S>& t) {
+  return turned_box(box_of_surface<G, S>(surface), t);
 }
 template <class S, class G, class Visit> ISO_INLINE void visit_points_of_surface(const G& surface, const Visit& visit) {
   for (std::uint32_t id = 0; id < surface.triangle_count(); ++id) {
@@ -44,11 +54,12 @@ template <class S, class G, class Visit> ISO_INLINE void visit_points_of_surface
     visit(id, points);
   }
 }
-/// Each edge once: by its triangle of the lower id.
+/// Each edge once: by its triangle of the lower id, or by the only one that is there.
 template <class S, class G, class Line> ISO_INLINE void visit_lines_of_surface(const G& surface, const Line& line) {
   visit_points_of_surface<S>(surface, [&](std::uint32_t id, const Vec3<S>(&p)[3]) ISO_INLINE_LAMBDA {
     for (int k = 0; k < 3; ++k) {
-      if (id < surface.neighbour(id, k)) line(p[k], p[(k + 1) % 3]);
+      const std::uint32_t other = surface.neighbour(id, k);
+      if (id < other || !surface.has_triangle(other)) line(p[k], p[(k + 1) % 3]);
     }
   });
 }
@@ -76,7 +87,9 @@ template <class S, ShapeType Type, class G> struct SurfaceShape {
   }
 
   ISO_INLINE constexpr ShapeFault fault() const { return ShapeFault::none; }
-  static ISO_INLINE ShapeFault fault_of(const Content& content) { return detail::fault_of_surface<S>(content); }
+  static ISO_INLINE ShapeFault fault_of(const Content& content) {
+    return content.surface ? detail::fault_of_surface<S>(*content.surface) : ShapeFault::blob_not_valid;
+  }
   ISO_INLINE constexpr SurfaceShape normalised() const { return *this; }
   ISO_INLINE const G& surface() const { return *content->surface; }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const { return detail::bounds_of_surface(surface(), t); }
