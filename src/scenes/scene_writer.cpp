@@ -33,7 +33,7 @@ std::string list(const std::vector<SceneSurface>& surfaces) {
 }
 std::string list(bool flag) { return flag ? "true" : "false"; }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -44,7 +44,7 @@ std::string quoted(const std::string& text) {
 
 class ObjectWriter {
  public:
-  explicit ObjectWriter(std::string type) { raw("type", quoted(type)); }
+  explicit ObjectWriter(std::string type) { raw("type", in_quotes(type)); }
   void raw(const char* key, const std::string& value) {
     text_ += (text_.empty() ? "\"" : ", \"") + std::string(key) + "\": " + value;
   }
@@ -52,7 +52,7 @@ class ObjectWriter {
   template <class T> void member(const char* key, const T& value, const T& otherwise) {
     if (!(value == otherwise)) member(key, value);
   }
-  void member(const char* key, const std::string& value) { raw(key, quoted(value)); }
+  void member(const char* key, const std::string& value) { raw(key, in_quotes(value)); }
   std::string text() const { return "{" + text_ + "}"; }
 
  private:
@@ -125,16 +125,16 @@ template <class T> std::string lines_of(const std::vector<T>& items) {
 }  // namespace
 
 std::string write_scene(const Scene& scene) {
-  std::string text = "{\"name\": " + quoted(scene.name) + ", \"gravity\": " + list(scene.gravity) +
+  std::string text = "{\"name\": " + in_quotes(scene.name) + ", \"gravity\": " + list(scene.gravity) +
                      ", \"allow_sleep\": " + list(scene.allow_sleep) + ", \"frames\": " + std::to_string(scene.frames);
   const Scene standard;
   if (scene.hz != standard.hz) text += ", \"hz\": " + std::to_string(scene.hz);
   if (scene.substeps != standard.substeps) text += ", \"substeps\": " + std::to_string(scene.substeps);
   if (scene.solver != standard.solver) {
-    text += ", \"solver\": " + quoted(kSolverNames[static_cast<std::size_t>(scene.solver)]);
+    text += ", \"solver\": " + in_quotes(kSolverNames[static_cast<std::size_t>(scene.solver)]);
   }
   if (scene.script != Script::none) {
-    text += ", \"script\": " + quoted(kScriptNames[static_cast<std::size_t>(scene.script)]);
+    text += ", \"script\": " + in_quotes(kScriptNames[static_cast<std::size_t>(scene.script)]);
   }
   text += ",\n \"bodies\": [" + lines_of(scene.bodies) + "]";
   if (!scene.joints.empty()) text += ",\n \"joints\": [" + lines_of(scene.joints) + "]";

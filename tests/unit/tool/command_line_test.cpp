@@ -178,7 +178,7 @@ TEST_F(CommandLine, TellsWhatPassedAWallAndWhichBlobsAWorldHolds) {
   EXPECT_NE(ground.find("\"lost\":0,\"blobs\":[{\"shape\":\"mesh\",\"id\":\""), std::string::npos) << ground;
   EXPECT_NE(ground.find("{\"shape\":\"hull\",\"id\":\""), std::string::npos) << ground;
   const Answer table = run({"run", "S16", "--frames", "1"});
-  EXPECT_NE(table.out.find("lost          0\nblobs         1 of type hull, "), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("lost          0\nblobs         1 of type hull: "), std::string::npos) << table.out;
 }
 
 TEST_F(CommandLine, SolvesByTheSolverThatIsNamed) {
