@@ -19,7 +19,7 @@ SurfaceMaterial listed(double friction, double restitution = 0) {
 
 template <class S> class GroundMaterials : public testing::Test {
  protected:
-  /// Flat, from x = 0 and z = -2 on; material 0 before the middle, 1 behind it, 2 in the last row. Of `only` one material
+  /// Flat, from x = 0 and z = -2 on; material 0 before the middle, 1 behind it, 2 in the last row. Of `only` one,
   /// where that is not negative: the rest are ghosts.
   static BlobRef ground(bool field, const std::vector<SurfaceMaterial>& table, int only) {
     std::vector<std::uint8_t> of_cells, of_triangles;
