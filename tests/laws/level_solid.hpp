@@ -23,7 +23,7 @@ class LevelSolid {
           const auto surface = solid_surface(*mesh_of_part(part, ""));
           for (const Triangle& t : surface->triangles) add(t, at);
         } else {
-          const auto hull = solid_hull(*hull_of_points(part.points, ""));
+          const auto hull = solid_hull(*hull_of_part(part, ""));
           for (const Triangle& t : hull->triangles) add(t, at);
         }
       }

@@ -84,20 +84,22 @@ template <class S> class Passage {
   }
   /// A ball that has come as near as it may goes nowhere but away.
   template <class Shape> FreeWay<S> of_middle(const Shape& solid, S inner, S target) const {
+    ShapeCore<S> core(solid, a_.at, S(0));
+    core.become_ball(inner);
+    const Vec3<S> middle = core.core().vertices[0];
     TimeOfImpact<S> ball = impact(solid, {S(0), inner * S(0.75)}, target);
     if (ball.impact == Impact::at_start) ball = impact(solid, {S(0), inner * S(0.25)}, target);
     if (ball.impact == Impact::at_start) {
-      ball = impact(solid, {S(0), inner * S(0.25)}, target * S(0.5));
-      if (ball.impact != Impact::touch) return up_to(Unit<S>(1));
+      const Vec3<S> way = motion_.end.position - motion_.start.position +
+                          rotate(motion_.end.orientation, middle) - rotate(motion_.start.orientation, middle);
+      if (!(dot(ball.normal, way) > S(0))) return up_to(Unit<S>(1));
       ball.fraction = Unit<S>(0);
     }
-    FreeWay<S> way = up_to(ball.fraction);
-    ShapeCore<S> core(solid, a_.at, S(0));
-    core.become_ball(inner);
-    way.is_held = ball.impact != Impact::none;
-    way.middle = core.core().vertices[0];
-    way.normal = ball.normal;
-    return way;
+    FreeWay<S> free = up_to(ball.fraction);
+    free.is_held = ball.impact != Impact::none;
+    free.middle = middle;
+    free.normal = ball.normal;
+    return free;
   }
   template <class Shape> TimeOfImpact<S> impact(const Shape& solid, Smaller by, S target) const {
     ShapeCore<S> core(solid, a_.at, by.inset);
