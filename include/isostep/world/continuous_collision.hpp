@@ -47,6 +47,12 @@ template <class S> class ContinuousCollision {
     S inner;              // [m] least inner radius of its parts
     S reach;              // [m] no point of it is further from its centre of mass
     S motion;             // [m] no point of it has moved further
+    Unit<S> fraction;     // [1] what it was cut to
+    Vec3<S> centre;       // [m] in its frame: what goes straight in the first piece, where it touches at the start
+
+    ISO_INLINE CoreMotion<S> motion_of(std::uint32_t piece) const {
+      return {poses[piece], poses[piece + 1], piece == 0 ? centre : Vec3<S>::zero()};
+    }
   };
   /// Where a motion ends.
   struct Cut {
@@ -57,6 +63,7 @@ template <class S> class ContinuousCollision {
     Vec3<S> middle, place;       // [m] in the body's frame, and in the world where it is stopped
     Vec3<Unit<S>> normal;        // [1] where it may not go on; zero: where a kinematic body stops it
 
+    ISO_INLINE bool is_before(Unit<S> other) const { return fraction < other || fraction_of_middle < other; }
     void add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest);
   };
   /// Where an obstacle is while a body is swept. `carrier`: where the frame is at the end, if it is a kinematic body's.
@@ -86,7 +93,12 @@ template <class S> class ContinuousCollision {
   Mover measure(std::size_t index) const;
   void find_met_by_kinematic(S least);
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
-  void cut(const Mover& mover, bool moving);
+  void cut(Mover& mover, bool moving);
+  Cut sweep(const Mover& mover, bool moving) const;
+  bool find_touch(Mover& mover) const;
+  template <class Visit>
+  void visit_parts(const BodyProperties<S>& body, const Aabb<S>& swept, const BodyProperties<S>& other,
+                   const Pose<S>& place, const Visit& visit) const;
   void stop_middle(BodyState<S>& state, const Cut& cut) const;
   void find_obstacles(const Mover& mover, bool moving);
   void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;

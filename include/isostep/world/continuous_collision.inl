@@ -59,9 +59,9 @@ void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<co
   joined_ = joined;
   const Survey found = survey();
   find_movers(found);
-  for (const Mover& mover : movers_) cut(mover, false);
+  for (Mover& mover : movers_) cut(mover, false);
   if (!found.bullets) return;
-  for (const Mover& mover : movers_) {
+  for (Mover& mover : movers_) {
     if ((state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0) cut(mover, true);
   }
 }
@@ -169,6 +169,8 @@ template <class S> typename ContinuousCollision<S>::Mover ContinuousCollision<S>
   const BodyProperties<S>& body = state_.awake.properties[index];
   Mover mover = {};
   mover.index = static_cast<std::uint32_t>(index);
+  mover.fraction = Unit<S>(1);
+  mover.centre = Vec3<S>::zero();
   mover.inner = detail::kThick<S>;
   for (const Child<S>& child : map_.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
@@ -264,7 +266,7 @@ void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slo
   const Pose<S> place = map_.centre_pose_at(slot);
   if (moving || at.set != Location::kAwake) {
     for (std::uint32_t i = 0; i < mover.pieces; ++i)
-      sweep_piece(mover, i, {mover.poses[i], mover.poses[i + 1], Vec3<S>::zero()}, other, {place, nullptr}, cut);
+      sweep_piece(mover, i, mover.motion_of(i), other, {place, nullptr}, cut);
     return;
   }
   const CoreMotion<S> of_other = {start_[at.index], place, Vec3<S>::zero()};
@@ -272,10 +274,33 @@ void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slo
   for (std::uint32_t i = 0; i < mover.pieces; ++i) {
     const Unit<S> fraction = detail::share_of<S>(i + 1, mover.pieces);
     const Pose<S> to = detail::pose_from(pose_at(of_other, fraction), mover.poses[i + 1]);
-    sweep_piece(mover, i, {from, to, Vec3<S>::zero()}, other, {Pose<S>::identity(), &place}, cut);
+    sweep_piece(mover, i, {from, to, mover.motion_of(i).centre}, other, {Pose<S>::identity(), &place}, cut);
     from = to;
   }
 }
+/// visit(part, obstacle) for the parts of both bodies whose boxes meet: of the one all that is within `swept`.
+template <class S>
+template <class Visit>
+void ContinuousCollision<S>::visit_parts(const BodyProperties<S>& body, const Aabb<S>& swept,
+                                         const BodyProperties<S>& other, const Pose<S>& place,
+                                         const Visit& visit) const {
+  const std::span<const Child<S>> children = map_.children_of(body.shape), obstacles = map_.children_of(other.shape);
+  const Transform<S> frame = Transform<S>::of(place);
+  const auto visit_one = [&](const Child<S>& child_of_other) {
+    const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
+    if (!overlap(swept, bounds(obstacle.shape, compose(frame, obstacle.at)))) return true;
+    for (const Child<S>& child : children) visit(detail::placed_part(map_, body, child), obstacle);
+    return true;
+  };
+  const ChildTree<S>* const tree = map_.tree_of(other.shape);
+  if (tree == nullptr) {
+    for (const Child<S>& obstacle : obstacles) visit_one(obstacle);
+    return;
+  }
+  const Transform<S> origin = {frame.position - frame.rotation * other.local_centre, frame.rotation};
+  tree->query(origin, swept, [&](std::uint32_t i) { return visit_one(obstacles[i]); });
+}
+
 template <class S>
 void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion,
                                          const BodyProperties<S>& other, const Rest& rest, Cut& cut) const {
@@ -283,42 +308,58 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
   const bool moving = other.type == BodyType::dynamic;
   const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
-  const Aabb<S> swept = detail::swept_box(motion, mover.reach);
-  const auto sweep_parts = [&](const Child<S>& child, const Child<S>& child_of_other) {
-    const PlacedShape<S> part = detail::placed_part(map_, body, child);
-    const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
+  const auto sweep_parts = [&](const PlacedShape<S>& part, const PlacedShape<S>& obstacle) {
     const S thick = thickness<S>(part.shape) + (moving ? S(0) : thickness<S>(obstacle.shape));
     if (far < thick * S(0.5)) return;
-    if (!overlap(swept, bounds(obstacle.shape, compose(Transform<S>::of(rest.pose), obstacle.at)))) return;
     const FreeWay<S> way = free_way(part, motion, obstacle, rest.pose);
     if (way.fraction == U(1)) return;
     const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
-    const Pose<S> there = rest.carrier == nullptr ? way.pose : compose(*rest.carrier, way.pose);
-    cut.add(way, all, there, rest.carrier == nullptr);
+    const Pose<S> there = pose_at(motion, way.fraction);
+    cut.add(way, all, rest.carrier == nullptr ? there : compose(*rest.carrier, there), rest.carrier == nullptr);
   };
-  const std::span<const Child<S>> children = map_.children_of(body.shape), obstacles = map_.children_of(other.shape);
-  const ChildTree<S>* const tree = map_.tree_of(other.shape);
-  if (tree == nullptr) {
-    for (const Child<S>& child : children) {
-      for (const Child<S>& obstacle : obstacles) sweep_parts(child, obstacle);
-    }
-    return;
-  }
-  Transform<S> origin = Transform<S>::of(rest.pose);
-  origin.position = origin.position - origin.rotation * other.local_centre;
-  tree->query(origin, swept, [&](std::uint32_t i) {
-    for (const Child<S>& child : children) sweep_parts(child, obstacles[i]);
-    return true;
-  });
+  visit_parts(body, detail::swept_box(motion, mover.reach), other, rest.pose, sweep_parts);
 }
 
-template <class S> void ContinuousCollision<S>::cut(const Mover& mover, bool moving) {
-  find_obstacles(mover, moving);
-  Cut cut = {Unit<S>(1), now(mover.index), Unit<S>(1), {}, {}, {}};
+template <class S>
+typename ContinuousCollision<S>::Cut ContinuousCollision<S>::sweep(const Mover& mover, bool moving) const {
+  Cut cut = {mover.fraction, now(mover.index), mover.fraction, {}, {}, {}};
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     if (i == 0 || obstacles_[i] != obstacles_[i - 1]) sweep_against(mover, obstacles_[i], moving, cut);
   }
-  if (cut.fraction == Unit<S>(1) && cut.fraction_of_middle == Unit<S>(1)) return;
+  return cut;
+}
+
+/// The first obstacle at rest that the body touches at the start, in order of slots, children and triangles, says where.
+template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
+  const CoreMotion<S> motion = mover.motion_of(0);
+  const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};
+  bool found = false;
+  for (std::size_t i = 0; i < obstacles_.size() && !found; ++i) {
+    const Location at = map_.location(obstacles_[i]);
+    if (at.set == Location::kAwake) continue;
+    const Pose<S> place = map_.centre_pose_at(obstacles_[i]);
+    const auto look = [&](const PlacedShape<S>& part, const PlacedShape<S>& obstacle) {
+      Vec3<S> on_body;
+      if (found || !touches_at_start(part, motion, obstacle, place, on_body)) return;
+      mover.centre = transposed_times(to_matrix(motion.start.orientation), on_body - motion.start.position);
+      found = true;
+    };
+    visit_parts(state_.awake.properties[mover.index], Aabb<S>::around(motion.start.position, reach),
+                map_.properties_at(at), place, look);
+  }
+  return found;
+}
+
+/// What touches at the start goes as if it turned about that point, not about its centre of mass: with its middle on a
+/// straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All obstacles see
+/// the same path.
+template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
+  find_obstacles(mover, moving);
+  Cut cut = sweep(mover, moving);
+  if (!cut.is_before(mover.fraction)) return;
+  if (!moving && find_touch(mover)) cut = sweep(mover, moving);
+  if (!cut.is_before(mover.fraction)) return;
+  mover.fraction = min(cut.fraction, cut.fraction_of_middle);
   BodyState<S>& state = state_.awake.states[mover.index];
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
   if (detail::turns_freely(body)) state.angular_velocity = detail::turned_back(state, cut.pose.orientation);

@@ -18,10 +18,9 @@ template <class S> struct PlacedShape {
 /// at most 1 m. A surface without an inside has none.
 template <class S> S thickness(const ShapeView<S>& shape);
 
-/// How far a solid gets, and its frame's pose there.
+/// How far a solid gets.
 template <class S> struct FreeWay {
   Unit<S> fraction;      // [1] 0 ... 1; 1: all the way
-  Pose<S> pose;
   bool is_held;          // only its middle is stopped there: it may turn
   Vec3<S> middle;        // [m] in its frame, if it is held
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
@@ -32,13 +31,18 @@ template <class S> struct FreeWay {
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
-///          What touches at the start goes as if it turned about that point, not about its centre of mass.
 ///          What overlaps by as much from the start is swept as the solid a quarter of the inner radius deep in `a`. If
-///          even that does, what is swept is a ball in its middle, of three quarters or one quarter of that radius; the
-///          smaller goes nowhere but away from what it touches.
+///          even that does, what is swept is a ball in its middle, of three quarters of that radius down to a sixteenth;
+///          the smallest goes nowhere but away from what it touches.
 template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const Pose<S>& pose_of_b);
+
+/// Whether they touch at the start, apart or overlapping by half of kGraze or less; then `on_a` is where, at most kGraze
+/// deep in `a`.
+template <class S>
+bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
+                      const Pose<S>& pose_of_b, Vec3<S>& on_a);
 
 namespace detail {
 template <class S> inline constexpr S kThick = S(1);           // [m]
@@ -48,7 +52,9 @@ template <class S> inline constexpr S kGraze = S(0.00390625);  // [m]
 #define ISO_SHAPE_IMPACT_OF(extern, S)                                                    \
   extern template S thickness<S>(const ShapeView<S>&);                                    \
   extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&,     \
-                                         const PlacedShape<S>&, const Pose<S>&);
+                                         const PlacedShape<S>&, const Pose<S>&);      \
+  extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&,   \
+                                           const PlacedShape<S>&, const Pose<S>&, Vec3<S>&);
 #define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

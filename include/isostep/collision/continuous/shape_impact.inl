@@ -43,13 +43,18 @@ TimeOfImpact<S> impact_with(const SurfaceShape<S, Type, G>& shape, const Transfo
   return surface_impact(shape.surface(), compose(Transform<S>::of(pose), at), core, motion, target);
 }
 
+template <class S> ISO_INLINE S graze_of(S inner) { return min(inner * S(0.25), kGraze<S>); }
+
 template <class S> class Passage {
  public:
   ISO_INLINE Passage(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b, const Pose<S>& pose)
       : a_(a), motion_(motion), b_(b), pose_(pose) {}
 
-  ISO_INLINE FreeWay<S> free_way() {
+  ISO_INLINE FreeWay<S> free_way() const {
     return visit_shape(a_.shape, [&](const auto& solid) ISO_INLINE_LAMBDA { return of_solid(solid); });
+  }
+  ISO_INLINE bool touches_at_start(Vec3<S>& on_a) const {
+    return visit_shape(a_.shape, [&](const auto& solid) ISO_INLINE_LAMBDA { return is_touched(solid, on_a); });
   }
 
  private:
@@ -59,36 +64,41 @@ template <class S> class Passage {
     S ball;   // [m] not 0: the radius of a ball in its middle
   };
 
-  template <class Shape> FreeWay<S> of_solid(const Shape& solid) {
+  template <class Shape> FreeWay<S> of_solid(const Shape& solid) const {
     if constexpr (kIsSolid<Shape>) {
-      const S inner = solid.inner_radius(), graze = min(inner * S(0.25), kGraze<S>), target = graze * S(0.5);
+      const S inner = solid.inner_radius(), graze = graze_of(inner), target = graze * S(0.5);
       TimeOfImpact<S> whole = impact(solid, {graze, S(0)}, target);
-      if (whole.impact == Impact::none) return up_to(Unit<S>(1));
-      if (turn_about_touch(solid, graze)) whole = impact(solid, {graze, S(0)}, target);
       if (whole.impact == Impact::at_start && graze < inner * S(0.25))
         whole = impact(solid, {inner * S(0.25), S(0)}, target);
       return whole.impact == Impact::at_start ? of_middle(solid, inner, target) : up_to(whole.fraction);
     }
     return up_to(Unit<S>(1));
   }
+  template <class Shape> bool is_touched(const Shape& solid, Vec3<S>& on_a) const {
+    if constexpr (kIsSolid<Shape>) {
+      const S graze = graze_of<S>(solid.inner_radius());
+      const TimeOfImpact<S> near = impact(solid, {graze, S(0)}, graze * S(3));
+      on_a = near.on_a;
+      return near.impact == Impact::at_start && !(near.normal == Vec3<Unit<S>>::zero());
+    }
+    return false;
+  }
   ISO_INLINE FreeWay<S> up_to(Unit<S> fraction) const {
-    return {fraction, pose_at(motion_, fraction), false, Vec3<S>::zero(), Vec3<Unit<S>>::zero()};
+    return {fraction, false, Vec3<S>::zero(), Vec3<Unit<S>>::zero()};
   }
-  /// What touches at the start, by half of `graze` or less apart, turns about the point there. With its middle on a
-  /// straight line a rod that tips over would dip that end into the ground, and stay where it is for ever.
-  template <class Shape> bool turn_about_touch(const Shape& solid, S graze) {
-    const TimeOfImpact<S> near = impact(solid, {graze, S(0)}, graze * S(3));
-    if (near.impact != Impact::at_start || near.normal == Vec3<Unit<S>>::zero()) return false;
-    motion_.centre = transposed_times(to_matrix(motion_.start.orientation), near.on_a - motion_.start.position);
-    return true;
-  }
-  /// A ball that has come as near as it may goes nowhere but away.
+  /// A ball that has come as near as it may goes nowhere but away. That of a surface's triangles that is met first says
+  /// it for all of them, so smaller balls, which may come nearer, are asked before.
   template <class Shape> FreeWay<S> of_middle(const Shape& solid, S inner, S target) const {
     ShapeCore<S> core(solid, a_.at, S(0));
     core.become_ball(inner);
     const Vec3<S> middle = core.core().vertices[0];
-    TimeOfImpact<S> ball = impact(solid, {S(0), inner * S(0.75)}, target);
-    if (ball.impact == Impact::at_start) ball = impact(solid, {S(0), inner * S(0.25)}, target);
+    const struct { S radius, target; } balls[] = {{inner * S(0.75), target},
+                                                  {inner * S(0.25), target},
+                                                  {inner * S(0.25), target * S(0.5)},
+                                                  {inner * S(0.0625), target * S(0.25)}};
+    TimeOfImpact<S> ball = impact(solid, {S(0), balls[0].radius}, balls[0].target);
+    for (int i = 1; i < 4 && ball.impact == Impact::at_start; ++i)
+      ball = impact(solid, {S(0), balls[i].radius}, balls[i].target);
     if (ball.impact == Impact::at_start) {
       const Vec3<S> way = motion_.end.position - motion_.start.position +
                           rotate(motion_.end.orientation, middle) - rotate(motion_.start.orientation, middle);
@@ -110,7 +120,7 @@ template <class S> class Passage {
   }
 
   const PlacedShape<S>& a_;
-  CoreMotion<S> motion_;
+  const CoreMotion<S>& motion_;
   const PlacedShape<S>& b_;
   const Pose<S>& pose_;
 };
@@ -126,6 +136,12 @@ template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const Pose<S>& pose_of_b) {
   return detail::Passage<S>(a, motion, b, pose_of_b).free_way();
+}
+
+template <class S>
+bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
+                      const Pose<S>& pose_of_b, Vec3<S>& on_a) {
+  return detail::Passage<S>(a, motion, b, pose_of_b).touches_at_start(on_a);
 }
 
 }  // namespace isostep
