@@ -33,8 +33,8 @@ inline Vec3<double> nearest_on_triangle(Vec3<double> p, const std::array<Vec3<do
   return above ? p - normal * (dot(normal, p - t[0]) / dot(normal, normal)) : best;
 }
 
-/// The points whose hull the core of a solid is, in its own frame: a hull's vertices, 64 of each rim of a cylinder, cone,
-/// else the corners of `half`.
+/// The points whose hull the core of a solid is, in its own frame: a hull's vertices, 64 of each rim of a cylinder or
+/// cone, else the corners of `half`.
 inline std::vector<Vec3<double>> core_points(const Solid& solid) {
   if (solid.type == ShapeType::hull) return {solid.hull->vertices.begin(), solid.hull->vertices.end()};
   std::vector<Vec3<double>> points;

@@ -329,7 +329,7 @@ typename ContinuousCollision<S>::Cut ContinuousCollision<S>::sweep(const Mover& 
   return cut;
 }
 
-/// The first obstacle at rest that the body touches at the start, in order of slots, children and triangles, says where.
+/// The first obstacle at rest that the body touches at the start says where: by slots, children and triangles.
 template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
   const CoreMotion<S> motion = mover.motion_of(0);
   const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};

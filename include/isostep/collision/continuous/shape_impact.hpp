@@ -26,20 +26,20 @@ template <class S> struct FreeWay {
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
 };
 
-/// Up to where, on its motion, `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`. Placed in the frames of
-/// the poses.
+/// Up to where, on its motion, `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`. Both are placed in the
+/// frames of the poses.
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
-///          What overlaps by as much from the start is swept as the solid a quarter of the inner radius deep in `a`. If
-///          even that does, what is swept is a ball in its middle, of three quarters of that radius down to a sixteenth;
-///          the smallest goes nowhere but away from what it touches.
+///          What overlaps by as much from the start is swept as the solid a quarter of the inner radius deep in `a`.
+///          If even that does, what is swept is a ball in its middle, of three quarters of that radius down to a
+///          sixteenth; the smallest goes nowhere but away from what it touches.
 template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const Pose<S>& pose_of_b);
 
-/// Whether they touch at the start, apart or overlapping by half of kGraze or less; then `on_a` is where, at most kGraze
-/// deep in `a`.
+/// Whether they touch at the start, apart or overlapping by half of kGraze or less; then `on_a` is where, at most
+/// kGraze deep in `a`.
 template <class S>
 bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);
