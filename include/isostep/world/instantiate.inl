@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/broadphase/child_tree.inl"
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
 #include "isostep/collision/continuous/plane_impact.inl"
@@ -77,6 +78,7 @@
   ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                                    \
   ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                                    \
   template class AabbTree<OwnScalar>;                                                                                 \
+  template class ChildTree<OwnScalar>;                                                                                \
   template class PairSet<OwnScalar>;                                                                                  \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
   ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                                        \

@@ -13,7 +13,8 @@ template <class S> struct SolidPlane {
 };
 
 /// time_of_impact() against a plane: the same bound along its normal, which is given and needs no search. The normal of
-/// the result points from the core to the plane; its points are zero.
+/// the result points from the core to the plane; its points are zero, but for `on_a` where they touch at the start: the
+/// lowest of the core.
 template <class S>
 TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& motion, const SolidPlane<S>& plane,
                              S target);

@@ -67,6 +67,17 @@ template <class S> class PlaneAdvance {
   F target_;
 };
 
+/// Of the core's surface, what is furthest against the normal.
+template <class S> Vec3<S> lowest_point(const ConvexCore<S>& core, const Pose<S>& at, Vec3<Unit<S>> normal) {
+  const Mat3<Unit<S>> rotation = to_matrix(at.orientation);
+  Vec3<S> lowest = rotation * core.vertices[0];
+  for (std::uint32_t i = 1; i < core.vertices.size(); ++i) {
+    const Vec3<S> p = rotation * core.vertices[i];
+    if (dot(normal, p) < dot(normal, lowest)) lowest = p;
+  }
+  return at.position + lowest - normal * core.radius;
+}
+
 }  // namespace detail
 
 template <class S>
@@ -76,9 +87,11 @@ TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& mot
   using F = Finer<S>;
   const Vec3<S> origin = motion.start.position;
   const SweptCore<S> sweep(core, motion, origin);
-  return PlaneAdvance<S>(sweep, finer_of<Unit<F>>(plane.normal), finer_of<F>(plane.point - origin),
-                         finer<F>(max(target, resolution<S>() * S(4))))
-      .run();
+  TimeOfImpact<S> found = PlaneAdvance<S>(sweep, finer_of<Unit<F>>(plane.normal), finer_of<F>(plane.point - origin),
+                                          finer<F>(max(target, resolution<S>() * S(4))))
+                              .run();
+  if (found.impact == Impact::at_start) found.on_a = lowest_point(core, motion.start, plane.normal);
+  return found;
 }
 
 }  // namespace isostep
