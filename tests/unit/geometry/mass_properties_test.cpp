@@ -14,7 +14,7 @@ using oracle::D3;
 
 /// The range promised for a scalar and the relative error allowed there, beside rounding to S.
 template <class S> struct Promise;
-template <> struct Promise<float> { static constexpr double low = 0.02, high = 20, one = 3e-7, several = 1e-6; };
+template <> struct Promise<float> { static constexpr double low = 0.02, high = 20, one = 4e-7, several = 1e-6; };
 template <> struct Promise<double> { static constexpr double low = 0.02, high = 20, one = 1e-14, several = 1e-13; };
 template <> struct Promise<Q16_16> { static constexpr double low = 0.1, high = 10, one = 1e-5, several = 1e-4; };
 template <> struct Promise<Q32_32> { static constexpr double low = 0.02, high = 20, one = 1e-10, several = 2e-9; };
