@@ -25,7 +25,7 @@ template <class S> struct MassProperties {
 /// Units:  density [kg/m^3] > 0.
 /// Limits: shapes pass validate(). Mass saturates at Limits<S>::mass() and is at least one resolution step. No
 ///         children, or a half-space among them: mass 0 and kappa 0, a body that nothing moves.
-/// Error:  of kappa, relative, beside its rounding to S: one child 1e-5 (Q16.16, 0.1 m .. 10 m), 1e-10 (Q32.32), 3e-7,
+/// Error:  of kappa, relative, beside its rounding to S: one child 1e-5 (Q16.16, 0.1 m .. 10 m), 1e-10 (Q32.32), 4e-7,
 ///         1e-14 (float, double, 0.02 m .. 20 m); several 1e-4, 2e-9, 1e-6, 1e-13. Measured in
 ///         tests/unit/geometry/mass_properties_test.cpp.
 template <class S>

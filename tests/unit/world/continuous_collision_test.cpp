@@ -51,7 +51,7 @@ TYPED_TEST(ContinuousCollisions, a_fast_ball_is_put_back_to_the_wall_that_it_pas
   this->move(ball, {3, 0.5, 0.25});
   this->update();
   const D3 at = this->place(ball);
-  EXPECT_LT(at.x, -0.03125 - 0.125);
+  EXPECT_LT(at.x, -0.03125 - 0.125 + detail::kGraze<double>);  // it overlaps a little, and its contact finds it
   EXPECT_GT(at.x, -0.03125 - 0.125 - this->kNear);
   EXPECT_NEAR(at.y, 0.5, 1e-5);
   EXPECT_NEAR(at.z, 0.25, 1e-5);
