@@ -160,7 +160,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
 }
 
 /// An id that names nothing.
-template <class AnyId> FaultReport fault_of_id(const SlotMap& slots, AnyId id, std::uint32_t space, const char* field) {
+template <class AnyId>
+ISO_INLINE FaultReport fault_of_id(const SlotMap& slots, AnyId id, std::uint32_t space, const char* field) {
   if (slots.holds(id)) return {};
   if (!id) return {Fault::null_id, "", field, ""};
   return {SlotMap::space_of(id) != space ? Fault::foreign_id : Fault::stale_id, "", field, ""};
