@@ -4,8 +4,9 @@
 
 #include "isostep/collision/narrowphase/face_clip.hpp"
 #include "isostep/collision/narrowphase/polyhedra.hpp"
-#include "isostep/collision/narrowphase/polyhedron_axes.hpp"
+#include "isostep/collision/narrowphase/polyhedron_edges.hpp"
 #include "isostep/math/segment.hpp"
+#include "isostep/math/shortened.hpp"
 
 namespace isostep {
 namespace detail {
@@ -122,14 +123,17 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   }
 }
 
+/// [m] points of a and of b.
+template <class S> struct ClosestEnds {
+  Vec3<S> a, b;
+};
+/// Where two edges that are the best axis are nearest, in a's frame.
 template <class Pair, class S>
-ISO_INLINE void touch_edges(const Pair& pair, const EdgeAxis<S>& best, const Transform<S>& ta, Manifold<S>& out) {
+ISO_INLINE ClosestEnds<S> closest_of_edges(const Pair& pair, const EdgeAxis<S>& best) {
   const Segment<S> of_a = edge_of(pair.a, best.edge_a), in_b = edge_of(pair.b, best.edge_b);
   const Segment<S> of_b = {to_world(pair.b_in_a, in_b.centre), pair.b_in_a.rotation * in_b.direction, in_b.half};
   const ClosestPair<S> closest = closest_points(of_a, of_b);
-  out.normal = ta.rotation * best.normal;
-  out.add(to_world(ta, (of_a.at(closest.s) + of_b.at(closest.t)) * S(0.5)), best.separation,
-          best.edge_a << 7 | best.edge_b);
+  return {of_a.at(closest.s), of_b.at(closest.t)};
 }
 
 /// collide_polyhedra() with W lanes of Isa.
@@ -137,15 +141,27 @@ template <class S, int W, class Isa>
 ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                        const Transform<S>& tb, S margin, Manifold<S>& out) {
   out.clear();
-  const PolyhedronPair<S, W, Isa> pair(a, ta, b, tb);
+  PolyhedronPair<S, W, Isa> pair(a, ta, b, tb);
+  if (pair.are_apart(margin)) return;
   const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
+  pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
   const S limit = max(face_a.separation, face_b.separation) + pair.tolerance;
-  const EdgeAxis<S> edges = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
-  if (edges.found && edges.separation > margin) return;
-  if (edges.found) return touch_edges(pair, edges, ta, out);
+  EdgeAxis<S> edges = EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin);
+  if (edges.found) {
+    if (edges.separation > margin) return;
+    ClosestEnds<S> ends = closest_of_edges(pair, edges);
+    // They may be apart by more than the edges that were looked at show, unless those themselves are near.
+    if (edges.separation > S(0) && detail::is_longer(ends.b - ends.a, margin)) {
+      edges = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
+      if (edges.separation > margin) return;
+      ends = closest_of_edges(pair, edges);
+    }
+    out.normal = ta.rotation * edges.normal;
+    return out.add(to_world(ta, (ends.a + ends.b) * S(0.5)), edges.separation, edges.edge_a << 7 | edges.edge_b);
+  }
   const bool prefers_b = face_b.separation > face_a.separation + pair.tolerance;
   const auto touch = [&](bool of_b, bool deepest) ISO_INLINE_LAMBDA {
     const S tie = pair.tolerance * S(0.125);
@@ -159,9 +175,10 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
     }
   };
   touch(prefers_b, false);
-  // Nothing is above a face that was preferred to a better one: that one decides, and whether they are apart.
-  if (out.count == 0 && max(face_a.separation, face_b.separation) <= S(0))
-    touch(face_b.separation > face_a.separation, true);
+  if (out.count != 0 || max(face_a.separation, face_b.separation) > S(0)) return;
+  // Nothing is above the face. Either they are apart, or it was preferred to a better one, which decides.
+  if (EdgeAxes<S, W, Isa>(pair).best(limit, margin).found) return;
+  touch(face_b.separation > face_a.separation, true);
 }
 
 }  // namespace detail

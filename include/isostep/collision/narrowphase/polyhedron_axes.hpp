@@ -1,4 +1,4 @@
-// The separating axes of two polyhedra, and the best of them.
+// Two polyhedra in each other's frames, and the faces among their separating axes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -37,8 +37,8 @@ template <class Vertices, class U> ISO_INLINE auto lowest_of(const Vertices& ver
   return lowest;
 }
 
-/// Two polyhedra; what belongs to b is also there as a's frame sees it, and a's vertices as b's does. Found W at a time
-/// in lanes of Isa: the bits are those of one at a time.
+/// Two polyhedra; b's vertices are also there as a's frame sees them, and, once turned, a's as b's does. Found W at a
+/// time in lanes of Isa: the bits are those of one at a time.
 template <class S, int W, class Isa> struct PolyhedronPair {
   static constexpr int kMost = ConvexHull::kMaxVertices;  // and edges, and faces
   using U = Unit<S>;
@@ -48,7 +48,7 @@ template <class S, int W, class Isa> struct PolyhedronPair {
   const Polyhedron<S>& a;
   const Polyhedron<S>& b;
   Transform<S> b_in_a;
-  Columns<S, kMost> vertices_a;  // [m] in b's frame
+  Columns<S, kMost> vertices_a;  // [m] in b's frame: after turn_a()
   Columns<S, kMost> vertices_b;  // [m] in a's frame
   S tolerance;                   // [m] what an axis must be better by to replace one that is preferred
 
@@ -56,12 +56,30 @@ template <class S, int W, class Isa> struct PolyhedronPair {
                             const Transform<S>& tb)
       : a(of_a), b(of_b), b_in_a(relative(ta, tb)) {
     const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};
-    for (std::uint32_t i = 0; i < a.vertices.size(); i += W)
-      vertices_a.store(i, to_local(lanes, a.vertices.template load<L>(i)));
     for (std::uint32_t i = 0; i < b.vertices.size(); i += W)
       vertices_b.store(i, to_world(lanes, b.vertices.template load<L>(i)));
     tolerance =
         axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
+  }
+  ISO_INLINE void turn_a() {
+    const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};
+    for (std::uint32_t i = 0; i < a.vertices.size(); i += W)
+      vertices_a.store(i, to_local(lanes, a.vertices.template load<L>(i)));
+  }
+
+  /// Whether they are further apart than `reach` [m] along the line from a's origin to b's: of hulls whose boxes meet
+  /// and that do not touch, nine of ten are. False where the origins coincide.
+  ISO_INLINE bool are_apart(S reach) const {
+    const Vec3<U> along = normalise(b_in_a.position);
+    const Vec3<UL> up = broadcast<UL>(along), down = broadcast<UL>(-along);
+    return lowest(vertices_b, b.vertices.size(), up) + lowest(a.vertices, a.vertices.size(), down) > reach;
+  }
+
+ private:
+  template <class Vertices> static ISO_INLINE S lowest(const Vertices& vertices, std::uint32_t count, Vec3<UL> up) {
+    L lowest = dot(up, vertices.template load<L>(0));
+    for (std::uint32_t i = W; i < count; i += W) lowest = min(lowest, dot(up, vertices.template load<L>(i)));
+    return lowest_lane(lowest);
   }
 };
 
@@ -103,114 +121,5 @@ ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, Conve
   }
   return best;
 }
-
-template <class S> struct EdgeAxis {
-  std::uint32_t edge_a, edge_b;
-  Vec3<Unit<S>> normal;  // [1] out of a, a's frame
-  S separation;          // [m]
-  bool found;
-};
-
-/// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
-/// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
-/// of one face of the other's and into the other, in the same order. All of b's edges are looked at W at a time.
-template <class S, int W, class Isa> class EdgeAxes {
-  using Pair = PolyhedronPair<S, W, Isa>;
-  using U = Unit<S>;
-  using UL = typename Pair::UL;
-  static constexpr int kMost = ConvexHull::kMaxEdges;
-
- public:
-  ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
-    const Mat3<UL> turn = broadcast<UL>(pair.b_in_a.rotation);
-    Columns<U, kMost> normals;
-    for (std::uint32_t f = 0; f < pair.b.faces.size(); f += W)
-      normals.store(f, turn * pair.b.normals.template load<UL>(f));
-    for (std::uint32_t j = 0; j < pair.b.edges(); j += W)
-      directions_.store(j, turn * pair.b.directions.template load<UL>(j));
-    for (std::uint32_t j = 0; j < pair.b.edges(); ++j) {
-      left_.set(j, normals.at(pair.b.half_edges[2 * j].face));
-      right_.set(j, normals.at(pair.b.half_edges[2 * j + 1].face));
-    }
-    left_.template pad<W>(pair.b.edges());
-    right_.template pad<W>(pair.b.edges());
-    for (std::uint32_t f = 0; f < pair.a.faces.size(); ++f) find_sides(pair.a.normals[f], sides_of_a_[f]);
-  }
-
-  /// Those better than `limit`; ends where one exceeds `reach`.
-  ISO_INLINE EdgeAxis<S> best(S limit, S reach) const {
-    const Polyhedron<S>& a = pair_.a;
-    EdgeAxis<S> best = {0, 0, Vec3<U>::zero(), limit, false};
-    for (std::uint32_t i = 0; i < a.edges(); ++i) {
-      const Sides &left = sides_of_a_[a.half_edges[2 * i].face], &right = sides_of_a_[a.half_edges[2 * i + 1].face];
-      const Vec3<UL> direction = broadcast<UL>(a.directions[i]);
-      for (std::uint32_t block = 0; block < blocks(); ++block) {
-        const std::uint32_t out = left.plus[block] & right.minus[block], in = left.minus[block] & right.plus[block];
-        if ((out | in) == 0) continue;
-        for (std::uint32_t met = meeting(direction, block, out, in); met != 0; met &= met - 1) {
-          examine(i, block * W + static_cast<std::uint32_t>(first_bit(met)), best);
-          if (best.found && best.separation > reach) return best;
-        }
-      }
-    }
-    return best;
-  }
-
- private:
-  /// b's edges by the side of a plane to which they lead, a bit each; an edge along it is in neither.
-  struct Sides {
-    std::uint32_t plus[kMost / W], minus[kMost / W];
-  };
-
-  ISO_INLINE std::uint32_t blocks() const { return (pair_.b.edges() + W - 1) / W; }
-  ISO_INLINE void find_sides(Vec3<U> normal, Sides& sides) const {
-    const Vec3<UL> up = broadcast<UL>(normal);
-    const UL zero = UL::zero();
-    for (std::uint32_t block = 0; block < blocks(); ++block) {
-      const UL along = dot(up, directions_.template load<UL>(block * W));
-      sides.plus[block] = to_bits(less(zero, along));
-      sides.minus[block] = to_bits(less(along, zero));
-    }
-    const std::uint32_t last = blocks() - 1, own = 0xffffffffu >> (32 - (pair_.b.edges() - last * W));
-    sides.plus[last] &= own;
-    sides.minus[last] &= own;
-  }
-  /// Those that lead `out` of the left face of a's edge or `in`, and whose own faces the edge has on its sides.
-  ISO_INLINE std::uint32_t meeting(const Vec3<UL>& direction, std::uint32_t block, std::uint32_t out,
-                                   std::uint32_t in) const {
-    const UL zero = UL::zero();
-    const UL at_left = dot(direction, left_.template load<UL>(block * W));
-    const UL at_right = dot(direction, right_.template load<UL>(block * W));
-    return (out & to_bits(less(zero, at_left) & less(at_right, zero))) |
-           (in & to_bits(less(at_left, zero) & less(zero, at_right)));
-  }
-  ISO_INLINE void examine(std::uint32_t i, std::uint32_t j, EdgeAxis<S>& best) const {
-    const Polyhedron<S>& a = pair_.a;
-    const Vec3<U> direction = directions_.at(j);
-    const Vec3<S> gap = pair_.vertices_b.at(pair_.b.origin(2 * j)) - a.vertices[a.origin(2 * i)];
-    if (best.separation >= S(0) && !(side_of_arc(i, direction, gap) > S(0))) return;
-    const Vec3<U> across = cross(a.directions[i], direction);
-    if (dot(across, across) < U(kLeastSine * kLeastSine)) return;
-    const Vec3<U> n = point_of_arc(a, i, direction);
-    const S separation = dot(n, gap);
-    if (separation > best.separation) best = {i, j, n, separation, true};
-  }
-  /// [m] with the sign of the separation: along a vector that is the point of the arc but for its length, at most 1/2.
-  /// Most arcs that meet look from one solid deep into the other, and need no more.
-  ISO_INLINE S side_of_arc(std::uint32_t i, Vec3<U> direction, Vec3<S> gap) const {
-    const Polyhedron<S>& a = pair_.a;
-    const Vec3<U> left = a.normals[a.half_edges[2 * i].face], right = a.normals[a.half_edges[2 * i + 1].face];
-    const U half = U(0.5), at_left = dot(left, direction) * half, at_right = dot(right, direction) * half;
-    const S side = round_to<S>(product(dot(right, gap), at_left) - product(dot(left, gap), at_right));
-    return at_left > U(0) ? side : -side;
-  }
-
-  static constexpr double kLeastSine = 0.005;  // of edges; nearer to parallel, a face's axis is as good
-
-  const Pair& pair_;
-  Columns<U, kMost> directions_;    // of b's edges, in a's frame
-  Columns<U, kMost> left_, right_;  // normals of the faces beside each of them
-  Sides sides_of_a_[kMost];         // by face of a
-};
 
 }  // namespace isostep::detail

@@ -48,6 +48,16 @@ ISO_INLINE Out quotient_where(Mask mask, Lanes<A, W, Isa> a, Lanes<B, W, Isa> b)
   }
 }
 
+/// The lowest of all lanes.
+template <class S, int W, class Isa> ISO_INLINE S lowest_lane(Lanes<S, W, Isa> a) {
+  alignas(kLaneAlignment<S, W>) S v[W];
+  a.store(v);
+  for (int n = W / 2; n > 0; n /= 2) {
+    for (int i = 0; i < n; ++i) v[i] = min(v[i], v[i + n]);
+  }
+  return v[0];
+}
+
 /// |(x, y, z)| > length, for length >= 0. Fixed point compares exact sums one by one.
 template <class S, int W, class Isa>
 ISO_INLINE typename Lanes<S, W, Isa>::Mask is_longer(Lanes<S, W, Isa> x, Lanes<S, W, Isa> y, Lanes<S, W, Isa> z,
