@@ -45,7 +45,8 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
   const Primitive<S>& first = children[0].primitive;
   const bool plain = children.size() == 1 && children[0].pose.is_identity();
   const ChildTree<S>* const tree = map.tree_of(body.shape);
-  const bool surfaces = tree != nullptr ? tree->has_surfaces() : detail::has_surfaces(children);
+  const bool surfaces = body.type != BodyType::dynamic &&  // those have none
+                        (tree != nullptr ? tree->has_surfaces() : detail::has_surfaces(children));
   return {first.half,
           first.radius,
           state.centre,

@@ -53,6 +53,8 @@ template <class S> class BodyMap {
   /// Of a body that does not sleep, to be changed.
   BodyProperties<S>& change_properties(std::uint32_t slot);
   std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  /// Null: the shape has no such child, or it is no height field.
+  const Child<S>* height_field_of(std::uint32_t shape_slot, std::uint32_t child) const;
   /// Null: the shape has few children.
   ISO_INLINE const ChildTree<S>* tree_of(std::uint32_t shape_slot) const {
     return shape_slot < state_.trees->size() ? (*state_.trees)[shape_slot].get() : nullptr;

@@ -53,6 +53,13 @@ template <class S> std::span<const Child<S>> BodyMap<S>::children_of(std::uint32
   return {state_.children->data() + record.first_child, record.child_count};
 }
 
+template <class S>
+const Child<S>* BodyMap<S>::height_field_of(std::uint32_t shape_slot, std::uint32_t child) const {
+  const std::span<const Child<S>> children = children_of(shape_slot);
+  const bool is_field = child < children.size() && children[child].primitive.type == ShapeType::height_field;
+  return is_field ? &children[child] : nullptr;
+}
+
 /// A body's origin is its centre less the centre's place in the body.
 template <class S> Pose<S> BodyMap<S>::origin_pose(const BodyState<S>& state, const BodyProperties<S>& body) {
   if (body.local_centre == Vec3<S>::zero()) return {state.centre, state.orientation};

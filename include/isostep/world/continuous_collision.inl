@@ -170,7 +170,6 @@ template <class S> typename ContinuousCollision<S>::Mover ContinuousCollision<S>
   Mover mover = {};
   mover.index = static_cast<std::uint32_t>(index);
   mover.fraction = Unit<S>(1);
-  mover.centre = Vec3<S>::zero();
   mover.inner = detail::kThick<S>;
   for (const Child<S>& child : map_.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);

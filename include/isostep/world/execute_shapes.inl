@@ -87,10 +87,9 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
 template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t shape = command.shape.slot;
-  const std::span<const Child<S>> children = map_.children_of(shape);
-  if (command.child >= children.size() || children[command.child].primitive.type != ShapeType::height_field)
-    return journal_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
-  const Child<S> child = children[command.child];
+  const Child<S>* const known_child = map_.height_field_of(shape, command.child);
+  if (known_child == nullptr) return journal_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
+  const Child<S> child = *known_child;
   const HeightPatch patch = command.patch();
   const BakedHeightField& field = shape_as<HeightField>(map_.contents().view(child.primitive)).surface();
   const Result<BakedHeightField> changed = field.with_heights(patch);

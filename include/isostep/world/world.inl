@@ -14,6 +14,7 @@
 #include "isostep/world/execute_joints.inl"
 #include "isostep/world/execute_shapes.inl"
 #include "isostep/world/state_loader.inl"
+#include "isostep/world/world_queries.inl"
 
 namespace isostep {
 
@@ -108,9 +109,9 @@ template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child
 }
 template <class S> const BakedHeightField* World<S>::height_field(ShapeId shape, std::uint32_t child) const {
   if (!contains(shape)) return nullptr;
-  const std::span<const Child<S>> children = engine_->map_.children_of(shape.slot);
-  if (child >= children.size() || children[child].primitive.type != ShapeType::height_field) return nullptr;
-  return &shape_as<HeightField>(engine_->map_.contents().view(children[child].primitive)).surface();
+  const Child<S>* const field = engine_->map_.height_field_of(shape.slot, child);
+  if (field == nullptr) return nullptr;
+  return &shape_as<HeightField>(engine_->map_.contents().view(field->primitive)).surface();
 }
 template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {
   return apply(CreateBody<S>{definition});
@@ -263,78 +264,6 @@ template <class S> WorldCounts World<S>::counts() const {
   return counts;
 }
 
-template <class S>
-std::optional<RayCastHit<S>> World<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_ray(origin, translation, filter);
-}
-template <class S>
-void World<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
-                            QueryFilter filter) const {
-  const FloatEnvironment environment;
-  engine_->queries_.cast_ray_all(origin, translation, out, filter);
-}
-template <class S>
-std::size_t World<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::span<RayCastHit<S>> out,
-                                   QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_ray_all(origin, translation, out, filter);
-}
-template <class S>
-std::optional<ShapeCastHit<S>> World<S>::cast_shape(const QueryShape<S>& shape, const Pose<S>& pose,
-                                                    Vec3<S> translation, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_shape({shape, pose, translation, filter});
-}
-template <class S>
-void World<S>::cast_shape_all(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
-                              std::vector<ShapeCastHit<S>>& out, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  engine_->queries_.cast_shape_all({shape, pose, translation, filter}, out);
-}
-template <class S>
-std::size_t World<S>::cast_shape_all(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
-                                     std::span<ShapeCastHit<S>> out, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_shape_all({shape, pose, translation, filter}, out);
-}
-template <class S>
-bool World<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_rays(rays, hits, engine_->tools_.runner);
-}
-template <class S>
-bool World<S>::cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.cast_shapes(casts, hits, engine_->tools_.runner);
-}
-template <class S>
-std::optional<ClosestBody<S>> World<S>::closest_point(Vec3<S> point, S max_distance, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.closest_point(point, max_distance, filter);
-}
-template <class S>
-void World<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                             QueryFilter filter) const {
-  const FloatEnvironment environment;
-  engine_->queries_.overlap_shape(shape, pose, out, filter);
-}
-template <class S>
-void World<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
-                             QueryFilter filter) const {
-  const FloatEnvironment environment;
-  engine_->queries_.overlap_shape(shape, pose, out, filter);
-}
-template <class S>
-std::optional<OverlapHit> World<S>::overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
-                                                  QueryFilter filter) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.overlap_first(shape, pose, filter);
-}
-template <class S> void World<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, QueryFilter filter) const {
-  const FloatEnvironment environment;
-  engine_->queries_.overlap_aabb(box, out, filter);
-}
 template <class S> BodyView<S> World<S>::view(BodyId body) const {
   if (!contains(body)) return {};
   const FloatEnvironment environment;

@@ -123,7 +123,7 @@ template <class S> class AabbTree {
   /// The same for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way and
   /// of their own. False: visit wanted no more.
   template <class Overlaps, class Visit>
-  ISO_INLINE bool traverse(const Overlaps& overlaps, const Visit& visit) const;
+  ISO_INLINE bool traverse(const Overlaps& overlaps, Visit&& visit) const;
 
   /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
   /// box, nearest in the tree first; false ends it. enter(node) -> bool, of `fold`: whether to look at a node at all.
@@ -203,24 +203,12 @@ template <class S> class AabbTree {
 };
 
 template <class S> template <class Visit> ISO_INLINE void AabbTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
-  if (size_ == 0 || !overlap(nodes_[kRoot].box, box)) return;
-  std::uint32_t stack[kMaxHeight + 1u];
-  std::uint32_t waiting = 0;
-  stack[waiting++] = kRoot;
-  while (waiting != 0) {
-    const Node& node = nodes_[stack[--waiting]];
-    if (node.height == 0) {
-      if (!visit(node.child)) return;
-      continue;
-    }
-    if (overlap(nodes_[node.child + 1u].box, box)) stack[waiting++] = node.child + 1u;
-    if (overlap(nodes_[node.child].box, box)) stack[waiting++] = node.child;
-  }
+  traverse([&](const Aabb<S>& node) ISO_INLINE_LAMBDA { return overlap(node, box); }, visit);
 }
 
 template <class S>
 template <class Overlaps, class Visit>
-ISO_INLINE bool AabbTree<S>::traverse(const Overlaps& overlaps, const Visit& visit) const {
+ISO_INLINE bool AabbTree<S>::traverse(const Overlaps& overlaps, Visit&& visit) const {
   if (size_ == 0 || !overlaps(nodes_[kRoot].box)) return true;
   std::uint32_t stack[kMaxHeight + 1u];
   std::uint32_t waiting = 0;

@@ -49,11 +49,11 @@ template <class S> inline constexpr S kThick = S(1);           // [m]
 template <class S> inline constexpr S kGraze = S(0.00390625);  // [m]
 }  // namespace detail
 
-#define ISO_SHAPE_IMPACT_OF(extern, S)                                                    \
-  extern template S thickness<S>(const ShapeView<S>&);                                    \
-  extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&,     \
-                                         const PlacedShape<S>&, const Pose<S>&);      \
-  extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&,   \
+#define ISO_SHAPE_IMPACT_OF(extern, S)                                                  \
+  extern template S thickness<S>(const ShapeView<S>&);                                  \
+  extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&,   \
+                                         const PlacedShape<S>&, const Pose<S>&);        \
+  extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&, \
                                            const PlacedShape<S>&, const Pose<S>&, Vec3<S>&);
 #define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
