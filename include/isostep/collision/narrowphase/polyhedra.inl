@@ -136,6 +136,26 @@ ISO_INLINE ClosestEnds<S> closest_of_edges(const Pair& pair, const EdgeAxis<S>& 
   return {of_a.at(closest.s), of_b.at(closest.t)};
 }
 
+/// The edges whose cross is better than `limit` [m], and than all others where it shows the solids to be at most
+/// `margin` apart; `ends` are where they are nearest. Not found where a face is better.
+template <class S, int W, class Isa>
+ISO_INLINE EdgeAxis<S> best_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a,
+                                  const FaceAxis<S>& face_b, S limit, S margin, ClosestEnds<S>& ends) {
+  // Faces that no vertex which decides them is nearer to than to another leave nothing to find.
+  const S depth = min(limit, S(0));
+  if (height_over<S, W, Isa>(pair.a, pair.vertices_b.at(face_a.vertex)) <= depth ||
+      height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex)) <= depth)
+    return {0, 0, Vec3<Unit<S>>::zero(), limit, false};
+  EdgeAxis<S> best = EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin);
+  if (!best.found || best.separation > margin) return best;
+  ends = closest_of_edges(pair, best);
+  // They may be apart by more than the edges that were looked at show, unless those themselves are near.
+  if (!(best.separation > S(0)) || !is_longer(ends.b - ends.a, margin)) return best;
+  best = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
+  ends = closest_of_edges(pair, best);
+  return best;
+}
+
 /// collide_polyhedra() with W lanes of Isa.
 template <class S, int W, class Isa>
 ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
@@ -148,21 +168,14 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
-  const S limit = max(face_a.separation, face_b.separation) + pair.tolerance;
-  EdgeAxis<S> edges = EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin);
+  const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
+  ClosestEnds<S> ends;
+  const EdgeAxis<S> edges = best_edges(pair, face_a, face_b, limit, margin, ends);
+  if (edges.found && edges.separation > margin) return;
   if (edges.found) {
-    if (edges.separation > margin) return;
-    ClosestEnds<S> ends = closest_of_edges(pair, edges);
-    // They may be apart by more than the edges that were looked at show, unless those themselves are near.
-    if (edges.separation > S(0) && detail::is_longer(ends.b - ends.a, margin)) {
-      edges = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
-      if (edges.separation > margin) return;
-      ends = closest_of_edges(pair, edges);
-    }
     out.normal = ta.rotation * edges.normal;
     return out.add(to_world(ta, (ends.a + ends.b) * S(0.5)), edges.separation, edges.edge_a << 7 | edges.edge_b);
   }
-  const bool prefers_b = face_b.separation > face_a.separation + pair.tolerance;
   const auto touch = [&](bool of_b, bool deepest) ISO_INLINE_LAMBDA {
     const S tie = pair.tolerance * S(0.125);
     if (of_b) {
@@ -174,8 +187,8 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
       touch_faces({a, b, pair.vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, deepest, out);
     }
   };
-  touch(prefers_b, false);
-  if (out.count != 0 || max(face_a.separation, face_b.separation) > S(0)) return;
+  touch(face_b.separation > face_a.separation + pair.tolerance, false);
+  if (out.count != 0 || best > S(0)) return;
   // Nothing is above the face. Either they are apart, or it was preferred to a better one, which decides.
   if (EdgeAxes<S, W, Isa>(pair).best(limit, margin).found) return;
   touch(face_b.separation > face_a.separation, true);

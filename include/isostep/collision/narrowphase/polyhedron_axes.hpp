@@ -122,4 +122,19 @@ ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, Conve
   return best;
 }
 
+/// [m] over the face that a point is least below. Along no axis are two solids further apart than a point of one is
+/// inside the other.
+template <class S, int W, class Isa> ISO_INLINE S height_over(const Polyhedron<S>& of, Vec3<S> point) {
+  using Pair = PolyhedronPair<S, W, Isa>;
+  const Vec3<typename Pair::L> at = broadcast<typename Pair::L>(point);
+  S highest = dot(of.normals[0], point) - of.offsets[0];
+  for (std::uint32_t first = 0; first < of.faces.size(); first += W) {
+    alignas(64) S heights[W];
+    dot(of.normals.template load<typename Pair::UL>(first), at).store(heights);
+    for (std::uint32_t f = first; f < min(first + W, of.faces.size()); ++f)
+      highest = max(highest, heights[f - first] - of.offsets[f]);
+  }
+  return highest;
+}
+
 }  // namespace isostep::detail
