@@ -41,6 +41,7 @@ class BulletEngine : public Peer {
   explicit BulletEngine(const scenes::Scene& scene)
       : Peer(scene), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     gCalculateCombinedRestitutionCallback = restitution_of_pair;
+    gContactAddedCallback = turn_to_surface;
     world_.getPairCache()->setOverlapFilterCallback(&filter_);
     world_.setGravity(bt(gravity()));
     for (const PeerBody& body : bodies()) {
@@ -95,15 +96,19 @@ class BulletEngine : public Peer {
   }
 
  private:
+  /// A half-space is where its plane says, a cone is not where its centre of mass is.
+  static bool is_in_place(const PeerPart& part) {
+    return part.type == ShapeType::half_space || Pose<double>{part.position, part.orientation}.is_identity();
+  }
   btCollisionShape* assemble(BulletBody& made, const PeerBody& from) {
     for (const PeerPart& part : from.parts) made.shapes.push_back(bullet_shape(part));
-    if (from.parts.size() == 1) return made.shapes.front().shape.get();
+    if (from.parts.size() == 1 && is_in_place(from.parts.front())) return made.shapes.front().shape.get();
     auto compound = std::make_unique<btCompoundShape>();
     for (std::size_t i = 0; i < from.parts.size(); ++i) {
       compound->addChildShape(btTransform(bt(from.parts[i].orientation), bt(from.parts[i].position)),
                               made.shapes[i].shape.get());
     }
-    made.shapes.push_back({nullptr, {}, nullptr, std::move(compound)});
+    made.shapes.emplace_back().shape = std::move(compound);
     return made.shapes.back().shape.get();
   }
   BulletBody make(const PeerBody& from) {
@@ -121,6 +126,9 @@ class BulletEngine : public Peer {
     made.body->setLinearVelocity(bt(from.velocity));
     made.body->setAngularVelocity(bt(from.angular_velocity));
     made.body->setUserIndex(static_cast<int>(from.group));
+    if (from.parts.front().surface != nullptr) {
+      made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    }
     if (from.type == BodyType::kinematic) {
       made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     }

@@ -2,18 +2,27 @@
 // SPDX-License-Identifier: MIT
 #include "bullet_shapes.hpp"
 
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <LinearMath/btConvexHullComputer.h>
 
 namespace isostep::bench {
 namespace {
 
-/// Bullet adds its margin around the points, and asks polyhedral contacts for the faces.
+/// Bullet adds its margin around the points, so faces first go inwards by as much: as the margins of its boxes.
 std::unique_ptr<btCollisionShape> hull_of(const PeerPart& part) {
+  std::vector<btScalar> numbers;
+  for (const Vec3<double>& point : part.points) {
+    for (const double x : {point.x, point.y, point.z}) numbers.push_back(bt(x));
+  }
+  btConvexHullComputer inner;
+  const btScalar margin = inner.compute(numbers.data(), static_cast<int>(3 * sizeof(btScalar)),
+                                        static_cast<int>(part.points.size()), CONVEX_DISTANCE_MARGIN, bt(0.5));
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const Vec3<double>& point : part.points) hull->addPoint(bt(point), false);
+  for (int i = 0; i < inner.vertices.size(); ++i) hull->addPoint(inner.vertices[i], false);
+  hull->setMargin(margin);
   hull->recalcLocalAabb();
-  hull->setMargin(0);
-  hull->initializePolyhedralFeatures();
   return hull;
 }
 
@@ -40,7 +49,10 @@ void make_mesh(BulletShape& made) {
   made.triangles = std::make_unique<btTriangleIndexVertexArray>(
       static_cast<int>(of.corners.size() / 3), corners, static_cast<int>(3 * sizeof(int)),
       static_cast<int>(of.points.size()), made.numbers.data(), static_cast<int>(3 * sizeof(btScalar)));
-  made.shape = std::make_unique<btBvhTriangleMeshShape>(made.triangles.get(), true);
+  auto mesh = std::make_unique<btBvhTriangleMeshShape>(made.triangles.get(), true);
+  made.edges = std::make_unique<btTriangleInfoMap>();
+  btGenerateInternalEdgeInfo(mesh.get(), made.edges.get());
+  made.shape = std::move(mesh);
 }
 
 /// Between equal heights up and down, for Bullet puts the middle of those at its origin. The same diagonal as ours.
@@ -51,10 +63,20 @@ void make_field(BulletShape& made) {
   auto field = std::make_unique<btHeightfieldTerrainShape>(static_cast<int>(of.columns), static_cast<int>(of.rows),
                                                            made.numbers.data(), -most, most, 1, false);
   field->setLocalScaling({bt(of.pitch), 1, bt(of.pitch)});
+  made.edges = std::make_unique<btTriangleInfoMap>();
+  btGenerateInternalEdgeInfo(field.get(), made.edges.get());
   made.shape = std::move(field);
 }
 
 }  // namespace
+
+bool turn_to_surface(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
+                     const btCollisionObjectWrapper* b, int part_b, int index_b) {
+  if (a->getCollisionShape()->getShapeType() == TRIANGLE_SHAPE_PROXYTYPE)
+    btAdjustInternalEdgeContacts(point, a, b, part_a, index_a);
+  else btAdjustInternalEdgeContacts(point, b, a, part_b, index_b);
+  return true;
+}
 
 BulletShape bullet_shape(const PeerPart& part) {
   BulletShape made;

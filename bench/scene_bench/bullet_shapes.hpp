@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <BulletCollision/CollisionShapes/btTriangleInfoMap.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
@@ -21,8 +22,12 @@ struct BulletShape {
   std::shared_ptr<const PeerSurface> surface;
   std::vector<btScalar> numbers;  // points of a mesh, heights of a field
   std::unique_ptr<btStridingMeshInterface> triangles;
+  std::unique_ptr<btTriangleInfoMap> edges;  // of a mesh or field
   std::unique_ptr<btCollisionShape> shape;
 };
 BulletShape bullet_shape(const PeerPart& part);
+/// For gContactAddedCallback: Bullet's own remedy for bodies that catch on inner edges of a mesh or field.
+bool turn_to_surface(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
+                     const btCollisionObjectWrapper* b, int part_b, int index_b);
 
 }  // namespace isostep::bench

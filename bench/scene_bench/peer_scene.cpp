@@ -111,6 +111,14 @@ void set_mass(PeerBody& body, const scenes::SceneBody& of) {
   if (!is_finite(body.inertia)) throw SceneError("", "peers are given no body that cannot turn");
 }
 
+/// Into the frame of the body: engines have hulls of one part where the body is.
+void move_points(PeerPart& part) {
+  const Mat3<double> axes = to_matrix(part.orientation);
+  for (Vec3<double>& point : part.points) point = part.position + axes * point;
+  part.position = {0, 0, 0};
+  part.orientation = Quat<double>::identity();
+}
+
 /// [kg] of the two bodies; what no force moves weighs nothing in it.
 double reduced_mass(const PeerJoint& joint, const std::vector<PeerBody>& bodies) {
   double inverse = 0;
@@ -168,6 +176,9 @@ PeerBody peer_body(const scenes::SceneBody& of) {
   body.group = of.group;
   body.collide = of.collide;
   set_mass(body, of);
+  for (PeerPart& part : body.parts) {
+    if (part.type == ShapeType::hull) move_points(part);
+  }
   return body;
 }
 

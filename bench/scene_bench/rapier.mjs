@@ -21,10 +21,16 @@ const vector = ([x, y, z]) => ({ x, y, z });
 const rotation = ([x, y, z, w]) => ({ x, y, z, w });
 let world, bodies, uniform;
 
+// With Rapier's own remedy for bodies that catch on inner edges; without it they stop on a plain.
+function mesh({ points, corners }) {
+  const flags = RAPIER.TriMeshFlags.FIX_INTERNAL_EDGES;
+  return RAPIER.ColliderDesc.trimesh(new Float32Array(points.flat()), new Uint32Array(corners), flags);
+}
 // Heights are no lengths of its scale: y counts once.
 function heightField({ cells, heights, size }) {
   const [x, , z] = size;
-  return RAPIER.ColliderDesc.heightfield(...cells, new Float32Array(heights), vector([x, 1, z]));
+  const flags = RAPIER.HeightFieldFlags.FIX_INTERNAL_EDGES;
+  return RAPIER.ColliderDesc.heightfield(...cells, new Float32Array(heights), vector([x, 1, z]), flags);
 }
 
 function shape(part) {
@@ -33,7 +39,7 @@ function shape(part) {
     case "capsule": return RAPIER.ColliderDesc.capsule(part.half_height, part.radius);
     case "cylinder": return RAPIER.ColliderDesc.cylinder(part.half_height, part.radius);
     case "cone": return RAPIER.ColliderDesc.cone(part.half_height, part.radius);
-    case "mesh": return RAPIER.ColliderDesc.trimesh(new Float32Array(part.points.flat()), new Uint32Array(part.corners));
+    case "mesh": return mesh(part);
     case "height_field": return heightField(part);
     case "half_space": return new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vector(part.normal)));
     case "hull": return RAPIER.ColliderDesc.convexHull(new Float32Array(part.points.flat()));
