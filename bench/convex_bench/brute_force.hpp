@@ -1,4 +1,5 @@
-// Distance and depth of two hulls by looking at every pair of features, in double: what the algorithms are held against.
+// Distance and depth of two hulls by looking at every pair of features, in double: what the algorithms are held
+// against.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,9 +12,9 @@ namespace isostep::bench {
 
 /// In the frame of the pair.
 struct PlacedHull {
-  std::vector<Vec3<double>> vertices, normals;             // [m], [1]
-  std::vector<std::array<Vec3<double>, 2>> edges;          // [m]
-  std::vector<std::array<Vec3<double>, 3>> triangles;      // [m]
+  std::vector<Vec3<double>> vertices, normals;         // [m], [1]
+  std::vector<std::array<Vec3<double>, 2>> edges;      // [m]
+  std::vector<std::array<Vec3<double>, 3>> triangles;  // [m]
 };
 PlacedHull placed_hull(const BenchHull& hull, const Transform<double>& at);
 

@@ -77,8 +77,8 @@ PairSet pairs_of_pile(int frames, std::size_t most) {
     for (std::size_t k = i + 1; k < lying.size(); ++k) {
       const Vec3<double> way = lying[k].at.position - lying[i].at.position;
       if (length(way) > lying[i].radius + lying[k].radius + kNear) continue;
-      const BenchPair pair = {lying[i].hull, lying[k].hull, {way * -0.5, lying[i].at.orientation},
-                              {way * 0.5, lying[k].at.orientation}};
+      const BenchPair pair = {
+          lying[i].hull, lying[k].hull, {way * -0.5, lying[i].at.orientation}, {way * 0.5, lying[k].at.orientation}};
       const Exact exact = brute_force(placed_hull(set.hulls[pair.a], Transform<double>::of(pair.at_a)),
                                       placed_hull(set.hulls[pair.b], Transform<double>::of(pair.at_b)));
       if (exact.gap > -kSunk && exact.gap < kApart) touching.push_back(pair);

@@ -19,7 +19,7 @@ struct BenchHull {
 
 /// Beside one another: the middle of the two is near the origin, as the step sees its pairs.
 struct BenchPair {
-  std::size_t a, b;        // hulls
+  std::size_t a, b;  // hulls
   Pose<double> at_a, at_b;
 };
 

@@ -37,9 +37,7 @@ template <class S> class OurQueries {
   }
 
  private:
-  static Vec3<S> vec(scenes::Point p) {
-    return {from_double<S>(p.x), from_double<S>(p.y), from_double<S>(p.z)};
-  }
+  static Vec3<S> vec(scenes::Point p) { return {from_double<S>(p.x), from_double<S>(p.y), from_double<S>(p.z)}; }
   static QueryFilter of_bodies() {
     QueryFilter filter;
     filter.mask = ~kTerrain;

@@ -34,9 +34,18 @@ double thickness_of(const PeerPart& part) {
 }
 
 PeerPart peer_part(const scenes::ScenePart& part) {
-  PeerPart made = {part.type,         real(part.half_extents), real(part.radius),   real(part.half_height),
-                   real(part.normal), real(part.offset),       real(part.position), real(part.orientation),
-                   nullptr,           {},                      0,                   nullptr};
+  PeerPart made = {part.type,
+                   real(part.half_extents),
+                   real(part.radius),
+                   real(part.half_height),
+                   real(part.normal),
+                   real(part.offset),
+                   real(part.position),
+                   real(part.orientation),
+                   nullptr,
+                   {},
+                   0,
+                   nullptr};
   made.thickness = thickness_of(made);
   if (part.type == ShapeType::hull) {
     made.hull = scenes::hull_of_part(part, "peer");

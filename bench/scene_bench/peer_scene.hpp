@@ -17,9 +17,9 @@ struct PeerPart {
   double offset;               // [m] half-space
   Vec3<double> position;       // [m] in the frame of PeerBody
   Quat<double> orientation;
-  BlobRef hull;                      // null: no hull
-  std::vector<Vec3<double>> points;  // [m] its vertices; hulls lie in PeerBody's frame as they are
-  double thickness;                  // [m] radius of a sphere that fits into it; 0 of what has no inside
+  BlobRef hull;                                // null: no hull
+  std::vector<Vec3<double>> points;            // [m] its vertices; hulls lie in PeerBody's frame as they are
+  double thickness;                            // [m] radius of a sphere that fits into it; 0 of what has no inside
   std::shared_ptr<const PeerSurface> surface;  // null: no mesh and no height field; that one's frame is at its middle
 };
 struct PeerBody {

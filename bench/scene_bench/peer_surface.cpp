@@ -24,7 +24,9 @@ PeerSurface surface_of(const TriangleMesh& mesh) {
   require_plain(mesh);
   PeerSurface made;
   const double step = std::ldexp(1.0, -mesh.exponent());
-  for (const MeshPoint p : mesh.points()) made.points.push_back(Vec3<double>{double(p.x), double(p.y), double(p.z)} * step);
+  for (const MeshPoint p : mesh.points()) {
+    made.points.push_back(Vec3<double>{double(p.x), double(p.y), double(p.z)} * step);
+  }
   for (const MeshTriangle& triangle : mesh.triangles()) {
     made.corners.insert(made.corners.end(), std::begin(triangle.vertices), std::end(triangle.vertices));
   }
@@ -58,7 +60,9 @@ double PeerSurface::highest() const {
 }
 
 std::shared_ptr<const PeerSurface> peer_surface(const scenes::ScenePart& part) {
-  if (part.type == ShapeType::mesh) return read_surface(read_triangle_mesh(scenes::mesh_of_part(part, "peer")->bytes()));
+  if (part.type == ShapeType::mesh) {
+    return read_surface(read_triangle_mesh(scenes::mesh_of_part(part, "peer")->bytes()));
+  }
   return read_surface(read_height_field(scenes::height_field_of_part(part, "peer")->bytes()));
 }
 

@@ -14,9 +14,9 @@ inline constexpr std::size_t kQueryKinds = std::size(kQueryNames);
 struct QueryRow {
   std::string engine;
   bool ours = false;
-  std::array<double, kQueryKinds> us;             // CPU time of one query; less than 0: it has no such
-  std::array<std::int64_t, kQueryKinds> hits;     // of all frames; less than 0 likewise
-  std::string bar;                                // "aim", "must", "misses" or "-"
+  std::array<double, kQueryKinds> us;          // CPU time of one query; less than 0: it has no such
+  std::array<std::int64_t, kQueryKinds> hits;  // of all frames; less than 0 likewise
+  std::string bar;                             // "aim", "must", "misses" or "-"
 };
 
 /// Rows in the order of the makers; engines without queries have none. The time of a kind is the median of the frames,

@@ -143,7 +143,7 @@ function take({ rays, casts, list_rays, radius, half_extents, overlap_radius }) 
   queries = {
     rays: rays.map(ray),
     listed: rays.slice(0, list_rays).map(ray),
-    casts: casts.map(([x, y, z, a, b, c], i) => ({ from: vector([x, y, z]), way: vector([a, b, c]), shape: shapes[i % 2] })),
+    casts: casts.map(([x, y, z, ...way], i) => ({ from: vector([x, y, z]), way: vector(way), shape: shapes[i % 2] })),
     large: new RAPIER.Ball(overlap_radius),
   };
   return [0];

@@ -30,14 +30,14 @@ Json json_of(const PeerPart& part) {
   Json points = Json::array();
   for (const Vec3<double>& point : part.points) points.push_back(json_of(point));
   Json json = {{"type", kShapeNames[static_cast<std::size_t>(part.type)]},
-          {"points", points},
-          {"half_extents", json_of(part.half_extents)},
-          {"radius", part.radius},
-          {"half_height", part.half_height},
-          {"normal", json_of(part.normal)},
-          {"offset", part.offset},
-          {"position", json_of(part.position)},
-          {"orientation", json_of(part.orientation)}};
+               {"points", points},
+               {"half_extents", json_of(part.half_extents)},
+               {"radius", part.radius},
+               {"half_height", part.half_height},
+               {"normal", json_of(part.normal)},
+               {"offset", part.offset},
+               {"position", json_of(part.position)},
+               {"orientation", json_of(part.orientation)}};
   if (part.surface != nullptr) add_surface(*part.surface, json);
   return json;
 }

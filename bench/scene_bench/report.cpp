@@ -130,7 +130,11 @@ Json json_of(const RollbackRow& row) {
 
 std::vector<std::string> figures(const Row& row, const FastestPeers& fastest) {
   if (!row.refused.empty()) {
-    return {row.scene, row.engine, "-", "-", "-", "-", "-", "-", "-", "-", "-", print("refused: %s", row.refused.c_str()), "-"};
+    std::vector<std::string> line(13, "-");
+    line[0] = row.scene;
+    line[1] = row.engine;
+    line[11] = print("refused: %s", row.refused.c_str());
+    return line;
   }
   std::vector<std::string> line = {row.scene, row.engine, print("%.4f%s", row.ms, row.failed ? " x" : ""),
                                    print("%.4f", row.p99)};
