@@ -26,13 +26,20 @@ std::unique_ptr<btCollisionShape> hull_of(const PeerPart& part) {
   return hull;
 }
 
+/// The margin is around it, and there is no shape of it with one inside: so a thin one.
+std::unique_ptr<btCollisionShape> cone_of(btScalar radius, btScalar half_height) {
+  auto cone = std::make_unique<btConeShape>(radius, 2 * half_height);
+  cone->setMargin(bt(0.001));
+  return cone;
+}
+
 std::unique_ptr<btCollisionShape> convex_of(const PeerPart& part) {
   const btScalar radius = bt(part.radius), half = bt(part.half_height);
   switch (part.type) {
     case ShapeType::sphere: return std::make_unique<btSphereShape>(radius);
     case ShapeType::capsule: return std::make_unique<btCapsuleShape>(radius, 2 * half);
     case ShapeType::cylinder: return std::make_unique<btCylinderShape>(btVector3(radius, half, radius));
-    case ShapeType::cone: return std::make_unique<btConeShape>(radius, 2 * half);
+    case ShapeType::cone: return cone_of(radius, half);
     case ShapeType::half_space: return std::make_unique<btStaticPlaneShape>(bt(part.normal), bt(part.offset));
     case ShapeType::hull: return hull_of(part);
     default: return std::make_unique<btBoxShape>(bt(part.half_extents));

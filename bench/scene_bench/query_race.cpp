@@ -82,14 +82,14 @@ void note(const Lane& lane, bool first, QueryRow& row) {
 /// 32.32 within two and a half times the time of float.
 void judge(QueryRow& row, const QueryRow* in_float, int frames) {
   if (!row.ours || frames != kFrames) return;
-  row.bar = row.hits == kHits ? "must" : "misses";
-  if (row.bar == "misses" || row.engine != "q32.32" || in_float == nullptr) return;
+  row.reach = row.hits == kHits ? scenes::Reach::must : scenes::Reach::misses;
+  if (row.reach == scenes::Reach::misses || row.engine != "q32.32" || in_float == nullptr) return;
   bool quick = true;
   for (const Query query : {Query::rays, Query::casts, Query::overlap, Query::all_hits}) {
     const auto kind = static_cast<std::size_t>(query);
     quick = quick && row.us[kind] <= 2.5 * in_float->us[kind];
   }
-  if (quick) row.bar = "aim";
+  if (quick) row.reach = scenes::Reach::aim;
 }
 
 }  // namespace
@@ -115,7 +115,6 @@ std::vector<QueryRow> race_queries(const scenes::Scene& scene, const std::vector
     QueryRow& row = all[i];
     row.engine = makers[i].name;
     row.ours = makers[i].ours;
-    row.bar = "-";
     if (row.us[0] >= 0) rows.push_back(row);
   }
   const QueryRow* in_float = nullptr;
@@ -137,7 +136,7 @@ std::string table_of(const std::vector<QueryRow>& rows) {
       const std::int64_t hits = row.hits[static_cast<std::size_t>(query)];
       line.push_back(hits < 0 ? "-" : print("%lld", static_cast<long long>(hits)));
     }
-    line.push_back(row.bar);
+    line.push_back(scenes::kReachNames[static_cast<int>(row.reach)]);
     cells.push_back(std::move(line));
   }
   return markdown(cells);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "race.hpp"
+#include "scenes/bars.hpp"
 
 namespace isostep::bench {
 
@@ -16,7 +17,7 @@ struct QueryRow {
   bool ours = false;
   std::array<double, kQueryKinds> us;          // CPU time of one query; less than 0: it has no such
   std::array<std::int64_t, kQueryKinds> hits;  // of all frames; less than 0 likewise
-  std::string bar;                             // "aim", "must", "misses" or "-"
+  scenes::Reach reach = scenes::Reach::no_bar;
 };
 
 /// Rows in the order of the makers; engines without queries have none. The time of a kind is the median of the frames,

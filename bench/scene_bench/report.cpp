@@ -106,7 +106,7 @@ Json json_of(const Row& row, const FastestPeers& fastest) {
 }
 
 Json json_of(const QueryRow& row) {
-  Json json = {{"engine", row.engine}, {"bar", row.bar}};
+  Json json = {{"engine", row.engine}, {"bar", scenes::kReachNames[static_cast<int>(row.reach)]}};
   for (std::size_t kind = 0; kind < kQueryKinds; ++kind) {
     const std::string name = kQueryNames[kind];
     json[name + "_us"] = positive(row.us[kind]);
