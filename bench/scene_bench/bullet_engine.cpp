@@ -1,38 +1,16 @@
 // Bullet (float) in the scene benchmark, as its manual sets it up.
 // SPDX-License-Identifier: MIT
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "bullet_queries.hpp"
+#include "bullet_shapes.hpp"
 #include "peer.hpp"
 
 namespace isostep::bench {
 namespace {
-
-btScalar bt(double x) { return static_cast<btScalar>(x); }
-btVector3 bt(Vec3<double> v) { return {bt(v.x), bt(v.y), bt(v.z)}; }
-btQuaternion bt(Quat<double> q) { return btQuaternion(bt(q.x), bt(q.y), bt(q.z), bt(q.w)).normalized(); }
-Vec3<double> ours(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Bullet adds its margin around the points, and asks polyhedral contacts for the faces.
-std::unique_ptr<btCollisionShape> hull_of(const PeerPart& part) {
-  auto hull = std::make_unique<btConvexHullShape>();
-  for (const Vec3<double>& point : part.points) hull->addPoint(bt(point), false);
-  hull->recalcLocalAabb();
-  hull->setMargin(0);
-  hull->initializePolyhedralFeatures();
-  return hull;
-}
-std::unique_ptr<btCollisionShape> shape_of(const PeerPart& part) {
-  switch (part.type) {
-    case ShapeType::sphere: return std::make_unique<btSphereShape>(bt(part.radius));
-    case ShapeType::capsule: return std::make_unique<btCapsuleShape>(bt(part.radius), bt(2 * part.half_height));
-    case ShapeType::half_space: return std::make_unique<btStaticPlaneShape>(bt(part.normal), bt(part.offset));
-    case ShapeType::hull: return hull_of(part);
-    default: return std::make_unique<btBoxShape>(bt(part.half_extents));
-  }
-}
 
 /// Bodies of one group do not meet; a body's user index is its group. Beside the rule of the library.
 struct GroupFilter : btOverlapFilterCallback {
@@ -53,7 +31,7 @@ btScalar damping(double rate) { return bt(1 - std::exp(-rate)); }
 
 /// Shapes first, so that they go last.
 struct BulletBody {
-  std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  std::vector<BulletShape> shapes;
   std::unique_ptr<btDefaultMotionState> path;  // of a kinematic body
   std::unique_ptr<btRigidBody> body;
 };
@@ -63,6 +41,7 @@ class BulletEngine : public Peer {
   explicit BulletEngine(const scenes::Scene& scene)
       : Peer(scene), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     gCalculateCombinedRestitutionCallback = restitution_of_pair;
+    gContactAddedCallback = turn_to_surface;
     world_.getPairCache()->setOverlapFilterCallback(&filter_);
     world_.setGravity(bt(gravity()));
     for (const PeerBody& body : bodies()) {
@@ -82,6 +61,9 @@ class BulletEngine : public Peer {
   std::string settings() const override {
     return std::to_string(world_.getSolverInfo().m_numIterations) + " iterations";
   }
+
+  void take(const scenes::DrawnQueries& drawn) override { queries_.take(drawn); }
+  std::optional<Answered> ask(Query query) override { return queries_.ask(world_, query); }
 
  protected:
   Motion motion(std::size_t i) const override {
@@ -114,16 +96,20 @@ class BulletEngine : public Peer {
   }
 
  private:
+  /// A half-space is where its plane says, a cone is not where its centre of mass is.
+  static bool is_in_place(const PeerPart& part) {
+    return part.type == ShapeType::half_space || Pose<double>{part.position, part.orientation}.is_identity();
+  }
   btCollisionShape* assemble(BulletBody& made, const PeerBody& from) {
-    for (const PeerPart& part : from.parts) made.shapes.push_back(shape_of(part));
-    if (from.parts.size() == 1) return made.shapes.front().get();
+    for (const PeerPart& part : from.parts) made.shapes.push_back(bullet_shape(part));
+    if (from.parts.size() == 1 && is_in_place(from.parts.front())) return made.shapes.front().shape.get();
     auto compound = std::make_unique<btCompoundShape>();
     for (std::size_t i = 0; i < from.parts.size(); ++i) {
       compound->addChildShape(btTransform(bt(from.parts[i].orientation), bt(from.parts[i].position)),
-                              made.shapes[i].get());
+                              made.shapes[i].shape.get());
     }
-    made.shapes.push_back(std::move(compound));
-    return made.shapes.back().get();
+    made.shapes.emplace_back().shape = std::move(compound);
+    return made.shapes.back().shape.get();
   }
   BulletBody make(const PeerBody& from) {
     BulletBody made;
@@ -140,11 +126,22 @@ class BulletEngine : public Peer {
     made.body->setLinearVelocity(bt(from.velocity));
     made.body->setAngularVelocity(bt(from.angular_velocity));
     made.body->setUserIndex(static_cast<int>(from.group));
+    if (from.parts.front().surface != nullptr) {
+      made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    }
     if (from.type == BodyType::kinematic) {
       made.body->setCollisionFlags(made.body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     }
+    if (from.fast) sweep(*made.body, from);
     if (from.type != BodyType::static_ && !allow_sleep()) made.body->setActivationState(DISABLE_DEACTIVATION);
     return made;
+  }
+  /// Swept when it moves by more than it is thick, with a smaller sphere, as in Bullet's own demonstration.
+  static void sweep(btRigidBody& body, const PeerBody& from) {
+    double thickness = from.parts.front().thickness;
+    for (const PeerPart& part : from.parts) thickness = std::min(thickness, part.thickness);
+    body.setCcdMotionThreshold(bt(thickness));
+    body.setCcdSweptSphereRadius(bt(0.2 * thickness));
   }
   /// Bullet multiplies the two coefficients of a pair.
   static double friction_of_one(double pair) { return sqrt(pair); }
@@ -189,6 +186,7 @@ class BulletEngine : public Peer {
   btDiscreteDynamicsWorld world_;
   std::vector<BulletBody> bodies_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  BulletQueries queries_;
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ template <class Name> std::vector<std::string> names_of(const std::vector<Row>& 
 std::string ms_text(double ms) { return print(ms < 0.01 ? "%.4f" : ms < 1 ? "%.3f" : "%.2f", ms); }
 
 std::string cell(const Row* row, const std::optional<Fastest>& fastest) {
-  if (row == nullptr) return "-";
+  if (row == nullptr || !row->refused.empty()) return "-";
   const double ms = shown_ms(*row);
   if (ms < 0) return "never";
   std::string text = ms_text(ms);
@@ -87,7 +87,7 @@ std::optional<Fastest> FastestPeers::of_all() const {
 FastestPeers fastest_peers(const std::vector<Row>& rows, std::string_view scene) {
   FastestPeers fastest;
   for (const Row& row : rows) {
-    if (row.scene != scene || row.ours || row.failed) continue;
+    if (row.scene != scene || row.ours || row.failed || !row.refused.empty()) continue;
     keep_faster(fastest.here, row.engine, shown_ms(row));
     if (row.engine == kAnchor) keep_faster(fastest.dated, row.engine, estimated_ms(rows, scene, kAnchor).value_or(-1));
   }
@@ -102,7 +102,7 @@ std::string anchor_since(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
     const std::optional<Dated> then = dated(row.engine, row.scene);
-    if (!then || shown_ms(row) < 0) continue;
+    if (!then || !row.refused.empty() || shown_ms(row) < 0) continue;
     text += print("%s%s %.2f", text.empty() ? "" : ", ", row.scene.c_str(), shown_ms(row) / then->ms);
   }
   return text;

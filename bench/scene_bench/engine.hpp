@@ -4,15 +4,29 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "clock.hpp"
 #include "scenes/measure.hpp"
+#include "scenes/queries.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/sight.hpp"
 
 namespace isostep::bench {
+
+/// What S14 asks: the first hit of a ray or of a shape that is cast, one by one or all in one call; the bodies that a
+/// sphere overlaps; all bodies along a ray.
+enum class Query { ray, rays, cast, casts, overlap, all_hits };
+inline constexpr const char* kQueryNames[] = {"ray", "rays", "cast", "casts", "overlap", "all_hits"};
+/// The terrain is not asked for by the last two, and those have as many rays.
+inline constexpr std::size_t kListRays = 1000;
+
+struct Answered {
+  double ms;           // CPU time of all of a frame
+  std::uint64_t hits;  // of all of them
+};
 
 /// Built by a Maker, then before_step and a step once a frame; only steps are timed. Measures are in double and cheap
 /// but for `overlap`, which is asked for once, at the end.
@@ -39,6 +53,11 @@ class Engine {
   virtual scenes::Sight sight() const = 0;
   virtual scenes::Overlap overlap() const = 0;
   virtual std::string settings() const = 0;  // for the report: "avx2, 8 sub-steps"
+
+  /// The queries of a frame, before they are asked: what happens here is not timed.
+  virtual void take(const scenes::DrawnQueries&) {}
+  /// Asks all of one kind. Nothing: this engine has no such query, or is not asked.
+  virtual std::optional<Answered> ask(Query) { return std::nullopt; }
 };
 
 struct EngineOptions {

@@ -1,6 +1,6 @@
 // Our engine in the scene benchmark, one maker a scalar, and the list of makers.
 // SPDX-License-Identifier: MIT
-#include "engine.hpp"
+#include "our_queries.hpp"
 #include "scenes/build.hpp"
 #include "scenes/script.hpp"
 
@@ -11,7 +11,8 @@ template <class S> class OurEngine : public Engine {
  public:
   OurEngine(const scenes::Scene& scene, const EngineOptions& options)
       : script_(scene.script), world_(settings_of(scene, options)) {
-    scenes::build(scene, world_);
+    const scenes::Built<S> built = scenes::build(scene, world_);
+    if (scene.name == "S14") world_.set_filter(built.bodies[0], {OurQueries<S>::kTerrain, 0xffffffffu, 0});
   }
 
   void before_step(int) override { scenes::before_step(script_, world_); }
@@ -27,6 +28,9 @@ template <class S> class OurEngine : public Engine {
     return std::string(world_.simd_name()) + ", " + std::to_string(world_.settings().substeps) + " sub-steps";
   }
 
+  void take(const scenes::DrawnQueries& drawn) override { queries_.take(drawn); }
+  std::optional<Answered> ask(Query query) override { return queries_.ask(world_, query); }
+
  private:
   static Settings<S> settings_of(const scenes::Scene& scene, const EngineOptions& options) {
     Settings<S> settings = scenes::settings_of<S>(scene);
@@ -36,6 +40,7 @@ template <class S> class OurEngine : public Engine {
 
   scenes::Script script_;
   World<S> world_;
+  OurQueries<S> queries_;
   int faults_ = 0;
 };
 

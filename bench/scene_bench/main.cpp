@@ -47,7 +47,8 @@ std::vector<Maker> chosen_makers(const Arguments& arguments) {
 
 std::vector<std::string> chosen_scenes(const Arguments& arguments) {
   if (!arguments.scenes.empty()) return arguments.scenes;
-  return {"S1", "S1x10", "S2", "S3", "S4", "S4s", "S5", "S6", "S6v", "S7", "S8", "S9", "S10"};
+  return {"S1",  "S1x10", "S2",  "S3",  "S4",   "S4s",  "S5",  "S6",  "S6v",  "S7",  "S8",  "S9",
+          "S10", "S11",   "S12", "S13", "S13m", "S13d", "S14", "S15", "S15h", "S16", "S16h"};
 }
 void check_name(const std::string& name) {
   const std::span<const scenes::NamedScene> all = scenes::named_scenes();
@@ -120,8 +121,13 @@ void run(const Arguments& arguments) {
   for (const std::string& name : chosen_scenes(arguments)) check_name(name);
   say_absent_peers();
   Memories memories = measure_memories(arguments, engines);
-  Report report = {today(), processor(), arguments.race, {}, {}};
+  Report report = {today(), processor(), arguments.race, {}, {}, {}};
   for (const std::string& name : chosen_scenes(arguments)) {
+    if (name == "S14") {
+      report.queries = race_queries(scene_of(name, arguments), engines, arguments.race);
+      write_results(arguments, report, false);
+      continue;
+    }
     for (Row& row : race(scene_of(name, arguments), engines, arguments.race)) {
       row.memory = memories[{row.scene, row.engine}];
       report.rows.push_back(std::move(row));

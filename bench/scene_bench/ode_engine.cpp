@@ -47,6 +47,8 @@ class OdeEngine : public Peer {
   ~OdeEngine() override {
     dJointGroupDestroy(touching_);
     dSpaceDestroy(space_);
+    for (const dTriMeshDataID mesh : meshes_) dGeomTriMeshDataDestroy(mesh);
+    for (const dHeightfieldDataID field : fields_) dGeomHeightfieldDataDestroy(field);
     dWorldDestroy(world_);
   }
 
@@ -102,10 +104,30 @@ class OdeEngine : public Peer {
     switch (part.type) {
       case ShapeType::sphere: return dCreateSphere(space_, part.radius);
       case ShapeType::capsule: return dCreateCapsule(space_, part.radius, 2 * part.half_height);
+      case ShapeType::cylinder: return dCreateCylinder(space_, part.radius, 2 * part.half_height);
+      case ShapeType::cone: throw scenes::SceneError("", "ODE has no cone");
+      case ShapeType::mesh: return mesh_of(*part.surface);
+      case ShapeType::height_field: return field_of(*part.surface);
       case ShapeType::half_space: return dCreatePlane(space_, 0, 1, 0, 0);  // `place` knows where
       case ShapeType::hull: throw scenes::SceneError("", "ODE is given no hulls: its pairs of them have one point");
       default: return dCreateBox(space_, 2 * h.x, 2 * h.y, 2 * h.z);
     }
+  }
+  /// ODE reads the surface where it is, and leaves it alone.
+  dGeomID mesh_of(const PeerSurface& of) {
+    meshes_.push_back(dGeomTriMeshDataCreate());
+    dGeomTriMeshDataBuildDouble(meshes_.back(), of.points.data(), sizeof(Vec3<double>),
+                                static_cast<int>(of.points.size()), of.corners.data(),
+                                static_cast<int>(of.corners.size()), 3 * sizeof(std::uint32_t));
+    return dCreateTriMesh(space_, meshes_.back(), nullptr, nullptr, nullptr);
+  }
+  dGeomID field_of(const PeerSurface& of) {
+    fields_.push_back(dGeomHeightfieldDataCreate());
+    constexpr double kBelow = 10;  // [m] how far under its lowest place ODE takes the field for solid
+    dGeomHeightfieldDataBuildDouble(fields_.back(), of.heights.data(), 0, 2 * of.middle().x, 2 * of.middle().z,
+                                    static_cast<int>(of.columns), static_cast<int>(of.rows), 1, 0, kBelow, 0);
+    dGeomHeightfieldDataSetBounds(fields_.back(), -of.highest(), of.highest());
+    return dCreateHeightfield(space_, fields_.back(), 1);
   }
   OdeBody make(const PeerBody& from) {
     OdeBody made;
@@ -142,11 +164,11 @@ class OdeEngine : public Peer {
       set_damping(body, from.angular_damping, dBodySetAngularDamping, dBodySetAngularDampingThreshold);
     return body;
   }
-  /// ODE's capsules lie along z, ours along y.
+  /// ODE's capsules and cylinders lie along z, ours along y.
   static void place(dGeomID geom, const PeerPart& part, const PeerBody& body, bool on_body) {
     const double half = sqrt(0.5);
-    const Quat<double> upright =
-        part.type == ShapeType::capsule ? Quat<double>{-half, 0, 0, half} : Quat<double>::identity();
+    const bool lies = part.type == ShapeType::capsule || part.type == ShapeType::cylinder;
+    const Quat<double> upright = lies ? Quat<double>{-half, 0, 0, half} : Quat<double>::identity();
     const Quat<double> local = part.orientation * upright;
     dQuaternion q;
     if (on_body) {
@@ -244,6 +266,8 @@ class OdeEngine : public Peer {
   dSpaceID space_ = nullptr;
   dJointGroupID touching_ = nullptr;
   std::vector<OdeBody> bodies_;
+  std::vector<dTriMeshDataID> meshes_;
+  std::vector<dHeightfieldDataID> fields_;
   std::set<std::pair<const PeerBody*, const PeerBody*>> apart_;  // joined, and not to collide; lower address first
 };
 

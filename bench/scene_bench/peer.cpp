@@ -27,7 +27,11 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
   if (scene.script == scenes::Script::mixed) {
     throw scenes::SceneError("", "peers cannot follow this script");
   }
-  for (const scenes::SceneBody& body : scene.bodies) bodies_.push_back(peer_body(body));
+  const bool fast = has_fast_bodies(scene);
+  for (const scenes::SceneBody& body : scene.bodies) {
+    bodies_.push_back(peer_body(body));
+    bodies_.back().fast = fast && body.type == BodyType::dynamic;
+  }
   for (const scenes::SceneJoint& joint : scene.joints) joints_.push_back(peer_joint(joint, bodies_));
 }
 

@@ -21,13 +21,43 @@ double real(const scenes::Number& number) { return scenes::value_of<double>(numb
 Vec3<double> real(const scenes::Vector& v) { return {real(v[0]), real(v[1]), real(v[2])}; }
 Quat<double> real(const scenes::Rotation& q) { return {real(q[0]), real(q[1]), real(q[2]), real(q[3])}; }
 
+/// Of a hull, a mesh, a height field and a half-space nothing yet.
+double thickness_of(const PeerPart& part) {
+  switch (part.type) {
+    case ShapeType::box: return min(part.half_extents.x, min(part.half_extents.y, part.half_extents.z));
+    case ShapeType::sphere:
+    case ShapeType::capsule: return part.radius;
+    case ShapeType::cylinder: return min(part.radius, part.half_height);
+    case ShapeType::cone: return min(part.radius, part.half_height) / 2;
+    default: return 0;
+  }
+}
+
 PeerPart peer_part(const scenes::ScenePart& part) {
-  PeerPart made = {part.type,         real(part.half_extents), real(part.radius),   real(part.half_height),
-                   real(part.normal), real(part.offset),       real(part.position), real(part.orientation),
-                   nullptr,           {}};
-  if (part.type != ShapeType::hull) return made;
-  made.hull = scenes::hull_of_part(part, "peer");
-  made.points = scenes::solid_hull(*made.hull)->vertices;
+  PeerPart made = {part.type,
+                   real(part.half_extents),
+                   real(part.radius),
+                   real(part.half_height),
+                   real(part.normal),
+                   real(part.offset),
+                   real(part.position),
+                   real(part.orientation),
+                   nullptr,
+                   {},
+                   0,
+                   nullptr};
+  made.thickness = thickness_of(made);
+  if (part.type == ShapeType::hull) {
+    made.hull = scenes::hull_of_part(part, "peer");
+    const auto solid = scenes::solid_hull(*made.hull);
+    made.points = solid->vertices;
+    made.thickness = solid->inner_radius;
+  } else if (part.type == ShapeType::mesh || part.type == ShapeType::height_field) {
+    made.surface = peer_surface(part);
+    if (part.type == ShapeType::height_field) {
+      made.position += to_matrix(normalise(made.orientation)) * made.surface->middle();
+    }
+  }
   return made;
 }
 
@@ -37,6 +67,8 @@ Primitive<double> primitive(const PeerPart& part, std::uint32_t blob) {
     case ShapeType::sphere: return primitive_of(Sphere<double>{part.radius});
     case ShapeType::capsule: return primitive_of(Capsule<double>{part.radius, part.half_height});
     case ShapeType::hull: return primitive_of(Hull<double>{blob});
+    case ShapeType::cylinder: return primitive_of(Cylinder<double>{part.radius, part.half_height});
+    case ShapeType::cone: return primitive_of(Cone<double>{part.radius, part.half_height});
     default: return primitive_of(Box<double>{part.half_extents});
   }
 }
@@ -75,7 +107,10 @@ void move_frame(PeerBody& body, const Pose<double>& frame) {
 
 void set_mass(PeerBody& body, const scenes::SceneBody& of) {
   for (const PeerPart& part : body.parts) {
-    if (part.type == ShapeType::half_space) return;
+    if (is_bounded(part.type)) continue;
+    const bool alone = part.surface != nullptr && body.parts.size() == 1;
+    if (alone) move_frame(body, {part.position, normalise(part.orientation)});
+    return;
   }
   const MassProperties<double> p = mass_of(body, of);
   if (body.type != BodyType::dynamic) return move_frame(body, {p.centre, Quat<double>::identity()});
@@ -83,6 +118,14 @@ void set_mass(PeerBody& body, const scenes::SceneBody& of) {
   body.mass = p.mass;
   body.inertia = {p.mass / p.kappa.x, p.mass / p.kappa.y, p.mass / p.kappa.z};
   if (!is_finite(body.inertia)) throw SceneError("", "peers are given no body that cannot turn");
+}
+
+/// Into the frame of the body: engines have hulls of one part where the body is.
+void move_points(PeerPart& part) {
+  const Mat3<double> axes = to_matrix(part.orientation);
+  for (Vec3<double>& point : part.points) point = part.position + axes * point;
+  part.position = {0, 0, 0};
+  part.orientation = Quat<double>::identity();
 }
 
 /// [kg] of the two bodies; what no force moves weighs nothing in it.
@@ -142,6 +185,9 @@ PeerBody peer_body(const scenes::SceneBody& of) {
   body.group = of.group;
   body.collide = of.collide;
   set_mass(body, of);
+  for (PeerPart& part : body.parts) {
+    if (part.type == ShapeType::hull) move_points(part);
+  }
   return body;
 }
 
@@ -171,5 +217,9 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
 }
 
 Vec3<double> peer_gravity(const scenes::Scene& scene) { return real(scene.gravity); }
+
+bool has_fast_bodies(const scenes::Scene& scene) {
+  return scene.name.rfind("S13", 0) == 0 || scene.name.rfind("S15", 0) == 0;
+}
 
 }  // namespace isostep::bench

@@ -5,20 +5,22 @@
 #include <vector>
 
 #include "isostep/math/transform.hpp"
-#include "scenes/scene.hpp"
+#include "peer_surface.hpp"
 
 namespace isostep::bench {
 
 struct PeerPart {
   ShapeType type;
   Vec3<double> half_extents;   // [m] box
-  double radius, half_height;  // [m] sphere, capsule along local y
+  double radius, half_height;  // [m] sphere; capsule, cylinder, cone along local y, its apex up
   Vec3<double> normal;         // [1] half-space, in the part's frame: normal . p <= offset is inside
   double offset;               // [m] half-space
   Vec3<double> position;       // [m] in the frame of PeerBody
   Quat<double> orientation;
-  BlobRef hull;                      // null: no hull
-  std::vector<Vec3<double>> points;  // [m] its vertices
+  BlobRef hull;                                // null: no hull
+  std::vector<Vec3<double>> points;            // [m] its vertices; hulls lie in PeerBody's frame as they are
+  double thickness;                            // [m] radius of a sphere that fits into it; 0 of what has no inside
+  std::shared_ptr<const PeerSurface> surface;  // null: no mesh and no height field; that one's frame is at its middle
 };
 struct PeerBody {
   BodyType type;
@@ -33,6 +35,7 @@ struct PeerBody {
   double linear_damping, angular_damping;             // [1/s]
   std::uint32_t group;                                // bodies of one group other than 0 do not collide
   bool collide;
+  bool fast;  // it moves by more than its thickness in a step: an engine that has a switch for such bodies is to use it
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.
 using PeerEnd = Pose<double>;
@@ -52,5 +55,7 @@ struct PeerJoint {
 PeerBody peer_body(const scenes::SceneBody& body);
 PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
 Vec3<double> peer_gravity(const scenes::Scene& scene);
+/// Whether this is a scene whose bodies are PeerBody::fast: the bullets, and the thin boxes.
+bool has_fast_bodies(const scenes::Scene& scene);
 
 }  // namespace isostep::bench

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "scenes/bars.hpp"
 #include "scenes/limits.hpp"
+#include "scenes/named.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -16,7 +18,9 @@ constexpr int kEnergyFrames = 60;
 
 /// One engine's run, and what is noted beside it.
 struct Lane {
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<Engine> engine;        // none: refused
+  std::string refused;                   // and why
+  std::unique_ptr<scenes::Judge> judge;  // of scenes whose figure is taken over the whole run
   std::vector<scenes::BodySight> start;
   scenes::Energy energy_start;
   std::vector<double> times;  // [ms] a frame
@@ -42,6 +46,7 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
     lane.engine->before_step(frame);
     lane.times.push_back(lane.engine->timed_steps(1));
     if (!scene.joints.empty()) watch_joints(lane, scene, limits);
+    if (lane.judge) lane.judge->see(lane.engine->sight());
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
     if (frame < scene.frames - kEnergyFrames) continue;
     const scenes::Energy energy = lane.engine->sight().energy;
@@ -53,6 +58,7 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
 void measure_places(const Lane& lane, const scenes::Scene& scene, Row& row) {
   const std::vector<scenes::BodySight> now = lane.engine->sight().bodies;
   row.outside = scenes::count_outside(scene.name, now);
+  row.through = scenes::count_through(scene.name, lane.start, now).value_or(-1);
   if (scene.script != scenes::Script::none) return;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (!now[i].dynamic) continue;
@@ -75,12 +81,23 @@ double time_asleep(Engine& engine) {
   return median(times);
 }
 
+/// Bodies may be where no world of ours takes them.
+scenes::Overlap overlap_of(const Engine& engine) {
+  try {
+    return engine.overlap();
+  } catch (const scenes::SceneError&) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    return {kNone, kNone, kNone, 0, 0};
+  }
+}
+
 void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   measure_places(lane, scene, row);
   const scenes::Sight end = lane.engine->sight();
   row.settings = lane.engine->settings();
   row.faults = lane.engine->faults();
-  row.overlap = lane.engine->overlap();
+  row.overlap = overlap_of(*lane.engine);
+  if (lane.judge) row.bump = lane.judge->figure();
   row.kinetic = lane.kinetic;
   row.energy_loss = (lane.energy_start.total() - end.energy.total()) / end.energy.mass;
   row.joint_worst = lane.joint_worst;
@@ -104,18 +121,51 @@ void note_times(Lane& lane, const scenes::Scene& scene, Times& times) {
   if (lane.asleep_at >= 0) times.asleep.push_back(time_asleep(*lane.engine));
 }
 
+/// Formats of 32 bits are not for every scene.
+void require_range(const scenes::Scene& scene, std::string_view engine) {
+  for (const scenes::NamedScene& named : scenes::named_scenes()) {
+    if (scene.name != named.name || named.narrow || engine != "q16.16") continue;
+    throw scenes::SceneError("", "the scene is beyond the format's range");
+  }
+}
+
+Lane start_lane(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options) try {
+  Lane lane;
+  require_range(scene, maker.name);
+  lane.engine = maker.make(scene, options);
+  const scenes::Sight start = lane.engine->sight();
+  lane.start = start.bodies;
+  lane.energy_start = start.energy;
+  if (scenes::own_measure(scene.name) == scenes::Measure::bump) {
+    lane.judge = scenes::benchmark_judge(scene);
+    lane.judge->see(start);
+  }
+  return lane;
+} catch (const scenes::SceneError& error) {
+  Lane lane;
+  lane.refused = error.what();
+  return lane;
+}
+
 std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers,
                               const RaceOptions& options) {
   std::vector<Lane> lanes;
-  for (const Maker& maker : makers) {
-    Lane lane;
-    lane.engine = maker.make(scene, options.engine);
-    const scenes::Sight start = lane.engine->sight();
-    lane.start = start.bodies;
-    lane.energy_start = start.energy;
-    lanes.push_back(std::move(lane));
-  }
+  for (const Maker& maker : makers) lanes.push_back(start_lane(scene, maker, options.engine));
   return lanes;
+}
+
+void name(Row& row, const scenes::Scene& scene, const Maker& maker) {
+  row.scene = scene.name;
+  row.engine = maker.name;
+  row.ours = maker.ours;
+}
+
+void run_round(std::vector<Lane>& lanes, const scenes::Scene& scene, int block) {
+  for (int from = 0; from < scene.frames; from += block) {
+    for (Lane& lane : lanes) {
+      if (lane.engine) run_frames(lane, scene, from, std::min(from + block, scene.frames));
+    }
+  }
 }
 
 }  // namespace
@@ -123,22 +173,21 @@ std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Make
 std::vector<Row> race(const scenes::Scene& scene, const std::vector<Maker>& makers, const RaceOptions& options) {
   std::vector<Row> rows(makers.size());
   std::vector<Times> times(makers.size());
+  for (std::size_t i = 0; i < makers.size(); ++i) name(rows[i], scene, makers[i]);
   for (int round = 0; round < options.rounds; ++round) {
     std::fprintf(stderr, "%s: round %d of %d\n", scene.name.c_str(), round + 1, options.rounds);
     std::vector<Lane> lanes = start_lanes(scene, makers, options);
-    for (int from = 0; from < scene.frames; from += options.block) {
-      for (Lane& lane : lanes) run_frames(lane, scene, from, std::min(from + options.block, scene.frames));
-    }
+    run_round(lanes, scene, options.block);
     for (std::size_t i = 0; i < lanes.size(); ++i) {
+      rows[i].refused = lanes[i].refused;
+      if (!lanes[i].engine) continue;
       if (round == 0) measure(lanes[i], scene, rows[i]);
       note_times(lanes[i], scene, times[i]);
     }
   }
   for (std::size_t i = 0; i < makers.size(); ++i) {
     Row& row = rows[i];
-    row.scene = scene.name;
-    row.engine = makers[i].name;
-    row.ours = makers[i].ours;
+    if (!row.refused.empty()) continue;
     row.ms = quantile(times[i].ms, 0);
     row.p99 = quantile(times[i].p99, 0);
     row.max = quantile(times[i].max, 0);

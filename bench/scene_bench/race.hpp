@@ -10,6 +10,7 @@ namespace isostep::bench {
 struct Row {
   std::string scene, engine, settings;
   bool ours = false;
+  std::string refused;  // why the engine cannot be given the scene: then nothing else counts
   // CPU time of the step, the lowest of the rounds.
   double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9: over the whole run
   double asleep_ms = -1;            // [ms] a step with everybody asleep; less than 0: never
@@ -25,7 +26,9 @@ struct Row {
   double joint_worst = 0, joint_end = 0;  // [m] over the run; at the end
   double limit_worst = 0, limit_end = 0;  // [rad] past joints' limits, over the run; at the end
   double energy_gain = 0;                 // [J/kg] most above the start, over the run; scenes with joints
-  int outside = 0;                        // bodies that left the pit, the floor or the drum
+  int outside = 0;                        // bodies that left the pit, the floor, the drum or the hills
+  int through = -1;                       // bullets that passed what was in their way; less than 0: there are none
+  double bump = -1;                       // [m/s] as scenes::Measure::bump; less than 0: not looked at
   double asleep_at = -1;                  // [s] first frame with nobody awake; less than 0: never
   // Judged by verdict.hpp.
   bool failed = false;

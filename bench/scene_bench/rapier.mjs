@@ -7,6 +7,8 @@
 //   {"steps": n}             steps                                           answer: CPU time of them all [ms]
 //   {"state": 0}             where everything is     answer: 14 doubles a body (position, quaternion x y z w, velocity,
 //                                                    angular velocity, whether it is awake)
+//   {"take": {...}}          the queries of a frame                          answer: 0
+//   {"ask": "ray"}           asks all of one kind                            answer: CPU time of them all [ms], hits
 // CPU time is that of this process, all threads, in whole microseconds: other work on the machine does not count.
 import { readSync, writeSync } from "node:fs";
 import { join } from "node:path";
@@ -19,10 +21,26 @@ const vector = ([x, y, z]) => ({ x, y, z });
 const rotation = ([x, y, z, w]) => ({ x, y, z, w });
 let world, bodies, uniform;
 
+// With Rapier's own remedy for bodies that catch on inner edges; without it they stop on a plain.
+function mesh({ points, corners }) {
+  const flags = RAPIER.TriMeshFlags.FIX_INTERNAL_EDGES;
+  return RAPIER.ColliderDesc.trimesh(new Float32Array(points.flat()), new Uint32Array(corners), flags);
+}
+// Heights are no lengths of its scale: y counts once.
+function heightField({ cells, heights, size }) {
+  const [x, , z] = size;
+  const flags = RAPIER.HeightFieldFlags.FIX_INTERNAL_EDGES;
+  return RAPIER.ColliderDesc.heightfield(...cells, new Float32Array(heights), vector([x, 1, z]), flags);
+}
+
 function shape(part) {
   switch (part.type) {
     case "sphere": return RAPIER.ColliderDesc.ball(part.radius);
     case "capsule": return RAPIER.ColliderDesc.capsule(part.half_height, part.radius);
+    case "cylinder": return RAPIER.ColliderDesc.cylinder(part.half_height, part.radius);
+    case "cone": return RAPIER.ColliderDesc.cone(part.half_height, part.radius);
+    case "mesh": return mesh(part);
+    case "height_field": return heightField(part);
     case "half_space": return new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vector(part.normal)));
     case "hull": return RAPIER.ColliderDesc.convexHull(new Float32Array(part.points.flat()));
     default: return RAPIER.ColliderDesc.cuboid(...part.half_extents);
@@ -58,7 +76,7 @@ function make(body, allowSleep) {
   const description = RAPIER.RigidBodyDesc[kinds[body.type]]();
   description.setTranslation(...body.position).setRotation(rotation(body.orientation));
   description.setLinvel(...body.velocity).setAngvel(vector(body.angular_velocity)).setCanSleep(allowSleep);
-  description.setGravityScale(body.gravity_scale);
+  description.setGravityScale(body.gravity_scale).setCcdEnabled(body.fast);
   description.setLinearDamping(body.linear_damping).setAngularDamping(body.angular_damping);
   if (body.type === "dynamic" && body.parts.length > 1) description.setAdditionalMassProperties(...mass(body));
   const made = world.createRigidBody(description);
@@ -117,6 +135,44 @@ function steps(count) {
   return [(user + system) / 1000];
 }
 
+// What a frame asks, made before it is asked. A shape or a ray of Rapier's lives as long as it is held.
+let queries;
+function take({ rays, casts, list_rays, radius, half_extents, overlap_radius }) {
+  const ray = ([x, y, z, a, b, c]) => new RAPIER.Ray(vector([x, y, z]), vector([a, b, c]));
+  const shapes = [new RAPIER.Ball(radius), new RAPIER.Cuboid(...half_extents)];
+  queries = {
+    rays: rays.map(ray),
+    listed: rays.slice(0, list_rays).map(ray),
+    casts: casts.map(([x, y, z, ...way], i) => ({ from: vector([x, y, z]), way: vector(way), shape: shapes[i % 2] })),
+    large: new RAPIER.Ball(overlap_radius),
+  };
+  return [0];
+}
+
+const upright = { x: 0, y: 0, z: 0, w: 1 };
+const bodiesOnly = RAPIER.QueryFilterFlags.EXCLUDE_FIXED;
+let found = 0;
+const count = () => { ++found; return true; };
+const kinds = {
+  ray: () => { for (const ray of queries.rays) found += world.castRay(ray, 1, true) === null ? 0 : 1; },
+  cast: () => {
+    for (const { from, way, shape } of queries.casts) {
+      found += world.castShape(from, upright, way, shape, 0, 1, true) === null ? 0 : 1;
+    }
+  },
+  overlap: () => {
+    for (const { from } of queries.casts) world.intersectionsWithShape(from, upright, queries.large, count, bodiesOnly);
+  },
+  all_hits: () => { for (const ray of queries.listed) world.intersectionsWithRay(ray, 1, true, count, bodiesOnly); },
+};
+function ask(kind) {
+  found = 0;
+  const start = process.cpuUsage();
+  kinds[kind]();
+  const { user, system } = process.cpuUsage(start);
+  return [(user + system) / 1000, found];
+}
+
 // One object and one array for all: garbage would be collected while steps are timed.
 const at = { x: 0, y: 0, z: 0, w: 0 };
 let numbers = new Float64Array(0);
@@ -143,7 +199,7 @@ function answer(doubles) {
   for (let sent = 0; sent < bytes.length;) sent += writeSync(1, bytes, sent);
 }
 
-const verbs = { scene: build, replace, launch, steps, state };
+const verbs = { scene: build, replace, launch, steps, state, take, ask };
 const chunk = Buffer.alloc(1 << 16);
 let pending = [];
 for (;;) {

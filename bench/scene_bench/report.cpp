@@ -29,7 +29,7 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
 /// What the chart shows of a run: the error that its scene is about [m].
 double error_of(const Row& row) {
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
-  if (is(row, {"S4", "S4s", "S5"})) return row.overlap.mean;
+  if (is(row, {"S4", "S4s", "S5", "S10", "S10s", "S11", "S12"})) return row.overlap.mean;
   if (is(row, {"S6", "S6v", "S7", "S20"})) return row.joint_worst;
   return row.overlap.worst;
 }
@@ -52,6 +52,8 @@ std::string particular(const Row& row) {
   } else if (is(row, {"S9"})) {
     text = print("longest step %.3f ms", row.max);
   }
+  if (row.through >= 0) text = print("%d through", row.through);
+  if (row.bump >= 0) text = print("bump %.2f mm/s", 1e3 * row.bump);
   if (row.outside > 0) text += print("%s%d outside", text.empty() ? "" : ", ", row.outside);
   if (row.faults > 0) text += print("%s%d faulty steps", text.empty() ? "" : ", ", row.faults);
   if (row.asleep_at >= 0) text += print(", asleep at %.2f s, then %.2f us a step", row.asleep_at, 1e3 * row.asleep_ms);
@@ -61,6 +63,7 @@ std::string particular(const Row& row) {
 Json positive(double value) { return value >= 0 ? Json(value) : Json(nullptr); }
 
 Json json_of(const Row& row, const FastestPeers& fastest) {
+  if (!row.refused.empty()) return {{"scene", row.scene}, {"engine", row.engine}, {"refused", row.refused}};
   const auto ratio = [&](const std::optional<Fastest>& peer) {
     return peer ? positive(shown_ms(row) / peer->ms) : Json(nullptr);
   };
@@ -95,9 +98,21 @@ Json json_of(const Row& row, const FastestPeers& fastest) {
           {"limit_passed_end", row.limit_end},
           {"energy_gain_per_kg", row.energy_gain},
           {"outside", row.outside},
+          {"through", row.through >= 0 ? Json(row.through) : Json(nullptr)},
+          {"bump", positive(row.bump)},
           {"faults", row.faults},
           {"asleep_at_s", positive(row.asleep_at)},
           {"asleep_step_ms", positive(row.asleep_ms)}};
+}
+
+Json json_of(const QueryRow& row) {
+  Json json = {{"engine", row.engine}, {"bar", scenes::kReachNames[static_cast<int>(row.reach)]}};
+  for (std::size_t kind = 0; kind < kQueryKinds; ++kind) {
+    const std::string name = kQueryNames[kind];
+    json[name + "_us"] = positive(row.us[kind]);
+    json[name + "_hits"] = row.hits[kind] >= 0 ? Json(row.hits[kind]) : Json(nullptr);
+  }
+  return json;
 }
 
 Json json_of(const RollbackRow& row) {
@@ -114,6 +129,13 @@ Json json_of(const RollbackRow& row) {
 }
 
 std::vector<std::string> figures(const Row& row, const FastestPeers& fastest) {
+  if (!row.refused.empty()) {
+    std::vector<std::string> line(13, "-");
+    line[0] = row.scene;
+    line[1] = row.engine;
+    line[11] = print("refused: %s", row.refused.c_str());
+    return line;
+  }
   std::vector<std::string> line = {row.scene, row.engine, print("%.4f%s", row.ms, row.failed ? " x" : ""),
                                    print("%.4f", row.p99)};
   line.push_back(ratio_text(row, fastest.here));
@@ -153,6 +175,9 @@ constexpr char kDatedLegend[] =
     "\\* not run here: its ratio to Rapier SIMD in the run of bench/scene_bench/dated.cpp, times Rapier SIMD above, "
     "which "
     "takes, as a multiple of what it took then: ";
+constexpr char kQueryLegend[] =
+    "\nQueries of S14, microseconds each, median of ten frames, lowest of the rounds; and how many of all of them "
+    "hit:\n\n";
 constexpr char kRatioLegend[] =
     "\n/ here, / dated: time as a multiple of the fastest peer measured here, and of the fastest of Rapier SIMD and "
     "those "
@@ -169,6 +194,7 @@ std::string tables_of(const Report& report) {
   text.append("\n").append(every_figure(report.rows)).append(kRatioLegend);
   const std::string memory = memory_table(report.rows);
   if (!memory.empty()) text.append("\nPeak memory, and before the world was made:\n\n").append(memory);
+  if (!report.queries.empty()) text.append(kQueryLegend).append(table_of(report.queries));
   if (!report.rollback.empty()) text.append("\nRollback:\n\n").append(table_of(report.rollback));
   return text;
 }
@@ -179,8 +205,10 @@ std::string json_of(const Report& report) {
                {"rounds", report.options.rounds},
                {"block_frames", report.options.block},
                {"runs", Json::array()},
+               {"queries", Json::array()},
                {"rollback", Json::array()}};
   for (const Row& row : report.rows) json["runs"].push_back(json_of(row, fastest_peers(report.rows, row.scene)));
+  for (const QueryRow& row : report.queries) json["queries"].push_back(json_of(row));
   for (const RollbackRow& row : report.rollback) json["rollback"].push_back(json_of(row));
   return json.dump(1) + "\n";
 }
@@ -192,6 +220,7 @@ std::string chart_points(const Report& report) {
                   failed ? 1 : 0);
   };
   for (const Row& row : report.rows) {
+    if (!row.refused.empty()) continue;
     if (shown_ms(row) >= 0) add(row.scene, row.engine.c_str(), shown_ms(row), error_of(row), row.failed);
     if (row.engine != kAnchor) continue;
     for (const char* engine : kDatedEngines) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "query_race.hpp"
 #include "race.hpp"
 #include "rollback.hpp"
 
@@ -11,6 +12,7 @@ struct Report {
   std::string date, processor;
   RaceOptions options;
   std::vector<Row> rows;
+  std::vector<QueryRow> queries;
   std::vector<RollbackRow> rollback;
 };
 /// Markdown: the comparison first, then every figure.

@@ -35,6 +35,21 @@ expect("" runs 0 ratio_fastest_here)
 expect("" runs 0 peak_rss_mb)
 expect(S5 runs 1 scene)
 expect(${positive} runs 1 peak_rss_mb)
+
+# Queries have a table of their own, and what an engine cannot be given has a reason in place of figures.
+execute_process(COMMAND ${BENCH} --scenes S14,S15 --engines float,q16.16 --frames 2 --rounds 1 --results ${OUT}
+  RESULT_VARIABLE status OUTPUT_QUIET)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "queries: exits ${status}")
+endif()
+file(READ ${OUT}/scenes-part.json text)
+expect(float queries 0 engine)
+expect(${positive} queries 0 ray_us)
+expect(${positive} queries 0 all_hits_hits)
+expect(S15 runs 0 scene)
+expect(0 runs 0 outside)
+expect("the scene is beyond the format's range" runs 1 refused)
+
 foreach(bad "--scenes;S99" "--engines;newton" "--rounds;0" "--engines;float;--results;${OUT}/none")
   execute_process(COMMAND ${BENCH} ${bad} RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
   if(NOT status EQUAL 64)

@@ -1,0 +1,66 @@
+// Node's process and the socket to it.
+// SPDX-License-Identifier: MIT
+#include "node_process.hpp"
+
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+
+#include "scenes/scene.hpp"
+
+extern char** environ;
+
+namespace isostep::bench {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "rapier.mjs answers in little-endian doubles");
+
+constexpr char kScript[] = ISOSTEP_BENCH_SOURCE_DIR "/scene_bench/rapier.mjs";
+
+std::size_t bytes_of(ssize_t count) {
+  if (count <= 0) throw scenes::SceneError("", "rapier.mjs has ended; what it said is above");
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
+NodeProcess::NodeProcess(std::string package) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw scenes::SceneError("", "no socket");
+  socket_ = ends[0];
+  std::string words[] = {"node", "--no-liftoff", kScript, std::move(package)};  // optimised before the first step
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, ends[1], 0);
+  posix_spawn_file_actions_adddup2(&files, ends[1], 1);
+  const int failed = posix_spawnp(&pid_, "node", &files, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&files);
+  close(ends[1]);
+  if (failed == 0) return;
+  close(socket_);
+  throw scenes::SceneError("", "node does not start");
+}
+
+NodeProcess::~NodeProcess() {
+  close(socket_);
+  waitpid(pid_, nullptr, 0);
+}
+
+std::vector<double> NodeProcess::ask(const nlohmann::json& request, std::size_t count) {
+  const std::string line = request.dump() + "\n";
+  for (std::size_t sent = 0; sent < line.size();) {
+    sent += bytes_of(send(socket_, line.data() + sent, line.size() - sent, MSG_NOSIGNAL));
+  }
+  std::vector<double> answer(count);
+  const std::size_t size = count * sizeof(double);
+  for (std::size_t got = 0; got < size;) {
+    got += bytes_of(recv(socket_, reinterpret_cast<char*>(answer.data()) + got, size - got, 0));
+  }
+  return answer;
+}
+
+}  // namespace isostep::bench

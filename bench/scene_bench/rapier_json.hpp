@@ -1,0 +1,20 @@
+// What rapier.mjs is told of a scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "peer_scene.hpp"
+#include "scenes/queries.hpp"
+
+namespace isostep::bench {
+
+nlohmann::json json_of(Vec3<double> v);
+nlohmann::json json_of(const PeerBody& body);
+nlohmann::json json_of(const PeerJoint& joint);
+nlohmann::json json_of(const scenes::DrawnQueries& drawn);
+/// Pairs mix as ours where surfaces differ; where they do not, Rapier's own rule says the same.
+bool is_uniform(const std::vector<PeerBody>& bodies);
+
+}  // namespace isostep::bench
