@@ -30,14 +30,13 @@ template <class S>
 ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t vertex, Vec3<Unit<S>> up) {
   std::uint32_t best = 0xffffffffu;
   Unit<S> least = Unit<S>(0);
-  for (std::uint32_t e = 0; e < solid.half_edges.size(); ++e) {
-    if (solid.half_edges[e].origin != vertex) continue;
-    const std::uint32_t face = solid.half_edges[e].face;
+  solid.visit_spokes(vertex, [&](std::uint32_t half_edge) ISO_INLINE_LAMBDA {
+    const std::uint32_t face = solid.half_edges[half_edge].face;
     const Unit<S> facing = dot(solid.normals[face], up);
-    if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) continue;
+    if (best != 0xffffffffu && (facing > least || (facing == least && face > best))) return;
     least = facing;
     best = face;
-  }
+  });
   return best;
 }
 
@@ -141,10 +140,8 @@ ISO_INLINE ClosestEnds<S> closest_of_edges(const Pair& pair, const EdgeAxis<S>& 
 template <class S, int W, class Isa>
 ISO_INLINE EdgeAxis<S> best_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a,
                                   const FaceAxis<S>& face_b, S limit, S margin, ClosestEnds<S>& ends) {
-  // Faces that no vertex which decides them is nearer to than to another leave nothing to find.
-  const S depth = min(limit, S(0));
-  if (height_over<S, W, Isa>(pair.a, pair.vertices_b.at(face_a.vertex)) <= depth ||
-      height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex)) <= depth)
+  // The vertex below b's best face may lie nearer to none of the others: then no axis is better.
+  if (height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex)) <= min(limit, S(0)))
     return {0, 0, Vec3<Unit<S>>::zero(), limit, false};
   EdgeAxis<S> best = EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin);
   if (!best.found || best.separation > margin) return best;
@@ -165,33 +162,41 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   if (pair.are_apart(margin)) return;
   const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
+  const auto touch = [&](const FaceAxis<S>& face, bool of_b, bool deepest) ISO_INLINE_LAMBDA {
+    const S tie = pair.tolerance * S(0.125);
+    if (of_b) {
+      const Tangents<Unit<S>> across = tangents_of(b.normals[face.face]);
+      touch_faces({b, a, pair.vertices_a, transpose(pair.b_in_a.rotation), face, across}, tb, margin, tie, false,
+                  deepest, out);
+    } else {
+      const Tangents<Unit<S>> across = tangents_of(a.normals[face.face]);
+      touch_faces({a, b, pair.vertices_b, pair.b_in_a.rotation, face, across}, ta, margin, tie, true, deepest, out);
+    }
+  };
+  // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
+  const S beyond_a = face_a.separation + pair.tolerance;
+  if (height_over<S, W, Isa>(a, pair.vertices_b.at(face_a.vertex)) <= min(beyond_a, S(0))) {
+    touch(face_a, false, false);
+    if (out.count != 0) return;
+  }
   pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
   const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
-  ClosestEnds<S> ends;
+  ClosestEnds<S> ends = {};
   const EdgeAxis<S> edges = best_edges(pair, face_a, face_b, limit, margin, ends);
   if (edges.found && edges.separation > margin) return;
   if (edges.found) {
     out.normal = ta.rotation * edges.normal;
     return out.add(to_world(ta, (ends.a + ends.b) * S(0.5)), edges.separation, edges.edge_a << 7 | edges.edge_b);
   }
-  const auto touch = [&](bool of_b, bool deepest) ISO_INLINE_LAMBDA {
-    const S tie = pair.tolerance * S(0.125);
-    if (of_b) {
-      const Tangents<Unit<S>> across = tangents_of(b.normals[face_b.face]);
-      touch_faces({b, a, pair.vertices_a, transpose(pair.b_in_a.rotation), face_b, across}, tb, margin, tie, false,
-                  deepest, out);
-    } else {
-      const Tangents<Unit<S>> across = tangents_of(a.normals[face_a.face]);
-      touch_faces({a, b, pair.vertices_b, pair.b_in_a.rotation, face_a, across}, ta, margin, tie, true, deepest, out);
-    }
-  };
-  touch(face_b.separation > face_a.separation + pair.tolerance, false);
+  const bool prefers_b = face_b.separation > beyond_a;
+  touch(prefers_b ? face_b : face_a, prefers_b, false);
   if (out.count != 0 || best > S(0)) return;
   // Nothing is above the face. Either they are apart, or it was preferred to a better one, which decides.
   if (EdgeAxes<S, W, Isa>(pair).best(limit, margin).found) return;
-  touch(face_b.separation > face_a.separation, true);
+  const bool b_is_better = face_b.separation > face_a.separation;
+  touch(b_is_better ? face_b : face_a, b_is_better, true);
 }
 
 }  // namespace detail

@@ -15,7 +15,7 @@ template <class S> struct EdgeAxis {
 
 /// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
 /// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
-/// of one face of the other's and into the other, in the same order. Of each of a's edges b's are looked at W at a time.
+/// of one face of the other's and into the other, in the same order. For each of a's, W of b's are looked at at once.
 ///
 /// Two edges that are the best axis of all are as far apart, or as deep in each other, as the solids are: `d`. So one
 /// has a point within |d| of the other solid, which is below each of its faces; and the other solid reaches down to the
@@ -120,7 +120,8 @@ template <class S, int W, class Isa> class EdgeAxes {
     const Vec3<UL> along = directions_.template load<UL>(first);
     const UL from_left = dot(broadcast<UL>(a.normals[a.half_edges[2 * i].face]), along);
     const UL from_right = dot(broadcast<UL>(a.normals[a.half_edges[2 * i + 1].face]), along);
-    const auto out = less(zero, from_left) & less(from_right, zero), in = less(from_left, zero) & less(zero, from_right);
+    const auto out = less(zero, from_left) & less(from_right, zero);
+    const auto in = less(from_left, zero) & less(zero, from_right);
     const std::uint32_t left = edges_b_.count - first, own = left < W ? (1u << left) - 1 : 0xffffffffu >> (32 - W);
     if ((to_bits(out | in) & own) == 0) return 0;
     const Vec3<UL> direction = broadcast<UL>(a.directions[i]);

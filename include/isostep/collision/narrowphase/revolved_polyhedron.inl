@@ -145,11 +145,10 @@ template <class S> class RevolvedFacets {
   ISO_INLINE void at_vertex(const Axis& best, const RevolvedTouch<S>& touch) const {
     std::uint32_t nearest = 0;
     S least = highest<S>();
-    for (std::uint32_t e = 0; e < b_.half_edges.size(); ++e) {
-      if (b_.half_edges[e].origin != best.feature) continue;
+    b_.visit_spokes(best.feature, [&](std::uint32_t e) ISO_INLINE_LAMBDA {
       const S height = dot(best.normal, vertices_[b_.origin(e ^ 1u)]);
-      if (height < least) least = height, nearest = e / 2;
-    }
+      if (height < least || (height == least && e / 2 < nearest)) least = height, nearest = e / 2;
+    });
     if (beside(nearest, best, touch)) return;
     const Vec3<S> p = vertices_[best.feature];
     touch.at(p - best.normal * (best.separation * S(0.5)), best.separation, best.normal, name_of(best));

@@ -13,6 +13,7 @@ inline constexpr HalfEdge kBoxHalfEdges[24] = {{0, 6, 0},  {1, 4, 2},  {0, 12, 1
                                                {2, 19, 1}, {6, 10, 4}, {3, 23, 4}, {7, 7, 3},  {4, 9, 2},  {5, 18, 5},
                                                {4, 22, 5}, {6, 5, 1},  {5, 15, 3}, {7, 17, 5}, {6, 21, 5}, {7, 13, 4}};
 inline constexpr std::uint8_t kBoxFaces[6] = {0, 2, 4, 8, 10, 18};
+inline constexpr std::uint8_t kBoxSpokes[8] = {0, 1, 3, 7, 5, 9, 13, 15};
 inline constexpr std::int8_t kBoxFaceAxes[6] = {0, 2, 1, 2, 1, 0};
 inline constexpr bool kBoxFaceIsPositive[6] = {false, false, false, true, true, true};
 inline constexpr std::int8_t kBoxEdgeAxes[12] = {2, 1, 0, 1, 0, 2, 0, 0, 2, 1, 1, 2};
@@ -51,7 +52,9 @@ template <class S> class BoxSolid {
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
     using U = Unit<S>;
-    return {{&vertices_, 8}, detail::kBoxHalfEdges, detail::kBoxFaces, {&detail::kBoxNormals<U>, 6}, offsets_,
+    return {{&vertices_, 8}, detail::kBoxHalfEdges,
+            detail::kBoxFaces, detail::kBoxSpokes,
+            {&detail::kBoxNormals<U>, 6}, offsets_,
             {&detail::kBoxDirections<U>, 12}, inner_radius_};
   }
 

@@ -17,6 +17,7 @@ template <class S> struct Polyhedron {
   ColumnsView<S> vertices;          // [m]
   ArrayView<HalfEdge> half_edges;   // see ConvexHull
   ArrayView<std::uint8_t> faces;    // of each, its first half-edge
+  ArrayView<std::uint8_t> spokes;   // of each vertex, one of the half-edges that leave it
   ColumnsView<Unit<S>> normals;     // [1] outward, of each face
   ArrayView<S> offsets;             // [m] of each face along its normal: of its vertex furthest out
   ColumnsView<Unit<S>> directions;  // [1] of half-edge 2 k, of each edge k
@@ -24,6 +25,15 @@ template <class S> struct Polyhedron {
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
   ISO_INLINE std::uint32_t edges() const { return directions.size(); }
+  /// visit(half_edge) for all that leave a vertex, around it.
+  template <class Visit> ISO_INLINE void visit_spokes(std::uint32_t vertex, const Visit& visit) const {
+    const std::uint32_t first = spokes[vertex];
+    std::uint32_t half_edge = first;
+    do {
+      visit(half_edge);
+      half_edge = half_edges[half_edge ^ 1u].next;
+    } while (half_edge != first);
+  }
 };
 
 /// A hull in a scalar: the memory that its Polyhedron shows.
@@ -35,7 +45,11 @@ template <class S> class HullSolid {
 
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
-    return {vertices_.view(), half_edges_, faces_, normals_.view(), offsets_, directions_.view(), inner_radius_};
+    const ColumnsView<S> vertices = vertices_.view();
+    const ColumnsView<Unit<S>> normals = normals_.view();
+    const std::uint8_t* const spokes = starts_.data() + normals.size();
+    return {vertices, half_edges_,         {starts_.data(), normals.size()}, {spokes, vertices.size()}, normals,
+            offsets_, directions_.view(), inner_radius_};
   }
   /// [bytes] that it points to.
   std::size_t memory() const;
@@ -43,7 +57,7 @@ template <class S> class HullSolid {
  private:
   ColumnsArray<S> vertices_;
   std::vector<HalfEdge> half_edges_;
-  std::vector<std::uint8_t> faces_;
+  std::vector<std::uint8_t> starts_;  // of the faces, then of the vertices
   ColumnsArray<Unit<S>> normals_;
   std::vector<S> offsets_;
   ColumnsArray<Unit<S>> directions_;

@@ -8,7 +8,7 @@
 namespace isostep {
 
 template <class S>
-HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull.half_edges), faces_(hull.faces) {
+HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull.half_edges), starts_(hull.faces) {
   using U = Unit<S>;
   Vec3<S> middle = Vec3<S>::zero();
   const U share = divide_to<U>(S(1), from_lattice<S>(static_cast<std::int64_t>(hull.vertices.size()), 0));
@@ -23,20 +23,23 @@ HullSolid<S>::HullSolid(const ConvexHull& hull, int exponent) : half_edges_(hull
   }
   inner_radius_ = highest<S>();
   const ColumnsView<S> vertices = vertices_.view();
-  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+  for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {
     const Vec3<U> normal = detail::exact_unit_of_steps<U>(hull.normal(static_cast<std::uint8_t>(f)));
-    S offset = dot(normal, vertices[half_edges_[faces_[f]].origin]);
-    for (std::uint8_t e = half_edges_[faces_[f]].next; e != faces_[f]; e = half_edges_[e].next)
+    S offset = dot(normal, vertices[half_edges_[hull.faces[f]].origin]);
+    for (std::uint8_t e = half_edges_[hull.faces[f]].next; e != hull.faces[f]; e = half_edges_[e].next)
       offset = max(offset, dot(normal, vertices[half_edges_[e].origin]));
     normals_.push_back(normal);
     offsets_.push_back(offset);
     inner_radius_ = min(inner_radius_, offset - dot(normal, middle));
   }
+  starts_.resize(hull.faces.size() + hull.vertices.size());
+  for (std::size_t e = half_edges_.size(); e-- > 0;)
+    starts_[hull.faces.size() + half_edges_[e].origin] = static_cast<std::uint8_t>(e);
 }
 
 template <class S> std::size_t HullSolid<S>::memory() const {
   return vertices_.memory() + normals_.memory() + directions_.memory() + half_edges_.size() * sizeof(HalfEdge) +
-         faces_.size() * sizeof faces_[0] + offsets_.size() * sizeof(S);
+         starts_.size() * sizeof starts_[0] + offsets_.size() * sizeof(S);
 }
 
 }  // namespace isostep

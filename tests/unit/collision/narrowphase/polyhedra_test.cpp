@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 
+#include "isostep/collision/narrowphase/polyhedron_edges.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
@@ -90,6 +91,37 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   EXPECT_GT(tally.points, 10000);
 }
 
+/// Of solids that touch, the edges near both best faces have the best cross of all.
+TYPED_TEST(Polyhedra, leave_out_no_edges_that_decide) {
+  using S = TypeParam;
+  const auto solids = solids_of_many_sizes<S>(22);
+  const S margin = from_double<S>(this->kMargin);
+  int found = 0, none = 0;
+  for (int n = 0; n < 6000; ++n) {
+    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const double reach = this->random_.in(0.3, 0.9) * (a.radius() + b.radius());
+    const Transform<S> ta = this->transform(D3{0, 0, 0}), tb = this->transform(this->random_.direction() * reach);
+    const Polyhedron<S> of_a = a.solid.polyhedron(), of_b = b.solid.polyhedron();
+    detail::PolyhedronPair<S, 1, isa::Portable> pair(of_a, ta, of_b, tb);
+    pair.turn_a();
+    const auto face_a = detail::best_face<S, 1, isa::Portable>(of_a, pair.vertices_b, of_b.vertices.size(), margin);
+    const auto face_b = detail::best_face<S, 1, isa::Portable>(of_b, pair.vertices_a, of_a.vertices.size(), margin);
+    const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
+    if (best > margin) continue;
+    const auto all = detail::EdgeAxes<S, 1, isa::Portable>(pair).best(limit, margin);
+    const auto near = detail::EdgeAxes<S, 1, isa::Portable>(pair, face_a, face_b, margin).best(limit, margin);
+    if (all.found && all.separation > S(0)) continue;  // apart: collide_polyhedra looks again where that may differ
+    ASSERT_EQ(near.found, all.found) << n;
+    ++(all.found ? found : none);
+    if (!all.found) continue;
+    ASSERT_EQ(near.edge_a, all.edge_a) << n;
+    ASSERT_EQ(near.edge_b, all.edge_b) << n;
+    ASSERT_TRUE(near.separation == all.separation && near.normal == all.normal) << n;
+  }
+  EXPECT_GT(found, 500);
+  EXPECT_GT(none, 500);
+}
+
 template <class View> bool same(const View& a, const View& b) {
   bool all = a.size() == b.size();
   for (std::uint32_t i = 0; all && i < a.size(); ++i) all = a[i] == b[i];
@@ -108,6 +140,7 @@ TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {
   const BoxSolid<S> box({S(40000.0 / 65536), S(12000.0 / 65536), S(77000.0 / 65536)});
   const Polyhedron<S> a = hull.polyhedron(), b = box.polyhedron();
   EXPECT_TRUE(same(a.vertices, b.vertices) && same(a.half_edges, b.half_edges) && same(a.faces, b.faces));
+  EXPECT_TRUE(same(a.spokes, b.spokes));
   EXPECT_TRUE(same(a.normals, b.normals) && same(a.offsets, b.offsets) && same(a.directions, b.directions));
   EXPECT_NEAR(to_double(a.inner_radius), to_double(b.inner_radius), 1e-4);
 }
