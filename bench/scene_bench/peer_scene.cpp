@@ -26,6 +26,7 @@ PeerPart peer_part(const scenes::ScenePart& part) {
                    real(part.normal), real(part.offset),       real(part.position), real(part.orientation),
                    nullptr,           {}};
   if (part.type != ShapeType::hull) return made;
+  if (made.radius != 0) throw SceneError("", "other engines are given no hulls with a radius");
   made.hull = scenes::hull_of_part(part, "peer");
   made.points = scenes::solid_hull(*made.hull)->vertices;
   return made;
