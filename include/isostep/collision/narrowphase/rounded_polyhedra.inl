@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/polyhedron_triangle.hpp"
-#include "isostep/collision/narrowphase/rounded.hpp"
+#include "isostep/collision/narrowphase/rounded.inl"
 #include "isostep/collision/narrowphase/rounded_polyhedra.hpp"
 #include "isostep/geometry/baked/polyhedron_surface.hpp"
 
@@ -59,6 +59,14 @@ ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transfor
   return out.count > 0;
 }
 
+/// Whether a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
+template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, Vec3<S> gap, S distance, S tolerance) {
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    if (dot(solid.normals[f], gap) >= distance - tolerance) return true;
+  }
+  return false;
+}
+
 /// A polyhedron as a core, its vertices in a row.
 template <class S> ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta,
                                                      const Polyhedron<S>& b, const Transform<S>& tb) {
@@ -85,14 +93,18 @@ void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>
   const S radii = a.radius + b.radius;
   const CoreGap<S> gap = gap_between(a.core, ta, b.core, tb);
   if (gap.distance - radii > margin) return;
-  polyhedra(a.core, ta, b.core, tb, margin + radii, out);
-  if (!gap.is_apart) return grow_cores(out, a.radius, b.radius, margin);
   const S inner_a = a.core.inner_radius, inner_b = b.core.inner_radius;
   const S tolerance = axis_tolerance(min(inner_a, inner_b), max_abs(tb.position - ta.position) + inner_a + inner_b);
-  const bool of_faces = out.count > 0 && out.points[0].feature >> 31 != 0;
-  if (of_faces && gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance))
-    return grow_cores(out, a.radius, b.radius, margin);
-  out.clear();
+  const Vec3<S> gap_in_b = transposed_times(tb.rotation, ta.rotation * -gap.across());
+  // Most of the cost of a pair are its separating axes: they are asked only where they may decide.
+  if (!gap.is_apart || has_face_across(a.core, gap.across(), gap.distance, tolerance) ||
+      has_face_across(b.core, gap_in_b, gap.distance, tolerance)) {
+    polyhedra(a.core, ta, b.core, tb, margin + radii, out);
+    const bool of_faces = out.count > 0 && out.points[0].feature >> 31 != 0;
+    const bool told = of_faces && gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance);
+    if (told || !gap.is_apart) return grow_cores(out, a.radius, b.radius, margin);
+    out.clear();
+  }
   if (!touch_edges_beside(a, ta, b, tb, gap, tolerance * S(0.25), margin, out))
     gap.touch(ta, a.radius, b.radius, out);
 }

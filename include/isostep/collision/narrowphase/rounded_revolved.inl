@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/narrowphase/rounded.hpp"
+#include "isostep/collision/narrowphase/rounded.inl"
 #include "isostep/collision/narrowphase/rounded_revolved.hpp"
 
 namespace isostep {

@@ -11,7 +11,7 @@
 namespace isostep {
 
 /// All points within `radius` of the hull of the vertices that its blob has, its core: see hull_blob.
-/// Mass:  of the core stretched about its centre of mass, along each axis until its box is as wide as that of the whole.
+/// Mass:  of the core stretched about its centre of mass, along each axis until its box is as wide as that of all.
 ///        Exact where the radius is 0. Else what is pointed gains too little, and what has edges like a box too much:
 ///        with a radius of a tenth of the core's width, the volume of a cube is 2 % too large, that of a rock of 20
 ///        points 8 % and of a tetrahedron 25 % too small (tests/unit/geometry/rounded_hull_test.cpp).
