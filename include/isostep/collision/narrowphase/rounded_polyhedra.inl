@@ -74,7 +74,18 @@ template <class S> ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, con
   return gap_between(core_a.core(), ta, core_b.core(), tb);
 }
 
-/// What a triangle's edge or point is touched from.
+/// Whether a face of a solid has a triangle further above it than `reach`.
+template <class S>
+ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle<S>& triangle, S reach) {
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const Vec3<Unit<S>> up = solid.normals[f];
+    const S low = min(dot(up, triangle.points[0]), min(dot(up, triangle.points[1]), dot(up, triangle.points[2])));
+    if (low - solid.offsets[f] > reach) return true;
+  }
+  return false;
+}
+
+/// Whether an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
 template <class S>
 ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
   const Vec3<Unit<S>> direction = -gap.normal;
@@ -116,20 +127,28 @@ void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>&
   out.clear();
   SurfaceTriangle<S> triangle(frame, baked);
   if (triangle.height < S(0)) return;
-  S lowest = highest<S>();
-  for (const Vec3<S> v : a.core.vertices) lowest = min(lowest, triangle.height_of(v));
-  if (lowest - a.radius > margin) return;
+  const S reach = margin + a.radius;
+  const Lowest<S> lowest = lowest_of(a.core.vertices, triangle.normal);
+  const S height = lowest.height - triangle.offset;
+  if (height > reach || is_beyond_face(a.core, triangle, reach)) return;
+  triangle.find_edges(frame, baked);
+  const Vec3<S> nearest = a.core.vertices[lowest.vertex];
+  bool over = height > S(0);  // the triangle's inside: then nothing is nearer, and that is its plane's contact
+  for (int k = 0; k < 3; ++k) over = over && triangle.inside_of(k, nearest) > S(0);
+  if (over) {
+    collide_polyhedron_triangle(a.core, ta, frame, baked, reach, out);
+    return grow_cores(out, a.radius, S(0), margin);
+  }
   const Transform<S> here = {Vec3<S>::zero(), Mat3<Unit<S>>::identity()};
   const PolyhedronCore<S> core(a.core);
   const CoreGap<S> gap = gap_between(core.core(), here, {triangle.points, S(0)}, here);
   if (gap.distance - a.radius > margin) return;
-  collide_polyhedron_triangle(a.core, ta, frame, baked, margin + a.radius, out);
+  collide_polyhedron_triangle(a.core, ta, frame, baked, reach, out);
   const S inner = a.core.inner_radius, tolerance = axis_tolerance(inner, max_abs(frame.centre) + inner);
   if (!gap.is_apart || gap.corners == 3 ||
       gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance))
     return grow_cores(out, a.radius, S(0), margin);
   out.clear();
-  triangle.find_edges(frame, baked);
   if (is_owned(triangle, gap)) gap.touch(ta, a.radius, S(0), out);
 }
 
