@@ -48,6 +48,7 @@ PeerPart peer_part(const scenes::ScenePart& part) {
                    nullptr};
   made.thickness = thickness_of(made);
   if (part.type == ShapeType::hull) {
+    if (made.radius != 0) throw SceneError("", "other engines are given no hulls with a radius");
     made.hull = scenes::hull_of_part(part, "peer");
     const auto solid = scenes::solid_hull(*made.hull);
     made.points = solid->vertices;

@@ -60,6 +60,7 @@ Primitive<S> primitive(const ScenePart& part, std::vector<BlobRef>& blobs, const
 }
 
 [[noreturn]] void fail_part(const ScenePart& part, const std::string& place, ShapeFault fault) {
+  if (fault == ShapeFault::radius_not_in_range) throw SceneError(place + "/radius", describe(fault));
   if (part.file.empty()) throw SceneError(place, describe(fault));
   throw SceneError(place + "/file", part.file + ": " + describe(fault));
 }

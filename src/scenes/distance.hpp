@@ -17,7 +17,7 @@ struct Solid {
   Vec3<double> centre;  // [m] of its frame
   Mat3<double> axes;    // [1] to world
   Vec3<double> half;    // [m] of the core: box, or (0, half height, 0) of a capsule, cylinder or cone
-  double radius;        // [m] around the core; of a cylinder or cone its own
+  double radius;        // [m] around the core, of a hull too; of a cylinder or cone its own
   Vec3<double> normal;  // [1] half-space, world
   double offset;        // [m] half-space, world: normal . p <= offset is inside
   std::shared_ptr<const SolidHull> hull = nullptr;

@@ -6,6 +6,7 @@
 
 #include "isostep/scalar/math.hpp"
 #include "nearest_point.hpp"
+#include "round_distance.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -85,12 +86,13 @@ double outside_distance(V from, V to, const SolidHull& hull) {
 double hull_distance(const Solid& a, const Solid& b) {
   if (!(a.type == ShapeType::hull)) return hull_distance(b, a);
   const Core core = core_of(a);
-  if (b.type == ShapeType::half_space) return along(core, b.normal).low - b.offset;
-  const double gap = widest_gap(core, core_of(b));
-  if (gap <= 0 || b.type == ShapeType::box || b.type == ShapeType::hull) return gap - b.radius;
+  if (b.type == ShapeType::half_space) return along(core, b.normal).low - b.offset - a.radius;
+  const double gap = widest_gap(core, core_of(b)), radii = a.radius + b.radius;
+  if (gap <= 0) return gap - radii;
+  if (b.type == ShapeType::box || b.type == ShapeType::hull) return radii > 0 ? round_distance(a, b) : gap;
   const V middle = transposed_times(a.axes, b.centre - a.centre);
   const V half = transposed_times(a.axes, b.axes * b.half);
-  return outside_distance(middle - half, middle + half, *a.hull) - b.radius;
+  return outside_distance(middle - half, middle + half, *a.hull) - radii;
 }
 
 }  // namespace isostep::scenes

@@ -82,4 +82,19 @@ std::shared_ptr<const SolidHull> solid_hull(const Blob& blob) {
   return hull;
 }
 
+StretchedHull stretched(const SolidHull& hull, double radius) {
+  V low = hull.vertices[0], high = low;
+  for (const V v : hull.vertices) low = min(low, v), high = max(high, v);
+  StretchedHull result = {hull.volume, hull.moments};
+  double by[3];
+  for (int i = 0; i < 3; ++i) {
+    by[i] = 1 + 2 * radius / (high[i] - low[i]);
+    result.volume *= by[i];
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) result.moments.rows[i][k] *= by[i] * by[k];
+  }
+  return result;
+}
+
 }  // namespace isostep::scenes

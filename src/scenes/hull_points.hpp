@@ -29,4 +29,12 @@ struct SolidHull {
 /// Of a hull's blob.
 std::shared_ptr<const SolidHull> solid_hull(const Blob& blob);
 
+/// What the engine says that a hull with a radius [m] weighs and turns like: stretched about its centre, along each
+/// axis until its box has grown by the radius on both sides.
+struct StretchedHull {
+  double volume;         // [m^3]
+  Mat3<double> moments;  // [m^2] as SolidHull has them
+};
+StretchedHull stretched(const SolidHull& hull, double radius);
+
 }  // namespace isostep::scenes

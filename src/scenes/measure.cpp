@@ -52,6 +52,9 @@ Part part_of(const Solid& solid) {
       part.low = min(part.low, p);
       part.high = max(part.high, p);
     }
+    const Vec3<double> skin = {solid.radius, solid.radius, solid.radius};
+    part.low = part.low - skin;
+    part.high = part.high + skin;
     return part;
   }
   if (solid.surface != nullptr) {

@@ -62,7 +62,7 @@ double support(const Solid& solid, V direction) {
     return centre + std::abs(n.x) * solid.half.x + std::abs(n.y) * h + std::abs(n.z) * solid.half.z + r;
   double most = -std::numeric_limits<double>::infinity();
   for (const V v : solid.hull->vertices) most = std::max(most, dot(n, v));
-  return centre + most;
+  return centre + most + r;
 }
 
 double round_distance(const Solid& a, const Solid& b) {

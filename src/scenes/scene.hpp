@@ -48,7 +48,7 @@ struct SceneSurface {
 struct ScenePart {
   ShapeType type = ShapeType::box;
   Vector half_extents = zero_vector();  // [m] box
-  Number radius = 0;                    // [m] sphere, capsule, cylinder, cone
+  Number radius = 0;                    // [m] sphere, capsule, cylinder, cone; around a hull
   Number half_height = 0;               // [m] capsule, cylinder, cone
   Vector normal = {0, 1, 0};            // [1] half-space
   Number offset = 0;                    // [m] half-space

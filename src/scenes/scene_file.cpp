@@ -27,7 +27,7 @@ void read_surfaces(ObjectReader& reader, const char* key, std::vector<SceneSurfa
 
 void read_sizes(ObjectReader& reader, ScenePart& part) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
-    if (rule != SizeRule::optional) reader.require(key);
+    if (rule != SizeRule::optional && rule != SizeRule::thickness) reader.require(key);
     if constexpr (std::is_same_v<decltype(size), std::string&>) reader.text(key, size);
     else if constexpr (std::is_same_v<decltype(size), std::vector<Vector>&>) reader.vectors(key, size);
     else if constexpr (std::is_same_v<decltype(size), std::vector<Number>&>) reader.list(key, size);
@@ -39,7 +39,10 @@ void read_sizes(ObjectReader& reader, ScenePart& part) {
 }
 /// In place of the sizes of a part.
 void read_baked(ObjectReader& reader, ScenePart& part, BlobFiles& files) {
-  visit_sizes(part, [&](const char* key, const auto&, SizeRule) {
+  visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
+    if constexpr (std::is_same_v<decltype(size), Number&>) {
+      if (rule == SizeRule::thickness) return reader.number(key, size);
+    }
     if (reader.has(key)) throw SceneError(reader.place_of(key), "what \"file\" holds has no other sizes");
   });
   reader.text("file", part.file);

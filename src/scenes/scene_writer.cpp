@@ -62,7 +62,10 @@ class ObjectWriter {
 std::string text_of(const ScenePart& part) {
   const ScenePart plain;
   ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
-  visit_sizes(part, [&](const char* key, const auto& size, SizeRule) {
+  visit_sizes(part, [&](const char* key, const auto& size, SizeRule rule) {
+    if constexpr (std::is_same_v<decltype(size), const Number&>) {
+      if (rule == SizeRule::thickness) return out.member(key, size, Number(0));
+    }
     if constexpr (std::is_same_v<decltype(size), const std::vector<Number>&> ||
                   std::is_same_v<decltype(size), const std::vector<SceneSurface>&>) {
       if (size.empty()) return;

@@ -6,8 +6,8 @@
 
 namespace isostep::scenes {
 
-/// What a scene file must say of a size.
-enum class SizeRule { positive, required, optional };
+/// What a scene file must say of a size. A thickness is left out where it is 0, and stands beside a baked file too.
+enum class SizeRule { positive, required, optional, thickness };
 
 // visit_sizes: visit(key, size, rule) for every size of a part of that type; `part` may be const.
 
@@ -27,6 +27,7 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<HalfSpace>, Part&
 }
 template <class Part, class Visit> void visit_sizes(ShapeClass<Hull>, Part& part, const Visit& visit) {
   visit("points", part.points, SizeRule::required);
+  visit("radius", part.radius, SizeRule::thickness);
 }
 template <class Part, class Visit> void visit_sizes(ShapeClass<Mesh>, Part& part, const Visit& visit) {
   visit("vertices", part.vertices, SizeRule::required);
@@ -50,10 +51,15 @@ template <class Part, class Visit> void visit_sizes(ShapeClass<Cone>, Part& part
   visit("radius", part.radius, SizeRule::positive);
   visit("half_height", part.half_height, SizeRule::positive);
 }
-/// A part of a baked file has no sizes but its name.
+/// A part of a baked file has no sizes but its name, and a thickness.
 template <class Part, class Visit> void visit_sizes(Part& part, const Visit& visit) {
-  if (!part.file.empty()) return visit("file", part.file, SizeRule::required);
-  visit_shape_type(part.type, [&](auto tag) { visit_sizes(tag, part, visit); });
+  const bool baked = !part.file.empty();
+  if (baked) visit("file", part.file, SizeRule::required);
+  visit_shape_type(part.type, [&](auto tag) {
+    visit_sizes(tag, part, [&](const char* key, auto& size, SizeRule rule) {
+      if (!baked || rule == SizeRule::thickness) visit(key, size, rule);
+    });
+  });
 }
 
 // shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>,
@@ -73,7 +79,8 @@ template <class S, class Read> HalfSpace<S> shape_of(ShapeClass<HalfSpace>, cons
   return {read.direction("normal", part.normal), read.size("offset", part.offset)};
 }
 template <class S, class Read> Hull<S> shape_of(ShapeClass<Hull>, const ScenePart& part, const Read& read) {
-  return {read.hull(part)};
+  const std::uint32_t blob = read.hull(part);
+  return {blob, read.size("radius", part.radius)};
 }
 template <class S, class Read> Mesh<S> shape_of(ShapeClass<Mesh>, const ScenePart& part, const Read& read) {
   return {read.mesh(part)};

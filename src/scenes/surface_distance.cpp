@@ -42,7 +42,10 @@ double depth_inside(V p, const Solid& body) {
       for (const V v : body.hull->vertices) reach = max(reach, dot(body.hull->normals[f], v));
       depth = min(depth, reach - dot(body.hull->normals[f], p));
     }
-    return depth;
+    if (depth >= 0 || !(body.radius > 0)) return depth + body.radius;
+    double outside = kFar;
+    for (const auto& t : body.hull->triangles) outside = min(outside, length(p - nearest_on_triangle(p, t)));
+    return body.radius - outside;
   }
   for (int axis = 0; axis < 3; ++axis) depth = min(depth, body.half[axis] - abs(p[axis]));
   return depth;
@@ -71,8 +74,9 @@ double surface_distance(const Solid& a, const Solid& b) {
   if (near.empty()) return kFar;
   if (a.type == ShapeType::sphere || a.type == ShapeType::capsule) return thick_distance(a, b, near);
   double least = kFar;
+  const double skin = a.type == ShapeType::hull ? a.radius : 0;
   for (const V corner : corners)
-    least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near));
+    least = min(least, height_over(in_ground(a.centre + a.axes * corner), *b.surface, near) - skin);
   for (const std::size_t i : near) {
     for (const V point : b.surface->triangles[i]) {
       const double depth = depth_inside(transposed_times(a.axes, b.centre + b.axes * point - a.centre), a);

@@ -211,7 +211,11 @@ template <class S> class RandomCoupledWorld {
     switch (chance_.below(4)) {
       case 0: reach = a; return add_ball(bodies_, a);
       case 1: reach = length({a, b, c}); return add_box(bodies_, a, b, c);
-      case 2: reach = length({a, b, c}); return bodies_.add_shape(draw_hull(chance_, {a, b, c}));
+      case 2: {
+        const double radius = a > 0.3 ? b / 4 : 0;  // of a third
+        reach = length({a, b, c}) + radius;
+        return add_hull(bodies_, draw_hull(chance_, {a, b, c}), radius);
+      }
       default: reach = a + b; return bodies_.add_shape(Capsule<S>{num<S>(a), num<S>(b)});
     }
   }

@@ -22,4 +22,10 @@ template <class Source> BlobRef draw_hull(Source& source, D3 half) {
   return hull_blob(std::span<const D3>(points)).value();
 }
 
+/// A hull with a radius [m] in a world.
+template <class S> ShapeId add_hull(World<S>& world, const BlobRef& blob, double radius) {
+  const Child<S> part = {primitive_of(Hull<S>{1, num<S>(radius)}), Pose<S>::identity()};
+  return world.add_shape(std::span<const Child<S>>(&part, 1), std::span<const BlobRef>(&blob, 1));
+}
+
 }  // namespace isostep::test

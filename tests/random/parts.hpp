@@ -23,8 +23,9 @@ struct DrawnShape {
 };
 
 static_assert(kShapeTypes == 9, "random worlds have every shape that moves: see draw_primitive()");
-/// `blobs` are those of its shape. Half of the boxes are hulls in a box of that size, and a third each of the capsules
-/// cylinders and cones, drawn by dice of their own: what is drawn after them is as it was before there were those.
+/// `blobs` are those of its shape. Half of the boxes are hulls in a box of that size, a third of them rounded, and a
+/// third each of the capsules cylinders and cones, drawn by dice of their own: what is drawn after them is as it was
+/// before there were those.
 template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::vector<BlobRef>& blobs) {
   const double a = dice.in(kLeast, kMost), b = dice.in(kLeast, kMost), c = dice.in(kLeast, kMost);
   const std::uint32_t kind = dice.below(3);
@@ -38,7 +39,9 @@ template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::v
   }
   if (own.one_in(2)) return primitive_of(Box<S>{vec<S>(a, b, c)});
   blobs.push_back(draw_hull(own, {a, b, c}));
-  return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size())});
+  const double radius = own.one_in(3) ? own.in(0.02, 0.25) : 0.0;
+  *reach += radius;
+  return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size()), num<S>(radius)});
 }
 /// A primitive, or two or three of them in one body.
 template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {

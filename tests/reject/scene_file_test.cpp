@@ -116,6 +116,20 @@ TEST(SceneFile, WithPointsThatMakeNoHullIsRefused) {
   EXPECT_EQ(refusal(hull("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]")), "");
 }
 
+TEST(SceneFile, WithAHullsRadiusThatIsNoneIsRefused) {
+  const auto hull = [](const std::string& radius) {
+    return with_body(R"("type": "dynamic", "shapes": [{"type": "hull", "radius": )" + radius +
+                     R"(, "points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}])");
+  };
+  const std::string place = "/bodies/1/shapes/0/radius: ";
+  EXPECT_EQ(refusal(hull("-0.001")), place + "a hull's radius is below 0 or above the scalar's largest extent");
+  EXPECT_EQ(refusal(hull("1e7")), place + "a hull's radius is below 0 or above the scalar's largest extent");
+  EXPECT_EQ(refusal(hull("[1]")), place + "expected a number, found an array");
+  EXPECT_EQ(refusal(hull("\"thick\"")), place + "expected a number, found a string");
+  EXPECT_EQ(refusal(hull("0")), "");
+  EXPECT_EQ(refusal(hull("0.125")), "");
+}
+
 TEST(SceneFile, WithAWordThatIsNoChoiceIsRefused) {
   EXPECT_EQ(refusal(with_body(R"("type": "movable")")),
             "/bodies/1/type: expected static, kinematic or dynamic, found \"movable\"");

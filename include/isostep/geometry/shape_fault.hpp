@@ -23,7 +23,8 @@ enum class ShapeFault : std::uint32_t {
   blob_missing,          // a shape that has one names no blob, or one of another type
   blob_not_valid,        // its bytes are not what the type's are
   outside_extent,        // a child reaches further from the body's origin than Limits<S>::extent(), along some axis
-  too_many_triangles     // of all children together 2^31 or more
+  too_many_triangles,    // of all children together 2^31 or more
+  radius_not_in_range    // of a hull, whose radius may be 0: below that, or above Limits<S>::extent()
 };
 
 /// The fault in words, for messages.
@@ -44,6 +45,7 @@ ISO_INLINE constexpr const char* describe(ShapeFault fault) {
     case ShapeFault::blob_not_valid: return "a blob's bytes make no shape of its type";
     case ShapeFault::outside_extent: return "a child reaches beyond the scalar's largest extent";
     case ShapeFault::too_many_triangles: return "a shape has 2^31 triangles or more";
+    case ShapeFault::radius_not_in_range: return "a hull's radius is below 0 or above the scalar's largest extent";
   }
   return "unknown fault";
 }

@@ -39,10 +39,10 @@ struct DrawnPart {
   DrawnPose pose;   // of its centre; round ones lie along its y; of a half-space: its point nearest the body's origin;
                     // of a part with content: of the frame that its points are in
   float half[3];    // [m] of a box; of a capsule, cylinder or cone y alone
-  float radius;     // [m] of a sphere, capsule, cylinder or cone
+  float radius;     // [m] of a sphere, capsule, cylinder or cone; around a hull
   float normal[3];  // [1] of a half-space, world, out of the ground
-  /// The name of its blob, of a shape that has one (hull): parts of equal content have equal triangles, see
-  /// DebugDraw::wants_triangles. All 0: the numbers above say everything.
+  /// The name of its blob, of a shape that has one (hull), with a hull's radius mixed in: parts of equal content have
+  /// equal triangles, see DebugDraw::wants_triangles. All 0: the numbers above say everything.
   ContentId content;
 };
 

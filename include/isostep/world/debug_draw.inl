@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/scalar/environment.hpp"
@@ -12,6 +14,13 @@
 namespace isostep {
 
 namespace detail {
+
+/// Of a blob that is drawn with a radius around it; 0: its own name.
+ISO_INLINE ContentId drawn_content(ContentId blob, float radius) {
+  constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;
+  if (radius != 0) blob.low ^= std::bit_cast<std::uint32_t>(radius) * kSpread;
+  return blob;
+}
 
 /// One call of draw on a world of bodies.
 template <class S> class BodySketch {
@@ -89,7 +98,7 @@ template <class S> class BodySketch {
     sketch_.vector(primitive.half, part.half);
     part.radius = sketch_.number(primitive.radius);
     sketch_.vector(rotate(pose.orientation, primitive.normal), part.normal);
-    if (primitive.blob != 0) part.content = state_.geometry->names()[primitive.blob - 1].id;
+    if (primitive.blob != 0) part.content = drawn_content(state_.geometry->names()[primitive.blob - 1].id, part.radius);
     to_.part(body, part);
     if (primitive.blob != 0 && to_.wants_triangles(part)) draw_triangles(shape_view);
     if (options_.lines) draw_lines(body, shape_view, Transform<S>::of(pose));

@@ -27,6 +27,7 @@
 #include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/baked/polyhedron.inl"
 #include "isostep/geometry/baked/polyhedron_surface.inl"
+#include "isostep/geometry/baked/rounded_polyhedron.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/particles/instantiate.inl"
@@ -68,7 +69,10 @@
                                                             Vec3<OwnScalar>);                                         \
   template class HullSolid<OwnScalar>;                                                                                \
   ISO_POLYHEDRON_SURFACE_OF(, OwnScalar)                                                                              \
+  ISO_ROUNDED_POLYHEDRON_OF(, OwnScalar)                                                                              \
   ISO_POLYHEDRA_OF(, OwnScalar)                                                                                       \
+  ISO_ROUNDED_POLYHEDRA_OF(, OwnScalar)                                                                               \
+  ISO_ROUNDED_REVOLVED_OF(, OwnScalar)                                                                                \
   ISO_GJK_OF(, OwnScalar)                                                                                             \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                                \
   ISO_EPA_OF(, OwnScalar)                                                                                             \

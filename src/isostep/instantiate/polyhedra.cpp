@@ -6,12 +6,14 @@
 #include "isostep/collision/narrowphase/round_polyhedron.inl"
 #include "isostep/geometry/baked/polyhedron.inl"
 #include "isostep/geometry/baked/polyhedron_surface.inl"
+#include "isostep/geometry/baked/rounded_polyhedron.inl"
 
 namespace isostep {
 
 #define ISO_INSTANTIATE(S)     \
   template class HullSolid<S>; \
   ISO_POLYHEDRON_SURFACE_OF(, S) \
+  ISO_ROUNDED_POLYHEDRON_OF(, S) \
   ISO_POLYHEDRA_OF(, S)        \
   ISO_GJK_OF(, S)              \
   ISO_ROUND_POLYHEDRON_OF(, S)

@@ -19,7 +19,7 @@ std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {
 }
 
 double volume_of(const ScenePart& part) {
-  if (part.type == ShapeType::hull) return hull_of(part)->volume;
+  if (part.type == ShapeType::hull) return stretched(*hull_of(part), value(part.radius)).volume;
   const Vec3<double> half = value(part.half_extents);
   const double r = value(part.radius);
   const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -71,7 +71,7 @@ Vec3<double> principal_gyration_of(const ScenePart& part) {
   return {square.y + square.z, square.z + square.x, square.x + square.y};
 }
 Mat3<double> gyration_of(const ScenePart& part) {
-  return part.type == ShapeType::hull ? gyration_of_hull(hull_of(part)->moments)
+  return part.type == ShapeType::hull ? gyration_of_hull(stretched(*hull_of(part), value(part.radius)).moments)
                                       : Mat3<double>::diagonal(principal_gyration_of(part));
 }
 
@@ -104,7 +104,7 @@ Mat3<double> inertia_of(const SceneBody& body) {
 
 double least_reach(const SceneBody& body) {
   const ScenePart& part = body.parts.front();
-  if (part.type == ShapeType::hull) return hull_of(part)->inner_radius;
+  if (part.type == ShapeType::hull) return hull_of(part)->inner_radius + value(part.radius);
   if (part.type == ShapeType::cylinder) return std::min(value(part.radius), value(part.half_height));
   if (part.type == ShapeType::cone) {
     const double r = value(part.radius), height = 2 * value(part.half_height);

@@ -45,7 +45,7 @@ scenes::Solid solid_of(const scenes::ScenePart& part, const Primitive<double>& s
   return solid;
 }
 double volume_of(const scenes::Solid& solid, const Primitive<double>& shape) {
-  if (solid.hull != nullptr) return solid.hull->volume;
+  if (solid.hull != nullptr) return scenes::stretched(*solid.hull, solid.radius).volume;
   return visit_shape(shape, [](const auto& visited) { return visited.mass(1.0); });
 }
 Vec3<double> middle_of(const scenes::Solid& solid) {

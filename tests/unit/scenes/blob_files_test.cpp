@@ -77,6 +77,21 @@ TEST_F(BakedFiles, MayBeInOtherFolders) {
   EXPECT_EQ(hash_of(read(write_scene(scene))), hash_of(read(scene_of(kFloor, kRock))));
 }
 
+TEST_F(BakedFiles, OfHullsMayHaveARadius) {
+  const std::string radius = R"(, "radius": 0.125)";
+  const Scene file = read(scene_of(kFloor, baked("hull", "hull.blob") + radius)),
+              numbers = read(scene_of(kFloor, kRock + radius));
+  EXPECT_EQ(hash_of(file), hash_of(numbers));
+  EXPECT_NE(hash_of(file), hash_of(read(scene_of(kFloor, kRock))));
+  EXPECT_EQ(hash_of(read(write_scene(file))), hash_of(file));
+  EXPECT_EQ(hash_of(read(write_scene(numbers))), hash_of(numbers));
+  EXPECT_NE(write_scene(file).find(radius), std::string::npos);
+  EXPECT_EQ(write_scene(read(scene_of(kFloor, kRock))).find("radius"), std::string::npos);
+  EXPECT_EQ(refusal(scene_of(kFloor, baked("hull", "hull.blob") + R"(, "radius": -1)")),
+            "/bodies/1/shapes/0/radius: a hull's radius is below 0 or above the scalar's largest extent");
+  EXPECT_EQ(refusal(scene_of(baked("mesh", "mesh.blob") + radius, kRock)), "/bodies/0/shapes/0/radius: unknown key");
+}
+
 TEST_F(BakedFiles, OfOneNameAreOneShape) {
   const std::string rock = baked("hull", "hull.blob");
   const Scene scene = read(scene_of(kFloor, rock + "}, {" + rock + R"(, "position": [2, 0, 0])"));

@@ -111,6 +111,27 @@ TYPED_TEST(DebugDrawsTriangles, OfEachContentOnceToWhoAsksOnce) {
   EXPECT_TRUE(asks.parts[2].triangles.empty());
 }
 
+/// One blob, two surfaces: that of a rounded hull is its own, once.
+TYPED_TEST(DebugDrawsTriangles, OfEachRadiusByItself) {
+  using S = TypeParam;
+  World<S> world(settings<S>(0));
+  const BlobRef blob = house();
+  for (const double radius : {0.0, 0.25, 0.125, 0.25}) {
+    Child<S> child = house_at<S>(Pose<S>::identity());
+    child.primitive.radius = num<S>(radius);
+    world.create(moving<S>(add(world, child, blob), {0, 0, 0}));
+  }
+  Asks asks;
+  draw(world, asks);
+  ASSERT_EQ(asks.parts.size(), 4u);
+  EXPECT_EQ(asks.parts[0].part.content, blob->id());
+  EXPECT_EQ(asks.known.size(), 3u);
+  EXPECT_EQ(asks.parts[3].part.content, asks.parts[1].part.content);
+  EXPECT_FALSE(asks.parts[1].triangles.empty());
+  EXPECT_FALSE(asks.parts[2].triangles.empty());
+  EXPECT_TRUE(asks.parts[3].triangles.empty());
+}
+
 TYPED_TEST(DebugDrawsTriangles, ToNobodyWhoDoesNotAsk) {
   const Village<TypeParam> village;
   DoesNotAsk silent;

@@ -207,7 +207,7 @@ template <class S> class QueryWorld {
       case 0: return world.add_shape(Sphere<S>{num<S>(half.x)});
       case 1: return world.add_shape(Capsule<S>{num<S>(half.x), num<S>(half.y)});
       case 2: return world.add_shape(Box<S>{vec<S>(half)});
-      case 3: return world.add_shape(draw_hull(dice, half));
+      case 3: return add_hull(world, draw_hull(dice, half), half.y > 0.5 ? half.x / 4 : 0);
       default: {
         const Child<S> parts[] = {part_at(primitive_of(Box<S>{vec<S>(half)}), {0.5, 0, 0}),
                                   part_at(primitive_of(Sphere<S>{num<S>(half.y)}), {-0.5, 0, 0}),

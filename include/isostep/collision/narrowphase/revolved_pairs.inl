@@ -6,6 +6,7 @@
 #include "isostep/collision/narrowphase/revolved_pairs.hpp"
 #include "isostep/collision/narrowphase/revolved_polyhedron.inl"
 #include "isostep/collision/narrowphase/revolved_revolved.inl"
+#include "isostep/collision/narrowphase/rounded_revolved.inl"
 #include "isostep/geometry/baked/box_solid.hpp"
 
 namespace isostep {
@@ -43,7 +44,13 @@ void collide_half_space_round(ShapeView<S> a, const Transform<S>& ta, ShapeView<
 template <class S>
 void collide_hull_round(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                         Manifold<S>& out) {
-  collide_revolved_polyhedron(detail::revolved_of(b.primitive), tb, shape_as<Hull>(a).polyhedron(), ta, margin, out);
+  const Hull<S> hull = shape_as<Hull>(a);
+  const detail::Revolved<S> solid = detail::revolved_of(b.primitive);
+  if (hull.is_rounded()) {
+    collide_rounded_revolved<S>(solid, tb, {hull.polyhedron(), hull.radius}, ta, margin, out);
+  } else {
+    collide_revolved_polyhedron(solid, tb, hull.polyhedron(), ta, margin, out);
+  }
   out.normal = -out.normal;
 }
 template <class S>

@@ -6,6 +6,7 @@
 #include "isostep/collision/narrowphase/revolved_pairs.hpp"
 #include "isostep/collision/narrowphase/revolved_triangle.inl"
 #include "isostep/collision/narrowphase/round_triangle.inl"
+#include "isostep/collision/narrowphase/rounded_polyhedra.inl"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
 #include "isostep/geometry/baked/surface_queries.inl"
@@ -39,8 +40,11 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
         const BoxSolid<S> box(a.primitive.half);
         return collide_polyhedron_triangle(box.polyhedron(), ta, frame, baked, margin, out);
       }
-      case ShapeType::hull:
-        return collide_polyhedron_triangle(shape_as<Hull>(a).polyhedron(), ta, frame, baked, margin, out);
+      case ShapeType::hull: {
+        const Hull<S> hull = shape_as<Hull>(a);
+        if (!hull.is_rounded()) return collide_polyhedron_triangle(hull.polyhedron(), ta, frame, baked, margin, out);
+        return collide_rounded_triangle<S>({hull.polyhedron(), hull.radius}, ta, frame, baked, margin, out);
+      }
       case ShapeType::cylinder:
       case ShapeType::cone:
         return collide_revolved_triangle(detail::revolved_of(a.primitive), ta, frame, baked, margin, out);

@@ -4,6 +4,7 @@
 
 #include "isostep/collision/query/ray_cast.hpp"
 #include "isostep/geometry/baked/polyhedron_surface.inl"
+#include "isostep/geometry/baked/rounded_polyhedron.inl"
 
 namespace isostep {
 namespace detail {

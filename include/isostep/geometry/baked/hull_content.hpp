@@ -22,6 +22,8 @@ template <class S> struct HullContent {
   Vec3<S> centre_of_mass = Vec3<S>::zero();  // [m]
   /// [1] inertia over mass and half_width^2, about the centre of mass.
   Mat3<Unit<S>> inertia = Mat3<Unit<S>>::diagonal(Vec3<Unit<S>>::zero());
+  /// [1] means of xx, yy, zz and of yz, zx, xy about the centre of mass, each coordinate over half the box's own width.
+  Vec3<Unit<S>> variance = Vec3<Unit<S>>::zero(), product = variance;
 
   static std::shared_ptr<const void> make(Bytes bytes);
   ISO_INLINE std::size_t memory() const { return sizeof *this + solid.memory(); }  // [bytes]

@@ -77,6 +77,11 @@ template <class S> std::shared_ptr<const void> HullContent<S>::make(Bytes bytes)
   const U yz = -relative(mass.product[0]), zx = -relative(mass.product[1]), xy = -relative(mass.product[2]);
   content->inertia = {{{relative(yy) + relative(zz), xy, zx}, {xy, relative(zz) + relative(xx), yz},
                        {zx, yz, relative(xx) + relative(yy)}}};
+  const auto in_box = [&](std::int64_t moment, int i, int j) ISO_INLINE_LAMBDA {
+    return detail::ratio_of<U>(Int128(moment) * 4, static_cast<std::uint64_t>(box.width[i] * box.width[j]) << kBits);
+  };
+  content->variance = {in_box(xx, 0, 0), in_box(yy, 1, 1), in_box(zz, 2, 2)};
+  content->product = {in_box(mass.product[0], 1, 2), in_box(mass.product[1], 2, 0), in_box(mass.product[2], 0, 1)};
   return content;
 }
 

@@ -27,6 +27,7 @@ struct DrawnShape {
 
   ShapeType type() const { return record.type; }
   bool is_surface() const { return !sides.empty(); }
+  bool is_rounded() const { return type() == ShapeType::hull && radius > 0; }
   template <class S> Primitive<S> primitive() const {
     return {record.type,
             record.blob,
@@ -135,7 +136,7 @@ class ShapeDrawer {
     s.inner = std::min(low, half);
     return s;
   }
-  /// Of a box's size; every fourth one is a prism or a wedge with parallel faces.
+  /// Of a box's size; every fourth one is a prism or a wedge with parallel faces, every third one is rounded.
   static DrawnShape drawn_hull(Random& random, const SizeClass& sizes) {
     const double x = sizes.size(random), y = sizes.size(random), z = sizes.size(random);
     std::vector<Vec3<double>> points = {{x, y, z}, {-x, -y, z}, {-x, y, -z}, {x, -y, -z}};
@@ -149,7 +150,9 @@ class ShapeDrawer {
     }
     DrawnShape s;
     s.blob = hull_blob(std::span<const Vec3<double>>(points)).value();
-    s.record = primitive_of(Hull<double>{1});
+    Random own = random;  // so that the cores are those that were drawn before hulls were rounded
+    if (own.below(3) == 0) s.radius = sizes.size(own);
+    s.record = primitive_of(Hull<double>{1, s.radius});
     const GridHull read = read_hull(s.blob->bytes()).value();
     const auto in_metres = [&](std::uint8_t i) {
       const GridPoint p = read.hull.vertices[i];

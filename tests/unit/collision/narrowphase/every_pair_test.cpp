@@ -15,7 +15,10 @@ constexpr double kMargin = 0.015625;  // [m]
 bool is_ground(ShapeType type) {
   return type == ShapeType::half_space || type == ShapeType::mesh || type == ShapeType::height_field;
 }
-bool is_round(ShapeType type) { return type == ShapeType::sphere || type == ShapeType::capsule; }
+/// Whose distance is told exactly, not along axes alone.
+bool is_round(const DrawnShape& shape) {
+  return shape.type() == ShapeType::sphere || shape.type() == ShapeType::capsule || shape.is_rounded();
+}
 bool is_surface(ShapeType type) { return type == ShapeType::mesh || type == ShapeType::height_field; }
 
 /// A hundred shapes of each type and size.
@@ -140,7 +143,7 @@ template <class S> class PairLaws {
     return m;
   }
   void check_one(const Manifold<S>& m) {
-    const bool exact = is_round(c_.a->type()) || is_round(c_.b->type());
+    const bool exact = is_round(*c_.a) || is_round(*c_.b);
     if (c_.b->is_surface() && !is_in_front()) return tally_.hold(none_apart, is_behind() ? m.count : 0, n_);
     const double best = c_.best.separation;
     const bool reachable = !c_.b->is_surface() || dot3(c_.best.normal, c_.in_b.faces[0]) < -0.01;

@@ -68,6 +68,11 @@ inline constexpr Known kKnown[] = {
     {kRevolved, kRevolved, no_axis_is_better, 30},
     {kRevolved, kRevolved, points_between, 50},
     {bit(ShapeType::hull), bit(ShapeType::hull), points_between, 4},
+    // A millimetre between a small rounded hull and one of metres, in float: the direction of a gap of few digits.
+    {bit(ShapeType::hull), bit(ShapeType::hull), as_deep_as_its_normal, 4},
+    {bit(ShapeType::hull), bit(ShapeType::hull), no_axis_is_better, 4},
+    // A rounded core deep in a box in Q16.16: a preferred face over which there is only what is less deep.
+    {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 1},
 };
 inline int known(Law law, ShapeType a, ShapeType b) {
   for (const Known& k : kKnown) {

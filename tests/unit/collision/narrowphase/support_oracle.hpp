@@ -39,7 +39,9 @@ class PlacedShape {
   }
 
   /// The point that does; not of a half-space.
-  Point support(Point n) const {
+  Point support(Point n) const { return core_support(n) + n * (shape_->radius / length3(n)); }
+  /// That of the core.
+  Point core_support(Point n) const {
     Point furthest = {0, 0, 0};
     double most = -1e300;
     for (const Point p : corners_) {
@@ -52,7 +54,7 @@ class PlacedShape {
       if (length > 0) p = p + across * (shape_->discs[end] / length);
       if (dot3(n, p) > most) most = dot3(n, p), furthest = p;
     }
-    return at_ + furthest + n * (shape_->radius / length3(n));
+    return at_ + furthest;
   }
 
   std::vector<Point> faces, edges;  // [1] directions
@@ -95,6 +97,7 @@ class SupportOracle {
       for (const Point f : b_.edges) look_both_ways(cross3(e, f));
     }
     look_both_ways(b_.at() - a_.at());
+    if (a_.shape().is_rounded() || b_.shape().is_rounded()) look_both_ways(core_gap());
     const Best climbed = climb(first), other = climb(second);
     return climbed.separation > other.separation ? climbed : other;
   }
@@ -120,23 +123,31 @@ class SupportOracle {
     return best;
   }
 
-  /// [m] no less than it is, 0 for overlap: GJK.
+  /// [m] no less than it is, 0 for overlap.
   double distance() const {
-    std::vector<Point> simplex;
-    Point nearest = b_.at() - a_.at();
-    if (length3(nearest) == 0) return 0;
-    for (int round = 0; round < 100; ++round) {
-      const Point way = nearest * (-1 / length3(nearest));
-      const Point next = b_.support(way) - a_.support(way * -1);
-      if (!simplex.empty() && dot3(next, way) + length3(nearest) < 1e-12) break;
-      simplex.push_back(next);
-      nearest = nearest_of(simplex);
-      if (simplex.size() == 4 || length3(nearest) < 1e-12) return 0;
-    }
-    return length3(nearest);
+    return length3(gap([this](Point way) { return b_.support(way) - a_.support(way * -1); }));
   }
 
  private:
+  /// The shortest way from a's core to b's, zero for overlap.
+  Point core_gap() const {
+    return gap([this](Point way) { return b_.core_support(way) - a_.core_support(way * -1); });
+  }
+  /// Of the difference of two solids, from its point furthest along a way: GJK.
+  template <class Support> Point gap(const Support& support) const {
+    std::vector<Point> simplex;
+    Point nearest = b_.at() - a_.at();
+    if (length3(nearest) == 0) return nearest;
+    for (int round = 0; round < 100; ++round) {
+      const Point way = nearest * (-1 / length3(nearest));
+      const Point next = support(way);
+      if (!simplex.empty() && dot3(next, way) + length3(nearest) < 1e-12) break;
+      simplex.push_back(next);
+      nearest = nearest_of(simplex);
+      if (simplex.size() == 4 || length3(nearest) < 1e-12) return {0, 0, 0};
+    }
+    return nearest;
+  }
   /// Of the hull of up to four points to the origin; leaves the points it is between. Four: the origin is in it.
   static Point nearest_of(std::vector<Point>& simplex) {
     std::vector<Point> kept;

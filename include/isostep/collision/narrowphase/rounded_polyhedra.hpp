@@ -1,0 +1,43 @@
+// Polyhedra thickened by a radius, against each other and triangles of surfaces.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/polyhedra.hpp"
+#include "isostep/collision/narrowphase/surface_triangle.hpp"
+
+namespace isostep {
+
+/// All points within `radius` of a core.
+template <class S> struct RoundedPolyhedron {
+  Polyhedron<S> core;
+  S radius;  // [m] 0 or more, of two together more
+};
+
+/// Contacts of a and b where they are nearer than `margin` [m].
+/// Normal:   of cores that overlap, the best of their separating axes, as collide_polyhedra has it; of others, along
+///           the shortest way between them, by GJK; but that of a face where it comes as near to that as an axis may to
+///           the best one, 1/128 of the smaller inner radius.
+/// Points:   a face's contact polygon; two where edges lie beside each other; else one.
+/// Features: those of the cores' manifold; bit 28, both edges, the end; bit 27 alone of a single point.
+/// `polyhedra` as in collide(): asked for the cores.
+template <class S>
+void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
+                               const Transform<S>& tb, S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra);
+
+/// With one triangle of a surface; the normal points into it. Of a core that is apart from it the shortest way counts,
+/// if it leads out of the surface there: else the contact is that of a neighbour, as of a sphere.
+template <class S>
+void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
+                              const BakedTriangle& baked, S margin, Manifold<S>& out);
+
+#define ISO_ROUNDED_POLYHEDRA_OF(extern, S)                                                                           \
+  extern template void collide_rounded_polyhedra<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                 \
+                                                    const RoundedPolyhedron<S>&, const Transform<S>&, S, Manifold<S>&, \
+                                                    CollidePolyhedra<S>);                                             \
+  extern template void collide_rounded_triangle<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                  \
+                                                   const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
+#define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRA_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

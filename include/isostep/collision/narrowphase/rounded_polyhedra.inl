@@ -1,0 +1,155 @@
+// Bodies of rounded_polyhedra.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/collision/narrowphase/polyhedron_triangle.hpp"
+#include "isostep/collision/narrowphase/rounded.inl"
+#include "isostep/collision/narrowphase/rounded_polyhedra.hpp"
+#include "isostep/geometry/baked/polyhedron_surface.hpp"
+
+namespace isostep {
+namespace detail {
+
+/// The edge that a solid reaches furthest along a direction with, both ends within `slack` [m] of how far it reaches at
+/// all; of equals the first.
+template <class S> struct OuterEdge {
+  std::uint32_t edge;
+  bool found;
+};
+template <class S> ISO_INLINE OuterEdge<S> outer_edge(const Polyhedron<S>& solid, Vec3<Unit<S>> out, S slack) {
+  S heights[ConvexHull::kMaxVertices], most = -highest<S>();
+  for (std::uint32_t i = 0; i < solid.vertices.size(); ++i) {
+    heights[i] = dot(out, solid.vertices[i]);
+    most = max(most, heights[i]);
+  }
+  OuterEdge<S> best = {0, false};
+  S furthest = most - slack;
+  for (std::uint32_t k = 0; k < solid.edges(); ++k) {
+    const S end = min(heights[solid.origin(2 * k)], heights[solid.origin(2 * k + 1)]);
+    if (best.found ? end > furthest : end >= furthest) best = {k, true}, furthest = end;
+  }
+  return best;
+}
+
+/// Both ends of the stretch beside each other of two edges that face each other across the gap, if there are such.
+template <class S>
+ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transform<S>& ta,
+                                   const RoundedPolyhedron<S>& b, const Transform<S>& tb, const CoreGap<S>& gap,
+                                   S slack, S margin, Manifold<S>& out) {
+  constexpr double kBeside = 0.0625;  // sine of the angle, 3.6 degrees
+  const Transform<S> b_in_a = relative(ta, tb);
+  const OuterEdge<S> of_a = outer_edge(a.core, gap.normal, slack);
+  if (!of_a.found) return false;
+  const OuterEdge<S> of_b = outer_edge(b.core, transposed_times(b_in_a.rotation, -gap.normal), slack);
+  if (!of_b.found) return false;
+  const Segment<S> edge = edge_of(a.core, of_a.edge), in_b = edge_of(b.core, of_b.edge);
+  const Segment<S> other = {to_world(b_in_a, in_b.centre), b_in_a.rotation * in_b.direction, in_b.half};
+  const Vec3<Unit<S>> across = cross(edge.direction, other.direction);
+  if (dot(across, across) > Unit<S>(kBeside * kBeside)) return false;
+  const S middle = dot(other.centre - edge.centre, edge.direction);
+  const S reach = other.half * abs(dot(edge.direction, other.direction));
+  const S low = max(-edge.half, middle - reach), high = min(edge.half, middle + reach);
+  if (!(low < high)) return false;
+  out.normal = ta.rotation * gap.normal;
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    const Vec3<S> p = edge.at(end == 0 ? low : high), q = other.at(other.nearest(p));
+    out.add(to_world(ta, (p + q) * S(0.5)), dot(gap.normal, q - p), 1u << 28 | of_a.edge << 8 | of_b.edge << 1 | end);
+  }
+  grow_cores(out, a.radius, b.radius, margin);
+  return out.count > 0;
+}
+
+/// Whether a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
+template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, Vec3<S> gap, S distance, S tolerance) {
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    if (dot(solid.normals[f], gap) >= distance - tolerance) return true;
+  }
+  return false;
+}
+
+/// A polyhedron as a core, its vertices in a row.
+template <class S> ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta,
+                                                     const Polyhedron<S>& b, const Transform<S>& tb) {
+  const PolyhedronCore<S> core_a(a), core_b(b);
+  return gap_between(core_a.core(), ta, core_b.core(), tb);
+}
+
+/// Whether a face of a solid has a triangle further above it than `reach`.
+template <class S>
+ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle<S>& triangle, S reach) {
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const Vec3<Unit<S>> up = solid.normals[f];
+    const S low = min(dot(up, triangle.points[0]), min(dot(up, triangle.points[1]), dot(up, triangle.points[2])));
+    if (low - solid.offsets[f] > reach) return true;
+  }
+  return false;
+}
+
+/// Whether an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
+template <class S>
+ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
+  const Vec3<Unit<S>> direction = -gap.normal;
+  if (gap.corners == 1) return triangle.owns_at_point(static_cast<int>(gap.corner[0]), direction);
+  const std::uint32_t other = 3 - gap.corner[0] - gap.corner[1];  // of the points
+  return triangle.owns_at_edge(static_cast<int>((other + 1) % 3), direction);
+}
+
+}  // namespace detail
+
+template <class S>
+void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
+                               const Transform<S>& tb, S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra) {
+  using namespace detail;
+  out.clear();
+  const S radii = a.radius + b.radius;
+  const CoreGap<S> gap = gap_between(a.core, ta, b.core, tb);
+  if (gap.distance - radii > margin) return;
+  const S inner_a = a.core.inner_radius, inner_b = b.core.inner_radius;
+  const S tolerance = axis_tolerance(min(inner_a, inner_b), max_abs(tb.position - ta.position) + inner_a + inner_b);
+  const Vec3<S> gap_in_b = transposed_times(tb.rotation, ta.rotation * -gap.across());
+  // Most of the cost of a pair are its separating axes: they are asked only where they may decide.
+  if (!gap.is_apart || has_face_across(a.core, gap.across(), gap.distance, tolerance) ||
+      has_face_across(b.core, gap_in_b, gap.distance, tolerance)) {
+    polyhedra(a.core, ta, b.core, tb, margin + radii, out);
+    const bool of_faces = out.count > 0 && out.points[0].feature >> 31 != 0;
+    const bool told = of_faces && gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance);
+    if (told || !gap.is_apart) return grow_cores(out, a.radius, b.radius, margin);
+    out.clear();
+  }
+  if (!touch_edges_beside(a, ta, b, tb, gap, tolerance * S(0.25), margin, out))
+    gap.touch(ta, a.radius, b.radius, out);
+}
+
+template <class S>
+void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
+                              const BakedTriangle& baked, S margin, Manifold<S>& out) {
+  using namespace detail;
+  out.clear();
+  SurfaceTriangle<S> triangle(frame, baked);
+  if (triangle.height < S(0)) return;
+  const S reach = margin + a.radius;
+  const Lowest<S> lowest = lowest_of(a.core.vertices, triangle.normal);
+  const S height = lowest.height - triangle.offset;
+  if (height > reach || is_beyond_face(a.core, triangle, reach)) return;
+  triangle.find_edges(frame, baked);
+  const Vec3<S> nearest = a.core.vertices[lowest.vertex];
+  bool over = height > S(0);  // the triangle's inside: then nothing is nearer, and that is its plane's contact
+  for (int k = 0; k < 3; ++k) over = over && triangle.inside_of(k, nearest) > S(0);
+  if (over) {
+    collide_polyhedron_triangle(a.core, ta, frame, baked, reach, out);
+    return grow_cores(out, a.radius, S(0), margin);
+  }
+  const Transform<S> here = {Vec3<S>::zero(), Mat3<Unit<S>>::identity()};
+  const PolyhedronCore<S> core(a.core);
+  const CoreGap<S> gap = gap_between(core.core(), here, {triangle.points, S(0)}, here);
+  if (gap.distance - a.radius > margin) return;
+  collide_polyhedron_triangle(a.core, ta, frame, baked, reach, out);
+  const S inner = a.core.inner_radius, tolerance = axis_tolerance(inner, max_abs(frame.centre) + inner);
+  if (!gap.is_apart || gap.corners == 3 ||
+      gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance))
+    return grow_cores(out, a.radius, S(0), margin);
+  out.clear();
+  if (is_owned(triangle, gap)) gap.touch(ta, a.radius, S(0), out);
+}
+
+}  // namespace isostep
