@@ -90,7 +90,7 @@ template <class S> class QuestionsOf {
   Vec3<S> draw_way(Vec3<S> from) {
     const std::uint32_t kind = dice_.below(4);
     if (kind == 0) return vec<S>(0, -dice_.in(0.5, 8), 0);
-    if (kind == 1) return vec<S>(dice_.direction() * dice_.in(0, 9));
+    if (kind == 1) return vec<S>(dice_.arrow(0, 9));
     const D3 to = real(world_.view(body()).pose.position);
     return vec<S>((to - real(from)) * dice_.in(0.5, 1.5));
   }

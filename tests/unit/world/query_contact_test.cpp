@@ -74,8 +74,8 @@ TYPED_TEST(QueryContact, what_rests_moves_away_and_along_freely_and_not_into_the
     for (const auto& solid : this->solids(w)) {
       for (int i = 0; i < 60; ++i) {
         const double sunk = i % 3 == 0 ? 0 : dice.in(0, 0.008), angle = dice.in(0, 2 * kPi);
-        const Pose<S> pose = {vec<S>(dice.in(-1, 1), solid.height - sunk, dice.in(-1, 1)),
-                              turn<S>({0, 1, 0}, dice.in(0, 6))};
+        const double z = dice.in(-1, 1), x = dice.in(-1, 1);
+        const Pose<S> pose = {vec<S>(x, solid.height - sunk, z), turn<S>({0, 1, 0}, dice.in(0, 6))};
         const D3 along = {2.5 * std::cos(angle), 0, 2.5 * std::sin(angle)};
         const std::string where = std::to_string(static_cast<int>(ground)) + ", " + std::to_string(i);
         EXPECT_FALSE(w.cast_shape(solid.shape, pose, vec<S>(along))) << where << " along";
@@ -247,8 +247,9 @@ TYPED_TEST(QueryContact, a_ball_meets_hills_where_the_nearest_triangle_says) {
     int hits = 0;
     for (int n = 0; n < 600; ++n) {
       const double radius = dice.in(0.1, 0.8);
-      const Vec3<S> at = vec<S>(dice.in(-3, 3), dice.in(2, 3), dice.in(-3, 3));
-      const Vec3<S> way = vec<S>(dice.in(-3, 3), -dice.in(0, 3), dice.in(-3, 3));
+      const double z = dice.in(-3, 3), y = dice.in(2, 3), x = dice.in(-3, 3);
+      const double along_z = dice.in(-3, 3), down = dice.in(0, 3), along_x = dice.in(-3, 3);
+      const Vec3<S> at = vec<S>(x, y, z), way = vec<S>(along_x, -down, along_z);
       const Sphere<S> ball = {num<S>(radius)};
       const auto hit = w.cast_shape(primitive_of(ball), {at, Quat<Unit<S>>::identity()}, way);
       const double r = to_double(ball.radius);

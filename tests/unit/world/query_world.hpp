@@ -23,7 +23,7 @@ template <class S> class QueryWorld {
   /// Rays and ways of casts: through all of it, along it, and out of it.
   D3 place() { return {dice.in(-11, 11), dice.in(-1, 5), dice.in(-6, 6)}; }
   Vec3<S> way(int kind) {
-    const D3 by = dice.direction() * dice.in(0, 18);
+    const D3 by = dice.arrow(0, 18);
     return vec<S>(kind % 3 == 0 ? D3{by.x, -std::fabs(by.y), by.z} : by);
   }
   QueryFilter filter() {

@@ -80,7 +80,7 @@ TYPED_TEST(ShapeCast, meets_the_first_touch_of_every_two_kinds) {
     const D3 at = n % 3 == 0 ? D3{240, -130, 220} : D3{0, 0, 0}, from = this->random_.direction();
     const double apart = (a.size + b.size) * this->random_.in(1.1, 6);
     const Transform<S> ta = this->transform(at), tb = this->transform(at + from * apart);
-    const D3 aim = from * apart + this->random_.direction() * ((a.size + b.size) * this->random_.in(0, 1));
+    const D3 aim = from * apart + this->random_.arrow_of((a.size + b.size) * this->random_.in(0, 1));
     const Vec3<S> way = oracle::made<S>(aim * this->random_.in(0.5, 3));
     CastHit<S> hit = {};
     const bool found = cast_convex(a.core(), ta, b.core(), tb, {way, Unit<S>(1), S(0)}, hit);
