@@ -112,7 +112,8 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
       case 0:
       case 1:
       case 2: {
-        BodyDefinition<S> d = moving<S>(shape(), dice.point(4) + D3{0, 6, 0}, dice.point(4));
+        const D3 velocity = dice.point(4), at = dice.point(4) + D3{0, 6, 0};
+        BodyDefinition<S> d = moving<S>(shape(), at, velocity);
         d.orientation = dice.orientation<S>();
         d.angular_velocity = point(3);
         if (dice.below(12) == 0) d.type = BodyType::kinematic;
@@ -124,15 +125,35 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
         break;
       }
       case 3: done = bodies.size() > 30 && w.type(b) != BodyType::static_ && w.destroy(b); break;
-      case 4: done = w.apply_impulse(b, point(2), point(0.5)); break;
-      case 5: done = w.apply_impulse_at(b, point(2), w.center_of_mass(b) + point(0.25)); break;
-      case 6: done = w.apply_force(b, point(20), point(3)); break;
-      case 7: done = w.apply_force_at(b, point(20), w.center_of_mass(b) + point(0.25)); break;
+      case 4: {
+        const Vec3<S> twist = point(0.5), push = point(2);
+        done = w.apply_impulse(b, push, twist);
+        break;
+      }
+      case 5: {
+        const Vec3<S> aside = point(0.25), push = point(2);
+        done = w.apply_impulse_at(b, push, w.center_of_mass(b) + aside);
+        break;
+      }
+      case 6: {
+        const Vec3<S> torque = point(3), force = point(20);
+        done = w.apply_force(b, force, torque);
+        break;
+      }
+      case 7: {
+        const Vec3<S> aside = point(0.25), force = point(20);
+        done = w.apply_force_at(b, force, w.center_of_mass(b) + aside);
+        break;
+      }
       case 8:
         done = w.type(b) != BodyType::static_ &&
                w.set_pose(b, {vec<S>(dice.point(4) + D3{0, 5, 0}), dice.orientation<S>()});
         break;
-      case 9: done = w.set_velocity(b, point(3), point(3)); break;
+      case 9: {
+        const Vec3<S> spin = point(3), velocity = point(3);
+        done = w.set_velocity(b, velocity, spin);
+        break;
+      }
       case 10: {
         Material<S> material;
         material.friction = num<S>(dice.in(0, 1));
@@ -141,9 +162,11 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
         break;
       }
       case 11: done = w.set_filter(b, {1u << dice.below(2), 0xffffffffu, dice.below(8) == 0 ? 3u : 0u}); break;
-      case 12:
-        done = w.set_motion(b, num<S>(dice.in(0.5, 1)), num<S>(dice.in(0, 0.5)), num<S>(dice.in(0, 0.5)), 0);
+      case 12: {
+        const S angular = num<S>(dice.in(0, 0.5)), linear = num<S>(dice.in(0, 0.5)), gravity = num<S>(dice.in(0.5, 1));
+        done = w.set_motion(b, gravity, linear, angular, 0);
         break;
+      }
       case 13: done = w.wake(b); break;
       case 14:
         done = dice.below(8) == 0 ? w.set_gravity(vec<S>(0, -10 + dice.in(-1, 1), 0)) : w.set_user_data(b, dice.next());

@@ -104,7 +104,9 @@ TYPED_TEST(SameParticleHashes, of_a_cloud_that_flies_freely) {
     Chance chance(3);
     ParticleId first;
     for (int i = 0; i < count; ++i) {
-      ParticleDefinition<S> d = particle_at<S>(chance.point(20), chance.point(20), chance.in(0.0625, 8));
+      const double mass = chance.in(0.0625, 8);
+      const D3 velocity = chance.point(20), at = chance.point(20);
+      ParticleDefinition<S> d = particle_at<S>(at, velocity, mass);
       d.material = materials[static_cast<std::size_t>(i < count / 2 ? i / 40 % 5 : i % 5)];
       d.pinned = i % 17 == 3;
       const ParticleId id = w.create(d);
@@ -185,7 +187,8 @@ template <class S> ParticleScript<S> particle_script_of(std::uint64_t frame, con
   s.force = vec<S>(chance.point(9));
   s.speed = vec<S>(chance.point(2));
   s.place = vec<S>(chance.point(3) + D3{0, 5, 0});
-  s.birth = particle_at<S>(chance.point(3) + D3{0, 4, 0}, chance.point(1), 1.7);
+  const D3 velocity = chance.point(1), at = chance.point(3) + D3{0, 4, 0};
+  s.birth = particle_at<S>(at, velocity, 1.7);
   s.birth.lifetime = 20;
   s.material = ball_material<S>(0.3, 0.3, 0.3);
   s.material.linear_drag = num<S>(1e-3);

@@ -32,7 +32,8 @@ template <class S> ParticleMess build_particle_mess(ParticleWorld<S>& w) {
   ParticleMess m;
   Chance chance(7);
   const auto point = [&](D3 at, const ParticleMaterialId material, bool pinned = false) {
-    ParticleDefinition<S> d = particle_at<S>(at, chance.point(1), chance.in(0.5, 2));
+    const double mass = chance.in(0.5, 2);
+    ParticleDefinition<S> d = particle_at<S>(at, chance.point(1), mass);
     d.material = material;
     d.pinned = pinned;
     if (pinned) d.velocity = Vec3<S>::zero();

@@ -113,9 +113,9 @@ template <class S> class BulletRooms : public ::testing::Test {
   /// Bullets pass each other: one group.
   void add_bullets(Dice& dice, int count, double most = kSpeed) {
     for (int i = 0; i < count; ++i) {
-      BodyDefinition<S> d =
-          moving<S>(draw_bullet(dice), dice.point(kHalf - 0.3), dice.direction() * dice.in(most / 10, most));
-      d.angular_velocity = vec<S>(dice.direction() * dice.in(0, kSpin));
+      const D3 velocity = dice.arrow(most / 10, most), at = dice.point(kHalf - 0.3);
+      BodyDefinition<S> d = moving<S>(draw_bullet(dice), at, velocity);
+      d.angular_velocity = vec<S>(dice.arrow(0, kSpin));
       d.orientation = dice.template orientation<S>();
       d.mass = S(1);
       d.material.restitution = num<S>(dice.one_in(2) ? 1 : 0);
@@ -177,8 +177,8 @@ TYPED_TEST(BulletRooms, give_balls_no_energy) {
   Dice dice(13);
   this->add_walls(BodyType::static_, 1);
   for (int i = 0; i < 200; ++i) {
-    BodyDefinition<S> d = moving<S>(add_ball(this->world_, 0.05), dice.point(this->kHalf - 0.3),
-                                    dice.direction() * dice.in(this->kSpeed / 10, this->kSpeed));
+    const D3 velocity = dice.arrow(this->kSpeed / 10, this->kSpeed), at = dice.point(this->kHalf - 0.3);
+    BodyDefinition<S> d = moving<S>(add_ball(this->world_, 0.05), at, velocity);
     d.mass = S(1);
     d.material.restitution = S(1);
     d.material.friction = S(0);

@@ -67,7 +67,7 @@ inline SingleJoint draw_joint(JointKind kind, std::uint64_t seed) {
   j.mass = dice.magnitude(0.25, 4);
   const double size = dice.magnitude(0.05, 0.5);
   j.half = {size, j.box ? dice.magnitude(0.05, 0.5) : size, j.box ? dice.magnitude(0.05, 0.5) : size};
-  j.arm = dice.direction() * dice.magnitude(0.1, 2);
+  j.arm = dice.arrow_of(dice.magnitude(0.1, 2));
   j.axis = dice.direction();
   j.tilt_axis = dice.direction();
   j.tilt = dice.in(-kPi, kPi);

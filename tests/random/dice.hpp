@@ -9,7 +9,8 @@
 
 namespace isostep::test {
 
-/// Splitmix64.
+/// Splitmix64. Two draws never stand among the arguments of one call, nor on both sides of an operator of a class:
+/// compilers draw them in different orders.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -36,6 +37,9 @@ class Dice {
       if (length(p) > 0.1) return p * (1 / length(p));
     }
   }
+  /// Any way, low to high long. The length is drawn first.
+  D3 arrow(double low, double high) { return arrow_of(in(low, high)); }
+  D3 arrow_of(double length) { return direction() * length; }
   template <class S> Quat<Unit<S>> orientation() {
     using U = Unit<S>;
     const double x = in(-0.5, 0.5), y = in(-0.5, 0.5), z = in(-0.5, 0.5);

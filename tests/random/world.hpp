@@ -14,7 +14,8 @@ inline Drive drive_of(std::uint64_t seed) { return static_cast<Drive>(seed % kDr
 template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName solver) {
   Dice dice(seed * 31 + 5);
   constexpr int kRates[] = {60, 60, 120}, kSubsteps[] = {4, 8, 16};
-  Settings<S> s = settings<S>(-10, kRates[dice.below(3)], kSubsteps[dice.below(3)]);
+  const std::int32_t substeps = kSubsteps[dice.below(3)], rate = kRates[dice.below(3)];
+  Settings<S> s = settings<S>(-10, rate, substeps);
   s.allow_sleep = !dice.one_in(4);
   s.solver = solver;
   return s;
@@ -68,7 +69,7 @@ template <class S> class RandomWorld {
       case 2:
         if (moves && bodies.size() > 12) w.destroy(b);
         break;
-      case 3: w.apply_impulse(b, vec<S>(dice.direction() * (dice.in(0, kThrow) * to_double(w.mass(b))))); break;
+      case 3: w.apply_impulse(b, vec<S>(dice.arrow_of(dice.in(0, kThrow) * to_double(w.mass(b))))); break;
       case 4: {
         const double weight = 10 * to_double(w.mass(b));
         const AppliedForce f = {b, dice.point(2 * weight), dice.point(0.125 * weight)};
@@ -81,9 +82,12 @@ template <class S> class RandomWorld {
         if (moves) w.set_material(b, material);
         break;
       }
-      case 6:
-        if (moves) w.set_motion(b, num<S>(dice.in(0.5, 1)), S(0), num<S>(dice.in(0, 0.25)), 0);
+      case 6: {
+        if (!moves) break;
+        const S angular_damping = num<S>(dice.in(0, 0.25)), gravity_scale = num<S>(dice.in(0.5, 1));
+        w.set_motion(b, gravity_scale, S(0), angular_damping, 0);
         break;
+      }
       case 7: {
         const std::vector<JointId> joints = w.joints();
         if (joints.size() > 2) w.destroy(joints[dice.below(static_cast<std::uint32_t>(joints.size()))]);
@@ -127,7 +131,7 @@ template <class S> class RandomWorld {
   /// A belt, a paddle above the ground, a lift: the paddle's tips and the lift keep to the speed.
   void add_movers(Dice& dice) {
     BodyDefinition<S> d = still<S>(add_box(world, 2, 0.25, 1), {5, 0.25, 0});
-    d.material.surface_velocity = vec<S>(dice.direction() * dice.in(0, kMoverSpeed));
+    d.material.surface_velocity = vec<S>(dice.arrow(0, kMoverSpeed));
     world.create(d);
     d = still<S>(add_box(world, 1.25, 0.125, 0.25), {-3, 1.5, 0});
     d.type = BodyType::kinematic;
@@ -197,8 +201,8 @@ template <class S> class RandomWorld {
   static BodyId add_loose(World<S>& w, Dice& dice, double most) {
     const DrawnShape shape = draw_shape(w, dice);
     BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
-    d.velocity = vec<S>(dice.direction() * dice.in(0, most));
-    d.angular_velocity = vec<S>(dice.direction() * dice.in(0, 6));
+    d.velocity = vec<S>(dice.arrow(0, most));
+    d.angular_velocity = vec<S>(dice.arrow(0, 6));
     d.sensor = dice.one_in(24);
     return place(w, dice, d, shape.reach, {-4, 0.5, -4}, {4, kTop, 4}, 0);
   }
@@ -216,7 +220,7 @@ template <class S> class RandomWorld {
       if (hold == 1) d.locks = 0;  // a mover pulls whatever holds against it
       BodyId to;
       if (!bodies.empty()) to = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
-      const D3 from = to ? real(world.center_of_mass(to)) : at, step = dice.direction() * dice.magnitude(0.25, 2);
+      const D3 from = to ? real(world.center_of_mass(to)) : at, step = dice.arrow_of(dice.magnitude(0.25, 2));
       const BodyId b = place(world, dice, d, shape.reach, from + step, from + step, group);
       if (!b) continue;
       bodies.push_back(b);
@@ -237,7 +241,7 @@ template <class S> class RandomWorld {
   void join(Dice& dice, BodyId a, BodyId b, std::vector<JointId>& joints) {
     const auto type = static_cast<JointType>(dice.below(kJointTypes));
     const D3 end = real(world.center_of_mass(b)),
-             start = a ? real(world.center_of_mass(a)) : end + dice.direction() * dice.magnitude(0.25, 2);
+             start = a ? real(world.center_of_mass(a)) : end + dice.arrow_of(dice.magnitude(0.25, 2));
     JointProperties<S> p =
         world.joint_at(type, a, b, {vec<S>(start + (end - start) * dice.in(0, 0.75)), dice.orientation<S>()});
     draw_joint(world, dice, drive_of(seed_), p);

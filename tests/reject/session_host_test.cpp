@@ -231,7 +231,11 @@ TEST(HostileHost, AnythingAtAllInAnyOrderBreaksNothing) {
           write_open(frame(), bytes);
           victim.hear(bytes);
           break;
-        case 2: victim.hear_piece(random.next() % 12, Buffer(random.next() % 12)); break;
+        case 2: {
+          const Buffer piece(random.next() % 12);
+          victim.hear_piece(random.next() % 12, piece);
+          break;
+        }
         case 3:
           if (step % 60 == 0) victim.session.disconnected(0, victim.now);
           if (step % 40 == 0) victim.session.connected(0, victim.now);

@@ -23,7 +23,8 @@ template <class S> class Edges {
   Vec3<S> vector(S limit) { return {near(limit), near(limit), near(limit)}; }
   Quat<Unit<S>> orientation() {
     const D3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    return turn<S>(axes[below(3)], 0.4 * below(16));
+    const double angle = 0.4 * below(16);
+    return turn<S>(axes[below(3)], angle);
   }
   template <class Id> Id one_of(const std::vector<Id>& ids) {
     return ids.empty() || below(20) == 0 ? Id{} : ids[below(static_cast<std::uint32_t>(ids.size()))];
@@ -59,8 +60,9 @@ template <class S> class WorldFuzz : public ::testing::Test {
     return static_cast<bool>(id);
   }
   bool join() {
-    JointProperties<S> j = world.joint_at(static_cast<JointType>(edges.below(4)), edges.one_of(bodies),
-                                          edges.one_of(bodies), {edges.vector(S(4)), edges.orientation()});
+    const Pose<S> frame = {edges.vector(S(4)), edges.orientation()};
+    const BodyId b = edges.one_of(bodies), a = edges.one_of(bodies);
+    JointProperties<S> j = world.joint_at(static_cast<JointType>(edges.below(4)), a, b, frame);
     j.flags = edges.below(32);
     j.lower = -edges.near(S(1));
     j.upper = edges.near(S(6));
@@ -76,11 +78,22 @@ template <class S> class WorldFuzz : public ::testing::Test {
       case 11: return world.wake(body);
       case 1: return world.destroy(body);
       case 2: return world.set_pose(body, {edges.vector(Limits<S>::position()), edges.orientation()});
-      case 3:
-        return world.set_velocity(body, edges.vector(Limits<S>::speed()), edges.vector(Limits<S>::angular_speed()));
-      case 4: return world.apply_impulse(body, edges.vector(Limits<S>::mass()), edges.vector(Limits<S>::mass()));
-      case 5: return world.apply_force(body, edges.vector(Limits<S>::mass()), edges.vector(Limits<S>::mass()));
-      case 6: return world.apply_force_at(body, edges.vector(S(99)), edges.vector(Limits<S>::position()));
+      case 3: {
+        const Vec3<S> spin = edges.vector(Limits<S>::angular_speed()), velocity = edges.vector(Limits<S>::speed());
+        return world.set_velocity(body, velocity, spin);
+      }
+      case 4: {
+        const Vec3<S> twist = edges.vector(Limits<S>::mass()), push = edges.vector(Limits<S>::mass());
+        return world.apply_impulse(body, push, twist);
+      }
+      case 5: {
+        const Vec3<S> torque = edges.vector(Limits<S>::mass()), force = edges.vector(Limits<S>::mass());
+        return world.apply_force(body, force, torque);
+      }
+      case 6: {
+        const Vec3<S> at = edges.vector(Limits<S>::position()), force = edges.vector(S(99));
+        return world.apply_force_at(body, force, at);
+      }
       case 7: return world.set_filter(body, {1, edges.below(2), 0});
       case 8: return world.set_gravity(edges.vector(Limits<S>::speed()));
       default: return join();

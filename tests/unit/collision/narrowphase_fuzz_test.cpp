@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/collision/narrowphase/collide.inl"
-#include "narrowphase/cases.hpp"
+#include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "isostep/collision/narrowphase/polyhedra.inl"  // a default argument of collide
+#include "unit/collision/narrowphase/hostile_shapes.hpp"
+#include "unit/collision/narrowphase/trapping.hpp"
 
 namespace isostep::test {
 namespace {
 
 constexpr int kPairs = 100000;
 
-using TrapQ16 = Fixed<std::int32_t, 16, Overflow::trap>;
-using TrapQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
 template <class S> class NarrowPhaseFuzz : public testing::Test {};
 using Scalars = testing::Types<float, double, TrapQ16, TrapQ32>;
 TYPED_TEST_SUITE(NarrowPhaseFuzz, Scalars);
@@ -24,16 +24,6 @@ template <class S> struct Pair {
   Primitive<S> a, b;
   Transform<S> ta, tb;
 };
-/// Zero, tiny, ordinary or up to `largest`.
-double any_size(Random& random, double largest) {
-  switch (random.below(8)) {
-    case 0: return 0;
-    case 1: return std::pow(10, random.in(-5, -2));
-    case 2: return largest * random.in(0.1, 1);
-    case 3: return 0.5;
-    default: return std::pow(10, random.in(-2, 0.5));
-  }
-}
 template <class S> Primitive<S> any_primitive(Random& random, int type, double largest) {
   const double x = any_size(random, largest), y = any_size(random, largest), z = any_size(random, largest);
   if (type == 0) return sphere_of<S>(x);
@@ -41,20 +31,6 @@ template <class S> Primitive<S> any_primitive(Random& random, int type, double l
   if (type == 2) return capsule_of<S>(x, y);
   const Point normal = random.direction();
   return half_space_of<S>(normal, random.in(-largest, largest));
-}
-/// Upright, by a quarter turn, a hair off either, or any way.
-template <class S> Transform<S> any_pose(Random& random, Point p) {
-  const Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Point axis = axes[random.below(3)];
-  const Point any = random.direction();
-  const double quarters = std::acos(0.0) * random.below(4), hair = std::pow(10, random.in(-9, -1));
-  switch (random.below(5)) {
-    case 0: return at<S>(p);
-    case 1: return at<S>(p, axis, quarters);
-    case 2: return at<S>(p, axis, quarters + hair);
-    case 3: return at<S>(p, any, hair);
-    default: return at<S>(p, any, random.in(-3, 3));
-  }
 }
 /// What rounding is relative to [m].
 double scale(const Solid& a, const Solid& b) {

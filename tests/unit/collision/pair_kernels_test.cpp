@@ -135,7 +135,8 @@ TYPED_TEST(PairKernelsTest, boxes_stacked_with_edges_parallel_or_nearly_so) {
     const Point upright = {random.below(2) == 0 ? 1.0 : 0.0, 0, 1};
     const Transform<S> ta = at<S>({grid(5), grid(5), grid(5)}, axis, tilt);
     const Transform<S> tb = at<S>({grid(5), grid(5), grid(5)}, quarter == 0 ? axis : upright, tilt + quarter);
-    bodies.pair(box_of<S>(x, y, z), ta, box_of<S>(0.25 + grid(3), 0.5, 0.25 + grid(2)), tb);
+    const double w = 0.25 + grid(2), u = 0.25 + grid(3);
+    bodies.pair(box_of<S>(x, y, z), ta, box_of<S>(u, 0.5, w), tb);
   }
   const Tally tally = expect_same(bodies, false);
   EXPECT_GT(tally.touching, 3000);
@@ -148,7 +149,8 @@ TYPED_TEST(PairKernelsTest, boxes_of_no_size_in_one_place_or_rounded) {
   Bodies<S> bodies(3000);
   const auto size = [&] { return random.below(3) == 0 ? 0.0 : random.in(0, 1); };
   for (int i = 0; i < 3000; ++i) {
-    Primitive<S> a = box_of<S>(size(), size(), size()), b = box_of<S>(size(), size(), size());
+    const double z = size(), y = size(), x = size(), w = size(), v = size(), u = size();
+    Primitive<S> a = box_of<S>(x, y, z), b = box_of<S>(u, v, w);
     a.radius = from_double<S>(0.125 * random.below(3));
     b.radius = from_double<S>(0.125 * random.below(3));
     const Transform<S> ta = random_pose<S>(random, 0.5);

@@ -73,8 +73,8 @@ TYPED_TEST(QueryTest, LongRaysAgreeWithMarching) {
     const Primitive<S> p = plane ? any_half_space<S>(random) : random.primitive<S>(n % 6, kSmallest, 5);
     const Transform<S> t = any_transform<S>(random, 20);
     const double size = to_double(max_abs(p.half) + p.radius);
-    const D3 away = random.direction() * (A::reach * random.in(0.05, 0.5));
-    const D3 aim = random.direction() * (size * random.in(0, 1.5));
+    const D3 away = random.arrow_of(A::reach * random.in(0.05, 0.5));
+    const D3 aim = random.arrow_of(size * random.in(0, 1.5));
     const Vec3<S> origin = t.position + oracle::made<S>(away);
     const Vec3<S> translation = oracle::made<S>((aim - away) * random.in(0.9, 1.9));
     const Transform<double> frame = oracle::real(t);
@@ -218,7 +218,7 @@ TYPED_TEST(QueryTest, ClosestPointsAgreeWithTheDistanceField) {
     const Primitive<S> p = plane ? any_half_space<S>(random) : random.primitive<S>(n % 6, kSmallest, 5);
     const Transform<S> t = any_transform<S>(random, 20);
     const double size = to_double(max_abs(p.half) + p.radius);
-    const Vec3<S> query = t.position + oracle::made<S>(random.direction() * ((size + 1) * random.in(0, 2)));
+    const Vec3<S> query = t.position + oracle::made<S>(random.arrow_of((size + 1) * random.in(0, 2)));
     const ClosestPoint<S> got = closest_point(p, t, query);
     const Transform<double> frame = oracle::real(t);
     const Primitive<double> shape = oracle::real(p);

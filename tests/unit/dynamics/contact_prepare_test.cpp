@@ -90,10 +90,11 @@ template <class S> Scene<S> random_scene(Random& random, std::uint32_t count, st
   scene.add_body(0, Vec3<S>::zero(), Vec3<V>::zero(), Vec3<V>::zero());
   for (int i = 1; i < 12; ++i) {
     const bool kinematic = random.below(4) == 0;
-    const Vec3<S> kappa = kinematic ? Vec3<S>::zero() : vector<S>(1 + random.within(0.9), 2 + random.within(1), 3);
+    const double of_y = kinematic ? 0 : 2 + random.within(1), of_x = kinematic ? 0 : 1 + random.within(0.9);
+    const Vec3<S> kappa = kinematic ? Vec3<S>::zero() : vector<S>(of_x, of_y, 3);
     const double size = random.below(3) == 0 ? 0 : random.below(2) == 0 ? 0.001 : 4;
-    scene.add_body(kinematic ? 0 : 1 + random.below(1000), kappa, random_vector<V>(random, size),
-                   random_vector<V>(random, size));
+    const Vec3<V> spin = random_vector<V>(random, size), velocity = random_vector<V>(random, size);
+    scene.add_body(kinematic ? 0 : 1 + random.below(1000), kappa, velocity, spin);
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     Contact<S> c = {};

@@ -315,8 +315,9 @@ TEST(HeightField, bytes_are_as_written_down) {
 
 TEST(HeightField, other_bytes_are_refused_or_are_a_field_with_those_bytes) {
   Random random(8);
+  const auto materials = random_materials(random, 12);
   const std::vector<std::uint8_t> whole =
-      height_field({10, 0, 5, 4, 512}, random_heights(random, 20, 900), random_materials(random, 12)).value().bytes();
+      height_field({10, 0, 5, 4, 512}, random_heights(random, 20, 900), materials).value().bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     ASSERT_FALSE(read_height_field({whole.data(), size}).ok()) << size;
   }

@@ -41,6 +41,9 @@ class Random {
       if (length(v) > 0.1 && length(v) < 1) return unit(v);
     }
   }
+  /// Any way, low to high long. The length is drawn first: as an operator's two sides, compilers would disagree.
+  D3 arrow(double low, double high) { return arrow_of(in(low, high)); }
+  D3 arrow_of(double length) { return direction() * length; }
   template <class S> Quat<Unit<S>> orientation() {
     const D3 axis = direction();
     const double half = in(-3, 3);

@@ -25,7 +25,7 @@ TYPED_TEST(RangeTest, MassPropertiesOfAnyValidCompoundStayInRange) {
     std::vector<Child<S>> list;
     for (int i = 0; i <= n % 4; ++i) {
       list.push_back({random.primitive<S>((n + i) % 5, least, extent),
-                      {oracle::made<S>(random.direction() * random.size(0.01, extent)), random.orientation<S>()}});
+                      {oracle::made<S>(random.arrow_of(random.size(0.01, extent))), random.orientation<S>()}});
     }
     const std::span<const Child<S>> children(list);
     if (validate(children) != ShapeFault::none) continue;

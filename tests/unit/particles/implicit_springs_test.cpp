@@ -148,8 +148,11 @@ template <class S> SpringNetwork<S> tangle(double stiffness) {
   for (std::size_t i = 0; i < 60; ++i) {
     const std::size_t a = static_cast<std::size_t>(draw(20)), b = static_cast<std::size_t>(draw(20));
     if (a == b) continue;
-    Spring<S>& spring = i % 6 == 0 ? net.hang(ids[a], {draw(4), draw(4), draw(4)}, stiffness, 2, draw(2))
-                                   : net.tie(ids[a], ids[b], stiffness * (1 + draw(1)), draw(4), draw(4));
+    const bool hangs = i % 6 == 0;
+    const double last = draw(hangs ? 2 : 4);
+    const Vec3<double> at = hangs ? Vec3<double>{draw(4), draw(4), draw(4)} : Vec3<double>{0, 0, 0};
+    const double rest = hangs ? 2 : draw(4), stiff = hangs ? stiffness : stiffness * (1 + draw(1));
+    Spring<S>& spring = hangs ? net.hang(ids[a], at, stiff, rest, last) : net.tie(ids[a], ids[b], stiff, rest, last);
     if (i % 4 == 0) spring.type = SpringType::bungee;
   }
   net.gravity = {0, -10, 0};

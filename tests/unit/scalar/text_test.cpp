@@ -434,7 +434,8 @@ TYPED_TEST(FloatText, AgreesWithTheStandardLibrary) {
     ASSERT_EQ(to_bits(read<S>(expected)), to_bits(value)) << expected;
 
     // A random decimal that nobody's printing chose.
-    std::string decimal = std::to_string(random.next()) + '.' + std::to_string(random.next());
+    const std::string fraction = std::to_string(random.next());
+    std::string decimal = std::to_string(random.next()) + '.' + fraction;
     decimal += 'e' + std::to_string(static_cast<int>(random.next() % 720) - 360);
     S ours = S(0), theirs = S(0);
     TextError error = TextError::none;

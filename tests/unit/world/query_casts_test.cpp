@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "unit/world/query_world.hpp"
 
-#include "isostep/collision/narrowphase/shape_core.hpp"
-#include "isostep/dynamics/solvers/schedule.hpp"
-
 namespace isostep::test {
 namespace {
 
@@ -22,17 +19,7 @@ template <class S> class QueryCasts : public ::testing::Test {
     const ShapeRecord& record = (*q.world.state().shapes)[shape.slot];
     const Child<S>& part = (*q.world.state().children)[record.first_child];
     if (part.primitive.blob == 0 && q.dice.one_in(2)) cast.shape = part.primitive;
-    Drawn drawn = {cast, {}};
-    BodyId with_contents = q.bodies().front();
-    visit_shape(q.world.view(with_contents).contents.view(part.primitive), [&](const auto& solid) {
-      if constexpr (kIsSolid<std::remove_cvref_t<decltype(solid)>>) {
-        const ShapeCore<S> core(solid, S(0));
-        const S touch = min(detail::kDeepOverlap<S>, solid.inner_radius() * S(0.25));
-        drawn.expected =
-            q.all_of_cast(core.core(), touch, Transform<S>::of(cast.pose), cast.translation, cast.filter);
-      }
-    });
-    return drawn;
+    return {cast, FullSearch<S>(q.world).cast_shape(cast)};
   }
 
   QueryWorld<S> scene{5};
@@ -42,11 +29,12 @@ TYPED_TEST_SUITE(QueryCasts, AllScalars);
 TYPED_TEST(QueryCasts, rays_meet_what_a_search_without_trees_meets) {
   using S = TypeParam;
   QueryWorld<S>& q = this->scene;
+  const FullSearch<S> search(q.world);
   std::size_t hits = 0, most = 0, insides = 0, triangles = 0;
   for (int i = 0; i < 600; ++i) {
     const Vec3<S> origin = vec<S>(q.place()), way = q.way(i);
     const QueryFilter filter = q.filter();
-    const auto expected = q.all_of_ray(origin, way, filter);
+    const auto expected = search.cast_ray(origin, way, filter);
     std::vector<RayCastHit<S>> all(1);  // what is there stays
     q.world.cast_ray_all(origin, way, all, filter);
     ASSERT_EQ(all.size(), expected.size() + 1) << i;

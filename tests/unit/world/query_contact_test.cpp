@@ -74,8 +74,8 @@ TYPED_TEST(QueryContact, what_rests_moves_away_and_along_freely_and_not_into_the
     for (const auto& solid : this->solids(w)) {
       for (int i = 0; i < 60; ++i) {
         const double sunk = i % 3 == 0 ? 0 : dice.in(0, 0.008), angle = dice.in(0, 2 * kPi);
-        const Pose<S> pose = {vec<S>(dice.in(-1, 1), solid.height - sunk, dice.in(-1, 1)),
-                              turn<S>({0, 1, 0}, dice.in(0, 6))};
+        const double z = dice.in(-1, 1), x = dice.in(-1, 1);
+        const Pose<S> pose = {vec<S>(x, solid.height - sunk, z), turn<S>({0, 1, 0}, dice.in(0, 6))};
         const D3 along = {2.5 * std::cos(angle), 0, 2.5 * std::sin(angle)};
         const std::string where = std::to_string(static_cast<int>(ground)) + ", " + std::to_string(i);
         EXPECT_FALSE(w.cast_shape(solid.shape, pose, vec<S>(along))) << where << " along";
@@ -164,6 +164,35 @@ TYPED_TEST(QueryContact, a_surface_is_met_from_its_outward_side_or_from_both) {
   }
 }
 
+/// Up one side of a ridge and down the other, within the rounding of a fraction.
+TYPED_TEST(QueryContact, of_sides_that_a_ray_meets_at_one_fraction_the_first_is_the_first_of_all) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const std::vector<D3> points = {{-4, -32, 4}, {4, -32, 4}, {4, 0, 0}, {-4, 0, 0}, {4, -32, -4}, {-4, -32, -4}};
+  const std::vector<MeshTriangle> triangles = {{{0, 1, 2}}, {{0, 2, 3}}, {{3, 2, 4}}, {{3, 4, 5}}};
+  w.create(still<S>(w.add_shape(mesh_blob(points, triangles).value())));
+  QueryFilter filter, each;
+  filter.back_faces = each.back_faces = true;
+  each.per = HitPer::triangle;
+  int at_once = 0;
+  for (int i = 1; i <= 64; ++i) {
+    for (const double way : {-1.0, 1.0}) {
+      const double depth = std::ldexp(i, -14 - i % 12);
+      const Vec3<S> origin = vec<S>(i / 32.0, -depth, -3 * way), translation = vec<S>(0, 0, 8 * way);
+      std::vector<RayCastHit<S>> all;
+      w.cast_ray_all(origin, translation, all, each);
+      const auto first = w.cast_ray(origin, translation, filter);
+      ASSERT_EQ(first.has_value(), !all.empty()) << i;
+      if (all.empty()) continue;
+      at_once += all.size() > 1 && all[0].fraction == all[1].fraction;
+      EXPECT_EQ(first->triangle, all[0].triangle) << i;
+      EXPECT_EQ(first->fraction, all[0].fraction) << i;
+      EXPECT_EQ(first->normal, all[0].normal) << i;
+    }
+  }
+  EXPECT_TRUE(at_once > 0 || !(to_double(resolution<S>()) > 0x1p-30));
+}
+
 /// Hills on a grid that every scalar holds: what aims at a point of it meets that point exactly.
 double hills(int i, int k) { return ((i * 7 + k * 5) % 8 - (i * k) % 4) / 8.0; }
 
@@ -218,8 +247,9 @@ TYPED_TEST(QueryContact, a_ball_meets_hills_where_the_nearest_triangle_says) {
     int hits = 0;
     for (int n = 0; n < 600; ++n) {
       const double radius = dice.in(0.1, 0.8);
-      const Vec3<S> at = vec<S>(dice.in(-3, 3), dice.in(2, 3), dice.in(-3, 3));
-      const Vec3<S> way = vec<S>(dice.in(-3, 3), -dice.in(0, 3), dice.in(-3, 3));
+      const double z = dice.in(-3, 3), y = dice.in(2, 3), x = dice.in(-3, 3);
+      const double along_z = dice.in(-3, 3), down = dice.in(0, 3), along_x = dice.in(-3, 3);
+      const Vec3<S> at = vec<S>(x, y, z), way = vec<S>(along_x, -down, along_z);
       const Sphere<S> ball = {num<S>(radius)};
       const auto hit = w.cast_shape(primitive_of(ball), {at, Quat<Unit<S>>::identity()}, way);
       const double r = to_double(ball.radius);

@@ -1,37 +1,14 @@
-// A world with every shape, and what a search of all of its parts, without trees, says that queries meet.
+// A world with every shape that lies, falls and senses, and random questions about it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <tuple>
 #include <vector>
 
-#include "isostep/collision/query/ray_cast.hpp"
-#include "isostep/collision/query/solid_cast.inl"
-#include "isostep/geometry/baked/surface_blob.hpp"
-#include "isostep/geometry/baked/surface_queries.inl"
 #include "random/dice.hpp"
+#include "random/full_search.hpp"
 #include "random/hull.hpp"
 
 namespace isostep::test {
-
-/// A surface whose tree shows everything, in whatever order.
-template <class G> struct Treeless {
-  const G& of;
-
-  int exponent() const { return of.exponent(); }
-  std::uint32_t triangle_count() const { return of.triangle_count(); }
-  MeshBox bounds() const { return of.bounds(); }
-  std::uint32_t neighbour(std::uint32_t id, int k) const { return of.neighbour(id, k); }
-  TriangleCorners corners(std::uint32_t id) const { return of.corners(id); }
-  BakedTriangle triangle(std::uint32_t id) const { return of.triangle(id); }
-  template <class Overlaps, class Visit> bool traverse(GridVector, Overlaps&&, Visit&& visit) const {
-    for (std::uint32_t id = of.triangle_count(); id-- > 0;) {
-      if (of.has_triangle(id) && !visit(id)) return false;
-    }
-    return true;
-  }
-};
 
 template <class S> class QueryWorld {
  public:
@@ -46,7 +23,7 @@ template <class S> class QueryWorld {
   /// Rays and ways of casts: through all of it, along it, and out of it.
   D3 place() { return {dice.in(-11, 11), dice.in(-1, 5), dice.in(-6, 6)}; }
   Vec3<S> way(int kind) {
-    const D3 by = dice.direction() * dice.in(0, 18);
+    const D3 by = dice.arrow(0, 18);
     return vec<S>(kind % 3 == 0 ? D3{by.x, -std::fabs(by.y), by.z} : by);
   }
   QueryFilter filter() {
@@ -66,94 +43,10 @@ template <class S> class QueryWorld {
   }
   const std::vector<ShapeId>& solids() const { return solids_; }
 
-  bool sees(const QueryFilter& f, BodyId id) const {
-    const BodyProperties<S>& body = *world.view(id).properties;
-    return (body.filter.category & f.mask) != 0 && (f.sensors || (body.flags & body_flag::kSensor) == 0) &&
-           !(f.ignore == id) && (f.group == 0 || body.filter.group != f.group);
-  }
-  /// visit(id, child, part, transform) for every part that the filter sees.
-  template <class Visit> void visit_parts(const QueryFilter& f, const Visit& visit) {
-    for (const BodyId id : bodies()) {
-      if (!sees(f, id)) continue;
-      const BodyView<S> view = world.view(id);
-      const Transform<S> placed = Transform<S>::of(view.pose);
-      for (std::uint32_t i = 0; i < view.children.size(); ++i) {
-        const Child<S>& child = view.children[i];
-        visit(id, i, view.contents.view(child.primitive), compose(placed, Transform<S>::of(child.pose)));
-      }
-    }
-  }
-
-  std::vector<RayCastHit<S>> all_of_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& f) {
-    std::vector<RayCastHit<S>> all;
-    visit_parts(f, [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
-      const auto add = [&](const RayHit<S>& hit) {
-        if (hit.inside && f.start_inside == StartInside::ignore) return;
-        all.push_back({id, child, hit.triangle, origin + translation * hit.fraction, hit.normal, hit.fraction,
-                       hit.material, hit.inside});
-      };
-      if (!is_surface(part.primitive.type)) {
-        RayHit<S> hit;
-        if (ray_cast(part, at, origin, translation, S(1), hit)) add(hit);
-        return;
-      }
-      detail::visit_surface(part, [&](const auto& surface) {
-        const auto ray = detail::LocalRay<S>::of(at, origin, translation);
-        std::vector<detail::LocalHit<S>> hits;
-        cast_through_surface(Treeless<std::remove_cvref_t<decltype(surface)>>{surface}, ray, {S(1), f.back_faces},
-                             RayTaker<S>{&hits, [](void* user, const detail::LocalHit<S>& hit) {
-                                           static_cast<std::vector<detail::LocalHit<S>>*>(user)->push_back(hit);
-                                         }});
-        for (const auto& h : hits) add({h.fraction, at.rotation * h.normal, false, h.material, h.triangle});
-      });
-    });
-    return listed(all, f.per);
-  }
-
-  std::vector<ShapeCastHit<S>> all_of_cast(const ConvexCore<S>& core, S touch, const Transform<S>& start,
-                                           Vec3<S> translation, const QueryFilter& f) {
-    std::vector<ShapeCastHit<S>> all;
-    const SolidCast<S> cast = {core, start, {translation, Unit<S>(1), touch}, f.back_faces,
-                               f.start_inside == StartInside::ignore};
-    visit_parts(f, [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
-      const auto add = [&](const SolidHit<S>& hit) {
-        all.push_back({id, child, hit.triangle, hit.point, hit.normal, hit.fraction, hit.material, hit.inside});
-      };
-      if (!is_surface(part.primitive.type)) {
-        SolidHit<S> hit;
-        if (cast_solid(cast, part, at, hit)) add(hit);
-        return;
-      }
-      detail::visit_surface(part, [&](const auto& surface) {
-        const Treeless<std::remove_cvref_t<decltype(surface)>> flat = {surface};
-        detail::SurfaceCast<S, std::remove_cvref_t<decltype(flat)>>(cast, flat, at).run([&](const SolidHit<S>& hit) {
-          add(hit);
-          return Unit<S>(1);
-        });
-      });
-    });
-    return listed(all, f.per);
-  }
-
   World<S> world;
   Dice dice;
 
  private:
-  /// In canonical order, by comparison of all that it says; then the first of each body or child.
-  template <class Hit> static std::vector<Hit> listed(std::vector<Hit> all, HitPer per) {
-    const auto key = [](const Hit& h) { return std::tuple(to_double(h.fraction), h.body.slot, h.child, h.triangle); };
-    std::sort(all.begin(), all.end(), [&](const Hit& a, const Hit& b) { return key(a) < key(b); });
-    std::vector<Hit> list;
-    for (const Hit& hit : all) {
-      const bool known = std::any_of(list.begin(), list.end(), [&](const Hit& h) {
-        return h.body == hit.body && (per == HitPer::body || h.child == hit.child) &&
-               (per != HitPer::triangle || h.triangle == hit.triangle);
-      });
-      if (!known) list.push_back(hit);
-    }
-    return list;
-  }
-
   void add_terrain_of(bool field, D3 at) {
     constexpr std::uint32_t kPlaces = 13;
     constexpr double kPitch = 1, kHalf = 6;
@@ -231,16 +124,5 @@ template <class S> class QueryWorld {
   std::vector<BodyId> bodies_;
   std::vector<ShapeId> solids_;
 };
-
-template <class S, class F> void expect_same(const QueryHit<S, F>& a, const QueryHit<S, F>& b, int query) {
-  ASSERT_EQ(a.body, b.body) << query;
-  ASSERT_EQ(a.child, b.child) << query;
-  ASSERT_EQ(a.triangle, b.triangle) << query;
-  ASSERT_EQ(a.material, b.material) << query;
-  ASSERT_EQ(a.inside, b.inside) << query;
-  ASSERT_EQ(a.fraction, b.fraction) << query;
-  ASSERT_EQ(a.normal, b.normal) << query;
-  ASSERT_EQ(a.point, b.point) << query;
-}
 
 }  // namespace isostep::test

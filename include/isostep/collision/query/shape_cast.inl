@@ -49,7 +49,9 @@ template <class F> class CoreCast {
       const F closing = -dot(way, found.normal);
       if (found.distance != F(0)) {
         if (!(closing > F(0)) || gap >= closing * (end - t)) return {};
-        if (latest < end && gap > closing * (latest - t) + isostep::resolution<F>() * F(4)) return {};
+        // Within `near` they touch, at t: how far the plane would let them go on is not asked.
+        const bool ends_later = gap > near && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
+        if (latest < end && ends_later) return {};
         last.hit = true;
         if (round == 0 || is_clear(found, noise)) last.normal = found.normal, last.on_b = found.on_b - way * t;
       }

@@ -154,14 +154,20 @@ template <class G, class S> class SurfaceCrossing {
     if (meets_) grid_ = grid_ray(surface, ray, entry_, exit_);
   }
 
+  /// By fraction, then by id: places are finer than fractions, so the nearest place alone does not tell.
   ISO_INLINE LocalHit<S> first(const RayReach<S>& reach) const {
-    std::int64_t best = most_of(reach.max_fraction);
+    std::int64_t most = most_of(reach.max_fraction), alike = -1;
     std::uint32_t triangle = kNoTriangle;
-    bool from_behind = false;
-    visit(reach.back_faces, best, [&](std::uint32_t id, GridRay::Entry entry) ISO_INLINE_LAMBDA {
-      if (entry.at < best || id < triangle) best = entry.at, triangle = id, from_behind = entry.from_behind;
+    GridRay::Entry best = {};
+    S least = S(1);
+    visit(reach.back_faces, most, [&](std::uint32_t id, GridRay::Entry entry) ISO_INLINE_LAMBDA {
+      const S fraction = fraction_of(entry.at);
+      if (triangle != kNoTriangle && (fraction > least || (fraction == least && id > triangle))) return;
+      triangle = id, best = entry, least = fraction;
+      if (alike < 0) alike = most_alike();
+      most = min(most, entry.at + alike);
     });
-    return triangle == kNoTriangle ? no_hit<S>() : hit_of(triangle, {best, from_behind});
+    return triangle == kNoTriangle ? no_hit<S>() : hit_of(triangle, best);
   }
   ISO_INLINE void all(const RayReach<S>& reach, const RayTaker<S>& taker) const {
     const std::int64_t most = most_of(reach.max_fraction);
@@ -190,11 +196,17 @@ template <class G, class S> class SurfaceCrossing {
   ISO_INLINE std::int64_t most_of(S max_fraction) const {
     if (!meets_ || !(max_fraction < S(1)) || !(ray_.length > S(0))) return kWhole;
     if (fraction_of(0) > max_fraction) return -1;
-    const S slack = gap_noise(ray_.length) + resolution<S>() * ray_.length;
-    const S part = max_fraction * ray_.length + slack - entry_, whole = exit_ - entry_;
+    const S part = max_fraction * ray_.length + noise_of_fractions() - entry_, whole = exit_ - entry_;
     if (!(part < whole) || !(part > S(0))) return kWhole;
     const std::int64_t guess = min(floor_scaled(divide_to<Unit<S>>(part, whole), 30) + 1, kWhole);
     return fraction_of(guess) > max_fraction ? guess : kWhole;
+  }
+  /// [m] Places further apart than this have other fractions.
+  ISO_INLINE S noise_of_fractions() const { return gap_noise(ray_.length) + resolution<S>() * ray_.length; }
+  /// No fewer places than may have one fraction.
+  ISO_INLINE std::int64_t most_alike() const {
+    const S whole = exit_ - entry_, noise = noise_of_fractions();
+    return noise < whole ? floor_scaled(divide_to<Unit<S>>(noise, whole), 30) + 1 : kWhole;
   }
   ISO_INLINE LocalHit<S> hit_of(std::uint32_t id, GridRay::Entry entry) const {
     const BakedTriangle baked = surface_.triangle(id);

@@ -88,7 +88,8 @@ TYPED_TEST(TimeOfImpactTest, is_that_of_the_sampled_motions) {
     const TestCore<S> b = random_core<S>(static_cast<CoreKind>(n / 5 % 5), scale, this->random_);
     const D3 at = n % 3 == 0 ? D3{240, -130, 220} : D3{0, 0, 0}, from = this->random_.direction();
     const double apart = (a.size + b.size) * this->random_.in(0.7, 2), most_turn = n % 4 == 0 ? 1.5 : 0.5;
-    const D3 way = (from + this->random_.direction() * 0.7) * (apart * this->random_.in(0.3, 2));
+    const double length = apart * this->random_.in(0.3, 2);
+    const D3 way = (from + this->random_.direction() * 0.7) * length;
     const D3 turn_a = n % 6 == 0 ? D3{0, 0, 0} : this->random_.point(most_turn),
              turn_b = this->random_.point(most_turn);
     const D3 centre = n % 5 == 0 ? this->random_.point(0.5 * scale) : D3{0, 0, 0};

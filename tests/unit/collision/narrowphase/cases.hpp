@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "isostep/collision/narrowphase/collide.hpp"
 
@@ -101,6 +102,16 @@ class Random {
  private:
   std::uint64_t state_;
 };
+/// [1] Evenly over the sphere, by the golden angle.
+inline std::vector<Point> directions(int count) {
+  std::vector<Point> all;
+  for (int i = 0; i < count; ++i) {
+    const double y = 1 - 2 * (i + 0.5) / count, r = std::sqrt(1 - y * y), turn = i * 2.399963229728653;
+    all.push_back({r * std::cos(turn), y, r * std::sin(turn)});
+  }
+  return all;
+}
+
 template <class S> Transform<S> random_pose(Random& random, double size) {
   const Point p = random.point(size), axis = random.direction();
   return at<S>(p, axis, random.in(-3, 3));

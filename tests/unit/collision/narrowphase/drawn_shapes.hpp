@@ -28,6 +28,7 @@ struct DrawnShape {
   ShapeType type() const { return record.type; }
   bool is_surface() const { return !sides.empty(); }
   bool is_rounded() const { return type() == ShapeType::hull && radius > 0; }
+  bool has_discs() const { return discs[0] > 0 || discs[1] > 0; }
   template <class S> Primitive<S> primitive() const {
     return {record.type,
             record.blob,
@@ -66,6 +67,17 @@ inline constexpr SizeClass kSizeClasses[] = {
 };
 inline constexpr int kSizes = 4, kMinute = 3;
 
+inline DrawnShape box_shape(double x, double y, double z) {
+  DrawnShape s;
+  s.record = primitive_of(Box<double>{{x, y, z}});
+  for (int i = 0; i < 8; ++i) s.corners.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z});
+  s.edges = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Point p : s.edges) s.faces.push_back(p), s.faces.push_back(p * -1);
+  s.inner = std::min({x, y, z});
+  s.reach = length3({x, y, z});
+  return s;
+}
+
 /// drawn_NAME for every shape of the list: one that is missing does not compile.
 class ShapeDrawer {
  public:
@@ -92,14 +104,8 @@ class ShapeDrawer {
     return s;
   }
   static DrawnShape drawn_box(Random& random, const SizeClass& sizes) {
-    DrawnShape s;
     const double x = sizes.size(random), y = sizes.size(random), z = sizes.size(random);
-    s.record = primitive_of(Box<double>{{x, y, z}});
-    for (int i = 0; i < 8; ++i) s.corners.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z});
-    s.edges = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (const Point p : s.edges) s.faces.push_back(p), s.faces.push_back(p * -1);
-    s.inner = std::min({x, y, z});
-    return s;
+    return box_shape(x, y, z);
   }
   static DrawnShape drawn_capsule(Random& random, const SizeClass& sizes) {
     DrawnShape s;

@@ -7,54 +7,15 @@
 
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
-#include "unit/collision/narrowphase/convex_oracle.hpp"
+#include "unit/collision/narrowphase/support_oracle.hpp"
+#include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
 namespace {
 
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 
-template <class S> class Revolved : public testing::Test {
- protected:
-  struct Pair {
-    Primitive<S> a, b;
-    Transform<S> ta, tb;
-  };
-  static Primitive<S> any(Random& random, ShapeType type, double scale) {
-    const auto size = [&] { return scale * std::exp(random.in(std::log(0.1), 0)); };
-    const double x = size(), y = size(), z = size();
-    switch (type) {
-      case ShapeType::sphere: return sphere_of<S>(x);
-      case ShapeType::box: return box_of<S>(x, y, z);
-      case ShapeType::capsule: return capsule_of<S>(x, y);
-      case ShapeType::half_space: return half_space_of<S>(random.direction(), scale * random.in(-0.5, 0.5));
-      case ShapeType::cylinder: return primitive_of(Cylinder<S>{from_double<S>(x), from_double<S>(y)});
-      default: return primitive_of(Cone<S>{from_double<S>(x), from_double<S>(y)});
-    }
-  }
-  /// Brought along a random way to where they are `depth` from touching, far from the origin.
-  static Pair placed(Random& random, ShapeType type_a, ShapeType type_b, double scale, double depth, Point far) {
-    Pair pair = {any(random, type_a, scale), any(random, type_b, scale), random_pose<S>(random, 0.01),
-                 random_pose<S>(random, 0.01)};
-    const Point way = random.direction(), start = point_of(pair.ta.position);
-    if (type_a == ShapeType::half_space) {
-      const Convex plane(pair.a, pair.ta), solid(pair.b, pair.tb);
-      const double off = -depth - ConvexOracle::separation(plane, solid);
-      pair.tb.position = vec_of<S>(point_of(pair.tb.position) + plane.normal() * off + far);
-    } else {
-      double low = 0, high = 4 * scale;
-      for (int i = 0; i < 9; ++i) {
-        const double middle = (low + high) / 2;
-        Transform<S> tb = pair.tb;
-        tb.position = vec_of<S>(start + way * middle);
-        (ConvexOracle::separation({pair.a, pair.ta}, {pair.b, tb}) < -depth ? low : high) = middle;
-      }
-      pair.tb.position = vec_of<S>(start + way * high + far);
-    }
-    pair.ta.position = vec_of<S>(start + far);
-    return pair;
-  }
-};
+template <class S> class Revolved : public testing::Test {};
 TYPED_TEST_SUITE(Revolved, Scalars);
 
 constexpr ShapeType kRound[] = {ShapeType::cylinder, ShapeType::cone};
@@ -91,7 +52,8 @@ TYPED_TEST(Revolved, what_stands_on_a_disc_keeps_the_same_four_points) {
       std::set<std::uint32_t> names;
       for (int n = 0; n < 50; ++n) {
         const Point axis = {random.in(-1, 1), 0, random.in(-1, 1)};
-        const Transform<S> t = at<S>({random.in(-0.01, 0.01), 0.249, 0}, axis, random.in(0, 2e-5));
+        const double tilt = random.in(0, 2e-5), x = random.in(-0.01, 0.01);
+        const Transform<S> t = at<S>({x, 0.249, 0}, axis, tilt);
         const Manifold<S> m = touch(on_box ? table : ground, at<S>({0, on_box ? -0.5 : 0.0, 0}), solid, t);
         ASSERT_EQ(m.count, 4);
         for (int i = 0; i < 4; ++i) names.insert(m.points[i].feature);
@@ -121,25 +83,29 @@ template <class S> SurfaceContent<TriangleMesh> mesh_of_box(double half) {
 TYPED_TEST(Revolved, a_box_of_triangles_is_touched_where_the_box_is) {
   using S = TypeParam;
   const SurfaceContent<TriangleMesh> content = mesh_of_box<S>(0.5);
-  const Primitive<S> box = box_of<S>(0.5, 0.5, 0.5), mesh = primitive_of(Mesh<S>{1});
+  const Primitive<S> mesh = primitive_of(Mesh<S>{1});
+  const DrawnShape box = box_shape(0.5, 0.5, 0.5);
   Random random(24);
   for (const ShapeType type : kRound) {
     int touching = 0, elsewhere = 0;
     for (int n = 0; n < 60; ++n) {
-      auto pair = TestFixture::placed(random, ShapeType::box, type, 0.6, 0, {0, 0, 0});
-      pair.a = box;
-      double low = 0, high = 4;
-      const Point way = random.direction(), start = point_of(pair.ta.position);
+      const DrawnShape round = ShapeDrawer::draw(random, type, 0);
+      const Transform<S> ta = random_pose<S>(random, 0.01);
+      Transform<S> tb = random_pose<S>(random, 0.01);
+      const Point way = random.direction();
       const double depth = random.in(-0.005, 0.015);
-      for (int i = 0; i < 10; ++i) {
+      const PlacedShape in_a(box, oracle::real(ta), {0, 0, 0});
+      PlacedShape in_b(round, oracle::real(tb), {0, 0, 0});
+      double low = 0, high = 4;
+      for (int i = 0; i < 12; ++i) {
         const double middle = (low + high) / 2;
-        pair.tb.position = vec_of<S>(start + way * middle);
-        (ConvexOracle::separation({box, pair.ta}, {pair.b, pair.tb}) < -depth ? low : high) = middle;
+        in_b.move_to(in_a.at() + way * middle);
+        (SupportOracle(in_a, in_b).best().separation < -depth ? low : high) = middle;
       }
-      pair.tb.position = vec_of<S>(start + way * high);
-      const Manifold<S> solid = touch(box, pair.ta, pair.b, pair.tb);
+      tb.position = vec_of<S>(in_a.at() + way * high);
+      const Manifold<S> solid = touch(box.primitive<S>(), ta, round.primitive<S>(), tb);
       Manifold<S> found;
-      collide(ShapeView<S>(mesh, &content), pair.ta, pair.b, pair.tb, from_double<S>(0.02), found);
+      collide(ShapeView<S>(mesh, &content), ta, round.primitive<S>(), tb, from_double<S>(0.02), found);
       if (solid.count == 0) continue;
       ++touching;
       if (found.count == 0 || std::abs(deepest(found) - deepest(solid)) > 0.005) ++elsewhere;

@@ -91,7 +91,7 @@ TYPED_TEST(RoundOnPolyhedron, the_nearest_point_is_in_the_solid_and_a_plane_part
   int inside = 0, faces = 0, edges = 0;
   for (int n = 0; n < 20000; ++n) {
     const auto& [solid, oracle] = *this->solids_[static_cast<std::size_t>(n % 24)];
-    const Vec3<S> query = oracle::made<S>(this->random_.direction() * this->random_.in(0.02, 0.9));
+    const Vec3<S> query = oracle::made<S>(this->random_.arrow(0.02, 0.9));
     const NearestPoint<S> nearest = nearest_on(solid.polyhedron(), query);
     const D3 q = oracle::real(query), p = oracle::real(nearest.point), normal = oracle::real(nearest.normal);
     const double distance = to_double(nearest.distance), above = oracle.above(q);
@@ -120,7 +120,7 @@ TYPED_TEST(RoundOnPolyhedron, a_sphere_touches_where_its_centre_is_nearest) {
     const auto& [solid, oracle] = *this->solids_[static_cast<std::size_t>(n % 24)];
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const Transform<S> tb = this->transform(at);
-    const Transform<S> ta = this->transform(at + this->random_.direction() * this->random_.in(0.1, 0.9));
+    const Transform<S> ta = this->transform(at + this->random_.arrow(0.1, 0.9));
     Manifold<S> m;
     collide_sphere_polyhedron(from_double<S>(this->kRadius), ta, solid.polyhedron(), tb, from_double<S>(this->kMargin),
                               m);
@@ -147,7 +147,7 @@ TYPED_TEST(RoundOnPolyhedron, a_capsule_touches_as_deep_as_its_core_says) {
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const double half = this->random_.in(0.05, 0.4);
     const Transform<S> tb = this->transform(at);
-    const Transform<S> ta = this->transform(at + this->random_.direction() * this->random_.in(0.1, 1.1));
+    const Transform<S> ta = this->transform(at + this->random_.arrow(0.1, 1.1));
     Manifold<S> m;
     collide_capsule_polyhedron(from_double<S>(half), from_double<S>(this->kRadius), ta, solid.polyhedron(), tb,
                                from_double<S>(this->kMargin), m);
@@ -198,8 +198,9 @@ TYPED_TEST(RoundOnPolyhedron, a_ray_enters_where_it_first_comes_inside) {
   for (int n = 0; n < 10000; ++n) {
     const auto& [solid, oracle] = *this->solids_[static_cast<std::size_t>(n % 24)];
     const Transform<S> still = {Vec3<S>::zero(), Mat3<Unit<S>>::identity()};
-    const D3 from = this->random_.direction() * this->random_.in(0.05, 2);
-    const D3 way = (this->random_.point(0.4) - from) * this->random_.in(0.2, 30);
+    const D3 from = this->random_.arrow(0.05, 2);
+    const double times = this->random_.in(0.2, 30);
+    const D3 way = (this->random_.point(0.4) - from) * times;
     const auto ray = detail::LocalRay<S>::of(still, oracle::made<S>(from), oracle::made<S>(way));
     const detail::LocalHit<S> hit = cast_ray(solid.polyhedron(), ray);
     const D3 origin = oracle::real(ray.origin), translation = oracle::real(ray.translation);

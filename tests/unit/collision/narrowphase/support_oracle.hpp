@@ -30,7 +30,7 @@ class PlacedShape {
     if (is_plane()) return dot3(n, at_) + shape_->record.offset;
     double most = -1e300;
     for (const Point p : corners_) most = std::max(most, dot3(n, p));
-    if (shape_->half > 0) {
+    if (shape_->has_discs()) {
       const double along = dot3(n, axes_[1]), across = std::sqrt(std::max(0.0, 1 - along * along));
       most = std::max(most, std::max(shape_->discs[0] * across - shape_->half * along,
                                      shape_->discs[1] * across + shape_->half * along));
@@ -47,7 +47,7 @@ class PlacedShape {
     for (const Point p : corners_) {
       if (dot3(n, p) > most) most = dot3(n, p), furthest = p;
     }
-    for (int end = 0; end < 2 && shape_->half > 0; ++end) {
+    for (int end = 0; end < 2 && shape_->has_discs(); ++end) {
       const Point across = n - axes_[1] * dot3(n, axes_[1]);
       const double length = length3(across);
       Point p = axes_[1] * (end == 0 ? -shape_->half : shape_->half);
@@ -90,7 +90,8 @@ class SupportOracle {
       look(n * (1 / length));
       look(n * (-1 / length));
     };
-    for (const Point n : directions()) look(n);
+    static const std::vector<Point> kAround = directions(60);
+    for (const Point n : kAround) look(n);
     for (const Point n : a_.faces) look_both_ways(n);
     for (const Point n : b_.faces) look_both_ways(n);
     for (const Point e : a_.edges) {
@@ -186,19 +187,6 @@ class SupportOracle {
     return true;
   }
   Best exactly(Point n) const { return {along(n), n}; }
-  static const std::vector<Point>& directions() {
-    static const std::vector<Point> kAll = [] {
-      constexpr int kDirections = 60;
-      std::vector<Point> all;
-      for (int i = 0; i < kDirections; ++i) {
-        const double y = 1 - 2 * (i + 0.5) / kDirections, r = std::sqrt(1 - y * y), turn = i * 2.399963229728653;
-        all.push_back({r * std::cos(turn), y, r * std::sin(turn)});
-      }
-      return all;
-    }();
-    return kAll;
-  }
-
   const PlacedShape& a_;
   const PlacedShape& b_;
 };

@@ -80,7 +80,7 @@ TYPED_TEST(ShapeCast, meets_the_first_touch_of_every_two_kinds) {
     const D3 at = n % 3 == 0 ? D3{240, -130, 220} : D3{0, 0, 0}, from = this->random_.direction();
     const double apart = (a.size + b.size) * this->random_.in(1.1, 6);
     const Transform<S> ta = this->transform(at), tb = this->transform(at + from * apart);
-    const D3 aim = from * apart + this->random_.direction() * ((a.size + b.size) * this->random_.in(0, 1));
+    const D3 aim = from * apart + this->random_.arrow_of((a.size + b.size) * this->random_.in(0, 1));
     const Vec3<S> way = oracle::made<S>(aim * this->random_.in(0.5, 3));
     CastHit<S> hit = {};
     const bool found = cast_convex(a.core(), ta, b.core(), tb, {way, Unit<S>(1), S(0)}, hit);
@@ -108,6 +108,34 @@ TYPED_TEST(ShapeCast, meets_the_first_touch_of_every_two_kinds) {
   EXPECT_GT(hits, 1500);
   EXPECT_GT(misses, 1000);
   EXPECT_LE(early, 3) << latest;
+}
+
+/// The less they close in, the longer is what is near on their way.
+TYPED_TEST(ShapeCast, a_latest_fraction_hides_no_hit_up_to_it_and_changes_none) {
+  using S = TypeParam;
+  int hits = 0;
+  for (int n = 0; n < 8000; ++n) {
+    const TestCore<S> a = random_core<S>(static_cast<CoreKind>(n % 5), 0.5, this->random_);
+    const TestCore<S> b = random_core<S>(static_cast<CoreKind>(n / 5 % 5), 0.5, this->random_);
+    const D3 from = this->random_.direction();
+    const double apart = (a.size + b.size) * this->random_.in(0.3, 1.2), length = this->random_.in(0.5, 4);
+    const D3 aside = cross(from, this->random_.direction());
+    const D3 aim = from * this->random_.in(0, n % 2 == 0 ? 1 : 0.02) + aside;
+    const Transform<S> ta = this->transform({0, 0, 0}), tb = this->transform(from * apart);
+    CastMotion<S> motion = {oracle::made<S>(aim * length), Unit<S>(1), S(0)};
+    CastHit<S> whole = {};
+    if (!cast_convex(a.core(), ta, b.core(), tb, motion, whole)) continue;
+    ++hits;
+    for (const double after : {0.0, 1e-7, 1e-4}) {
+      motion.latest = min(whole.fraction + from_double<Unit<S>>(after), Unit<S>(1));
+      CastHit<S> hit = {};
+      ASSERT_TRUE(cast_convex(a.core(), ta, b.core(), tb, motion, hit)) << n << " " << after;
+      EXPECT_EQ(hit.fraction, whole.fraction) << n;
+      EXPECT_EQ(hit.normal, whole.normal) << n;
+      EXPECT_EQ(hit.point, whole.point) << n;
+    }
+  }
+  EXPECT_GT(hits, 1500);
 }
 
 TYPED_TEST(ShapeCast, spheres_meet_where_the_quadratic_says) {
