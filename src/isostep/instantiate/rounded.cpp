@@ -9,5 +9,6 @@ namespace isostep {
   ISO_ROUNDED_POLYHEDRA_OF(, S)    \
   ISO_ROUNDED_REVOLVED_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_ROUNDED)
+#undef ISO_ROUNDED
 
 }  // namespace isostep

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "narrowphase/cases.hpp"
+#include "unit/collision/same_manifold.hpp"
 
 namespace isostep::test {
 namespace {
@@ -54,19 +55,6 @@ template <class S> struct Bodies {
             end,           from_double<S>(margin), counts.data(), manifolds.data()};
   }
 };
-
-template <class S> bool same_bits(const Manifold<S>& x, const Manifold<S>& y) {
-  const auto same = [](auto a, auto b) {
-    return to_bits(a.x) == to_bits(b.x) && to_bits(a.y) == to_bits(b.y) && to_bits(a.z) == to_bits(b.z);
-  };
-  if (x.count != y.count || (x.count > 0 && !same(x.normal, y.normal))) return false;
-  for (int i = 0; i < x.count; ++i) {
-    const ManifoldPoint<S>&p = x.points[i], &q = y.points[i];
-    if (!same(p.position, q.position) || to_bits(p.separation) != to_bits(q.separation) || p.feature != q.feature)
-      return false;
-  }
-  return true;
-}
 
 struct Tally {
   int touching = 0, edges = 0, many = 0;

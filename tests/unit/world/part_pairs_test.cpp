@@ -120,13 +120,13 @@ TYPED_TEST(PartPairsOf, trees_of_many_children_find_what_a_search_of_all_finds) 
     }
     const auto gathered = [&](bool trees) {
       if (!trees) this->systems->state.trees.change().clear();
-      PartPairs<S> pairs(this->systems->state, this->systems->map);
-      pairs.begin();
-      for (std::size_t i = 0; i < this->systems->state.awake.states.size(); ++i) pairs.frame_awake_body(i);
-      EXPECT_EQ(pairs.gather(this->systems->proxies.pairs()), 0u);
+      PartPairs<S> found(this->systems->state, this->systems->map);
+      found.begin();
+      for (std::size_t i = 0; i < this->systems->state.awake.states.size(); ++i) found.frame_awake_body(i);
+      EXPECT_EQ(found.gather(this->systems->proxies.pairs()), 0u);
       std::vector<std::array<std::uint32_t, 4>> list;
-      for (std::size_t g = 0; g < pairs.groups(); ++g) {
-        for (const PartPair& p : pairs.group(g).parts) list.push_back({p.frame_a, p.frame_b, p.child_a, p.child_b});
+      for (std::size_t g = 0; g < found.groups(); ++g) {
+        for (const PartPair& p : found.group(g).parts) list.push_back({p.frame_a, p.frame_b, p.child_a, p.child_b});
       }
       return list;
     };

@@ -136,7 +136,9 @@ TYPED_TEST(SetHeightsOf, command_logs_hold_the_patch) {
   played.record_to(&log);
   this->build(played);
   for (int frame = 0; frame < 40; ++frame) {
-    if (frame == 10) ASSERT_TRUE(this->dig(played));
+    if (frame == 10) {
+      ASSERT_TRUE(this->dig(played));
+    }
     played.step();
     ASSERT_TRUE(followed.step_recorded(log).ok()) << frame;
     log.clear();
@@ -152,9 +154,10 @@ TYPED_TEST(SetHeightsOf, a_recording_verifies) {
   this->build(w);
   ASSERT_TRUE(recorder.begin("a pit is dug").ok());
   for (int frame = 0; frame < 40; ++frame) {
-    if (frame % 10 == 5) ASSERT_TRUE(w.set_heights(this->ground, 0, Pit{std::vector<std::int16_t>(
-                                                                          25, static_cast<std::int16_t>(-50 * frame))}
-                                                                        .patch()));
+    if (frame % 10 == 5) {
+      const Pit pit = {std::vector<std::int16_t>(25, static_cast<std::int16_t>(-50 * frame))};
+      ASSERT_TRUE(w.set_heights(this->ground, 0, pit.patch()));
+    }
     w.step();
     ASSERT_TRUE(recorder.end_frame().ok()) << frame;
   }

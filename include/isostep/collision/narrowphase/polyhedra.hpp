@@ -11,7 +11,8 @@ namespace isostep {
 /// Contacts of a and b where they are nearer than `margin` [m]. Axes are the faces of both and those crosses of edges
 /// whose arcs on the Gauss map meet, which alone can be the best (Gregorius, The separating axis test between convex
 /// polyhedra, GDC 2013). Faces go before edges, and a before b, unless the other is better by 1/128 of the smaller
-/// inner radius.
+/// inner radius. What is further apart than the margin along the line between the origins, too, has no contact; and a
+/// face that a vertex decides, nearer to no other face of its solid, goes before all others.
 /// Features: faces: bit 31, bit 30 where b's face is the reference, both faces, both edges of a corner; edges: both.
 template <class S>
 void collide_polyhedra(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,

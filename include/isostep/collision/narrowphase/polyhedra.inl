@@ -122,35 +122,44 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& f
   }
 }
 
-/// [m] points of a and of b.
-template <class S> struct ClosestEnds {
-  Vec3<S> a, b;
+/// The edges of the best cross, and where they are nearest, in a's frame.
+template <class S> struct EdgeContact {
+  EdgeAxis<S> axis;
+  Vec3<S> on_a, on_b;  // [m] zero where none was found
 };
-/// Where two edges that are the best axis are nearest, in a's frame.
-template <class Pair, class S>
-ISO_INLINE ClosestEnds<S> closest_of_edges(const Pair& pair, const EdgeAxis<S>& best) {
+template <class S, int W, class Isa>
+ISO_INLINE EdgeContact<S> contact_of(const PolyhedronPair<S, W, Isa>& pair, const EdgeAxis<S>& best) {
+  if (!best.found) return {best, Vec3<S>::zero(), Vec3<S>::zero()};
   const Segment<S> of_a = edge_of(pair.a, best.edge_a), in_b = edge_of(pair.b, best.edge_b);
   const Segment<S> of_b = {to_world(pair.b_in_a, in_b.centre), pair.b_in_a.rotation * in_b.direction, in_b.half};
   const ClosestPair<S> closest = closest_points(of_a, of_b);
-  return {of_a.at(closest.s), of_b.at(closest.t)};
+  return {best, of_a.at(closest.s), of_b.at(closest.t)};
 }
 
-/// The edges whose cross is better than `limit` [m], and than all others where it shows the solids to be at most
-/// `margin` apart; `ends` are where they are nearest. Not found where a face is better.
+/// Whether the edges near both best faces have the best cross of all: solids that overlap have a point of one inside
+/// the other, and those that are apart along it points that are no further apart than that, but for the tolerance.
 template <class S, int W, class Isa>
-ISO_INLINE EdgeAxis<S> best_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a,
-                                  const FaceAxis<S>& face_b, S limit, S margin, ClosestEnds<S>& ends) {
-  // The vertex below b's best face may lie nearer to none of the others: then no axis is better.
-  if (height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex)) <= min(limit, S(0)))
-    return {0, 0, Vec3<Unit<S>>::zero(), limit, false};
-  EdgeAxis<S> best = EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin);
-  if (!best.found || best.separation > margin) return best;
-  ends = closest_of_edges(pair, best);
-  // They may be apart by more than the edges that were looked at show, unless those themselves are near.
-  if (!(best.separation > S(0)) || !is_longer(ends.b - ends.a, margin)) return best;
-  best = EdgeAxes<S, W, Isa>(pair).best(limit, margin);
-  ends = closest_of_edges(pair, best);
-  return best;
+ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact<S>& contact, S margin) {
+  const S separation = contact.axis.separation;
+  if (separation > margin) return true;  // which one is open
+  if (separation > S(0)) return !is_longer(contact.on_b - contact.on_a, separation + pair.tolerance);
+  return height_over<S, W, Isa>(pair.a, contact.on_b) <= S(0);
+}
+
+/// The edges whose cross is better than both best faces by the tolerance. `over_a` [m]: how high over a the vertex of b
+/// is that is lowest over a's best face.
+template <class S, int W, class Isa>
+ISO_INLINE EdgeContact<S> best_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a, S over_a,
+                                     const FaceAxis<S>& face_b, S margin) {
+  const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
+  const S over_b = height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex));
+  if (over_b <= min(limit, S(0))) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
+  const EdgeContact<S> near =
+      contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
+  const bool overlap = over_a <= S(0) || over_b <= S(0);
+  // Over a face of solids that are apart a contact has their true distance.
+  if (near.axis.found ? is_best(pair, near, margin) : best > S(0) || overlap) return near;
+  return contact_of(pair, EdgeAxes<S, W, Isa>(pair).best(limit, margin));
 }
 
 /// collide_polyhedra() with W lanes of Isa.
@@ -175,28 +184,26 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   };
   // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
   const S beyond_a = face_a.separation + pair.tolerance;
-  if (height_over<S, W, Isa>(a, pair.vertices_b.at(face_a.vertex)) <= min(beyond_a, S(0))) {
+  const S over_a = height_over<S, W, Isa>(a, pair.vertices_b.at(face_a.vertex));
+  if (over_a <= min(beyond_a, S(0))) {
     touch(face_a, false, false);
     if (out.count != 0) return;
   }
   pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
-  const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
-  ClosestEnds<S> ends = {};
-  const EdgeAxis<S> edges = best_edges(pair, face_a, face_b, limit, margin, ends);
-  if (edges.found && edges.separation > margin) return;
-  if (edges.found) {
-    out.normal = ta.rotation * edges.normal;
-    return out.add(to_world(ta, (ends.a + ends.b) * S(0.5)), edges.separation, edges.edge_a << 7 | edges.edge_b);
+  const EdgeContact<S> edges = best_edges(pair, face_a, over_a, face_b, margin);
+  if (edges.axis.found) {
+    if (edges.axis.separation > margin) return;
+    out.normal = ta.rotation * edges.axis.normal;
+    return out.add(to_world(ta, (edges.on_a + edges.on_b) * S(0.5)), edges.axis.separation,
+                   edges.axis.edge_a << 7 | edges.axis.edge_b);
   }
-  const bool prefers_b = face_b.separation > beyond_a;
+  const bool prefers_b = face_b.separation > beyond_a, b_is_better = face_b.separation > face_a.separation;
   touch(prefers_b ? face_b : face_a, prefers_b, false);
-  if (out.count != 0 || best > S(0)) return;
-  // Nothing is above the face. Either they are apart, or it was preferred to a better one, which decides.
-  if (EdgeAxes<S, W, Isa>(pair).best(limit, margin).found) return;
-  const bool b_is_better = face_b.separation > face_a.separation;
-  touch(b_is_better ? face_b : face_a, b_is_better, true);
+  // Nothing is above a face that was preferred to a better one: that one decides, and whether they are apart.
+  if (out.count == 0 && max(face_a.separation, face_b.separation) <= S(0))
+    touch(b_is_better ? face_b : face_a, b_is_better, true);
 }
 
 }  // namespace detail

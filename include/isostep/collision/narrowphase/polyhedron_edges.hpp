@@ -20,7 +20,8 @@ template <class S> struct EdgeAxis {
 /// Two edges that are the best axis of all are as far apart, or as deep in each other, as the solids are: `d`. So one
 /// has a point within |d| of the other solid, which is below each of its faces; and the other solid reaches down to the
 /// face's separation, so that what is within |d| of it is above that less |d|. Edges outside these layers, of both best
-/// faces, are left out: of hulls in a heap nine of ten pairs of edges.
+/// faces, are left out: in S10 nine of ten pairs of edges. Of solids that are apart the best cross may be none of two
+/// edges that are near each other: who asks must see whether it is.
 template <class S, int W, class Isa> class EdgeAxes {
   using Pair = PolyhedronPair<S, W, Isa>;
   using U = Unit<S>;
@@ -68,7 +69,7 @@ template <class S, int W, class Isa> class EdgeAxes {
   };
   struct Edges {
     std::uint32_t count = 0;
-    std::uint8_t numbers[kMost + 1];  // one more is written and not kept
+    std::uint8_t numbers[kMost];
 
     ISO_INLINE void add(std::uint32_t edge) { numbers[count++] = static_cast<std::uint8_t>(edge); }
     ISO_INLINE void add_if(bool kept, std::uint32_t edge) {  // without a branch: none could be foreseen
