@@ -32,12 +32,14 @@ template <class S, int W, class Isa> class EdgeAxes {
  public:
   /// All edges.
   ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
+    edges_a_.count = edges_b_.count = 0;
     for (std::uint32_t i = 0; i < pair.a.edges(); ++i) edges_a_.add(i);
     for (std::uint32_t j = 0; j < pair.b.edges(); ++j) edges_b_.add(j);
     turn_edges_of_b();
   }
   /// Those that can be the best axis where solids are at most `reach` [m] apart, or overlap by any depth.
   ISO_INLINE EdgeAxes(const Pair& pair, const FaceAxis<S>& face_a, const FaceAxis<S>& face_b, S reach) : pair_(pair) {
+    edges_a_.count = edges_b_.count = 0;
     const Polyhedron<S>&a = pair.a, &b = pair.b;
     const S within = max(reach, -max(face_a.separation, face_b.separation)) + pair.tolerance;
     const Plane of_a = plane_of(a, face_a.face), of_b = plane_of(b, face_b.face);
@@ -68,7 +70,7 @@ template <class S, int W, class Isa> class EdgeAxes {
     S offset;  // [m]
   };
   struct Edges {
-    std::uint32_t count = 0;
+    std::uint32_t count;
     std::uint8_t numbers[kMost];
 
     ISO_INLINE void add(std::uint32_t edge) { numbers[count++] = static_cast<std::uint8_t>(edge); }
@@ -106,12 +108,15 @@ template <class S, int W, class Isa> class EdgeAxes {
       left_.set(k, b.normals[b.half_edges[2 * j].face]);
       right_.set(k, b.normals[b.half_edges[2 * j + 1].face]);
     }
+    turn_from_b(directions_);
+    turn_from_b(left_);
+    turn_from_b(right_);
+  }
+  ISO_INLINE void turn_from_b(Columns<U, kMost>& columns) const {
     const Mat3<UL> turn = broadcast<UL>(pair_.b_in_a.rotation);
-    for (Columns<U, kMost>* columns : {&directions_, &left_, &right_}) {
-      columns->template pad<W>(edges_b_.count);
-      for (std::uint32_t first = 0; first < edges_b_.count; first += W)
-        columns->store(first, turn * columns->template load<UL>(first));
-    }
+    columns.template pad<W>(edges_b_.count);
+    for (std::uint32_t first = 0; first < edges_b_.count; first += W)
+      columns.store(first, turn * columns.template load<UL>(first));
   }
 
   /// Of W of b's edges those that meet edge i of a's, a bit each.
