@@ -61,6 +61,7 @@ constexpr KnownFlaw kKnownFlaws[] = {
     {bit(ShapeType::capsule), kRevolved, not_as_deep, 16},
     // Faces of needles and slabs.
     {bit(ShapeType::hull), kPolyhedra, out_of_reach, 3},
+    {bit(ShapeType::hull), kPolyhedra, not_as_deep, 1},
     // All of these, of their parts.
     {kCompound, kAny, out_of_reach, 12},
     {kCompound, kAny, not_as_deep, 14},
@@ -111,7 +112,7 @@ template <class S> class HostilePairs : public testing::Test {
     Point n = random.below(4) == 0 ? random.direction() : axis_of(random, a[0].at);
     if (ground.shape.type() == ShapeType::half_space) n = (swaps ? in_a : in_b).plane_normal() * (swaps ? 1.0 : -1.0);
     Point p = {0, 0, 0};
-    const double gaps[4] = {0, random.in(-0.02, 0.02), 0.01, -std::pow(10, random.in(-5, 1))};
+    const double gaps[4] = {0, random.in(-0.02, 0.02), 0.01, -random.power_of_ten(-5, 1)};
     const double gap = gaps[random.below(4)];
     if (is_surface(ground.shape.type())) {
       const PlacedShape& below = swaps ? in_a : in_b;

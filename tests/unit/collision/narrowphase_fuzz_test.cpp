@@ -55,7 +55,7 @@ template <class S> Pair<S> any_pair(Random& random, double largest) {
   const Solid a = solid(pair.a, pair.ta), b = solid(pair.b, pair.tb);
   const auto k = static_cast<std::size_t>(random.below(3));
   const Point n = random.below(4) == 0 ? random.direction() : a.axes[k] * (random.below(2) ? 1.0 : -1.0);
-  const double gaps[4] = {0, random.in(-0.02, 0.02), 0.01, -std::pow(10, random.in(-5, 1))};
+  const double gaps[4] = {0, random.in(-0.02, 0.02), 0.01, -random.power_of_ten(-5, 1)};
   Point p = n * (support(a, n) + support(b, n) + gaps[random.below(4)]);
   for (std::size_t j = 0; j < 3; ++j) {  // sideways, by up to what both reach
     const double reach = support(a, a.axes[j]) + support(b, a.axes[j]);

@@ -422,8 +422,8 @@ TYPED_TEST(NarrowPhase, StackThatRocksSlightlyKeepsItsReferenceFaceAndItsFeature
   std::set<std::uint32_t> features;
   for (int n = 0; n < 64; ++n) {
     const double phase = n * 0.7, angle = 0.0015;
-    const auto m = touch(crate, at<S>({0, 0, 0}, {std::cos(phase), 0, std::sin(phase)}, angle), crate,
-                         at<S>({0.125, 0.999, 0.0625}, {std::sin(phase), 0, std::cos(phase)}, angle));
+    const auto m = touch(crate, at<S>({0, 0, 0}, {isostep::cos(phase), 0, isostep::sin(phase)}, angle), crate,
+                         at<S>({0.125, 0.999, 0.0625}, {isostep::sin(phase), 0, isostep::cos(phase)}, angle));
     ASSERT_EQ(m.count, 4);
     for (int i = 0; i < 4; ++i) features.insert(m.points[i].feature);
   }

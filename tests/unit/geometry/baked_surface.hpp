@@ -14,6 +14,7 @@
 
 #include "isostep/geometry/baked/height_field.hpp"
 #include "isostep/geometry/baked/triangle_mesh.hpp"
+#include "isostep/scalar/math.hpp"
 
 namespace isostep::test {
 
@@ -62,8 +63,8 @@ inline Surface terrain() {
   for (int k = 0; k < 101; ++k) {
     for (int i = 0; i < 101; ++i) {
       const double x = 0.5 * i - 25, z = 0.5 * k - 25;
-      const double y = 0.75 * std::sin(kTurn * i / 25) * std::cos(kTurn * k / 20) +
-                       0.125 * std::sin(kTurn * (i + 2 * k) / 9) + 0.006 * (x * x + z * z);
+      const double y = 0.75 * isostep::sin(kTurn * i / 25) * isostep::cos(kTurn * k / 20) +
+                       0.125 * isostep::sin(kTurn * (i + 2 * k) / 9) + 0.006 * (x * x + z * z);
       heights.push_back(static_cast<std::int16_t>(std::floor(1024 * y + 0.5)));
     }
   }

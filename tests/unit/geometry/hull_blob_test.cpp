@@ -74,7 +74,7 @@ TEST(HullBlob, what_makes_no_hull_is_refused_by_name) {
   std::vector<D3> ball;
   for (int n = 0; n < 400; ++n) {
     const double y = 1 - 2 * (n + 0.5) / 400, r = std::sqrt(1 - y * y), angle = 2.399963 * n;
-    ball.push_back({r * std::cos(angle), y, r * std::sin(angle)});
+    ball.push_back({r * isostep::cos(angle), y, r * isostep::sin(angle)});
   }
   const Error many = refused(ball);
   EXPECT_EQ(many.code, ErrorCode::limit);

@@ -30,7 +30,7 @@ class Random {
   explicit Random(unsigned seed) : engine_(seed) {}
   double in(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
   /// Spread evenly over orders of magnitude.
-  double size(double low, double high) { return low * std::exp(in(0, std::log(high / low))); }
+  double size(double low, double high) { return low * isostep::exp(in(0, isostep::log(high / low))); }
   D3 point(double reach) {
     const double x = in(-reach, reach), y = in(-reach, reach);
     return {x, y, in(-reach, reach)};
@@ -48,8 +48,8 @@ class Random {
     const D3 axis = direction();
     const double half = in(-3, 3);
     using U = Unit<S>;
-    return normalise(Quat<U>{from_double<U>(axis.x * std::sin(half)), from_double<U>(axis.y * std::sin(half)),
-                             from_double<U>(axis.z * std::sin(half)), from_double<U>(std::cos(half))});
+    return normalise(Quat<U>{from_double<U>(axis.x * isostep::sin(half)), from_double<U>(axis.y * isostep::sin(half)),
+                             from_double<U>(axis.z * isostep::sin(half)), from_double<U>(isostep::cos(half))});
   }
   /// kind 0 sphere, 1 box, 2 capsule, 3 cylinder, 4 cone.
   template <class S> Primitive<S> primitive(int kind, double low, double high) {
@@ -124,7 +124,7 @@ template <class Q> void add_revolved(std::vector<PointMass>& cloud, double low, 
       const double volume = (high - low) / 2 * weight[i % 3] * q(y) / 2 * std::acos(-1.0) / 8;
       for (int a = 0; a < 8; ++a) {
         const double angle = a * std::acos(-1.0) / 4, r = std::sqrt(square);
-        cloud.push_back({{r * std::cos(angle), y, r * std::sin(angle)}, volume});
+        cloud.push_back({{r * isostep::cos(angle), y, r * isostep::sin(angle)}, volume});
       }
     }
   }

@@ -54,7 +54,7 @@ template <class S> class Surfaces : public testing::TestWithParam<int> {
   static ShapeId add_prism(World<S>& world) {
     std::vector<D3> points;
     for (int i = 0; i < 8; ++i) {
-      const double x = 0.25 * std::cos(i * 0.785398), z = 0.25 * std::sin(i * 0.785398);
+      const double x = 0.25 * isostep::cos(i * 0.785398), z = 0.25 * isostep::sin(i * 0.785398);
       points.push_back({x, 0.25, z});
       points.push_back({x, -0.25, z});
     }

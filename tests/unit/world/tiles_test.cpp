@@ -110,7 +110,7 @@ template <class S> class Tiles : public testing::Test {
   static std::vector<BodyId> add_sliders(World<S>& world, Ground ground) {
     std::vector<D3> prism;
     for (int i = 0; i < 8; ++i) {
-      const double x = 0.25 * std::cos(i * 0.785398), z = 0.25 * std::sin(i * 0.785398);
+      const double x = 0.25 * isostep::cos(i * 0.785398), z = 0.25 * isostep::sin(i * 0.785398);
       prism.push_back({x, 0.25, z});
       prism.push_back({x, -0.25, z});
     }

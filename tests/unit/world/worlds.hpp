@@ -30,8 +30,8 @@ inline double length(D3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)
 /// A turn by `angle` [rad] about a unit axis.
 template <class S> Quat<Unit<S>> turn(D3 axis, double angle) {
   using U = Unit<S>;
-  const double s = std::sin(angle / 2);
-  return normalise(Quat<U>{num<U>(axis.x * s), num<U>(axis.y * s), num<U>(axis.z * s), num<U>(std::cos(angle / 2))});
+  const double s = isostep::sin(angle / 2), c = isostep::cos(angle / 2);
+  return normalise(Quat<U>{num<U>(axis.x * s), num<U>(axis.y * s), num<U>(axis.z * s), num<U>(c)});
 }
 /// A vector of the body's frame in the world's.
 template <class S> D3 rotated(const Quat<Unit<S>>& q, D3 v) {

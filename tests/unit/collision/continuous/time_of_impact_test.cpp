@@ -33,8 +33,8 @@ template <class S> class TimeOfImpactTest : public testing::Test {
   static QuatD turned(D3 by) {
     const double angle = oracle::length(by);
     if (angle == 0) return QuatD::identity();
-    const D3 v = by * (std::sin(angle / 2) / angle);
-    return {v.x, v.y, v.z, std::cos(angle / 2)};
+    const D3 v = by * (isostep::sin(angle / 2) / angle);
+    return {v.x, v.y, v.z, isostep::cos(angle / 2)};
   }
   /// From somewhere by `way`, turning by `turn` about `centre`, in the solid's frame.
   CoreMotion<S> motion(D3 at, D3 way, D3 turn, D3 centre) {
@@ -191,15 +191,15 @@ TYPED_TEST(TimeOfImpactTest, a_turn_alone_meets_at_its_angle) {
   const Pose<S> start = Pose<S>::identity();
   for (double angle = 0.4; angle < 1.5; angle += 0.1) {
     const Pose<S> end = {Vec3<S>::zero(), this->made(this->turned({0, 0, angle + 1}))};
-    const D3 at = {0.75 * std::cos(angle), 0.75 * std::sin(angle), 0};
+    const D3 at = {0.75 * isostep::cos(angle), 0.75 * isostep::sin(angle), 0};
     const Pose<S> there = {oracle::made<S>(at), start.orientation};
     const S target = from_double<S>(1e-3);
     const TimeOfImpact<S> found =
         time_of_impact(rod.core(), {start, end, Vec3<S>::zero()}, ball.core(), {there, there, Vec3<S>::zero()}, target);
     ASSERT_EQ(found.impact, Impact::touch);
     const Quat<Unit<S>> q = pose_at(CoreMotion<S>{start, end, Vec3<S>::zero()}, found.fraction).orientation;
-    const double turned = 2 * std::atan2(to_double(q.z), to_double(q.w));
-    const double touching = angle - std::asin((0.0625 + 0.125) / 0.75);
+    const double turned = 2 * isostep::atan2(to_double(q.z), to_double(q.w));
+    const double touching = angle - isostep::asin((0.0625 + 0.125) / 0.75);
     EXPECT_LT(turned, touching - 0.4e-3);
     EXPECT_GT(turned, touching - 2e-3);
   }

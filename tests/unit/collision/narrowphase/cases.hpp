@@ -51,9 +51,9 @@ template <class Rep, int F> struct Wrapping<Fixed<Rep, F, Overflow::trap>> { usi
 /// At p, turned by `angle` about `axis`.
 template <class S> Transform<S> at(Point p, Point axis = {0, 1, 0}, double angle = 0) {
   using U = Unit<typename Wrapping<S>::Type>;
-  const double s = std::sin(angle / 2) / length3(axis);
+  const double s = isostep::sin(angle / 2) / length3(axis);
   const Quat<U> q = {from_double<U>(axis[0] * s), from_double<U>(axis[1] * s), from_double<U>(axis[2] * s),
-                     from_double<U>(std::cos(angle / 2))};
+                     from_double<U>(isostep::cos(angle / 2))};
   const Mat3<U> turn = to_matrix(normalise(q));
   Transform<S> t;
   t.position = vec_of<S>(p);
@@ -75,7 +75,8 @@ template <class S> double deepest(const Manifold<S>& m) {
   return least;
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same cases on every machine.
+/// SplitMix64 (Steele, Lea, Flood 2014): the same cases on every machine. Angles and powers are of isostep's own
+/// functions: those of <cmath> differ between processors.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -86,6 +87,8 @@ class Random {
     return z ^ (z >> 31);
   }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+  /// 10^low to 10^high, spread evenly over orders of magnitude.
+  double power_of_ten(double low, double high) { return isostep::exp(in(low, high) * 2.302585092994046); }
   int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
   Point point(double size) {
     const double x = in(-size, size), y = in(-size, size);
@@ -107,7 +110,7 @@ inline std::vector<Point> directions(int count) {
   std::vector<Point> all;
   for (int i = 0; i < count; ++i) {
     const double y = 1 - 2 * (i + 0.5) / count, r = std::sqrt(1 - y * y), turn = i * 2.399963229728653;
-    all.push_back({r * std::cos(turn), y, r * std::sin(turn)});
+    all.push_back({r * isostep::cos(turn), y, r * isostep::sin(turn)});
   }
   return all;
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <typeindex>
 #include <vector>
 
 #include "isostep/geometry/baked/hull_blob.hpp"
@@ -14,8 +15,11 @@ namespace isostep::test {
 
 /// The hull of points and of discs across y, thickened; or a half-space; or triangles of which one side counts.
 struct DrawnShape {
+  using Contents = std::map<std::type_index, std::shared_ptr<const void>>;  // by scalar
+
   Primitive<double> record = {};
   BlobRef blob;
+  std::shared_ptr<Contents> contents = std::make_shared<Contents>();
   std::vector<Point> corners;               // [m] of the hull
   std::vector<Point> faces, edges;          // [1] directions of a polyhedron's
   std::vector<std::array<Point, 3>> sides;  // [m] triangles of a surface
@@ -28,6 +32,11 @@ struct DrawnShape {
   ShapeType type() const { return record.type; }
   bool is_surface() const { return !sides.empty(); }
   bool is_rounded() const { return type() == ShapeType::hull && radius > 0; }
+  /// Of corners and discs, unless it is known to be more.
+  void find_reach() {
+    for (const Point p : corners) reach = std::max(reach, length3(p) + radius);
+    for (const double r : discs) reach = std::max(reach, length3({r, half, 0}));
+  }
   bool has_discs() const { return discs[0] > 0 || discs[1] > 0; }
   template <class S> Primitive<S> primitive() const {
     return {record.type,
@@ -37,11 +46,10 @@ struct DrawnShape {
             vec_of<Unit<S>>(point_of(record.normal)),
             from_double<S>(record.offset)};
   }
-  /// Of its blob; made once.
+  /// Of its blob; made once, and kept by the shape and its copies.
   template <class S> const void* content() const {
     if (blob == nullptr) return nullptr;
-    static std::map<const Blob*, std::shared_ptr<const void>> made;
-    std::shared_ptr<const void>& content = made[blob.get()];
+    std::shared_ptr<const void>& content = (*contents)[typeid(S)];
     if (content != nullptr) return content.get();
     if (type() == ShapeType::hull) content = HullContent<S>::make(blob->bytes());
     else if (type() == ShapeType::mesh) content = SurfaceContent<TriangleMesh>::make(blob->bytes());
@@ -57,7 +65,7 @@ inline Point snap(Point p) { return {snap(p[0]), snap(p[1]), snap(p[2])}; }
 /// Sizes of a shape [m], every magnitude as often as another.
 struct SizeClass {
   double least, most;
-  double size(Random& random) const { return snap(least * std::exp(random.in(0, std::log(most / least)))); }
+  double size(Random& random) const { return snap(least * isostep::exp(random.in(0, isostep::log(most / least)))); }
 };
 inline constexpr SizeClass kSizeClasses[] = {
     {0.1, 1},
@@ -90,8 +98,7 @@ class ShapeDrawer {
       ISO_FOR_EACH_SHAPE(ISO_DRAW)
 #undef ISO_DRAW
     }
-    for (const Point p : shape.corners) shape.reach = std::max(shape.reach, length3(p) + shape.radius);
-    for (const double r : shape.discs) shape.reach = std::max(shape.reach, std::hypot(r, shape.half));
+    shape.find_reach();
     return shape;
   }
 

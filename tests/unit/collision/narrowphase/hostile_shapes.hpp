@@ -10,10 +10,10 @@ namespace isostep::test {
 inline double any_size(Random& random, double largest) {
   switch (random.below(8)) {
     case 0: return 0;
-    case 1: return std::pow(10, random.in(-5, -2));
+    case 1: return random.power_of_ten(-5, -2);
     case 2: return largest * random.in(0.1, 1);
     case 3: return 0.5;
-    default: return std::pow(10, random.in(-2, 0.5));
+    default: return random.power_of_ten(-2, 0.5);
   }
 }
 
@@ -22,7 +22,7 @@ template <class S> Transform<S> any_pose(Random& random, Point p) {
   const Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Point axis = axes[random.below(3)];
   const Point any = random.direction();
-  const double quarters = std::acos(0.0) * random.below(4), hair = std::pow(10, random.in(-9, -1));
+  const double quarters = std::acos(0.0) * random.below(4), hair = random.power_of_ten(-9, -1);
   switch (random.below(5)) {
     case 0: return at<S>(p);
     case 1: return at<S>(p, axis, quarters);
@@ -55,8 +55,7 @@ class HostileDrawer {
       ISO_FOR_EACH_SHAPE(ISO_DRAW)
 #undef ISO_DRAW
     }
-    for (const Point p : shape.corners) shape.reach = std::max(shape.reach, length3(p) + shape.radius);
-    for (const double r : shape.discs) shape.reach = std::max(shape.reach, std::hypot(r, shape.half));
+    shape.find_reach();
     return shape;
   }
   static double size(Random& random, double largest) { return snap(any_size(random, largest)); }
@@ -121,7 +120,7 @@ class HostileDrawer {
       const int kind = random.below(4), sides = 3 + random.below(30);
       for (int i = 0; i < 2 * sides && kind == 0; ++i) {
         const double turn = std::acos(-1.0) * (i / 2) / sides * 2;
-        points.push_back({x * std::cos(turn), i % 2 == 0 ? -y : y, z * std::sin(turn)});
+        points.push_back({x * isostep::cos(turn), i % 2 == 0 ? -y : y, z * isostep::sin(turn)});
       }
       for (int i = 0; i < 8 && kind == 1; ++i)
         points.push_back({i & 1 ? x : -x, i & 2 ? y : -y, (i & 4 ? z : -z) * (i == 7 ? 0.999 : 1)});
@@ -172,7 +171,7 @@ class HostileDrawer {
       }
     } else if (kind == 2) {
       points = {{0, wide * random.in(-0.5, 0.5), 0}};
-      for (int i = 0; i < 8; ++i) points.push_back({wide * std::cos(0.785 * i), 0, wide * std::sin(0.785 * i)});
+      for (int i = 0; i < 8; ++i) points.push_back({wide * isostep::cos(0.785 * i), 0, wide * isostep::sin(0.785 * i)});
       for (std::uint32_t i = 0; i < 8; ++i) triangles.push_back({{0, 1 + (i + 1) % 8, 1 + i}});
     } else {
       const double fold = wide * random.in(-0.9, 0.9);

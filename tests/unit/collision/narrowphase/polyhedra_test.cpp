@@ -197,11 +197,11 @@ TYPED_TEST(Polyhedra, touch_where_both_of_them_are) {
   using S = TypeParam;
   const BoxSolid<S> small({S(0.05), S(0.05), S(0.05)}), large({S(0.5), S(0.5), S(0.5)}), plate({S(4), S(0.1), S(4)});
   const auto turned = [](D3 at, D3 axis, double angle) {
-    const D3 v = oracle::unit(axis) * std::sin(angle / 2);
+    const D3 v = oracle::unit(axis) * isostep::sin(angle / 2);
     using U = Unit<S>;
     return Transform<S>{oracle::made<S>(at),
                         to_matrix(Quat<U>{from_double<U>(v.x), from_double<U>(v.y), from_double<U>(v.z),
-                                          from_double<U>(std::cos(angle / 2))})};
+                                          from_double<U>(isostep::cos(angle / 2))})};
   };
   const Transform<S> still = turned({0, 0, 0}, {0, 1, 0}, 0);
   int touching = 0;

@@ -242,7 +242,8 @@ TYPED_TEST(RoundOnPolyhedron, a_capsule_along_a_ridge_touches_it_at_both_ends) {
   const Transform<S> still = {Vec3<S>::zero(), Mat3<U>::identity()};
   for (const double pitch : {0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3}) {
     const double half_angle = -0.78539816339744830962 + pitch / 2;  // y to x, and up
-    const Quat<U> turn = {U(0), U(0), from_double<U>(std::sin(half_angle)), from_double<U>(std::cos(half_angle))};
+    const double sine = isostep::sin(half_angle), cosine = isostep::cos(half_angle);
+    const Quat<U> turn = {U(0), U(0), from_double<U>(sine), from_double<U>(cosine)};
     Manifold<S> m;
     collide_capsule_polyhedron(S(0.4), S(0.1), {{S(0), S(0.1), S(0)}, to_matrix(turn)}, roof.polyhedron(), still,
                                S(0.02), m);

@@ -113,7 +113,7 @@ class SupportOracle {
       Best next = best;
       for (int k = 0; k < 6; ++k) {
         const double turn = std::acos(-1.0) * (k + 0.5 * (round % 2)) / 3;
-        const Point n = best.normal + u * (step * std::cos(turn)) + v * (step * std::sin(turn));
+        const Point n = best.normal + u * (step * isostep::cos(turn)) + v * (step * isostep::sin(turn));
         const Point way = n * (1 / length3(n));
         const double separation = along(way);
         if (separation > next.separation) next = {separation, way};
