@@ -16,7 +16,7 @@ extern char** environ;
 namespace isostep::bench {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "rapier.mjs answers in little-endian doubles");
+static_assert(std::endian::native == std::endian::little, "rapier.mjs writes little-endian doubles");
 
 constexpr char kScript[] = ISOSTEP_BENCH_SOURCE_DIR "/scene_bench/rapier.mjs";
 

@@ -1,4 +1,4 @@
-// What rapier.mjs is told of a scene.
+// A scene and its bodies as JSON, for rapier.mjs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/math/vec3.hpp"
+#include "isostep/math/transform.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep::detail {
@@ -16,6 +16,11 @@ template <class S> struct Segment {
   /// Where the segment is closest to p, as a distance from the centre [m].
   ISO_INLINE constexpr S nearest(Vec3<S> p) const { return clamp(dot(p - centre, direction), -half, half); }
 };
+
+/// A segment of the frame that `t` leads from.
+template <class S> ISO_INLINE Segment<S> seen_by(const Transform<S>& t, const Segment<S>& s) {
+  return {to_world(t, s.centre), t.rotation * s.direction, s.half};
+}
 
 /// The closest points of two segments are a.at(s) and b.at(t); sine2 is the squared sine of the angle between them.
 template <class S> struct ClosestPair {

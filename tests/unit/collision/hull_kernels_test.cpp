@@ -8,12 +8,10 @@
 
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "unit/collision/narrowphase/placed_solids.hpp"
-#include "unit/collision/same_manifold.hpp"
+#include "unit/collision/kernel_cases.hpp"
 
 namespace isostep::test {
 namespace {
-
-constexpr Simd kSets[] = {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm, Simd::best};
 
 template <class S> class HullKernels : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -24,8 +22,8 @@ std::vector<GridPoint> drum(int sides, bool pyramids) {
   std::vector<GridPoint> points;
   for (int i = 0; i < sides; ++i) {
     const double turn = 2 * std::acos(-1.0) * i / sides;
-    const auto x = static_cast<std::int32_t>(30000 * std::cos(turn));
-    const auto z = static_cast<std::int32_t>(30000 * std::sin(turn));
+    const auto x = static_cast<std::int32_t>(30000 * isostep::cos(turn));
+    const auto z = static_cast<std::int32_t>(30000 * isostep::sin(turn));
     points.push_back({x, pyramids ? 0 : 20000, z});
     if (!pyramids) points.push_back({x, -20000, z});
   }

@@ -1,10 +1,14 @@
-// Whether two manifolds have the same bits.
+// What tests of pair kernels share: the instruction sets, and whether two manifolds have the same bits.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/collision/narrowphase/manifold.hpp"
+#include "isostep/core/simd.hpp"
 
 namespace isostep::test {
+
+inline constexpr Simd kSets[] = {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512,
+                                 Simd::neon,   Simd::wasm, Simd::best};
 
 template <class S> bool same_bits(const Manifold<S>& x, const Manifold<S>& y) {
   const auto same = [](auto a, auto b) {

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "narrowphase/cases.hpp"
-#include "unit/collision/same_manifold.hpp"
+#include "unit/collision/kernel_cases.hpp"
 
 namespace isostep::test {
 namespace {
-
-constexpr Simd kSets[] = {Simd::scalar, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm, Simd::best};
 
 template <class S> class PairKernelsTest : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -115,7 +113,7 @@ TYPED_TEST(PairKernelsTest, boxes_stacked_with_edges_parallel_or_nearly_so) {
   Bodies<S> bodies(6000);
   for (int i = 0; i < 6000; ++i) {
     // On a grid of quarters: sides in one plane, corners on sides, faces that touch exactly.
-    const double tilt = i % 3 == 0 ? 0 : std::pow(10, random.in(-8, -1));
+    const double tilt = i % 3 == 0 ? 0 : random.power_of_ten(-8, -1);
     const auto grid = [&](int n) { return 0.25 * random.below(n); };
     const double x = 0.25 + grid(3), y = 0.25 + grid(3), z = 0.25 + grid(3);
     const Point axis = random.direction();

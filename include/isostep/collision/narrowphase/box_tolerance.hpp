@@ -22,6 +22,10 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(S smallest, S extent) {
   const S rounding = extent * resolution<Unit<S>>();
   return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
 }
+/// Of two solids, by their inner radii, whose origins are `apart` [m].
+template <class S> ISO_INLINE constexpr S axis_tolerance(S inner_a, S inner_b, Vec3<S> apart) {
+  return axis_tolerance(min(inner_a, inner_b), max_abs(apart) + inner_a + inner_b);
+}
 template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S> half_b) {
   const Vec3<S> low = min(half_a, half_b);
   return axis_tolerance(min(low.x, min(low.y, low.z)), max_abs(half_a) + max_abs(half_b));

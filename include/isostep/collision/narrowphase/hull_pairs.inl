@@ -12,9 +12,6 @@
 namespace isostep {
 
 namespace detail {
-template <class S> ISO_INLINE RoundedPolyhedron<S> rounded_of(const Hull<S>& hull) {
-  return {hull.polyhedron(), hull.radius};
-}
 /// What a sphere or capsule that is thicker by a rounded b's radius touches of b's core.
 template <class S> ISO_INLINE void move_to_skin(S radius, Manifold<S>& out) {
   for (int i = 0; i < out.count; ++i) out.points[i].position -= out.normal * radius;
@@ -34,7 +31,7 @@ void collide_box_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, co
   const BoxSolid<S> box(a.primitive.half);
   const Hull<S> hull = shape_as<Hull>(b);
   if (!hull.is_rounded()) return polyhedra(box.polyhedron(), ta, hull.polyhedron(), tb, margin, out);
-  collide_rounded_polyhedra({box.polyhedron(), S(0)}, ta, detail::rounded_of(hull), tb, margin, out, polyhedra);
+  collide_rounded_polyhedra({box.polyhedron(), S(0)}, ta, rounded_of(hull), tb, margin, out, polyhedra);
 }
 template <class S>
 void collide_capsule_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
@@ -61,7 +58,7 @@ void collide_hull_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, c
   const Hull<S> of_a = shape_as<Hull>(a), of_b = shape_as<Hull>(b);
   if (!of_a.is_rounded() && !of_b.is_rounded())
     return polyhedra(of_a.polyhedron(), ta, of_b.polyhedron(), tb, margin, out);
-  collide_rounded_polyhedra(detail::rounded_of(of_a), ta, detail::rounded_of(of_b), tb, margin, out, polyhedra);
+  collide_rounded_polyhedra(rounded_of(of_a), ta, rounded_of(of_b), tb, margin, out, polyhedra);
 }
 
 }  // namespace isostep

@@ -130,8 +130,7 @@ template <class S> struct EdgeContact {
 template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> contact_of(const PolyhedronPair<S, W, Isa>& pair, const EdgeAxis<S>& best) {
   if (!best.found) return {best, Vec3<S>::zero(), Vec3<S>::zero()};
-  const Segment<S> of_a = edge_of(pair.a, best.edge_a), in_b = edge_of(pair.b, best.edge_b);
-  const Segment<S> of_b = {to_world(pair.b_in_a, in_b.centre), pair.b_in_a.rotation * in_b.direction, in_b.half};
+  const Segment<S> of_a = edge_of(pair.a, best.edge_a), of_b = seen_by(pair.b_in_a, edge_of(pair.b, best.edge_b));
   const ClosestPair<S> closest = closest_points(of_a, of_b);
   return {best, of_a.at(closest.s), of_b.at(closest.t)};
 }
@@ -172,15 +171,11 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
   const auto touch = [&](const FaceAxis<S>& face, bool of_b, bool deepest) ISO_INLINE_LAMBDA {
-    const S tie = pair.tolerance * S(0.125);
-    if (of_b) {
-      const Tangents<Unit<S>> across = tangents_of(b.normals[face.face]);
-      touch_faces({b, a, pair.vertices_a, transpose(pair.b_in_a.rotation), face, across}, tb, margin, tie, false,
-                  deepest, out);
-    } else {
-      const Tangents<Unit<S>> across = tangents_of(a.normals[face.face]);
-      touch_faces({a, b, pair.vertices_b, pair.b_in_a.rotation, face, across}, ta, margin, tie, true, deepest, out);
-    }
+    const Polyhedron<S>& reference = of_b ? b : a;
+    const auto& vertices = of_b ? pair.vertices_a : pair.vertices_b;
+    const Mat3<Unit<S>> turn = of_b ? transpose(pair.b_in_a.rotation) : pair.b_in_a.rotation;
+    touch_faces({reference, of_b ? a : b, vertices, turn, face, tangents_of(reference.normals[face.face])},
+                of_b ? tb : ta, margin, pair.tolerance * S(0.125), !of_b, deepest, out);
   };
   // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
   const S beyond_a = face_a.separation + pair.tolerance;

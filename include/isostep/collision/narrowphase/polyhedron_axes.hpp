@@ -58,8 +58,7 @@ template <class S, int W, class Isa> struct PolyhedronPair {
     const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};
     for (std::uint32_t i = 0; i < b.vertices.size(); i += W)
       vertices_b.store(i, to_world(lanes, b.vertices.template load<L>(i)));
-    tolerance =
-        axis_tolerance(min(a.inner_radius, b.inner_radius), max_abs(b_in_a.position) + a.inner_radius + b.inner_radius);
+    tolerance = axis_tolerance(a.inner_radius, b.inner_radius, b_in_a.position);
   }
   ISO_INLINE void turn_a() {
     const Transform<L> lanes = {broadcast<L>(b_in_a.position), broadcast<UL>(b_in_a.rotation)};

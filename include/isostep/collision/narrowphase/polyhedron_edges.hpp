@@ -33,8 +33,8 @@ template <class S, int W, class Isa> class EdgeAxes {
   /// All edges.
   ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
     edges_a_.count = edges_b_.count = 0;
-    for (std::uint32_t i = 0; i < pair.a.edges(); ++i) edges_a_.add(i);
-    for (std::uint32_t j = 0; j < pair.b.edges(); ++j) edges_b_.add(j);
+    for (std::uint32_t i = 0; i < pair.a.edges(); ++i) edges_a_.add_if(true, i);
+    for (std::uint32_t j = 0; j < pair.b.edges(); ++j) edges_b_.add_if(true, j);
     turn_edges_of_b();
   }
   /// Those that can be the best axis where solids are at most `reach` [m] apart, or overlap by any depth.
@@ -73,7 +73,6 @@ template <class S, int W, class Isa> class EdgeAxes {
     std::uint32_t count;
     std::uint8_t numbers[kMost];
 
-    ISO_INLINE void add(std::uint32_t edge) { numbers[count++] = static_cast<std::uint8_t>(edge); }
     ISO_INLINE void add_if(bool kept, std::uint32_t edge) {  // without a branch: none could be foreseen
       numbers[count] = static_cast<std::uint8_t>(edge);
       count += kept ? 1u : 0u;

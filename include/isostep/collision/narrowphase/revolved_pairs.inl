@@ -47,7 +47,7 @@ void collide_hull_round(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, 
   const Hull<S> hull = shape_as<Hull>(a);
   const detail::Revolved<S> solid = detail::revolved_of(b.primitive);
   if (hull.is_rounded()) {
-    collide_rounded_revolved<S>(solid, tb, {hull.polyhedron(), hull.radius}, ta, margin, out);
+    collide_rounded_revolved(solid, tb, rounded_of(hull), ta, margin, out);
   } else {
     collide_revolved_polyhedron(solid, tb, hull.polyhedron(), ta, margin, out);
   }

@@ -156,8 +156,7 @@ template <class S> class RevolvedFacets {
   ISO_INLINE void at_edge(const Axis& best, const RevolvedTouch<S>& touch) const {
     if (beside(best.feature, best, touch)) return;
     const Segment<S> side = side_line(solid_, solid_.reach(best.normal).radial);
-    const Segment<S> in_b = edge_of(b_, best.feature);
-    const Segment<S> edge = {to_world(b_in_a_, in_b.centre), b_in_a_.rotation * in_b.direction, in_b.half};
+    const Segment<S> edge = seen_by(b_in_a_, edge_of(b_, best.feature));
     const ClosestPair<S> closest = closest_points(side, edge);
     touch.at((side.at(closest.s) + edge.at(closest.t)) * S(0.5), best.separation, best.normal, name_of(best));
   }
@@ -177,7 +176,7 @@ void collide_revolved_polyhedron(const detail::Revolved<S>& solid, const Transfo
   out.clear();
   const Transform<S> b_in_a = relative(ta, tb);
   const S size = min(solid.half, solid.radii[0]);
-  const S tolerance = axis_tolerance(min(size, b.inner_radius), max_abs(b_in_a.position) + size + b.inner_radius);
+  const S tolerance = axis_tolerance(size, b.inner_radius, b_in_a.position);
   RevolvedFacets<S> facets(solid, b, b_in_a);
   RevolvedAxis<S> best = {RevolvedAxis<S>::face, S(0), Vec3<Unit<S>>::zero(), 0, 0};
   if (!facets.find(margin, tolerance, best)) return;

@@ -8,10 +8,6 @@
 namespace isostep {
 namespace detail {
 
-template <class S> ISO_INLINE Segment<S> seen_by(const Transform<S>& t, const Segment<S>& s) {
-  return {to_world(t, s.centre), t.rotation * s.direction, s.half};
-}
-
 /// A disc as what another solid lies on, in that one's frame: t leads there. Its sixteen sides are around the rim, so
 /// that what turns in place on a disc of its size is not cut.
 template <class S>
@@ -46,7 +42,7 @@ template <class S> class RevolvedPair {
   ISO_INLINE RevolvedPair(const Revolved<S>& a, const Transform<S>& ta, const Revolved<S>& b, const Transform<S>& tb)
       : a_(a), b_(b), b_in_a_(relative(ta, tb)), a_in_b_(relative(tb, ta)) {
     const S size_a = min(a.half, a.radii[0]), size_b = min(b.half, b.radii[0]);
-    tolerance_ = axis_tolerance(min(size_a, size_b), max_abs(b_in_a_.position) + size_a + size_b);
+    tolerance_ = axis_tolerance(size_a, size_b, b_in_a_.position);
   }
   ISO_INLINE S tolerance() const { return tolerance_; }
 

@@ -4,6 +4,7 @@
 
 #include "isostep/collision/narrowphase/polyhedra.hpp"
 #include "isostep/collision/narrowphase/surface_triangle.hpp"
+#include "isostep/geometry/shapes/hull.hpp"
 
 namespace isostep {
 
@@ -12,6 +13,9 @@ template <class S> struct RoundedPolyhedron {
   Polyhedron<S> core;
   S radius;  // [m] 0 or more, of two together more
 };
+template <class S> ISO_INLINE RoundedPolyhedron<S> rounded_of(const Hull<S>& hull) {
+  return {hull.polyhedron(), hull.radius};
+}
 
 /// Contacts of a and b where they are nearer than `margin` [m].
 /// Normal:   of cores that overlap, the best of their separating axes, as collide_polyhedra has it; of others, along

@@ -42,8 +42,7 @@ ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transfor
   if (!of_a.found) return false;
   const OuterEdge<S> of_b = outer_edge(b.core, transposed_times(b_in_a.rotation, -gap.normal), slack);
   if (!of_b.found) return false;
-  const Segment<S> edge = edge_of(a.core, of_a.edge), in_b = edge_of(b.core, of_b.edge);
-  const Segment<S> other = {to_world(b_in_a, in_b.centre), b_in_a.rotation * in_b.direction, in_b.half};
+  const Segment<S> edge = edge_of(a.core, of_a.edge), other = seen_by(b_in_a, edge_of(b.core, of_b.edge));
   const Vec3<Unit<S>> across = cross(edge.direction, other.direction);
   if (dot(across, across) > Unit<S>(kBeside * kBeside)) return false;
   const S middle = dot(other.centre - edge.centre, edge.direction);
@@ -104,8 +103,7 @@ void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>
   const S radii = a.radius + b.radius;
   const CoreGap<S> gap = gap_between(a.core, ta, b.core, tb);
   if (gap.distance - radii > margin) return;
-  const S inner_a = a.core.inner_radius, inner_b = b.core.inner_radius;
-  const S tolerance = axis_tolerance(min(inner_a, inner_b), max_abs(tb.position - ta.position) + inner_a + inner_b);
+  const S tolerance = axis_tolerance(a.core.inner_radius, b.core.inner_radius, tb.position - ta.position);
   const Vec3<S> gap_in_b = transposed_times(tb.rotation, ta.rotation * -gap.across());
   // Most of the cost of a pair are its separating axes: they are asked only where they may decide.
   if (!gap.is_apart || has_face_across(a.core, gap.across(), gap.distance, tolerance) ||

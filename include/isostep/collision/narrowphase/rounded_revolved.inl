@@ -58,8 +58,8 @@ void collide_rounded_revolved(const detail::Revolved<S>& solid, const Transform<
                               const Transform<S>& tb, S margin, Manifold<S>& out) {
   using namespace detail;
   out.clear();
-  const S size = min(solid.half, solid.radii[0]), inner = b.core.inner_radius;
-  const S tolerance = axis_tolerance(min(size, inner), max_abs(tb.position - ta.position) + size + inner);
+  const S size = min(solid.half, solid.radii[0]);
+  const S tolerance = axis_tolerance(size, b.core.inner_radius, tb.position - ta.position);
   collide_revolved_polyhedron(solid, ta, b.core, tb, margin + b.radius, out);
   const CoreGap<S> gap = gap_between(solid, ta, b.core, tb, tolerance * S(0.125));
   if (!gap.is_apart || gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance))

@@ -43,7 +43,7 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
       case ShapeType::hull: {
         const Hull<S> hull = shape_as<Hull>(a);
         if (!hull.is_rounded()) return collide_polyhedron_triangle(hull.polyhedron(), ta, frame, baked, margin, out);
-        return collide_rounded_triangle<S>({hull.polyhedron(), hull.radius}, ta, frame, baked, margin, out);
+        return collide_rounded_triangle(rounded_of(hull), ta, frame, baked, margin, out);
       }
       case ShapeType::cylinder:
       case ShapeType::cone:

@@ -25,6 +25,15 @@ template <class S> struct Polyhedron {
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
   ISO_INLINE std::uint32_t edges() const { return directions.size(); }
+  /// triangle(i, j, k) of vertices, for a face as a fan about its lowest.
+  template <class Triangle> ISO_INLINE void visit_fan(std::uint32_t face, const Triangle& triangle) const {
+    const std::uint32_t first = faces[face];
+    std::uint32_t edge = half_edges[first].next;
+    for (std::uint32_t next = half_edges[edge].next; next != first; next = half_edges[next].next) {
+      triangle(origin(first), origin(edge), origin(next));
+      edge = next;
+    }
+  }
   /// visit(half_edge) for all that leave a vertex, around it.
   template <class Visit> ISO_INLINE void visit_spokes(std::uint32_t vertex, const Visit& visit) const {
     const std::uint32_t first = spokes[vertex];

@@ -73,20 +73,16 @@ template <class S> class RoundedDrawing {
   ISO_INLINE Vec3<S> middle_of(std::uint32_t vertex) const {
     const U share = divide_to<U>(S(1), S(static_cast<std::int32_t>(solid_.faces.size())));
     Vec3<U> sum = Vec3<U>::zero();
-    for (std::uint32_t e = 0; e < solid_.half_edges.size(); ++e) {
-      if (solid_.origin(e) == vertex) sum += solid_.normals[solid_.half_edges[e].face] * share;
-    }
+    solid_.visit_spokes(vertex, [&](std::uint32_t half_edge) ISO_INLINE_LAMBDA {
+      sum += solid_.normals[solid_.half_edges[half_edge].face] * share;
+    });
     return normalise(sum) * radius_;
   }
   template <class Triangle> ISO_INLINE void visit_face(std::uint32_t f, const Triangle& triangle) const {
     const Vec3<S> out = solid_.normals[f] * radius_;
-    const std::uint32_t first = solid_.faces[f];
-    std::uint32_t edge = solid_.half_edges[first].next;
-    for (std::uint32_t next = solid_.half_edges[edge].next; next != first; next = solid_.half_edges[next].next) {
-      triangle(solid_.vertices[solid_.origin(first)] + out, solid_.vertices[solid_.origin(edge)] + out,
-               solid_.vertices[solid_.origin(next)] + out);
-      edge = next;
-    }
+    solid_.visit_fan(f, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) ISO_INLINE_LAMBDA {
+      triangle(solid_.vertices[i] + out, solid_.vertices[j] + out, solid_.vertices[k] + out);
+    });
   }
 
   Polyhedron<S> solid_;

@@ -112,13 +112,10 @@ template <class S = Literal> struct Hull {
   template <class Triangle> ISO_INLINE void visit_triangles(const Triangle& triangle) const {
     const Polyhedron<S> solid = polyhedron();
     if (is_rounded()) return detail::RoundedDrawing<S>(solid, radius).visit_triangles(triangle);
-    for (const std::uint32_t first : solid.faces) {
-      std::uint32_t edge = solid.half_edges[first].next;
-      for (std::uint32_t next = solid.half_edges[edge].next; next != first; next = solid.half_edges[next].next) {
-        triangle(solid.vertices[solid.origin(first)], solid.vertices[solid.origin(edge)],
-                 solid.vertices[solid.origin(next)]);
-        edge = next;
-      }
+    for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+      solid.visit_fan(f, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) ISO_INLINE_LAMBDA {
+        triangle(solid.vertices[i], solid.vertices[j], solid.vertices[k]);
+      });
     }
   }
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
