@@ -30,6 +30,7 @@
 #include "isostep/geometry/baked/rounded_polyhedron.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
+#include "isostep/math/instantiate.inl"
 #include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
 #include "isostep/world/debug_draw.inl"
@@ -49,6 +50,7 @@
   static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");                   \
   ISO_SCALAR_MATH_OF(, OwnScalar)                                                                                     \
   ISO_SCALAR_MATH_BETWEEN(, OwnScalar)                                                                                \
+  ISO_MATH_OF(, OwnScalar)                                                                                            \
   template struct HullContent<OwnScalar>;                                                                             \
   ISO_CONTENT_OF(, OwnScalar)                                                                                         \
   template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar,         \
