@@ -89,7 +89,7 @@ enum class Drive {
   commands,
   springs,  // that held some at the start
   motors,   // of joints
-  movers    // kinematic bodies and belts, which have as much as they like
+  movers    // kinematic bodies, belts and forces, which have as much as they like
 };
 inline constexpr int kDrives = 4;
 

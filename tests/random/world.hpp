@@ -4,6 +4,7 @@
 #pragma once
 
 #include "random/energy_book.hpp"
+#include "random/forces.hpp"
 #include "random/parts.hpp"
 #include "random/terrain.hpp"
 
@@ -57,6 +58,7 @@ template <class S> class RandomWorld {
   static void command(World<S>& w, std::uint64_t seed, std::uint64_t frame,
                       std::vector<AppliedForce>* forces = nullptr) {
     dig(w, seed, frame);
+    change_forces(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -169,6 +171,12 @@ template <class S> class RandomWorld {
     patch.heights = heights;
     if (dice.one_in(4)) patch.materials = holes;
     w.set_heights(shape, 0, patch);
+  }
+  /// In worlds whose energy no law bounds. Dice of its own.
+  static void change_forces(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 15485863 + frame * 32452843 + 29);
+    if (dice.one_in(6)) RandomForces<S>(w, dice).change();
   }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {

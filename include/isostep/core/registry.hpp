@@ -13,8 +13,9 @@ namespace isostep {
 /// A free slot holds Record{}, whose meaning is that nothing is there.
 template <class Record, class IdType> class Registry {
  public:
-  ISO_INLINE IdType add(const Record& record) {
-    const IdType id = slots_.template take<IdType>();
+  /// `space`: of a world's ids, see SlotMap.
+  ISO_INLINE IdType add(const Record& record, std::uint32_t space = 0) {
+    const IdType id = slots_.template take<IdType>(space);
     std::vector<Record>& all = records_.change();
     if (id.slot < all.size()) all[id.slot] = record;
     else all.push_back(record);
@@ -22,9 +23,13 @@ template <class Record, class IdType> class Registry {
   }
   ISO_INLINE bool remove(IdType id) {
     if (!slots_.holds(id)) return false;
-    records_.change()[id.slot] = Record{};
-    slots_.give_back(id.slot);
+    remove_at(id.slot);
     return true;
+  }
+  /// Of a slot that is taken.
+  ISO_INLINE void remove_at(std::uint32_t slot) {
+    records_.change()[slot] = Record{};
+    slots_.give_back(slot);
   }
   ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
   /// Null for a stale id.

@@ -9,30 +9,9 @@
 #include "isostep/particles/spring.hpp"
 #include "isostep/particles/touch.hpp"
 #include "isostep/state/command_log.hpp"
+#include "isostep/state/record_commands.hpp"
 
 namespace isostep {
-
-/// Registers a record: a material, spring, force, cohesion, link or collider.
-template <class Record> struct AddRecord {
-  Record record;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("record", self.record);
-  }
-};
-template <class Record, class IdType> struct SetRecord {
-  IdType id;
-  Record record;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-    visit("record", self.record);
-  }
-};
-template <class IdType> struct RemoveRecord {
-  IdType id;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-  }
-};
 
 template <class S> struct CreateParticle {
   ParticleDefinition<S> definition;

@@ -158,6 +158,12 @@ template <class Visitor> class StateFields {
     if constexpr (Visitor::kEdits) arrays(visit_, value.change());
     else arrays(visit_, *value);
   }
+  template <class Records> void records(Records& value) const {
+    if (value->untouched()) return;
+    using Value = std::remove_cvref_t<decltype(*value)>;
+    if constexpr (Visitor::kEdits) Value::members(*this, value.change());
+    else Value::members(*this, *value);
+  }
   template <class Store> void store(const char* name, const Store& value) const { visit_(name, value->names()); }
   template <class List> void islands(const char* name, const List& list) const {
     visit_.each(name, list.size(), [&](const Visitor& of_island, std::size_t i) {

@@ -22,6 +22,8 @@
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) visits its vectors, two at most
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
+//   visit.records(value)         Shared<T>: registries that T::members visits. A state to which none was ever added has
+//                                the hash and the portable form of one that knows of none
 //   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all; a state
 //                                without any has the hash and the portable form of one that knows of no store
 
@@ -77,6 +79,9 @@ class StateHasher {
     }
     add_page(combiner_, list.pages() - 1);
   }
+  template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
+    if (!value->untouched()) Records::members(*this, *value);
+  }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     if (value->empty()) return;
     combiner_.add(value.remembered().get(
@@ -104,6 +109,7 @@ class StateSize {
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     bytes_ += list.pages() * sizeof(void*);
   }
+  template <class Records> ISO_INLINE void records(const Shared<Records>&) {}
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>&) {}
 
  private:
@@ -130,6 +136,9 @@ class StateWriter {
     writer_.write_count(list.size());
     for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
   }
+  template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
+    if (!value->untouched()) Records::members(*this, *value);
+  }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     if (!value->empty()) value->write(writer_);
   }
@@ -143,11 +152,11 @@ struct ReadNoStore {
   template <class Store> ISO_INLINE void operator()(Store&) const {}
 };
 /// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
-/// `read_store`: of a store that may be changed, when its turn comes.
+/// `read_store`: of a store that may be changed, when its turn comes. `has_records`: whether there are any.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
-  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {})
-      : reader_(reader), read_store_(std::move(read_store)) {}
+  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {}, bool has_records = false)
+      : reader_(reader), read_store_(std::move(read_store)), has_records_(has_records) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
   ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
@@ -171,11 +180,15 @@ template <class ReadStore = ReadNoStore> class StateReader {
       list.push_back(std::move(island));
     }
   }
+  template <class Records> ISO_INLINE void records(Shared<Records>& value) {
+    if (has_records_) Records::members(*this, value.change());
+  }
   template <class Store> ISO_INLINE void store(const char*, Shared<Store>& value) { read_store_(value.change()); }
 
  private:
   Reader& reader_;
   ReadStore read_store_;
+  bool has_records_;
 };
 
 }  // namespace isostep::detail

@@ -61,6 +61,13 @@ template <class S> class CommandExecutor {
   bool check(const BodyDefinition<S>& definition);
   bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
   bool check_ends(const JointProperties<S>& joint);
+  template <class Record> bool check_force(const Record& record);
+  template <class Record> ISO_INLINE bool check_spring(const Record&) { return true; }
+  bool check_spring(const BodySpring<S>& spring);
+  template <class Record> void wake_for_force(const Record& record);
+  template <class Record> auto add_force(const Record& record);
+  template <class Record, class IdType> bool set_force(IdType id, const Record& record);
+  template <class IdType> bool remove_force(IdType id);
 
   static BodyProperties<S> properties_of(const BodyDefinition<S>& definition);
   bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);

@@ -30,6 +30,7 @@ template <class S> class Destruction {
 
  private:
   void destroy_joints_of(std::uint32_t slot);
+  void remove_forces_of(std::uint32_t slot);
   void tell_ends();
   void erase_what_names_them();
   void erase_records();

@@ -13,6 +13,7 @@ template <class S> void Destruction<S>::mark(std::uint32_t slot) {
   wake_.wake_touching(slot);
   destroy_joints_of(slot);
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
+  remove_forces_of(slot);
   proxies_.remove(slot);
   marked_.push_back(slot);
   is_marked_.set(slot);
@@ -84,6 +85,26 @@ template <class S> void Destruction<S>::destroy_joint(std::uint32_t slot) {
   wake_.wake_joint(slot);
   map_.erase_joint(slot);
   state_.joint_slots.give_back(slot);
+}
+
+/// The records that name it.
+template <class S> void Destruction<S>::remove_forces_of(std::uint32_t slot) {
+  const auto each = [slot](const auto& registry, const auto& visit) {
+    for (std::uint32_t i = 0; i < registry.all().size(); ++i) {
+      const BodyId a = detail::first_body_of(registry.all()[i]), b = detail::second_body_of(registry.all()[i]);
+      if ((a && a.slot == slot) || (b && b.slot == slot)) visit(i);
+    }
+  };
+  bool any = false;
+  ForceRecords<S>::members(
+      [&](const char*, const auto& registry) { each(registry, [&](std::uint32_t) { any = true; }); },
+      *state_.force_records);
+  if (!any) return;
+  ForceRecords<S>::members(
+      [&](const char*, auto& registry) {
+        each(registry, [&](std::uint32_t i) { registry.remove_at(i); });
+      },
+      state_.force_records.change());
 }
 
 /// In order of their slots.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/carriers.inl"
+#include "isostep/world/body_forces.inl"
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/body_map.inl"
 #include "isostep/world/contact_events.inl"
@@ -29,7 +30,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   tell_untold();
   after(Stage::find_pairs);
   render_poses_.keep_start();
-  solver_.take_forces(report_);
+  solver_.take_forces();
   after(Stage::apply_forces);
   report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_);
   const Settings<S>& settings = state_.settings;
@@ -38,6 +39,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_manifolds);
   const bool watched = observer.after != nullptr || journal_.is_tracing();
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
+  solver_.report_forces(report_);
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
   continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs());
@@ -99,6 +101,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class PartPairs<S>;                                                                              \
   template class NarrowPhase<S>;                                                                            \
   template class Carriers<S>;                                                                               \
+  template class BodyForces<S>;                                                                             \
   template class StepSolver<S>;                                                                             \
   template class BodyFinisher<S>;                                                                           \
   template class ContinuousCollision<S>;                                                                    \

@@ -92,6 +92,9 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const JointProperties<S>& joint : state_.joints.properties) {
     if (joint.body_a != kNoBody && joint.body_b != kNoBody) tie(joint.body_a, joint.body_b);
   }
+  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+    if (spring.a && spring.b) tie(spring.a.slot, spring.b.slot);
+  }
 }
 
 /// How long all bodies of an island have rested.
@@ -102,14 +105,20 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
     std::uint32_t& clock = clock_[islands_.find(static_cast<std::uint32_t>(i))];
     clock = min(clock, state_.awake.states[i].sleep_clock);
   }
-  // A joint to something driven keeps an island awake as a contact does.
-  for (const JointProperties<S>& joint : state_.joints.properties) {
-    for (const auto& [here, there] : {std::pair{joint.body_a, joint.body_b}, std::pair{joint.body_b, joint.body_a}}) {
-      if (here == kNoBody || there == kNoBody || is_dynamic(here) || !is_dynamic(there)) continue;
+  // A joint or spring to something driven keeps an island awake as a contact does.
+  const auto keep_awake = [&](std::uint32_t a, std::uint32_t b) {
+    for (const auto& [here, there] : {std::pair{a, b}, std::pair{b, a}}) {
+      if (is_dynamic(here) || !is_dynamic(there)) continue;
       const Location at = map_.location(here);
       if (at.set == Location::kAwake && map_.state_at(at).sleep_clock == 0)
         clock_[islands_.find(map_.location(there).index)] = 0;
     }
+  };
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    if (joint.body_a != kNoBody && joint.body_b != kNoBody) keep_awake(joint.body_a, joint.body_b);
+  }
+  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+    if (spring.a && spring.b) keep_awake(spring.a.slot, spring.b.slot);
   }
 }
 

@@ -36,8 +36,8 @@ template <class S> class IslandWake {
   void wake_touching(std::uint32_t slot);
   /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
-  /// Every island with a joint to, or a contact with, a body that no island holds. Its box need not meet theirs any
-  /// more: a contact sleeps as the last step found it.
+  /// Every island with a joint or spring to, or a contact with, a body that no island holds. Its box need not meet
+  /// theirs any more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);

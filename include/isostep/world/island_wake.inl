@@ -83,6 +83,10 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
     if (held) start_waking(i);
   }
   merge_woken();
+  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+    if (spring.a && spring.b && (spring.a.slot == slot || spring.b.slot == slot))
+      wake(spring.a.slot == slot ? spring.b.slot : spring.a.slot);
+  }
 }
 
 template <class S> std::uint32_t IslandWake<S>::wake_joint(std::uint32_t slot) {

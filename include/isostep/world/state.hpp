@@ -13,6 +13,7 @@
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/forces/force_list.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/geometry/geometry_store.hpp"
 #include "isostep/geometry/shape.hpp"
@@ -119,6 +120,7 @@ template <class S> struct WorldState {
   std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
   std::vector<PendingForce<S>> forces;
+  Shared<ForceRecords<S>> force_records;
   std::vector<SensorOverlap> overlaps;
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
@@ -147,6 +149,7 @@ template <class S> struct WorldState {
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
     visit.islands("sleeping", self.sleeping);
+    visit.records(self.force_records);
     visit.store("blobs", self.geometry);
   }
 };

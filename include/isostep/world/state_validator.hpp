@@ -10,6 +10,7 @@
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
+#include "isostep/world/force_checks.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -265,7 +266,46 @@ template <class S> class StateValidator {
         return "an overlap names no two bodies";
       if (i > 0 && !(state_.overlaps[i - 1] < state_.overlaps[i])) return "overlaps ascend";
     }
+    if (const char* rule = force_records()) return rule;
     return untold();
+  }
+  const char* force_records() const {
+    const char* broken = nullptr;
+    ForceRecords<S>::members(
+        [&](const char*, const auto& registry) {
+          if (broken == nullptr) broken = force_records(registry);
+        },
+        *state_.force_records);
+    return broken;
+  }
+  template <class Record, class IdType> const char* force_records(const Registry<Record, IdType>& registry) const {
+    const std::vector<Record>& all = registry.all();
+    if (all.size() != registry.slots().entries().size()) return "force records are not one a slot";
+    if (!lie_in(registry.slots(), state_.settings.id_space)) return "a force's slot is of another id space";
+    for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
+      if (!registry.is_taken(slot)) {
+        if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot])) return "a free force names a body";
+        continue;
+      }
+      if (detail::fault_of(all[slot]) != Fault::none) return "a force record is out of range";
+      const detail::NamedBodies<S> bodies = detail::bodies_of(all[slot]);
+      for (int i = 0; i < bodies.count; ++i) {
+        if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
+      }
+      if (!ties_well(all[slot])) return "a spring ties two islands";
+    }
+    return nullptr;
+  }
+  bool names_well(const detail::NamedBody<S>& named) const {
+    if (!named.body) return named.may_be_null;
+    return state_.body_slots.holds(named.body) &&
+           (!named.must_move || type_of_body_[named.body.slot] == BodyType::dynamic);
+  }
+  template <class Record> bool ties_well(const Record&) const { return true; }
+  bool ties_well(const BodySpring<S>& spring) const {
+    const auto moves = [&](BodyId body) { return body && type_of_body_[body.slot] == BodyType::dynamic; };
+    if (!moves(spring.a) && !moves(spring.b)) return false;
+    return !moves(spring.a) || !moves(spring.b) || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
   }
   const char* untold() const {
     const std::vector<ContactEnd>& contacts = state_.untold.contact_end;

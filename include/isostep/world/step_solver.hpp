@@ -7,6 +7,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
+#include "isostep/world/body_forces.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/step_tools.hpp"
@@ -22,7 +23,9 @@ template <class S> class StepSolver {
   StepSolver(WorldState<S>& state, const BodyMap<S>& map);
 
   /// Takes the forces that commands left in the state.
-  void take_forces(StepReport& report);
+  ISO_INLINE void take_forces() { forces_.begin_step(); }
+  /// After the last sub-step.
+  ISO_INLINE void report_forces(StepReport& report) { forces_.end_step(report); }
   /// `watched`: somebody looks between the stages.
   StepContext<S> context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
                          const StepTools<S>& tools, bool watched);
@@ -35,7 +38,7 @@ template <class S> class StepSolver {
   /// Parallel to the awake bodies: 1 for what turned faster than a step of integration bears.
   ISO_INLINE std::span<const std::uint8_t> cut() const { return cut_; }
 
-  template <class Visit> void visit_forces(const Visit& visit) { visit("accelerations", accelerations_); }
+  template <class Visit> void visit_forces(const Visit& visit) { forces_.visit_scratch(visit); }
   template <class Visit> void visit_impulses(const Visit& visit) { visit("step_impulses", impulses_); }
   template <class Visit>
   void visit_solver(const Visit& visit, SolverStage stage, std::span<const ContactGeometry<S>> geometry) {
@@ -50,7 +53,7 @@ template <class S> class StepSolver {
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   Solvers<S> solvers_;
-  std::vector<Acceleration<S>> accelerations_;  // by awake body, or empty
+  BodyForces<S> forces_{state_, map_};
   std::vector<JointEnds<S>> joint_ends_;
   std::vector<Velocity<S>> impulses_;
   std::vector<std::uint8_t> cut_;

@@ -9,17 +9,6 @@ namespace isostep {
 
 template <class S> StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-template <class S> void StepSolver<S>::take_forces(StepReport& report) {
-  accelerations_.clear();
-  if (state_.forces.empty()) return;
-  accelerations_.resize(state_.awake.states.size(), Acceleration<S>{Vec3<S>::zero(), Vec3<S>::zero()});
-  for (const PendingForce<S>& force : state_.forces) {
-    accelerations_[map_.location(force.slot).index] = {force.linear, force.angular};
-    report.clamped_force += force.cut;
-  }
-  state_.forces.clear();
-}
-
 template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
                                       const StepTools<S>& tools, bool watched) {
@@ -33,7 +22,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
   cut_.assign(state_.awake.states.size(), 0);
   return {state_.awake.states,
           state_.awake.properties,
-          accelerations_,
+          forces_.accelerations(),
           state_.contacts,
           geometry,
           impulses_,
@@ -48,6 +37,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           tools.contact_kernels,
           tools.tree_kernels,
           carried,
+          forces_.substeps(),
           cut_};
 }
 

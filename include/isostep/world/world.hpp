@@ -130,6 +130,18 @@ template <class S> class World final {
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
 
+  // Forces that act from step to step, as records: each kind of force_list.hpp. They act on what is awake; adding one,
+  // changing or removing it wakes the bodies that it names, and those of zones and attractors all. They go with the
+  // bodies that they name.
+#define ISO_FORCE(name, Record, Id, S)   \
+  Id add(const Record& record);          \
+  bool set(Id id, const Record& record); \
+  bool remove(Id id);                    \
+  /* Null for a stale id; until the next command or load. */ \
+  const Record* find(Id id) const;
+  ISO_FOR_EACH_FORCE(ISO_FORCE, S)
+#undef ISO_FORCE
+
   /// Every mutator above is one of these with its fields as arguments: command.hpp.
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
   ISO_FOR_EACH_COMMAND(ISO_APPLY, S)

@@ -11,6 +11,7 @@
 #include "isostep/world/engine_state.inl"
 #include "isostep/world/execute_bodies.inl"
 #include "isostep/world/execute_forces.inl"
+#include "isostep/world/execute_force_records.inl"
 #include "isostep/world/execute_joints.inl"
 #include "isostep/world/execute_shapes.inl"
 #include "isostep/world/state_loader.inl"
@@ -96,6 +97,15 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   }
   return apply(command);
 }
+#define ISO_FORCE(name, Record, Id, S)                                                                              \
+  template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); }            \
+  template <class S> bool World<S>::set(Id id, const Record& record) { return apply(SetForce<Record>{id, record}); } \
+  template <class S> bool World<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                           \
+  template <class S> const Record* World<S>::find(Id id) const {                                                    \
+    return detail::registry_of(*engine_->state_.force_records, id).find(id);                                        \
+  }
+ISO_FOR_EACH_FORCE(ISO_FORCE, S)
+#undef ISO_FORCE
 template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
 template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch) {
   return apply(SetHeights{shape,

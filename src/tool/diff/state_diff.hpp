@@ -80,6 +80,9 @@ class RowKeys {
     arrays(*this, *value);
   }
   template <class List> void islands(const char*, const List&) {}
+  template <class Records> void records(const Records& value) {
+    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
+  }
   template <class Store> void store(const char*, const Store&) {}
 
   const std::vector<RowKey>* find(const std::string& name) const {
@@ -106,6 +109,9 @@ struct MemberList {
     arrays(*this, *value);
   }
   template <class List> void islands(const char*, const List& list) { members.push_back(&list); }
+  template <class Records> void records(const Records& value) {
+    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
+  }
   template <class Store> void store(const char*, const Store& value) { members.push_back(&value); }
 };
 
@@ -137,6 +143,9 @@ class StateDiffer {
   }
   template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
     arrays(*this, *value);
+  }
+  template <class Records> void records(const Records& value) {
+    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
   }
   template <class Store> void store(const char* name, const Store& a) {
     rows(PathPart{outer_, name, 0}, name, a->names(), other(a)->names());

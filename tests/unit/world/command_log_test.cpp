@@ -9,6 +9,24 @@
 namespace isostep::test {
 namespace {
 
+template <class S> ForceZone<S> broken(ForceZone<S> zone) {
+  zone.half.x = S(-1);
+  return zone;
+}
+template <class S> Attractor<S> broken(Attractor<S> attractor) {
+  attractor.least_distance = S(0);
+  return attractor;
+}
+template <class S> BodySpring<S> broken(BodySpring<S> spring) {
+  spring.stiffness = S(-1);
+  return spring;
+}
+/// Of what acts on one body: on none.
+template <class Record> Record broken(Record record) {
+  record.body = {};
+  return record;
+}
+
 template <class S> class CommandLogs : public ::testing::Test {};
 TYPED_TEST_SUITE(CommandLogs, AllScalars);
 
@@ -67,7 +85,38 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
                    [&](auto& w) { return w.set_heights(ground, 0, {1, 1, 1, 1, one}); }));
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one},
                     [&](auto& w) { return w.set_heights(ground, 1, {1, 1, 1, 1, one}); }));
-  static_assert(std::variant_size_v<Command<S>> == 18, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 39, "a command more: test it here");
+
+  // Forces: of each kind the same three.
+  EXPECT_TRUE(both(WakeBody{b}, [&](auto& w) { return w.wake(b); }));
+  const auto each = [&](auto record, auto id) {
+    using Record = decltype(record);
+    EXPECT_TRUE(both(AddRecord<Record>{record}, [&](auto& w) { return w.add(record); }));
+    EXPECT_FALSE(both(AddRecord<Record>{broken(record)}, [&](auto& w) { return w.add(broken(record)); }));
+    EXPECT_TRUE(both(SetForce<Record>{id, record}, [&](auto& w) { return w.set(id, record); }));
+    EXPECT_NE(called.find(id), nullptr);
+    called.step();
+    told.step();
+    EXPECT_EQ(called.hash(), told.hash());
+    EXPECT_TRUE(both(RemoveRecord<decltype(id)>{id}, [&](auto& w) { return w.remove(id); }));
+    EXPECT_FALSE(both(RemoveRecord<decltype(id)>{id}, [&](auto& w) { return w.remove(id); }));
+    EXPECT_EQ(called.find(id), nullptr);
+  };
+  each(ForceZone<S>{}, ForceZoneId{0, 1});
+  each(Attractor<S>{}, AttractorId{0, 1});
+  BodySpring<S> spring;
+  spring.a = b;
+  each(spring, BodySpringId{0, 1});
+  Thruster<S> thruster;
+  thruster.body = b;
+  each(thruster, ThrusterId{0, 1});
+  BuoyancyPoint<S> buoyancy;
+  buoyancy.body = b;
+  each(buoyancy, BuoyancyId{0, 1});
+  each(BodyDrag<S>{b, S(1), S(1), S(1)}, DragId{0, 1});
+  AeroSurface<S> surface;
+  surface.body = b;
+  each(surface, AeroSurfaceId{0, 1});
 }
 
 TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {

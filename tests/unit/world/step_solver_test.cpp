@@ -34,13 +34,15 @@ TYPED_TEST(StepSolvers, forces_become_accelerations_and_leave_the_state) {
   using S = TypeParam;
   this->systems.state.forces = {{this->awake.slot, 1, vec<S>(3, 0, 0), vec<S>(0, 0, 5)}};
   StepReport report;
-  this->solver.take_forces(report);
+  this->solver.take_forces();
+  this->solver.report_forces(report);
   EXPECT_TRUE(this->systems.state.forces.empty());
   EXPECT_EQ(report.clamped_force, 1u);
   const StepContext<S> context = this->solver.context({}, {}, this->tools, false);
   ASSERT_EQ(context.accelerations.size(), 1u);
   EXPECT_EQ(context.accelerations[0].linear, vec<S>(3, 0, 0));
-  this->solver.take_forces(report);
+  this->solver.take_forces();
+  this->solver.report_forces(report);
   EXPECT_TRUE(this->solver.context({}, {}, this->tools, false).accelerations.empty());
 }
 

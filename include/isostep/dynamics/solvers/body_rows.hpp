@@ -19,6 +19,10 @@ template <class S> class BodyRows {
   /// Once a step: velocities and masses of context.states, no displacement.
   void gather(const StepContext<S>& context);
 
+  /// Before the velocities of a sub-step.
+  ISO_INLINE void renew_forces(const StepContext<S>& context, std::int32_t rate) const {
+    if (context.forces.renew != nullptr) context.forces.renew(context.forces.forces, rows_, rate);
+  }
   // Bodies first..end-1, by 1 / rate seconds.
   void integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
   /// Whether contacts are to follow any of them.

@@ -189,6 +189,7 @@ template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
 template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& context) {
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
+    bodies_.renew_forces(context, rate_);
     bodies_.integrate_velocities(context, rate_, 0, count);
     for (const Carried<S>& carried : context.carried) {
       Block& block = block_of(context, carried.contact);

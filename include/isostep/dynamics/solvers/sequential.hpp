@@ -63,6 +63,7 @@ template <class S> class Sequential {
   /// What the pieces of one stage do.
   enum class Work : std::uint32_t {
     prepare,
+    renew_forces,
     integrate_velocities,
     warm_start_joints,
     warm_start,

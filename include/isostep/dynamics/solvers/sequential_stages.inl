@@ -53,6 +53,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
     case Work::begin_contacts: solver.carry(job.context); return solver.forget_impulses(job.context);
     case Work::follow: return solver.follow(job.context);
+    case Work::renew_forces: return solver.bodies_.renew_forces(job.context, solver.schedule_.rate);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -108,6 +109,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
   joint_trees_.plan(joints_.all(), bodies_.rows(), context.tree_kernels, schedule_.joint_order);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
+    if (context.forces.renew != nullptr) add_stage(Work::renew_forces, 1);
     add_stage(Work::integrate_velocities, body_pieces_);
     add_stage(Work::begin_contacts, 1);
     add_stage(Work::warm_start_joints, joints);

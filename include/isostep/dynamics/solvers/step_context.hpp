@@ -11,6 +11,7 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
+#include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/geometry/limits.hpp"
@@ -26,6 +27,13 @@ template <class S> struct Acceleration {
     visit("linear", self.linear);
     visit("angular", self.angular);
   }
+};
+
+/// Renews StepContext::accelerations as a sub-step begins, where forces depend on how bodies lie and move. Called by
+/// one thread, before velocities are integrated over 1 / rate seconds. No function: they are the same throughout.
+template <class S> struct SubstepForces {
+  void (*renew)(void* forces, const SolverBodies<S>& bodies, std::int32_t rate) = nullptr;
+  void* forces = nullptr;
 };
 
 /// No body turns by more than a radian in a step of integration [rad/s]: beyond, a turn is no longer small. What turns
@@ -54,6 +62,7 @@ template <class S> struct StepContext {
   const ContactKernels<S>* contact_kernels;
   const TreeKernels<S>* tree_kernels;
   std::span<const Carried<S>> carried = {};  // ascending by contact
+  SubstepForces<S> forces = {};
   std::span<std::uint8_t> cut = {};          // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
 };
 

@@ -28,6 +28,7 @@ void WorstFirstResolver<S>::begin_velocities(const StepContext<S>& context, cons
   SolverBodies<S>& bodies = bodies_.rows();
   const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
+  bodies_.renew_forces(context, rate);
   bodies_.integrate_velocities(context, rate, 0, bodies_.count());
   std::size_t next = 0;
   for (Point& row : points_) {

@@ -1,0 +1,33 @@
+// Attractor: gravity towards a point or a body, by the inverse square of the distance.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using AttractorId = Id<struct AttractorTag>;
+
+/// Every dynamic body that is awake, of a category of the mask and nearer than `range`, is accelerated by
+/// strength / max(distance, least_distance)^2 towards the point. An attracting body that is dynamic is pulled back as
+/// much: momentum stays. What sleeps is left asleep.
+template <class S> struct Attractor {
+  BodyId body = {};                    // whose centre of mass attracts; null: the point
+  Vec3<S> point = {S(0), S(0), S(0)};  // [m] world
+  S strength = S(0);                   // [m^3/s^2] the constant of gravitation times the mass; negative: pushes away
+  S least_distance = S(1);             // [m]
+  S range = S(0);                      // [m] 0: everywhere
+  std::uint32_t mask = 0xffffffffu;    // categories: Filter
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("point", self.point);
+    visit("strength", self.strength);
+    visit("least_distance", self.least_distance);
+    visit("range", self.range);
+    visit("mask", self.mask);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,29 @@
+// BodyDrag: what a fluid takes from a body's motion.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using DragId = Id<struct BodyDragTag>;
+
+/// Force -v (linear + quadratic |v|) at the centre of mass, torque -angular w, with v the velocity through the air:
+/// less the wind of the zones around the centre. Stable whatever the coefficients, and exact at the speed at which it
+/// balances a steady force.
+template <class S> struct BodyDrag {
+  BodyId body = {};
+  S linear = S(0);     // [N s/m]
+  S quadratic = S(0);  // [N s^2/m^2]
+  S angular = S(0);    // [N m s]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("linear", self.linear);
+    visit("quadratic", self.quadratic);
+    visit("angular", self.angular);
+  }
+};
+
+}  // namespace isostep

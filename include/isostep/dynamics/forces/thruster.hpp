@@ -1,0 +1,24 @@
+// Thruster: a force that turns with its body.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using ThrusterId = Id<struct ThrusterTag>;
+
+template <class S> struct Thruster {
+  BodyId body = {};
+  Vec3<S> point = {S(0), S(0), S(0)};  // [m] body frame
+  Vec3<S> force = {S(0), S(0), S(0)};  // [N] body frame
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("point", self.point);
+    visit("force", self.force);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,148 @@
+// What is required of force records: the same rules for commands and for states read from files.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/forces/force_list.hpp"
+#include "isostep/world/checks.hpp"
+
+namespace isostep::detail {
+
+inline constexpr char kZeroOrMore[] = "0 or more";
+
+template <class S> FaultReport fault_of(const ForceZone<S>& z) {
+  const S speed = Limits<S>::speed();
+  return Checklist()
+      .proper(z.shape <= ZoneShape::box, "shape", "one of ZoneShape")
+      .also(fault_of_place(z.pose.position, "pose.position"))
+      .proper(is_unit<S>(z.pose.orientation), "pose.orientation", kUnitLength)
+      .finite(z.half, "half")
+      .finite(z.acceleration, "acceleration")
+      .finite(z.wind, "wind")
+      .in_range(within(z.half, Limits<S>::position()), "half", "0 to Limits::position()")
+      .in_range(within(z.acceleration, speed), "acceleration", "components up to Limits::speed()")
+      .in_range(no_longer(z.wind, speed), "wind", kWithinSpeed)
+      .proper(S(0) <= z.half.x && S(0) <= z.half.y && S(0) <= z.half.z, "half", "0 to Limits::position()")
+      .report();
+}
+template <class S> FaultReport fault_of(const Attractor<S>& a) {
+  return Checklist()
+      .also(fault_of_place(a.point, "point"))
+      .finite(a.strength, "strength")
+      .finite(a.least_distance, "least_distance")
+      .finite(a.range, "range")
+      .in_range(a.range <= Limits<S>::position(), "range", "0 to Limits::position()")
+      .in_range(Limits<S>::minimum_size() <= a.least_distance, "least_distance", "Limits::minimum_size() or more")
+      .proper(S(0) <= a.range, "range", "0 to Limits::position()")
+      .report();
+}
+template <class S> FaultReport fault_of(const BodySpring<S>& s) {
+  return Checklist()
+      .also(fault_of_place(s.anchor_a, "anchor_a"))
+      .also(fault_of_place(s.anchor_b, "anchor_b"))
+      .finite(s.rest_length, "rest_length")
+      .finite(s.stiffness, "stiffness")
+      .finite(s.damping, "damping")
+      .in_range(s.rest_length <= Limits<S>::position(), "rest_length", "0 to Limits::position()")
+      .proper(S(0) <= s.rest_length, "rest_length", "0 to Limits::position()")
+      .proper(S(0) <= s.stiffness, "stiffness", kZeroOrMore)
+      .proper(S(0) <= s.damping, "damping", kZeroOrMore)
+      .proper(!(s.a == s.b), "b", "another body than a")
+      .report();
+}
+template <class S> FaultReport fault_of(const Thruster<S>& t) {
+  return Checklist().also(fault_of_place(t.point, "point")).finite(t.force, "force").report();
+}
+template <class S> FaultReport fault_of(const BuoyancyPoint<S>& b) {
+  return Checklist()
+      .also(fault_of_place(b.point, "point"))
+      .finite(b.max_depth, "max_depth")
+      .finite(b.volume, "volume")
+      .finite(b.surface_height, "surface_height")
+      .finite(b.density, "density")
+      .in_range(b.max_depth <= Limits<S>::extent(), "max_depth", "above 0, up to Limits::extent()")
+      .in_range(within(b.surface_height, Limits<S>::position()), "surface_height", "a size up to Limits::position()")
+      .proper(S(0) < b.max_depth, "max_depth", "above 0, up to Limits::extent()")
+      .proper(S(0) <= b.volume, "volume", kZeroOrMore)
+      .proper(S(0) <= b.density, "density", kZeroOrMore)
+      .report();
+}
+template <class S> FaultReport fault_of(const BodyDrag<S>& d) {
+  return Checklist()
+      .finite(d.linear, "linear")
+      .finite(d.quadratic, "quadratic")
+      .finite(d.angular, "angular")
+      .proper(S(0) <= d.linear, "linear", kZeroOrMore)
+      .proper(S(0) <= d.quadratic, "quadratic", kZeroOrMore)
+      .proper(S(0) <= d.angular, "angular", kZeroOrMore)
+      .report();
+}
+template <class S> bool is_finite_matrix(const Mat3<S>& m) {
+  return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
+}
+template <class S> FaultReport fault_of(const AeroSurface<S>& a) {
+  constexpr char kFinite[] = "finite numbers", kControl[] = "-1 to 1";
+  return Checklist()
+      .also(fault_of_place(a.point, "point"))
+      .proper(is_unit<S>(a.orientation), "orientation", kUnitLength)
+      .ask(is_finite_matrix(a.tensor), Fault::not_finite, "tensor", kFinite)
+      .ask(is_finite_matrix(a.low), Fault::not_finite, "low", kFinite)
+      .ask(is_finite_matrix(a.high), Fault::not_finite, "high", kFinite)
+      .finite(a.control, "control")
+      .proper(within(a.control, S(1)), "control", kControl)
+      .report();
+}
+
+/// What a record requires of the bodies that it names: the name of each field, whether it may be null, whether it has
+/// to be dynamic, and where on it the force acts.
+template <class S> struct NamedBody {
+  BodyId body;
+  const char* field;
+  bool may_be_null, must_move;
+  Vec3<S> point;  // [m] body frame
+  const char* point_field;
+};
+template <class S> struct NamedBodies {
+  NamedBody<S> all[2];
+  int count;
+};
+template <class S> NamedBodies<S> bodies_of(const ForceZone<S>&) { return {{}, 0}; }
+template <class S> NamedBodies<S> bodies_of(const Attractor<S>& a) {
+  return {{{a.body, "body", true, false, Vec3<S>::zero(), "point"}, {}}, 1};
+}
+template <class S> NamedBodies<S> bodies_of(const BodySpring<S>& s) {
+  return {{{s.a, "a", false, false, s.anchor_a, "anchor_a"}, {s.b, "b", true, false, s.anchor_b, "anchor_b"}}, 2};
+}
+template <class S> NamedBodies<S> bodies_of(const Thruster<S>& t) {
+  return {{{t.body, "body", false, true, t.point, "point"}, {}}, 1};
+}
+template <class S> NamedBodies<S> bodies_of(const BuoyancyPoint<S>& b) {
+  return {{{b.body, "body", false, true, b.point, "point"}, {}}, 1};
+}
+template <class S> NamedBodies<S> bodies_of(const BodyDrag<S>& d) {
+  return {{{d.body, "body", false, true, Vec3<S>::zero(), ""}, {}}, 1};
+}
+template <class S> NamedBodies<S> bodies_of(const AeroSurface<S>& a) {
+  return {{{a.body, "body", false, true, a.point, "point"}, {}}, 1};
+}
+
+/// [kg] What an end of a spring bears at a point: the mass, less what turning gives way.
+template <class S> S least_mass_at(const BodyProperties<S>& body, Vec3<S> point) {
+  const S arm = length(point - body.local_centre), most = max_abs(body.kappa);
+  return body.mass / (S(1) + (most * arm) * arm);
+}
+/// Whether a spring swings more slowly than the sub-steps of that rate [1/s] resolve, and is damped no faster. Null
+/// bodies do not move.
+template <class S>
+FaultReport fault_of_rate(const BodySpring<S>& s, const BodyProperties<S>* a, const BodyProperties<S>* b, S rate) {
+  const auto mass_of = [](const BodyProperties<S>* body, Vec3<S> anchor) {
+    return body == nullptr || body->type != BodyType::dynamic ? S(0) : least_mass_at(*body, anchor);
+  };
+  const S mass_a = mass_of(a, s.anchor_a), mass_b = mass_of(b, s.anchor_b);
+  const S reduced = !(S(0) < mass_a) ? mass_b : !(S(0) < mass_b) ? mass_a : mass_a * mass_share(mass_a, mass_b).a;
+  return Checklist()
+      .in_range((s.stiffness / rate) / rate <= reduced, "stiffness", "up to the reduced mass times the rate squared")
+      .in_range(s.damping / rate <= reduced, "damping", "up to the reduced mass times the rate of sub-steps")
+      .report();
+}
+
+}  // namespace isostep::detail
