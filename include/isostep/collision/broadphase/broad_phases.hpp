@@ -15,11 +15,11 @@
 #include "isostep/collision/broadphase/tree.hpp"
 
 /// ISO_FOR_EACH_BROAD_PHASE(X) expands X(name, Structure): in BroadPhaseName and of the structure that it names.
-#define ISO_FOR_EACH_BROAD_PHASE(X)                                                                       \
-  X(box_tree, AabbTree)                                                                                   \
-  X(sphere_tree, SphereTree)                                                                              \
-  X(bsp_tree, BspTree) X(quad_tree, QuadTree) X(oct_tree, OctTree) X(grid, Grid) X(multi_grid, MultiGrid) \
-      X(sweep_and_prune, SweepAndPrune)
+#define ISO_FOR_EACH_BROAD_PHASE(X) \
+  X(box_tree, AabbTree)             \
+  X(sphere_tree, SphereTree)        \
+  X(bsp_tree, BspTree)              \
+  X(quad_tree, QuadTree) X(oct_tree, OctTree) X(grid, Grid) X(multi_grid, MultiGrid) X(sweep_and_prune, SweepAndPrune)
 
 namespace isostep {
 
