@@ -1,4 +1,4 @@
-// Boxes by slot beside a tree and its pairs: what brute force says of them.
+// Boxes by slot beside a structure and its pairs: what brute force says of them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -90,6 +90,46 @@ template <class S> std::vector<std::uint32_t> found(const Model<S>& model, const
   }
   return slots;
 }
+
+/// The fraction at which a segment enters a box grown by `half`, by slabs in double, or 2 for a miss.
+template <class S> double entry(const Sweep<S>& sweep, const Aabb<S>& box) {
+  double from = 0;
+  double to = to_double(sweep.max_fraction);
+  for (int i = 0; i < 3; ++i) {
+    const double o = to_double(sweep.origin[i]);
+    const double d = to_double(sweep.displacement[i]);
+    const double low = to_double(box.low[i]) - to_double(sweep.half[i]);
+    const double high = to_double(box.high[i]) + to_double(sweep.half[i]);
+    if (d == 0) {
+      if (o < low || o > high) return 2;
+      continue;
+    }
+    from = std::max(from, std::min((low - o) / d, (high - o) / d));
+    to = std::min(to, std::max((low - o) / d, (high - o) / d));
+  }
+  return from <= to ? from : 2;
+}
+
+template <class S> struct AllTouched {
+  std::vector<std::uint32_t>* slots;
+  Unit<S> operator()(std::uint32_t slot, Unit<S> fraction) const {
+    slots->push_back(slot);
+    return fraction;
+  }
+};
+template <class S> struct Nearest {
+  const Model<S>* model;
+  const Sweep<S>* sweep;
+  double* best;
+  int* visits;
+  Unit<S> operator()(std::uint32_t slot, Unit<S> fraction) const {
+    ++*visits;
+    const double at = entry(*sweep, model->slots[slot].box);
+    if (at >= *best) return fraction;
+    *best = at;
+    return from_double<Unit<S>>(at);
+  }
+};
 
 /// One random insertion, removal, move or change of filter, done to model, tree and pairs alike.
 template <class S> void churn(Pcg32& random, Model<S>& model, AabbTree<S>& tree, PairSet<S>& pairs, int reach) {

@@ -18,9 +18,10 @@ ISO_INLINE constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
 ISO_INLINE constexpr std::uint32_t pair_a(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
 ISO_INLINE constexpr std::uint32_t pair_b(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-/// Holds { (a, b) : a < b, the tree's boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
-/// depends on the boxes and on the predicate alone, not on what happened before nor on the tree's shape, as long as
-/// every slot whose box, presence or filter changed was marked. Not state: a loaded world clears it and marks all.
+/// Holds { (a, b) : a < b, the stored boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
+/// depends on the boxes and on the predicate alone, not on what happened before nor on the structure that holds the
+/// boxes, any BroadPhase (broad_phase.hpp), as long as every slot whose box, presence or filter changed was marked. Not
+/// state: a loaded world clears it and marks all.
 /// That set is held while it has `most` pairs or fewer. Beyond, or where the search takes too many steps to tell,
 /// keys() are what the caller `choose`s instead, at every update, until it says that they are the whole set again.
 /// Cost: O(pairs + marked log n); from a third of the leaves on, one join of the tree with itself (measured break-even
@@ -29,12 +30,12 @@ template <class S> class PairSet {
  public:
   /// The slot's box changed, or it was inserted, or what the predicate says of it changed. Repeats are free.
   void mark_moved(std::uint32_t slot);
-  /// The slot left the tree. It may be inserted again before `update`, and is then marked moved as well.
+  /// The slot left the structure. It may be inserted again before `update`, and is then marked moved as well.
   void mark_removed(std::uint32_t slot);
-  /// Brings the pairs up to date with the tree. may_collide(a, b) -> bool, a < b, is called only for overlapping pairs.
+  /// Brings the pairs up to date. may_collide(a, b) -> bool, a < b, is called only for overlapping pairs.
   /// False: the caller is to choose.
-  template <class Predicate>
-  ISO_INLINE bool update(const AabbTree<S>& tree, const Predicate& may_collide, std::uint64_t most = kAnyNumber);
+  template <class Structure, class Predicate>
+  ISO_INLINE bool update(const Structure& boxes, const Predicate& may_collide, std::uint64_t most = kAnyNumber);
   /// Takes the place of the pairs, ascending; whole: they are all that there are.
   void choose(std::vector<std::uint64_t>& keys, bool whole);
   /// Forgets pairs and marks, keeps the memory.
@@ -75,19 +76,19 @@ template <class S> template <class Predicate> struct PairSet<S>::Take {
 };
 
 template <class S>
-template <class Predicate>
-ISO_INLINE bool PairSet<S>::update(const AabbTree<S>& tree, const Predicate& may_collide, std::uint64_t most) {
+template <class Structure, class Predicate>
+ISO_INLINE bool PairSet<S>::update(const Structure& boxes, const Predicate& may_collide, std::uint64_t most) {
   if (!whole_ || most < keys_.size()) return give_up();
   if (marked_.empty()) return true;
   const std::uint64_t most_steps =
-      2u * most + 32u * std::uint64_t{tree.size()};  // a search takes a few a pair and a leaf
+      2u * most + 32u * std::uint64_t{boxes.size()};  // a search takes a few a pair and a leaf
   bool found_all = false;
-  if (marked_.size() >= tree.size() / 3u) {
+  if (marked_.size() >= boxes.size() / 3u) {
     keys_.clear();
-    found_all = tree.overlapping_pairs(matches_, most_steps, Take<Predicate>{this, &may_collide, false});
+    found_all = boxes.overlapping_pairs(matches_, most_steps, Take<Predicate>{this, &may_collide, false});
   } else {
     drop_marked();
-    found_all = tree.overlapping_pairs_of(marked_, matches_, most_steps, Take<Predicate>{this, &may_collide, true});
+    found_all = boxes.overlapping_pairs_of(marked_, matches_, most_steps, Take<Predicate>{this, &may_collide, true});
   }
   if (!found_all || most < keys_.size() + found_.size()) return give_up();
   merge_found();
