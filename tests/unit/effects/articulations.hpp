@@ -56,13 +56,26 @@ template <class S> Articulation<S> built(const ArticulationDefinition<S>& defini
 
 /// Of all links, about the world's origin.
 struct Motion {
-  double kinetic = 0, potential = 0;  // [J] of gravity
+  double kinetic = 0, potential = 0;  // [J] of gravity and springs, armatures included
   D3 momentum = {0, 0, 0}, angular = {0, 0, 0}, centre = {0, 0, 0};
   double mass = 0;
 
   double energy() const { return kinetic + potential; }
   D3 angular_about_centre() const { return angular - cross(centre, momentum); }
 };
+template <class S> void add_joint(Motion& m, const ArticulationLink<S>& l, const JointCoordinates<S>& c) {
+  const double k = to_double(l.stiffness), armature = to_double(l.armature);
+  if (l.type == ArticulationJoint::ball) {
+    const D3 spin = doubles(c.angular_velocity);
+    m.kinetic += armature * dot(spin, spin) / 2;
+    m.potential += 4 * k * (1 - std::fabs(to_double(c.rotation.w)));  // torque k 2 sin(angle / 2)
+  } else {
+    double away = to_double(c.position.x) - to_double(l.rest);
+    if (l.type == ArticulationJoint::hinge && !l.limited) away = std::remainder(away, 2 * std::acos(-1.0));
+    m.kinetic += armature * to_double(c.velocity.x) * to_double(c.velocity.x) / 2;
+    m.potential += k * away * away / 2;
+  }
+}
 template <class S> Motion motion_of(const Articulation<S>& a) {
   Motion m;
   const D3 gravity = doubles(a.definition().settings.gravity);
@@ -83,6 +96,8 @@ template <class S> Motion motion_of(const Articulation<S>& a) {
     m.angular += cross(at, v * kg) + own;
     m.centre += at * kg;
     m.mass += kg;
+    if (a.definition().links[i].type != ArticulationJoint::free)
+      add_joint(m, a.definition().links[i], a.coordinates(i));
   }
   m.centre = m.centre * (1 / m.mass);
   return m;

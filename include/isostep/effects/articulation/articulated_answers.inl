@@ -127,10 +127,13 @@ template <class S> bool ArticulatedDynamics<S>::choose(const ArticulatedTree<S>&
 }
 
 template <class S>
-void ArticulatedDynamics<S>::quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share,
+bool ArticulatedDynamics<S>::quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share,
                                      std::vector<S>& to) const {
+  bool fits = true;
   const auto ahead = [&](std::uint32_t at, S answer, S most) {
-    to[at] = clamp(saturating_add(from[at], answer * tree.h * share), -most, most);
+    const S asked = saturating_add(from[at], answer * tree.h * share);
+    to[at] = clamp(asked, -most, most);
+    if (!(to[at] == asked)) fits = false;
   };
   const S spin = S(4) * tree.spin;
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
@@ -145,6 +148,7 @@ void ArticulatedDynamics<S>::quicken(const ArticulatedTree<S>& tree, const std::
     for (std::uint32_t k = 0; k < 3 && free; ++k)
       ahead(l.speed + k, held_product(work_[i + 1].slide[static_cast<int>(k)], tree.unscale), Limits<S>::speed());
   }
+  return fits;
 }
 
 template <class S>

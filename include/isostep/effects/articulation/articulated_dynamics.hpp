@@ -62,6 +62,8 @@ template <class S> class ArticulatedDynamics {
   void place(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
   /// Spins, from speeds; these are scaled down where a link would be faster than it may, and the answer is false.
   bool spin(const ArticulatedTree<S>& tree, std::vector<S>& speeds);
+  /// [rad/s] The largest of those spins along an axis of the world.
+  S fastest() const { return fastest_; }
   /// Speeds of anchors, after spins.
   void follow(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
 
@@ -75,8 +77,8 @@ template <class S> class ArticulatedDynamics {
   void accelerate(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
   /// Whether stops or drives changed: then `factor` has to come again.
   bool choose(const ArticulatedTree<S>& tree, bool may_release);
-  /// to = from + share h acceleration, held within what a joint may do.
-  void quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share, std::vector<S>& to) const;
+  /// to = from + share h acceleration. False where a joint would be faster than any may, and was held.
+  bool quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share, std::vector<S>& to) const;
   /// Speeds that limits do not allow are brought to what they do.
   void hold_limits(const ArticulatedTree<S>& tree, std::vector<S>& speeds) const;
 
@@ -96,6 +98,7 @@ template <class S> class ArticulatedDynamics {
   void answer_free(LinkWork<S>& w);
 
   std::vector<LinkWork<S>> work_;  // 0: the base
+  S fastest_ = S(0);
 };
 
 }  // namespace isostep::detail

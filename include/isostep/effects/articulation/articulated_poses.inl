@@ -45,6 +45,7 @@ void ArticulatedDynamics<S>::place(const ArticulatedTree<S>& tree, const Articul
 /// What a speed may be, over what it is, at most 1: of the fastest.
 template <class S> S ArticulatedDynamics<S>::spin_links(const ArticulatedTree<S>& tree, const std::vector<S>& speeds) {
   S share = S(1);
+  fastest_ = S(0);
   const auto within = [&](S fastest, S most) {
     if (most < fastest) share = min(share, divide_to<S>(most, fastest));
   };
@@ -59,8 +60,9 @@ template <class S> S ArticulatedDynamics<S>::spin_links(const ArticulatedTree<S>
       const int first = l.type == ArticulationJoint::free ? 3 : 0;
       w.spin += w.frame * Vec3<S>{v[first], v[first + 1], v[first + 2]};
     }
-    within(max_abs(w.spin), tree.spin);
+    fastest_ = max(fastest_, max_abs(w.spin));
   }
+  within(fastest_, tree.spin);
   return share;
 }
 

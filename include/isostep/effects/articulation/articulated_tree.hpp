@@ -28,7 +28,9 @@ template <class S> struct PreparedLink {
   Vec3<S> centre;        // from frame b, along the link's axes
   Vec3<S> inertia;       // principal
   Quat<Unit<S>> principal;
-  S armature, damping, stiffness, rest, lower, upper;
+  S armature;
+  S damping, stiffness;  // h d and h^2 k, which are inertias too
+  S rest, lower, upper;
 };
 
 /// Immutable, shared by an articulation and its snapshots.
@@ -44,8 +46,11 @@ template <class S> struct ArticulatedTree {
   std::uint32_t coordinates = 0, rotations = 0, speeds = 0;
   std::vector<PreparedLink<S>> links;
 
-  /// Over the tree's mass, in units: of a hinge's [kg m^2] or a torque, `lengths` 2; of a force 1; of a mass 0.
-  S over_mass(S x, int lengths) const;
+  /// x h^`times` over the tree's mass, in units: of a hinge's [kg m^2] or a torque, `lengths` 2; of a force 1; of a mass
+  /// 0. Held within half of the format.
+  S over_mass(S x, int lengths, int times = 0) const;
+  /// What resists a joint, `over_mass` so: beyond kMostCoefficient it counts as that, which is as good as rigid.
+  S coefficient(S x, ArticulationJoint type, int times) const;
 };
 
 /// What a joint's coordinates are measured by: powers of the unit of length in its inertia.

@@ -114,14 +114,22 @@ template <class S> void check_link(const ArticulationDefinition<S>& d, std::uint
   check_limits(l, check);
 }
 
-template <class S> S ArticulatedTree<S>::over_mass(S x, int lengths) const {
-  // What is small grows before it is divided, what is large after it.
-  const bool large = S(0x1p12) < abs(x);
+template <class S> S ArticulatedTree<S>::over_mass(S x, int lengths, int times) const {
   const auto grown = [&](S y) {
     for (int i = 0; i < lengths; ++i) y = held_product(y, scale);
     return y;
   };
-  return large ? grown(with_headroom(divide_to<S>(x, mass))) : with_headroom(divide_to<S>(grown(x), mass));
+  const auto stepped = [&](S y) {
+    for (int i = 0; i < times; ++i) y = y * h;
+    return y;
+  };
+  // What is small grows before it is divided, what is large after it.
+  const bool large = S(0x1p12) < abs(x);
+  if (large) return grown(with_headroom(divide_to<S>(stepped(x), mass)));
+  return stepped(with_headroom(divide_to<S>(grown(x), mass)));
+}
+template <class S> S ArticulatedTree<S>::coefficient(S x, ArticulationJoint type, int times) const {
+  return min(over_mass(x, lengths_of(type), times), kMostCoefficient<S>);
 }
 
 template <class S>
@@ -136,12 +144,6 @@ Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, con
   check.ask(is_number(drive.stiffness, S(0), most), "drive.stiffness", "0 to Limits::mass()");
   check.ask(is_number(drive.damping, S(0), most), "drive.damping", "0 to Limits::mass()");
   check.ask(is_number(drive.max_force, S(0), most), "drive.max_force", "0 to Limits::mass()");
-  const int lengths = lengths_of(l.type);
-  const S k = tree.over_mass(drive.stiffness, lengths), d = tree.over_mass(drive.damping, lengths);
-  check.ask(k <= kMostConstant<S> && k * tree.h * tree.h <= kMostCoefficient<S>, "drive.stiffness",
-            "less beside the mass of the tree", ErrorCode::limit);
-  check.ask(d <= kMostConstant<S> && d * tree.h <= kMostCoefficient<S>, "drive.damping",
-            "less beside the mass of the tree", ErrorCode::limit);
   const bool round = l.type == ArticulationJoint::hinge && !l.limited;
   check.ask(!round || within(drive.target, S(6.5)), "drive.target", "a size up to 6.5 rad of a hinge without limits");
   check.ask(is_scalar(l.type) || l.type == ArticulationJoint::ball || drive.max_force == S(0), "drive.max_force",
@@ -167,7 +169,7 @@ template <class S> S reach_of(const ArticulationDefinition<S>& d) {
     const S gyration = sqrt(divide_to<S>(around, l.mass.mass));
     reach = max(reach, min(ways[i] + length(arm) + min(gyration, most), most));
   }
-  return reach;
+  return max(reach, S(0.25));  // a mass at its own joint has none
 }
 
 template <class S> void prepare_units(ArticulatedTree<S>& tree, S reach) {
@@ -175,12 +177,12 @@ template <class S> void prepare_units(ArticulatedTree<S>& tree, S reach) {
   tree.rate = S(s.hz * s.substeps);
   tree.h = divide_to<Step<S>>(S(1), tree.rate);
   tree.spin = min(kMostSpin<S>, tree.rate);
-  constexpr int kMostDoublings = 14;
+  constexpr int kMostDoublings = 15;  // of Limits<double>::extent()
   for (int i = 0; i < kMostDoublings && reach * tree.scale < S(32); ++i) {
     tree.scale = tree.scale + tree.scale;
     tree.unscale = tree.unscale * S(0.5);
   }
-  for (int i = 0; i < 2 * kMostDoublings && !(reach * tree.scale < S(64)); ++i) {
+  for (int i = 0; i < kMostDoublings && !(reach * tree.scale < S(64)); ++i) {
     tree.scale = tree.scale * S(0.5);
     tree.unscale = tree.unscale + tree.unscale;
   }
@@ -189,12 +191,19 @@ template <class S> void prepare_units(ArticulatedTree<S>& tree, S reach) {
     tree.mass = min(tree.mass + l.mass.mass, Limits<S>::mass());
 }
 
+/// Inertia of what may turn any way: about no axis less than 2^-18 of what it has about its anchor, a ball of a two
+/// hundredth of the arm's length. A point on a rod would turn about the rod by rounding alone.
+template <class S> Vec3<S> turnable(const PreparedLink<S>& p) {
+  const S whole = p.mass * dot(p.centre, p.centre) + (p.inertia.x + p.inertia.y + p.inertia.z);
+  const S least = whole * S(0x1p-18);
+  return max(p.inertia, Vec3<S>{least, least, least});
+}
+
 template <class S> PreparedLink<S> prepared(const ArticulatedTree<S>& tree, const ArticulationLink<S>& l) {
   const auto units = [&](Vec3<S> v) { return v * tree.scale; };
   const bool rooted = l.parent == kArticulationBase;
   const Vec3<S> from = rooted ? Vec3<S>::zero() : tree.definition.links[l.parent].frame_b.position;
   const bool free = l.type == ArticulationJoint::free;
-  const int lengths = lengths_of(l.type);
   const S of_length = l.type == ArticulationJoint::slider ? tree.scale : S(1);
   PreparedLink<S> p = {};
   p.parent = l.parent + 1;  // of the base 0
@@ -209,24 +218,14 @@ template <class S> PreparedLink<S> prepared(const ArticulatedTree<S>& tree, cons
   const Vec3<S> i = l.mass.inertia;
   p.inertia = {tree.over_mass(i.x, 2), tree.over_mass(i.y, 2), tree.over_mass(i.z, 2)};
   p.principal = normalise(l.mass.principal);
-  p.armature = tree.over_mass(l.armature, lengths);
-  p.damping = tree.over_mass(l.damping, lengths);
-  p.stiffness = tree.over_mass(l.stiffness, lengths);
+  if (has_rotation(l.type)) p.inertia = turnable(p);
+  p.armature = tree.coefficient(l.armature, l.type, 0);
+  p.damping = tree.coefficient(l.damping, l.type, 1);
+  p.stiffness = tree.coefficient(l.stiffness, l.type, 2);
   p.rest = l.rest * of_length;
   p.lower = l.lower * of_length;
   p.upper = l.upper * of_length;
   return p;
-}
-
-template <class S>
-void check_coefficients(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, DefinitionCheck& check) {
-  const S most = kMostCoefficient<S>;
-  check.ask(l.armature <= most, "armature", "less beside the mass of the tree", ErrorCode::limit);
-  check.ask(l.damping <= kMostConstant<S> && l.damping * tree.h <= most, "damping", "less beside the mass of the tree",
-            ErrorCode::limit);
-  check.ask(l.stiffness <= kMostConstant<S> && l.stiffness * tree.h * tree.h <= most, "stiffness",
-            "less beside the mass of the tree", ErrorCode::limit);
-  check.ask(!(l.mass == S(0)), "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
 }
 
 template <class S>
@@ -258,7 +257,7 @@ Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDe
     tree->rotations += has_rotation(l.type) ? 1 : 0;
     tree->speeds += is_scalar(l.type) ? 1 : l.type == ArticulationJoint::free ? 6 : has_rotation(l.type) ? 3 : 0;
     check.link(i);
-    check_coefficients(*tree, p, check);
+    check.ask(S(0) < p.mass, "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
     tree->links.push_back(p);
     if (const Result<void> drive = check_drive(*tree, i, l.drive); !drive) check.also(drive.error());
   }

@@ -7,7 +7,7 @@
 namespace isostep::detail {
 
 // The unit of length is such that the tree reaches 2^5 to 2^6 of them, the unit of mass is the tree. So inertias are
-// below 2^12, and below 2^27 with what the laws of joints add. Forces and torques are held below 2^30, half of Q32.32,
+// below 2^12, and below 2^18 with what the laws of joints add. Forces and torques are held below 2^30, half of Q32.32,
 // wherever they are summed (headroom.hpp).
 //   spin^2 reach^2     2^16 2^12: gyroscopic forces and centrifugal ones fit.
 //   turn reach         2^22 2^6: the acceleration of an end; a sum of three fits.
@@ -17,8 +17,7 @@ template <class S> inline constexpr S kMostTurn = S(0x1p22);         // [rad/s^2
 template <class S> inline constexpr S kMostSlide = S(0x1p28);        // [units/s^2]
 template <class S> inline constexpr S kMostSlideSpeed = S(0x1p12);   // [units/s] of a slider
 template <class S> inline constexpr S kMostSlideWay = S(0x1p24);     // [units] of a slider on the base
-template <class S> inline constexpr S kMostCoefficient = S(0x1p26);  // armature, h damping, h^2 stiffness
-template <class S> inline constexpr S kMostConstant = S(0x1p29);     // damping, stiffness
+template <class S> inline constexpr S kMostCoefficient = S(0x1p16);  // armature, h damping, h^2 stiffness
 template <class S> inline constexpr S kMostLoad = S(0x1p29);         // [N] [N m] of one link
 
 template <class S> inline constexpr S kLeastCone = S(0.05);  // [rad]

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kArticulationJoints = 5;
 /// The parent of what hangs on the base.
 inline constexpr std::uint32_t kArticulationBase = 0xffffffffu;
 
-/// A link's mass, about its centre. Inertia 0 is a point mass's.
+/// A link's mass, about its centre. Inertia 0 is a point's; of what turns any way it counts as that of a small ball.
 template <class S> struct LinkMass {
   S mass = S(1);                                        // [kg] above 0
   Vec3<S> centre = {S(0), S(0), S(0)};                  // [m] in the link's frame

@@ -33,9 +33,9 @@ template <class S> struct JointWork {
   Vec3<S> position, velocity;  // q, v; of a ball 2 vec(q)
   Vec3<S> answer;              // a, once known
   // The drive.
-  Vec3<S> miss, speed;  // target - position; what it shall do
-  S stiffness, damping, most;
-  Vec3<S> most_force;  // where it is at its most
+  Vec3<S> miss, speed;         // target - position; what it shall do
+  S stiffness, damping, most;  // h^2 k, h d, and the largest force
+  Vec3<Unit<S>> most_way;      // [1] the way of it, where it is at its most
   // Linear in the answer: force - pivot * answer.
   S blend;  // s
   S pivot;
@@ -62,6 +62,8 @@ template <class S> struct JointWork {
 
  private:
   void measure_ball(const PreparedLink<S>& l, Quat<Unit<S>> rotation, const ArticulationDrive<S>& drive_of_it);
+  Vec3<S> spring(const ArticulatedTree<S>& tree, Vec3<S> way, S stiffness_of_it, Vec3<S> speed_of_it,
+                 S damping_of_it) const;
   S most_speed(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S room) const;
   bool choose_stop(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, bool may_release);
   bool choose_drive(const ArticulatedTree<S>& tree, bool may_release);

@@ -23,15 +23,13 @@ template <class S> Vec3<S> twice_vector(Quat<Unit<S>> q) {
   };
   return {part(q.x), part(q.y), part(q.z)};
 }
-template <class S> Vec3<S> along(Vec3<Unit<S>> axis, S size) { return axis * size; }
 
 template <class S>
 void JointWork<S>::prepare(const ArticulatedTree<S>& tree, const PreparedLink<S>& l,
                            const ArticulationDrive<S>& drive_of_it) {
   const bool slides = l.type == ArticulationJoint::slider;
-  const int lengths = lengths_of(l.type);
-  stiffness = tree.over_mass(drive_of_it.stiffness, lengths);
-  damping = tree.over_mass(drive_of_it.damping, lengths);
+  stiffness = tree.coefficient(drive_of_it.stiffness, l.type, 2);
+  damping = tree.coefficient(drive_of_it.damping, l.type, 1);
   most = tree.over_mass(drive_of_it.max_force, slides ? 1 : 2);
   speed = slides ? held_product(drive_of_it.speed, tree.scale) : drive_of_it.speed;
 }
@@ -73,11 +71,18 @@ void JointWork<S>::measure_ball(const PreparedLink<S>& l, Quat<Unit<S>> rotation
   room_up = l.upper - atan2_to<S>(out.length, dot(l.axis, turned));
 }
 
+/// k way + d speed, of h^2 k and h d.
+template <class S>
+Vec3<S> JointWork<S>::spring(const ArticulatedTree<S>& tree, Vec3<S> way, S stiffness_of_it, Vec3<S> speed_of_it,
+                             S damping_of_it) const {
+  const Vec3<S> by_way = held_product(held_product(way, stiffness_of_it), tree.rate);
+  return held_product(held_sum(by_way, held_product(speed_of_it, damping_of_it)), tree.rate);
+}
+
 template <class S> void JointWork<S>::linearise(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S inertia) {
   const Step<S> h = tree.h;
   const S driven = drive == Drive::within ? S(1) : S(0);
-  const S k = l.stiffness + stiffness * driven, d = l.damping + damping * driven;
-  const S hd = d * h, hhk = k * h * h;
+  const S hd = l.damping + damping * driven, hhk = l.stiffness + stiffness * driven;
   const S r = hd * S(0.5) + hhk * S(0.25);
   // Beyond 256 the difference between s and 1 no longer shows.
   const S ratio = r < held_product(inertia, S(256)) && S(0) < inertia ? divide_to<S>(r, inertia) : S(256);
@@ -87,10 +92,9 @@ template <class S> void JointWork<S>::linearise(const ArticulatedTree<S>& tree, 
   const bool turns = l.type == ArticulationJoint::hinge && !l.limited;
   const Vec3<S> slack = l.type == ArticulationJoint::ball ? -position : Vec3<S>{l.rest - position.x, S(0), S(0)};
   const Vec3<S> back = turns ? Vec3<S>{wrapped(slack.x), S(0), S(0)} : slack;
-  force = held_sum(held_product(back - ahead, l.stiffness), held_product(-velocity, l.damping));
-  if (drive == Drive::within)
-    force = held_sum(force, held_sum(held_product(miss - ahead, stiffness), held_product(speed - velocity, damping)));
-  if (drive == Drive::most) force = held_sum(force, most_force);
+  force = spring(tree, back - ahead, l.stiffness, -velocity, l.damping);
+  if (drive == Drive::within) force = held_sum(force, spring(tree, miss - ahead, stiffness, speed - velocity, damping));
+  if (drive == Drive::most) force = held_sum(force, most_way * most);
 }
 
 template <class S> S JointWork<S>::most_speed(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S room) const {
@@ -136,12 +140,16 @@ template <class S> bool JointWork<S>::choose_drive(const ArticulatedTree<S>& tre
   const Vec3<S> ahead =
       held_sum(held_product(velocity * tree.h, blend), held_product(change * tree.h, S(0.25) + S(0.75) * blend));
   const Vec3<S> then = held_sum(velocity, held_product(change, S(0.5) + S(0.5) * blend));
-  const Vec3<S> asked = held_sum(held_product(miss - ahead, stiffness), held_product(speed - then, damping));
+  const Vec3<S> asked = spring(tree, miss - ahead, stiffness, speed - then, damping);
+  if (drive == Drive::most) {
+    if (!may_release || !(held_dot(most_way, asked) < most)) return false;
+    drive = Drive::within;
+    return true;
+  }
   const auto heading = heading_of(asked);
-  const bool beyond = most < heading.length;
-  if (beyond == (drive == Drive::most) || (!beyond && !may_release)) return false;
-  drive = beyond ? Drive::most : Drive::within;
-  most_force = along<S>(heading.direction, most);
+  if (!(most < heading.length)) return false;
+  drive = Drive::most;
+  most_way = heading.direction;
   return true;
 }
 
