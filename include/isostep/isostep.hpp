@@ -5,6 +5,7 @@
 #include "isostep/core/random.hpp"
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/version.hpp"
+#include "isostep/effects/articulation/articulation.hpp"
 #include "isostep/effects/particle_coupling.hpp"
 #include "isostep/math/affine.hpp"
 #include "isostep/math/angles.hpp"

@@ -47,7 +47,7 @@ template <class S> struct LinkWork {
 /// Differs: axes are the world's, and accelerations those of the anchors (not spatial): speeds along a line cancel.
 ///          Gravity is an acceleration of the base upwards, so what is found of links is against free fall.
 /// Symbols: I^A whole, p^A bias, U = I^A S column, D = S^T U + law pivot, u = law - S^T p^A push.
-/// Limits:  fixed point: spins up to 256 rad/s or one radian a sub-step, accelerations up to 2^22 rad/s^2 and 2^28
+/// Limits:  fixed point: spins up to 256 rad/s or half a radian a sub-step, accelerations up to 2^22 rad/s^2 and 2^28
 ///          units/s^2; inertia is below 2^12 and every sum of forces is held within half of the format.
 /// Order:   links in their order outwards, against it inwards.
 template <class S> class ArticulatedDynamics {

@@ -8,6 +8,7 @@
 
 #include "isostep/core/result.hpp"
 #include "isostep/effects/articulation/articulation_definition.hpp"
+#include "isostep/geometry/validate.hpp"
 #include "isostep/state/archive.hpp"
 
 namespace isostep::detail {
@@ -46,8 +47,8 @@ template <class S> struct ArticulatedTree {
   std::uint32_t coordinates = 0, rotations = 0, speeds = 0;
   std::vector<PreparedLink<S>> links;
 
-  /// x h^`times` over the tree's mass, in units: of a hinge's [kg m^2] or a torque, `lengths` 2; of a force 1; of a mass
-  /// 0. Held within half of the format.
+  /// x h^`times` over the tree's mass, in units: of a hinge's [kg m^2] or a torque, `lengths` is 2, of a force 1, of a
+  /// mass 0. Held within half of the format.
   S over_mass(S x, int lengths, int times = 0) const;
   /// What resists a joint, `over_mass` so: beyond kMostCoefficient it counts as that, which is as good as rigid.
   S coefficient(S x, ArticulationJoint type, int times) const;
@@ -60,6 +61,12 @@ ISO_INLINE constexpr bool is_scalar(ArticulationJoint type) {
 }
 ISO_INLINE constexpr bool has_rotation(ArticulationJoint type) {
   return type == ArticulationJoint::ball || type == ArticulationJoint::free;
+}
+
+/// Of length 1, as poses of shapes are.
+template <class S> ISO_INLINE bool is_rotation(const Quat<Unit<S>>& q) {
+  const Pose<S> pose = {Vec3<S>::zero(), q};
+  return validate(pose) == ShapeFault::none;
 }
 
 /// The tree, or what is wrong with the definition, by field: "links[3].mass.mass".

@@ -38,7 +38,7 @@ class DefinitionCheck {
 };
 
 template <class S> bool is_sound(const Pose<S>& pose, S reach) {
-  return is_finite(pose.position) && within(pose.position, reach) && is_unit<S>(pose.orientation);
+  return is_finite(pose.position) && within(pose.position, reach) && is_rotation<S>(pose.orientation);
 }
 template <class S> bool is_number(S x, S low, S high) { return is_finite(x) && low <= x && x <= high; }
 
@@ -63,7 +63,7 @@ template <class S> void check_mass(const LinkMass<S>& m, DefinitionCheck& check)
   const auto solid = [](S a, S b, S c) { return a - b - c <= (b + c) * S(0x1p-10) + S(64) * resolution<S>(); };
   check.ask(!finite || (solid(i.x, i.y, i.z) && solid(i.y, i.z, i.x) && solid(i.z, i.x, i.y)), "mass.inertia",
             "no component larger than the two others together");
-  check.ask(is_unit<S>(m.principal), "mass.principal", kUnitLength);
+  check.ask(is_rotation<S>(m.principal), "mass.principal", kUnitLength);
 }
 
 template <class S> void check_limits(const ArticulationLink<S>& l, DefinitionCheck& check) {
@@ -138,7 +138,7 @@ Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, con
   DefinitionCheck check;
   const S most = Limits<S>::mass();
   check.ask(is_number(drive.target, -S(0x1p14), S(0x1p14)), "drive.target", "a size up to 16384");
-  check.ask(is_unit<S>(drive.pose), "drive.pose", kUnitLength);
+  check.ask(is_rotation<S>(drive.pose), "drive.pose", kUnitLength);
   check.ask(is_finite(drive.speed) && within(drive.speed, Limits<S>::speed()), "drive.speed",
             "a size up to Limits::speed() along each axis");
   check.ask(is_number(drive.stiffness, S(0), most), "drive.stiffness", "0 to Limits::mass()");
@@ -176,7 +176,7 @@ template <class S> void prepare_units(ArticulatedTree<S>& tree, S reach) {
   const ArticulationSettings<S>& s = tree.definition.settings;
   tree.rate = S(s.hz * s.substeps);
   tree.h = divide_to<Step<S>>(S(1), tree.rate);
-  tree.spin = min(kMostSpin<S>, tree.rate);
+  tree.spin = min(kMostSpin<S>, tree.rate * S(0.5));
   constexpr int kMostDoublings = 15;  // of Limits<double>::extent()
   for (int i = 0; i < kMostDoublings && reach * tree.scale < S(32); ++i) {
     tree.scale = tree.scale + tree.scale;
@@ -228,6 +228,23 @@ template <class S> PreparedLink<S> prepared(const ArticulatedTree<S>& tree, cons
   return p;
 }
 
+/// The next link, with its places among the state's numbers.
+template <class S> void add_link(ArticulatedTree<S>& tree, std::uint32_t index, DefinitionCheck& check) {
+  const ArticulationLink<S>& l = tree.definition.links[index];
+  PreparedLink<S> p = prepared(tree, l);
+  const bool free = l.type == ArticulationJoint::free;
+  p.coordinate = tree.coordinates;
+  p.rotation = tree.rotations;
+  p.speed = tree.speeds;
+  tree.coordinates += is_scalar(l.type) ? 1 : free ? 3 : 0;
+  tree.rotations += has_rotation(l.type) ? 1 : 0;
+  tree.speeds += is_scalar(l.type) ? 1 : free ? 6 : has_rotation(l.type) ? 3 : 0;
+  tree.links.push_back(p);
+  check.link(index);
+  check.ask(S(0) < p.mass, "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
+  if (const Result<void> drive = check_drive(tree, index, l.drive); !drive) check.also(drive.error());
+}
+
 template <class S>
 Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDefinition<S>& definition) {
   DefinitionCheck check;
@@ -247,20 +264,7 @@ Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDe
   }
   prepare_units(*tree, reach);
   tree->free = definition.links[0].type == ArticulationJoint::free;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const ArticulationLink<S>& l = definition.links[i];
-    PreparedLink<S> p = prepared(*tree, l);
-    p.coordinate = tree->coordinates;
-    p.rotation = tree->rotations;
-    p.speed = tree->speeds;
-    tree->coordinates += is_scalar(l.type) ? 1 : l.type == ArticulationJoint::free ? 3 : 0;
-    tree->rotations += has_rotation(l.type) ? 1 : 0;
-    tree->speeds += is_scalar(l.type) ? 1 : l.type == ArticulationJoint::free ? 6 : has_rotation(l.type) ? 3 : 0;
-    check.link(i);
-    check.ask(S(0) < p.mass, "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
-    tree->links.push_back(p);
-    if (const Result<void> drive = check_drive(*tree, i, l.drive); !drive) check.also(drive.error());
-  }
+  for (std::uint32_t i = 0; i < count; ++i) add_link(*tree, i, check);
   if (!check.ok()) return check.result().error();
   HashCombiner hash;
   hash.add(hash_records_by_fields(&tree->definition.settings, 1));

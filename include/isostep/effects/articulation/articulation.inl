@@ -31,7 +31,8 @@ template <class S> Articulation<S>::Articulation(Articulation&& other) noexcept 
 template <class S> auto Articulation<S>::operator=(Articulation&& other) noexcept -> Articulation& {
   if (this == &other) return *this;
   engine_ = std::move(other.engine_);
-  other = Articulation();
+  other.engine_ = std::make_unique<Engine>();
+  other.engine_->use(other.engine_->tree);
   return *this;
 }
 
@@ -89,7 +90,7 @@ template <class S> bool Articulation<S>::set_coordinates(std::uint32_t link, con
       detail::Checklist()
           .in_range(detail::fits_position(e.tree->definition.links[link], to.position), "coordinates.position",
                     "32768 rad, twice Limits::extent() or, of a free link, Limits::position()")
-          .proper(detail::is_unit<S>(to.rotation), "coordinates.rotation", detail::kUnitLength)
+          .proper(detail::is_rotation<S>(to.rotation), "coordinates.rotation", detail::kUnitLength)
           .in_range(detail::fits_velocity(to), "coordinates.velocity", "Limits::speed() and 1024 rad/s along each axis")
           .report();
   if (e.refuse(report, "set_coordinates")) return false;

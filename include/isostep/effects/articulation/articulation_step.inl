@@ -10,9 +10,9 @@ namespace isostep {
 
 namespace detail {
 /// Passes over the accelerations of a sub-step, each for the speeds that the one before leads to. Where a spin turns
-/// speeds by z a sub-step, two passes let energy grow by z^4 / 4 a sub-step, three lose as much, four lose z^6 / 16. So
-/// up to z = 1/32 two are enough, 2.4e-7 of the energy a sub-step at worst; beyond there are four. Where limits or drives
-/// change there are more, up to the last; from the fifth on what holds is not released, so the search ends.
+/// speeds by z a sub-step, two passes let energy grow by z^4 / 4 a sub-step, three lose as much, four lose z^6 / 16.
+/// Up to z = 1/32 two are enough, 2.4e-7 of the energy a sub-step at worst; beyond there are four. Where limits or
+/// drives change there are more, up to the last; from the fifth on what holds is not released, so the search ends.
 inline constexpr int kSlowPasses = 2, kFastPasses = 4, kReleasingPasses = 4, kMostPasses = 8;
 
 /// q turned by w h / 2. The tangent of half the angle to fifth order: first order errs by a twelfth of its square.
@@ -29,8 +29,8 @@ template <class S> ArticulationReport Articulation<S>::Engine::step() {
   const FloatEnvironment environment;
   ArticulationReport report;
   links.prepare(*tree, state);
+  report.clamped += links.spin(*tree, state.speeds) ? 0u : 1u;  // what was set between steps
   if (tree->free) {
-    links.spin(*tree, state.speeds);
     links.follow(*tree, state.speeds);
     free.begin(*tree, links, state);
   }
@@ -57,14 +57,20 @@ template <class S> void Articulation<S>::Engine::substep(ArticulationReport& rep
   bool fits = links.quicken(*tree, state.speeds, S(1), state.speeds);
   links.hold_limits(*tree, state.speeds);
   fits = links.spin(*tree, state.speeds) && fits;
-  report.clamped += fits ? 0u : 1u;
   drift();
   if (tree->free) {
     links.place(*tree, state);
     links.spin(*tree, state.speeds);
     links.follow(*tree, state.speeds);
     free.finish(*tree, links, state);
+    // Momentum that speeds within their limits cannot hold is lost.
+    if (!links.spin(*tree, state.speeds)) {
+      fits = false;
+      links.follow(*tree, state.speeds);
+      free.begin(*tree, links, state);
+    }
   }
+  report.clamped += fits ? 0u : 1u;
   if (is_finite_now()) return;
   ++report.lost;
   state.coordinates = before.coordinates;

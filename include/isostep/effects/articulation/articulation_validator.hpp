@@ -40,7 +40,7 @@ template <class S> class ArticulationValidator {
       if (!is_finite(speed) || !within(speed, Limits<S>::speed())) return "a speed is out of range";
     }
     for (const Quat<Unit<S>>& rotation : state_.rotations) {
-      if (!is_unit<S>(rotation)) return "a rotation has not length 1";
+      if (!is_rotation<S>(rotation)) return "a rotation has not length 1";
     }
     for (std::uint32_t i = 0; i < tree_.links.size(); ++i) {
       if (const char* rule = link(i)) return rule;

@@ -77,10 +77,12 @@ void FreeMotion<S>::finish(const ArticulatedTree<S>& tree, const ArticulatedDyna
   const Vec3<S> others = held_sum(now.velocity, held_cross(spin, now.centre));
   const Vec3<S> own = held_product(transposed_times(frame, held_sum(velocity_, -others)), tree.unscale);
   const Vec3<S> way = held_product(transposed_times(frame, held_sum(way_, centre_ - now.centre)), tree.unscale);
+  const S most = S(4) * tree.spin;
   for (int k = 0; k < 3; ++k) {
     const auto place = static_cast<std::uint32_t>(k);
     state.speeds[l.speed + place] = clamp(own[k], -Limits<S>::speed(), Limits<S>::speed());
-    state.speeds[l.speed + 3 + place] = saturating_add(state.speeds[l.speed + 3 + place], turn[k]);
+    S& spinning = state.speeds[l.speed + 3 + place];
+    spinning = clamp(saturating_add(spinning, turn[k]), -most, most);
     state.coordinates[l.coordinate + place] += way[k];
   }
   centre_ = now.centre;
