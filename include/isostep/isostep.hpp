@@ -7,6 +7,8 @@
 #include "isostep/core/version.hpp"
 #include "isostep/effects/articulation/articulation.hpp"
 #include "isostep/effects/particle_coupling.hpp"
+#include "isostep/geometry/inertia.hpp"
+#include "isostep/geometry/mass_tensor.hpp"
 #include "isostep/math/affine.hpp"
 #include "isostep/math/angles.hpp"
 #include "isostep/math/curves.hpp"
