@@ -30,7 +30,7 @@ void ArticulatedDynamics<S>::load(const ArticulatedTree<S>& tree, const std::vec
 
 template <class S> Wrench<S> ArticulatedDynamics<S>::passed_bias(const PreparedLink<S>& l, LinkWork<S>& w) {
   const JointWork<S>& j = w.joint;
-  Turning<S> carried = w.carried;
+  PointAcceleration<S> carried = w.carried;
   if (is_scalar(l.type)) {
     const bool turns = l.type == ArticulationJoint::hinge;
     const Vec3<S> own = turns ? w.bias.torque : w.bias.force;
@@ -52,7 +52,7 @@ template <class S> Wrench<S> ArticulatedDynamics<S>::passed_bias(const PreparedL
     x = held_sum(x, -held_product(w.stop_answer, share));
     carried.angular = held_sum(carried.angular, held_product(w.stop_axis, j.stop_answer));
   }
-  return w.bias + w.passed * carried + w.whole * Turning<S>{x, Vec3<S>::zero()};
+  return w.bias + w.passed * carried + w.whole * PointAcceleration<S>{x, Vec3<S>::zero()};
 }
 
 template <class S> void ArticulatedDynamics<S>::pass_bias(const PreparedLink<S>& l, LinkWork<S>& w) {
@@ -64,7 +64,7 @@ template <class S> void ArticulatedDynamics<S>::pass_bias(const PreparedLink<S>&
 template <class S> void ArticulatedDynamics<S>::answer_scalar(const PreparedLink<S>& l, LinkWork<S>& w) {
   JointWork<S>& j = w.joint;
   const bool turns = l.type == ArticulationJoint::hinge;
-  Turning<S>& a = w.acceleration;
+  PointAcceleration<S>& a = w.acceleration;
   const S rest = less_dots(w.push.x, w.column.torque, a.angular, w.column.force, a.linear);
   const S most = turns ? kMostTurn<S> : kMostSlide<S>;
   const bool stopped = j.stop != Stop::none;
@@ -100,7 +100,7 @@ template <class S> void ArticulatedDynamics<S>::answer_free(LinkWork<S>& w) {
 }
 
 template <class S> void ArticulatedDynamics<S>::answer(const PreparedLink<S>& l, LinkWork<S>& w) {
-  const Turning<S>& parent = work_[l.parent].acceleration;
+  const PointAcceleration<S>& parent = work_[l.parent].acceleration;
   const Vec3<S> swung = held_sum(parent.linear, held_cross(parent.angular, w.arm));
   w.acceleration = {held_sum(parent.angular, w.carried.angular), held_sum(swung, w.carried.linear)};
   if (is_scalar(l.type)) answer_scalar(l, w);

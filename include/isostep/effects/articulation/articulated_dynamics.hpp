@@ -34,10 +34,10 @@ template <class S> struct LinkWork {
   Vec3<S> stop_answer;        // D^-1 n,
   S stop_pivot;               // n D^-1 n
   // Forces.
-  Wrench<S> bias;      // p^A
-  Turning<S> carried;  // acceleration of the joint's place by spins alone
-  Vec3<S> push;        // u, of a hinge or slider x
-  Turning<S> acceleration;
+  Wrench<S> bias;                // p^A
+  PointAcceleration<S> carried;  // acceleration of the joint's place by spins alone
+  Vec3<S> push;                  // u, of a hinge or slider x
+  PointAcceleration<S> acceleration;
   Vec3<S> slide;  // of a free link, along frame a
   JointWork<S> joint;
 };

@@ -46,7 +46,7 @@ struct ArticulationReport {
 ///          slider moves by 4096 units a second (the reach of a tree is 32 to 64 units); faster trees are slowed as a
 ///          whole and reported. 32 bits of fixed point are too few for products of inertias: S is float, double or
 ///          fixed point of 64 bits.
-/// Cost:    a sub-step takes some 0.3 us a link in float and double, 0.7 us a hinge in Q32_32; no allocation after `build`.
+/// Cost:    a sub-step takes some 0.3 us a link in float and double, 0.7 us a hinge in Q32_32. Only `build` allocates.
 /// Order:   all sums go by links.
 template <class S> class Articulation {
   static_assert(std::same_as<Finer<S>, S>, "isostep: an articulation needs float, double or 64 bits of fixed point");

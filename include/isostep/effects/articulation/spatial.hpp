@@ -10,7 +10,7 @@ namespace isostep::detail {
 /// A force at a point and the torque about it.
 template <class S> struct Wrench { Vec3<S> torque, force; };
 /// The accelerations of a body: its turning's, and that of its point which is at the place of reference.
-template <class S> struct Turning { Vec3<S> angular, linear; };
+template <class S> struct PointAcceleration { Vec3<S> angular, linear; };
 
 /// Wrench = inertia * acceleration:  torque = angular a + coupling l,  force = coupling^T a + linear l.
 /// Source:  Featherstone 2008, Rigid Body Dynamics Algorithms, eq. 2.63 and 7.4.   Differs: the axes are the world's,
@@ -54,13 +54,13 @@ template <class S> ISO_INLINE Wrench<S> shifted(const Wrench<S>& w, Vec3<S> arm)
   return {held_sum(w.torque, held_cross(arm, w.force)), w.force};
 }
 
-template <class S> ISO_INLINE Vec3<S> torque_of(const ArticulatedInertia<S>& i, const Turning<S>& a) {
+template <class S> ISO_INLINE Vec3<S> torque_of(const ArticulatedInertia<S>& i, const PointAcceleration<S>& a) {
   const auto part = [&](int k) ISO_INLINE_LAMBDA {
     return held_dot(i.angular.rows[k], a.angular, i.coupling.rows[k], a.linear);
   };
   return {part(0), part(1), part(2)};
 }
-template <class S> ISO_INLINE Wrench<S> operator*(const ArticulatedInertia<S>& i, const Turning<S>& a) {
+template <class S> ISO_INLINE Wrench<S> operator*(const ArticulatedInertia<S>& i, const PointAcceleration<S>& a) {
   const auto part = [&](int k) ISO_INLINE_LAMBDA {
     return held_dot(i.coupling.column(k), a.angular, i.linear.rows[k], a.linear);
   };
