@@ -9,6 +9,7 @@
 #include "determinism/solver_scene.hpp"
 #include "isostep/collision/broadphase/broad_phases.hpp"
 #include "isostep/core/random.hpp"
+#include "isostep/effects/articulation/articulation.hpp"
 #include "isostep/particles/particle_world.hpp"
 #include "isostep/world/session_recorder.hpp"
 
@@ -312,6 +313,46 @@ TYPED_TEST(Allocation, AWarmCoarseStructureAsksForNoMemory) {
 #define ISO_HOLD(name, Structure) hold_warm_frames<TypeParam, Structure<TypeParam>>(#name);
   ISO_FOR_EACH_BROAD_PHASE(ISO_HOLD)
 #undef ISO_HOLD
+}
+
+template <class S> void run_an_articulation() {
+  ArticulationDefinition<S> definition;
+  ArticulationLink<S> link;
+  link.type = ArticulationJoint::free;
+  link.mass.inertia = {S(1), S(1), S(1)};
+  definition.links.push_back(link);
+  for (const ArticulationJoint type : {ArticulationJoint::ball, ArticulationJoint::hinge, ArticulationJoint::slider}) {
+    link.type = type;
+    link.parent = static_cast<std::uint32_t>(definition.links.size() - 1);
+    link.frame_a.position = {S(0), S(-1), S(0)};
+    link.limited = true;
+    link.lower = type == ArticulationJoint::ball ? S(0) : S(-0.5);
+    link.upper = S(0.5);
+    link.drive.damping = link.drive.max_force = S(100);
+    link.drive.speed = {S(5), S(5), S(5)};
+    definition.links.push_back(link);
+  }
+  Articulation<S> tree;
+  ASSERT_TRUE(tree.build(definition).ok());
+  Snapshot<Articulation<S>> kept;
+  tree.step();
+  tree.save(kept);
+  const Count count;
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 60; ++i) {
+    tree.apply_force(2, {S(10), S(0), S(0)}, tree.link_centre(2));
+    tree.step();
+    if (i == 30) tree.load(kept);
+    tree.save(kept);
+    hash ^= tree.hash();
+  }
+  EXPECT_EQ(count.so_far(), 0u);
+  EXPECT_NE(hash, 0u);
+}
+TEST(ArticulationAllocation, ABuiltTreeAsksForNoMemory) {
+  run_an_articulation<float>();
+  run_an_articulation<double>();
+  run_an_articulation<Q32_32>();
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/mass_properties.inl"
+#include "isostep/geometry/mass_tensor.inl"
 #include "isostep/geometry/validate.inl"
 
 namespace isostep {
@@ -10,6 +11,7 @@ namespace isostep {
   template struct HullContent<S>;                                                           \
   ISO_CONTENT_OF(, S)                                                                       \
   template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>); \
+  template struct MassTensor<S>;                                                            \
   template ShapeFault validate<S>(const Primitive<S>&);                                     \
   template ShapeFault validate<S>(const Pose<S>&);                                          \
   template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>);     \

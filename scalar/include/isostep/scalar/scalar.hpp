@@ -231,5 +231,10 @@ template <class S> ISO_INLINE constexpr S spacing_at(S size) {
   if constexpr (kIsFixed<S>) return resolution<S>();
   if constexpr (!kIsFixed<S>) return resolution<S>() * max(size, S(1));
 }
+/// The same, of sizes below one too: what one rounding of such a number may leave.
+template <class S> ISO_INLINE constexpr S rounding_at(S size) {
+  if constexpr (kIsFixed<S>) return resolution<S>();
+  if constexpr (!kIsFixed<S>) return resolution<S>() * size;
+}
 
 }  // namespace isostep
