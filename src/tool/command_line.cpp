@@ -57,6 +57,9 @@ class ToolCommands {
     command->add_option("--simd", run_.simd, "lanes to use, or the widest narrower ones; never changes a bit")
         ->check(CLI::IsMember(CommandLine::names_in(kSimdNames)))
         ->capture_default_str();
+    command->add_option("--broad-phase", run_.broad_phase, "how rigid bodies find each other; never changes a bit")
+        ->check(CLI::IsMember(CommandLine::names_in(kBroadPhaseNames)))
+        ->capture_default_str();
     CommandLine::add_path(command, "--load", run_.load, "begin with this portable snapshot");
     CommandLine::add_path(command, "--save", run_.save, "write a portable snapshot of the end");
     CommandLine::add_path(command, "--record", run_.record, "write a replay");

@@ -68,6 +68,22 @@ TYPED_TEST(SameHashes, with_every_width_of_lanes_and_with_widths_changed_on_the_
   }
 }
 
+TYPED_TEST(SameHashes, with_every_broad_phase_and_with_those_changed_on_the_way) {
+  using S = TypeParam;
+  for (std::uint32_t name = 0; name <= kBroadPhases; ++name) {
+    World<S> w(settings<S>(-10, 60, 4));
+    build_mess(w);
+    for (std::uint64_t f = 0; f < kFrames / 2; ++f) {
+      const std::uint32_t of_now = name < kBroadPhases ? name : static_cast<std::uint32_t>(f / 4) % kBroadPhases;
+      ASSERT_TRUE(w.use_broad_phase(static_cast<BroadPhaseName>(of_now)));
+      ASSERT_EQ(play(w, f), this->expected()[f]) << kBroadPhaseNames[of_now] << " frame " << f;
+    }
+  }
+  World<S> w;
+  EXPECT_FALSE(w.use_broad_phase(static_cast<BroadPhaseName>(kBroadPhases)));
+  EXPECT_EQ(w.broad_phase(), BroadPhaseName::box_tree);
+}
+
 /// Ragdolls of one shape and a few of others, some on a wall, one on a turntable; joints go, and come between others.
 template <class S> std::vector<std::uint64_t> hashes_of_trees(Simd simd, bool changing) {
   World<S> w(settings<S>(-10, 60, 4));

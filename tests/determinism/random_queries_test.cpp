@@ -64,7 +64,7 @@ template <class S> class RandomWorldAnswers : public ::testing::Test {
 };
 TYPED_TEST_SUITE(RandomWorldAnswers, AllScalars);
 
-TYPED_TEST(RandomWorldAnswers, are_those_of_a_world_that_is_loaded_read_or_over_other_lanes_and_threads) {
+TYPED_TEST(RandomWorldAnswers, are_those_of_a_world_that_is_loaded_read_or_over_other_lanes_threads_and_broad_phases) {
   using S = TypeParam;
   ThreadPool two(1), four(3);
   Found found;
@@ -80,6 +80,7 @@ TYPED_TEST(RandomWorldAnswers, are_those_of_a_world_that_is_loaded_read_or_over_
     for (std::uint64_t f = 0; f < this->kFrames; ++f) {
       w.use_simd(static_cast<Simd>(f % 7));
       w.use_threads(f % 2 == 0 ? two.runner() : four.runner());
+      loader.use_broad_phase(static_cast<BroadPhaseName>((seed + f / this->kEvery) % kBroadPhases));
       this->step(w, seed, f);
       if (!this->is_asked(f)) continue;
       this->check(w, life, seed, f, "threads");

@@ -144,7 +144,7 @@ template <class S> void ContinuousCollision<S>::find_met_by_kinematic(S least) {
     if (carrier.motion < least) continue;
     const CoreMotion<S> motion = {start_[i], now(i), Vec3<S>::zero()};
     carriers_.push_back({state_.awake.states[i].slot, detail::swept_box(motion, carrier.reach)});
-    proxies_.tree().query(carriers_.back().swept, [&](std::uint32_t slot) {
+    proxies_.boxes().query(carriers_.back().swept, [&](std::uint32_t slot) {
       const Location at = map_.location(slot);
       if (at.set == Location::kAwake && may_move(at.index)) met_.push_back(at.index);
       return true;
@@ -244,7 +244,7 @@ template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& move
   const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};
   const Sweep<S> sweep = {from.position, now(mover.index).position - from.position, reach, Unit<S>(1)};
   obstacles_.clear();
-  proxies_.tree().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
+  proxies_.boxes().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
     const Aabb<S>& fat = map_.state_at(map_.location(slot)).fat;
     if (may_stop(mover, slot, moving) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
     return max_fraction;

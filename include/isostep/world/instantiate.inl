@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/broadphase/child_tree.inl"
-#include "isostep/collision/broadphase/pairs.inl"
-#include "isostep/collision/broadphase/tree.inl"
+#include "isostep/collision/broadphase/instantiate.inl"
 #include "isostep/collision/continuous/plane_impact.inl"
 #include "isostep/collision/continuous/shape_impact.inl"
 #include "isostep/collision/continuous/time_of_impact.inl"
@@ -85,9 +83,8 @@
   ISO_TIME_OF_IMPACT_OF(, OwnScalar)                                                                                  \
   ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                                    \
   ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                                    \
-  template class AabbTree<OwnScalar>;                                                                                 \
-  template class ChildTree<OwnScalar>;                                                                                \
-  template class PairSet<OwnScalar>;                                                                                  \
+  ISO_BOX_TREES_OF(OwnScalar)                                                                                         \
+  ISO_COARSE_STRUCTURES_OF(OwnScalar)                                                                                 \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                              \
   ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                                        \
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \

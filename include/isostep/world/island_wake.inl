@@ -58,11 +58,11 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
 }
 
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
-  if (proxies_.present(slot)) wake_touching(proxies_.tree().box(slot), slot);
+  if (proxies_.present(slot)) wake_touching(proxies_.boxes().box(slot), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
   std::vector<std::uint32_t> met;
-  proxies_.tree().query(box, [&](std::uint32_t other) {
+  proxies_.boxes().query(box, [&](std::uint32_t other) {
     if (map_.location(other).is_asleep()) met.push_back(other);
     else if (other != slot) reset_clock(other);
     return true;

@@ -1,4 +1,4 @@
-// Which bodies might touch: the tree of fat boxes and the pairs it yields, kept in step with the state they derive
+// Which bodies might touch: the structure of fat boxes and the pairs it yields, kept in step with the state they derive
 // from.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "isostep/collision/broadphase/chosen_broad_phase.hpp"
 #include "isostep/collision/broadphase/pairs.hpp"
-#include "isostep/collision/broadphase/tree.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/world/crowd.hpp"
@@ -30,9 +30,11 @@ template <class S> class Proxies {
   ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
   /// Bodies that the budget keeps from some of their pairs.
   std::uint32_t bodies_left_out() const { return left_out_; }
-  const AabbTree<S>& tree() const { return tree_; }
+  const ChosenBroadPhase<S>& boxes() const { return boxes_; }
+  /// From now on another structure holds the boxes.
+  void use(BroadPhaseName name);
 
-  /// The pairs alone: trees differ between worlds that agree.
+  /// The pairs alone: structures differ between worlds that agree.
   template <class Visit> void visit_scratch(const Visit& visit) {
     visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // injected faults are written to them
   }
@@ -45,7 +47,7 @@ template <class S> class Proxies {
     }
   };
 
-  AabbTree<S> tree_;
+  ChosenBroadPhase<S> boxes_;
   PairSet<S> pairs_;
   Crowd<S> crowd_;
   std::uint32_t left_out_ = 0;

@@ -12,9 +12,9 @@ template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyP
   Proxy<S>& known = proxies_[state.slot];
   const Proxy<S> next = {state.fat, ProxyTraits::of(body, awake), true};
   if (!known.present) {
-    tree_.insert(state.slot, state.fat);
+    boxes_.insert(state.slot, state.fat);
   } else if (!(known.box == next.box)) {
-    tree_.update(state.slot, state.fat);
+    boxes_.update(state.slot, state.fat);
   } else if (known.traits == next.traits) {
     return;
   }
@@ -24,15 +24,25 @@ template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyP
 
 template <class S> void Proxies<S>::remove(std::uint32_t slot) {
   if (!present(slot)) return;
-  tree_.remove(slot);
+  boxes_.remove(slot);
   pairs_.mark_removed(slot);
   proxies_[slot] = Proxy<S>{};
 }
 
+template <class S> void Proxies<S>::use(BroadPhaseName name) {
+  boxes_.choose(name);
+  for (std::uint32_t slot = 0; slot < proxies_.size(); ++slot) {
+    if (proxies_[slot].present) boxes_.insert(slot, proxies_[slot].box);
+  }
+  boxes_.optimise();
+}
+
 template <class S> void Proxies<S>::update(std::span<const Contact<S>> contacts, std::size_t budget) {
-  tree_.optimise();
+  boxes_.optimise();
   left_out_ = 0;
-  if (pairs_.update(tree_, MayCollide{&proxies_}, budget)) return;
+  const bool whole = boxes_.with(
+      [&](const auto& structure) { return pairs_.update(structure, MayCollide{&proxies_}, budget); });
+  if (whole) return;
   crowd_.choose(proxies_, contacts, budget);
   pairs_.choose(crowd_.keys(), crowd_.whole());
   left_out_ = crowd_.bodies_left_out();

@@ -42,7 +42,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
     return {};
   std::optional<ClosestBody<S>> best;
   const S reach = min(max_distance, edge);
-  proxies_.tree().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
+  proxies_.boxes().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;
     const Transform<S> placed = Transform<S>::of(pose_of(slot));
     for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
@@ -74,7 +74,7 @@ template <class S>
 void Queries<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const {
   if (!accept_box(box)) return;
   const std::size_t first = out.size();
-  proxies_.tree().query(box, [&](std::uint32_t slot) {
+  proxies_.boxes().query(box, [&](std::uint32_t slot) {
     if (sees(filter, slot)) out.push_back(id_of(slot));
     return true;
   });

@@ -16,7 +16,7 @@ namespace isostep {
 template <class S>
 template <class Probe, class List>
 void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& list) const {
-  proxies_.tree().sweep(probe.sweep(), [&](std::uint32_t slot, Unit<S> most) {
+  proxies_.boxes().sweep(probe.sweep(), [&](std::uint32_t slot, Unit<S> most) {
     if (!sees(filter, slot)) return most;
     meet(probe, filter, slot, list);
     return min(most, probe.beyond(list.latest()));

@@ -128,7 +128,7 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
   const std::size_t first = out.size();
   QueryFilter any = filter;
   any.per = HitPer::triangle;  // the first that is found will do
-  proxies_.tree().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
+  proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;
     visit_overlaps(asked, any, slot, [&](const OverlapHit& hit) {
       out.push_back(hit.body);
@@ -147,7 +147,7 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
   if (!journal_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
   const Asked asked = asked_of(shape, pose);
   const std::size_t first = out.size();
-  proxies_.tree().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
+  proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;
     visit_overlaps(asked, filter, slot, [&](const OverlapHit& hit) {
       out.push_back(hit);
@@ -169,7 +169,7 @@ std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, 
   std::optional<OverlapHit> first;
   QueryFilter of_bodies = filter;
   of_bodies.per = HitPer::body;
-  proxies_.tree().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
+  proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
     if ((first && first->body.slot < slot) || !sees(filter, slot)) return true;
     visit_overlaps(asked, of_bodies, slot, [&](const OverlapHit& hit) {
       first = hit;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/collision/broadphase/broad_phase_name.hpp"
 #include "isostep/core/fault.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/core/instantiate.hpp"
@@ -78,6 +79,10 @@ template <class S> class World final {
   /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
+  /// The structure that finds bodies near each other, and what queries meet: the tree of boxes unless told. Never
+  /// changes a bit. Grids move and insert more quickly, the tree finds pairs more quickly.
+  bool use_broad_phase(BroadPhaseName name);
+  BroadPhaseName broad_phase() const;
   /// Threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the
   /// calling thread. What `runner` points to outlives the world or the next call.
   void use_threads(const TaskRunner& runner);

@@ -40,6 +40,13 @@ template <class S> bool World<S>::use_simd(Simd simd) {
   if (!call.allowed()) return false;
   return engine_->tools_.use_simd(simd);
 }
+template <class S> bool World<S>::use_broad_phase(BroadPhaseName name) {
+  const CommandJournal::Call call(engine_->journal_, "use_broad_phase");
+  if (!call.allowed() || static_cast<std::uint32_t>(name) >= kBroadPhases) return false;
+  if (name != broad_phase()) engine_->proxies_.use(name);
+  return true;
+}
+template <class S> BroadPhaseName World<S>::broad_phase() const { return engine_->proxies_.boxes().name(); }
 template <class S> const char* World<S>::simd_name() const { return engine_->tools_.contact_kernels->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) {
   const CommandJournal::Call call(engine_->journal_, "use_threads");

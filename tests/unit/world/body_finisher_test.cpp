@@ -41,7 +41,7 @@ TYPED_TEST(BodyFinishers, what_is_in_range_stays_and_its_fat_box_is_renewed_when
   body.centre = vec<S>(2, 0, 0);
   EXPECT_TRUE(this->finish().clean());
   EXPECT_NEAR(to_double(body.fat.low.x), 1.4, 1e-4);
-  EXPECT_TRUE(this->systems.proxies.tree().box(this->ball.slot) == body.fat);
+  EXPECT_TRUE(this->systems.proxies.boxes().box(this->ball.slot) == body.fat);
 }
 
 TYPED_TEST(BodyFinishers, speed_and_position_are_cut_to_their_limits) {

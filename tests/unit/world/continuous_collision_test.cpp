@@ -55,7 +55,7 @@ TYPED_TEST(ContinuousCollisions, a_fast_ball_is_put_back_to_the_wall_that_it_pas
   EXPECT_GT(at.x, -0.03125 - 0.125 - this->kNear);
   EXPECT_NEAR(at.y, 0.5, 1e-5);
   EXPECT_NEAR(at.z, 0.25, 1e-5);
-  EXPECT_TRUE(this->systems->proxies.tree().box(ball.slot) == this->systems->awake(ball).fat);
+  EXPECT_TRUE(this->systems->proxies.boxes().box(ball.slot) == this->systems->awake(ball).fat);
 }
 
 TYPED_TEST(ContinuousCollisions, of_two_walls_the_first_one_counts) {

@@ -56,7 +56,7 @@ TYPED_TEST(ProxiesOf, one_that_moves_leaves_some_and_meets_others) {
   EXPECT_EQ(this->pairs(), Pairs{pair_key(0, 1)});
   this->place(0, 9);
   EXPECT_EQ(this->pairs(), Pairs{pair_key(0, 2)});
-  EXPECT_EQ(this->proxies.tree().box(0).low, vec<TypeParam>(8, -1, -1));
+  EXPECT_EQ(this->proxies.boxes().box(0).low, vec<TypeParam>(8, -1, -1));
 }
 
 TYPED_TEST(ProxiesOf, one_that_is_removed_has_no_pairs_until_it_comes_back) {
