@@ -1,0 +1,11 @@
+// Bodies of pieces for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/effects/fracture/shatter.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S) ISO_SHATTER(, S)
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
