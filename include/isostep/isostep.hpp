@@ -6,6 +6,8 @@
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/effects/articulation/articulation.hpp"
+#include "isostep/effects/fracture/fracture.hpp"
+#include "isostep/effects/fracture/shatter.hpp"
 #include "isostep/effects/particle_coupling.hpp"
 #include "isostep/geometry/inertia.hpp"
 #include "isostep/geometry/mass_tensor.hpp"

@@ -38,12 +38,14 @@ template <class S> WorldFindings try_world(std::uint64_t seed, SolverName solver
   const double speed = R::kMoverSpeed + R::most_throw(seed) + std::sqrt(2 * 10 * R::kTop);
   for (int frame = 0; frame < frames; ++frame) {
     StepReport report = random.play(static_cast<std::uint64_t>(frame));
-    if (R::most_throw(seed) <= R::kThrow) f.cut += report.clamped_speed != 0;
+    // Thrusters and springs off the centre spin their bodies for as long as they act.
+    const bool is_forced = drive_of(seed) == Drive::movers;
+    if (R::most_throw(seed) <= R::kThrow && !is_forced) f.cut += report.clamped_speed != 0;
     report.clamped_speed = 0;
     if (!report.clean()) ++f.faults;
     const World<S>& w = random.world;
     f.contacts = std::max(f.contacts, w.counts().contacts);
-    if (drive_of(seed) != Drive::movers) {
+    if (!is_forced) {
       const double rise = drive_of(seed) == Drive::commands ? random.book.rise(w) : random.book.excess(w);
       const double excess = rise / (random.book.given() + 1);
       f.energy = std::isfinite(excess) ? std::max(f.energy, excess) : 1e30;

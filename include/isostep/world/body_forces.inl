@@ -10,7 +10,7 @@ namespace isostep {
 
 template <class S> void BodyForces<S>::begin_step() {
   accelerations_.clear();
-  cut_ = Bitset();
+  cut_.clear();
   cut_count_ = 0;
   const Acceleration<S> none = {Vec3<S>::zero(), Vec3<S>::zero()};
   if (state_.forces.empty() && state_.force_records->untouched()) return;

@@ -187,14 +187,14 @@ template <class S> ISO_INLINE bool rotates_too_fast(Vec3<Velocity<S>> angular_ve
 }
 
 /// An exact sum as an S, held at the ends of the format instead of wrapping.
-template <class S, class Sum> S saturate_at(Sum sum, S highest) {
+template <class S, class Sum> ISO_INLINE S saturate_at(Sum sum, S highest) {
   const auto bound = product(highest, S(1));
   return bound < sum ? highest : sum < -bound ? -highest : round_to<S>(sum);
 }
 
 /// [1/s^2 of `limit`'s unit s] What forces may do: from rest to a limit in one step, and no more than half of the
 /// format, so that two add up.
-template <class S> S most_acceleration(std::int32_t hz, S limit) {
+template <class S> ISO_INLINE S most_acceleration(std::int32_t hz, S limit) {
   const S half = highest<S>() * S(0.5);
   return product(half, S(1)) < product(S(hz), limit) ? half : S(hz) * limit;
 }
@@ -207,8 +207,10 @@ template <class S> ISO_INLINE FaultReport fault_of_place(Vec3<S> point, const ch
 }
 
 /// The moment of a force that a user gave, whatever its size.
-template <class S> Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
-  const auto part = [](S a, S b, S c, S d) { return saturate_at<S>(product(a, b) - product(c, d), highest<S>()); };
+template <class S> ISO_INLINE Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
+  const auto part = [](S a, S b, S c, S d) ISO_INLINE_LAMBDA {
+    return saturate_at<S>(product(a, b) - product(c, d), highest<S>());
+  };
   return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z),
           part(arm.x, force.y, arm.y, force.x)};
 }

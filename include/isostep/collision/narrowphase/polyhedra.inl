@@ -145,20 +145,37 @@ ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact
   return height_over<S, W, Isa>(pair.a, contact.on_b) <= S(0);
 }
 
-/// The edges whose cross is better than both best faces by the tolerance. `over_a` [m]: how high over a the vertex of b
-/// is that is lowest over a's best face.
+/// The edges whose cross is better than both best faces by the tolerance, of those near both; known to be the best of
+/// all, or that there are none: `is_known`. `over_a` [m]: how high over a the vertex of b is that is lowest over a's
+/// best face.
 template <class S, int W, class Isa>
-ISO_INLINE EdgeContact<S> best_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a, S over_a,
-                                     const FaceAxis<S>& face_b, S margin) {
+ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a, S over_a,
+                                     const FaceAxis<S>& face_b, S margin, bool& is_known) {
   const S best = max(face_a.separation, face_b.separation), limit = best + pair.tolerance;
   const S over_b = height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex));
-  if (over_b <= min(limit, S(0))) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
+  is_known = over_b <= min(limit, S(0));
+  if (is_known) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
   const EdgeContact<S> near =
       contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
   const bool overlap = over_a <= S(0) || over_b <= S(0);
   // Over a face of solids that are apart a contact has their true distance.
-  if (near.axis.found ? is_best(pair, near, margin) : best > S(0) || overlap) return near;
-  return contact_of(pair, EdgeAxes<S, W, Isa>(pair).best(limit, margin));
+  is_known = near.axis.found ? is_best(pair, near, margin) : best > S(0) || overlap;
+  return near;
+}
+template <class S, int W, class Isa>
+ISO_INLINE EdgeContact<S> all_edges(const PolyhedronPair<S, W, Isa>& pair, S best, S margin) {
+  return contact_of(pair, EdgeAxes<S, W, Isa>(pair).best(best + pair.tolerance, margin));
+}
+/// Whether a point of the manifold, halfway between the surfaces, is inside both: they overlap.
+template <class S, int W, class Isa>
+ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Transform<S>& ta, const Manifold<S>& m) {
+  for (int i = 0; i < m.count; ++i) {
+    const Vec3<S> in_a = transposed_times(ta.rotation, m.points[i].position - ta.position);
+    if (height_over<S, W, Isa>(pair.a, in_a) <= S(0) &&
+        height_over<S, W, Isa>(pair.b, to_local(pair.b_in_a, in_a)) <= S(0))
+      return true;
+  }
+  return false;
 }
 
 /// collide_polyhedra() with W lanes of Isa.
@@ -187,15 +204,24 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
-  const EdgeContact<S> edges = best_edges(pair, face_a, over_a, face_b, margin);
+  const bool prefers_b = face_b.separation > beyond_a, b_is_better = face_b.separation > face_a.separation;
+  const auto touch_preferred = [&]() ISO_INLINE_LAMBDA { touch(prefers_b ? face_b : face_a, prefers_b, false); };
+  bool is_known = false;
+  EdgeContact<S> edges = near_edges(pair, face_a, over_a, face_b, margin, is_known);
+  const bool by_faces = !edges.axis.found;
+  if (by_faces) {
+    touch_preferred();
+    is_known = is_known || shares_a_point(pair, ta, out);
+  }
+  if (!is_known) edges = all_edges(pair, max(face_a.separation, face_b.separation), margin);
   if (edges.axis.found) {
+    out.clear();
     if (edges.axis.separation > margin) return;
     out.normal = ta.rotation * edges.axis.normal;
     return out.add(to_world(ta, (edges.on_a + edges.on_b) * S(0.5)), edges.axis.separation,
                    edges.axis.edge_a << 7 | edges.axis.edge_b);
   }
-  const bool prefers_b = face_b.separation > beyond_a, b_is_better = face_b.separation > face_a.separation;
-  touch(prefers_b ? face_b : face_a, prefers_b, false);
+  if (!by_faces) touch_preferred();
   // Nothing is above a face that was preferred to a better one: that one decides, and whether they are apart.
   if (out.count == 0 && max(face_a.separation, face_b.separation) <= S(0))
     touch(b_is_better ? face_b : face_a, b_is_better, true);
