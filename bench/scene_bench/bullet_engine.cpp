@@ -168,6 +168,12 @@ class BulletEngine : public Peer {
       }
       case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, on_a, on_b);
       case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");
+      case JointType::slider:
+      case JointType::cylindrical:
+      case JointType::planar:
+      case JointType::universal:
+      case JointType::constant_velocity:
+      case JointType::angular: throw scenes::SceneError("", "a joint that Bullet is not asked for");
       case JointType::ball: break;
     }
     if (joint.a < 0) return std::make_unique<btPoint2PointConstraint>(b, bt(joint.on_b.position));

@@ -234,6 +234,16 @@ class OdeEngine : public Peer {
         dJointSetDBallDistance(made, joint.is_spring ? joint.rest : joint.upper);
         if (joint.is_spring) soften(made, joint.stiffness / 60, joint.damping);
         break;
+      case JointType::slider:
+        made = dJointCreateSlider(world_, nullptr);
+        dJointAttach(made, body(joint.a), body(joint.b));
+        dJointSetSliderAxis(made, axis.x, axis.y, axis.z);
+        break;
+      case JointType::cylindrical:
+      case JointType::planar:
+      case JointType::universal:
+      case JointType::constant_velocity:
+      case JointType::angular: throw scenes::SceneError("", "a joint that ODE is not asked for");
     }
     if (joint.collide || joint.a < 0 || joint.b < 0) return;
     const auto place = [&](int i) { return &bodies()[static_cast<std::size_t>(i)]; };

@@ -27,6 +27,9 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
   if (scene.script == scenes::Script::mixed) {
     throw scenes::SceneError("", "peers cannot follow this script");
   }
+  if (!scene.records.empty() || !(scene.restitution_threshold == scenes::Scene{}.restitution_threshold)) {
+    throw scenes::SceneError("", "peers are given no records and no threshold of restitution");
+  }
   const bool fast = has_fast_bodies(scene);
   for (const scenes::SceneBody& body : scene.bodies) {
     bodies_.push_back(peer_body(body));

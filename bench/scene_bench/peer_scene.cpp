@@ -170,6 +170,9 @@ PeerBody peer_body(const scenes::SceneBody& of) {
   if (real(of.rolling_resistance) != 0 || !(real(of.surface_velocity) == Vec3<double>::zero())) {
     throw SceneError("", "peers are given no rolling resistance and no moving surfaces");
   }
+  if (real(of.static_friction) > real(of.friction) || !(real(of.anisotropy) == Vec3<double>{1, 1, 1}) || of.kind != 0) {
+    throw SceneError("", "peers are given one coefficient of friction a body");
+  }
   PeerBody body = {};
   body.type = of.type;
   for (const scenes::ScenePart& part : of.parts) body.parts.push_back(peer_part(part));
@@ -206,7 +209,7 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.a = of.a;
   joint.b = of.b;
   joint.on_a = end(of.a, of.anchor);
-  joint.on_b = end(of.b, holds_point(of.type) ? of.anchor : of.anchor_b);
+  joint.on_b = end(of.b, joins_two_points(of.type) ? of.anchor_b : of.anchor);
   joint.is_limited = of.type == JointType::hinge && (of.flags & joint_flag::kLimit) != 0;
   joint.lower = real(of.lower);
   joint.upper = real(of.upper);

@@ -6,6 +6,7 @@
 
 #include "hull_points.hpp"
 #include "isostep/geometry/validate.hpp"
+#include "scene_records.hpp"
 #include "shape_keys.hpp"
 #include "surface_points.hpp"
 
@@ -105,6 +106,9 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
   d.material.restitution = read<S>(body.restitution, place + "/restitution");
   d.material.rolling_resistance = read<S>(body.rolling_resistance, place + "/rolling_resistance");
   d.material.surface_velocity = read<S>(body.surface_velocity, place + "/surface_velocity");
+  d.material.static_friction = read<S>(body.static_friction, place + "/static_friction");
+  d.material.anisotropy = read<S>(body.anisotropy, place + "/anisotropy");
+  d.material.kind = body.kind;
   d.gravity_scale = read<S>(body.gravity_scale, place + "/gravity_scale");
   d.linear_damping = read<S>(body.linear_damping, place + "/linear_damping");
   d.angular_damping = read<S>(body.angular_damping, place + "/angular_damping");
@@ -164,7 +168,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
   const Quat<Unit<S>> axes = read<Unit<S>>(joint.orientation, place + "/orientation");
   const Pose<S> frame = {read<S>(joint.anchor, place + "/anchor"), axes};
   JointProperties<S> properties = world.joint_at(joint.type, body(joint.a), body(joint.b), frame);
-  if (!holds_point(joint.type)) {
+  if (joins_two_points(joint.type)) {
     const Pose<S> other = {read<S>(joint.anchor_b, place + "/anchor_b"), axes};
     properties.frame_b = world.joint_at(joint.type, body(joint.a), body(joint.b), other).frame_b;
   }
@@ -191,13 +195,18 @@ template <class S> Settings<S> settings_of(const Scene& scene) {
   settings.hz = scene.hz;
   settings.substeps = scene.substeps;
   settings.solver = scene.solver;
+  settings.projection = scene.projection;
   settings.gravity = read<S>(scene.gravity, "/gravity");
   settings.allow_sleep = scene.allow_sleep;
+  settings.restitution_threshold = read<S>(scene.restitution_threshold, "/restitution_threshold");
   if (static_cast<long long>(scene.hz) * scene.substeps > kMaxRate) {
     throw SceneError("hz and substeps", "more than " + std::to_string(kMaxRate) + " sub-steps a second");
   }
   if (const World<S> probe(settings); probe.fault() != Fault::none) {
-    throw SceneError("/gravity", std::string("beyond the greatest speed of ") + ScalarTraits<S>::kName);
+    const bool threshold = probe.settings().restitution_threshold != settings.restitution_threshold;
+    throw SceneError(threshold ? "/restitution_threshold" : "/gravity",
+                     std::string(threshold ? "below 0, or " : "") + "beyond the greatest speed of " +
+                         ScalarTraits<S>::kName);
   }
   return settings;
 }
@@ -210,6 +219,7 @@ BodyId add_body(World<S>& world, const SceneBody& body, std::uint64_t user_data,
 
 template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   Built<S> built;
+  if (scene.broad_phase != Scene{}.broad_phase) world.use_broad_phase(scene.broad_phase);
   std::map<std::string, ShapeId> shapes;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
@@ -221,6 +231,7 @@ template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     built.joints.push_back(add_joint<S>(world, scene.joints[i], built.bodies, "/joints/" + std::to_string(i)));
   }
+  add_records(world, scene, built.bodies);
   return built;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "named.hpp"
 
+#include "book/book.hpp"
+#include "cars.hpp"
 #include "trials/trial.hpp"
 
 namespace isostep::scenes {
@@ -45,6 +47,18 @@ Scene mixed_pgs() { return mixed_by(SolverName::pgs); }
 Scene mixed_worst_first() { return mixed_by(SolverName::worst_first); }
 Scene mixed_direct() { return mixed_by(SolverName::direct); }
 
+Scene right_turn() { return flight(Turn::right); }
+Scene left_turn() { return flight(Turn::left); }
+Scene under_sail() { return sailing(true); }
+Scene becalmed() { return sailing(false); }
+Scene crowd_blast() { return blast(500); }
+#define ISO_COARSE(name, Structure) \
+  Scene coarse_##name() { return coarse(BroadPhaseName::name); }
+ISO_FOR_EACH_BROAD_PHASE(ISO_COARSE)
+#undef ISO_COARSE
+#define ISO_COARSE(name, Structure) \
+  {"coarse_" #name, "bodies near and far, of many sizes, found by " #name, coarse_##name},
+
 constexpr NamedScene kScenes[] = {
     {"S1", "20 unit boxes stacked", tall_stack},
     {"S1x5", "5 unit boxes stacked", small_stack},
@@ -72,6 +86,7 @@ constexpr NamedScene kScenes[] = {
     {"S13", "1000 bullets and spinning rods at a thin wall", bullets_at_a_wall, false},
     {"S13m", "S13 at a sheet of triangles", bullets_at_a_sheet, false},
     {"S13d", "S13 with each at a plate of its own", bullets_at_plates, false},
+    {"S17", "64 cars drive, brake and steer", cars},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"town", "a mesh of streets, houses, stairs, ramps, a hill; who falls, rolls, tumbles, is shot", town, false},
     {"yard", "the same on static hulls, placed by a seed", yard, false},
@@ -79,6 +94,25 @@ constexpr NamedScene kScenes[] = {
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
     {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},
     {"mixed_direct", "the same, all contacts at once", mixed_direct},
+    {"flight", "an aircraft flies level and then to the right", right_turn},
+    {"flight_left", "flight mirrored", left_turn},
+    {"sail", "a boat sails across the wind", under_sail},
+    {"becalmed", "the boat without wind", becalmed},
+    {"bigballistic", "artillery and pistol rounds at two cubes", ballistics},
+    {"explosion", "a charge among five boxes and five balls", rubble},
+    {"blast", "a charge among 500 boxes", crowd_blast},
+    {"catenary", "50 links hang between two hooks", catenary},
+    {"top", "a top spins on its point", top},
+    {"hinge", "a door swings on a level hinge", pendulum_door},
+    {"piston", "a crank drives a block along a line", piston},
+    {"fracture", "a ball breaks a cube in eight, and eight again", broken_cube},
+    {"materials", "balls at eight boxes, wood, glass and stone", materials, false},
+    {"tower", "a ball at a tower of 100 boxes that break", breakable_tower},
+    {"sledges", "sledges along, askew of and across their runners", sledges},
+    {"slopes", "crates on slopes of 20, 25 and 30 degrees", slopes},
+    ISO_FOR_EACH_BROAD_PHASE(ISO_COARSE)
+    {"elements", "the fewest bodies that ask for one of every record", elements},
+    {"rolling", "balls roll on, against four resistances", rolling},
     {"medley", "the fewest bodies that ask for every part of the engine", medley},
 };
 

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "isostep/collision/broadphase/broad_phase_name.hpp"
 #include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
@@ -80,6 +82,9 @@ struct SceneBody {
   Number restitution = 0;                   // [1]
   Number rolling_resistance = 0;            // [m] lever arm of the normal force that resists rolling
   Vector surface_velocity = zero_vector();  // [m/s] world, a conveyor belt's
+  Number static_friction = 0;               // [1] below friction: the same
+  Vector anisotropy = {1, 1, 1};            // [1] what is left of friction along the body's axes
+  std::uint32_t kind = 0;                   // of material, for pairs; 0: none
   Number gravity_scale = 1;                 // [1]
   Number linear_damping = 0;                // [1/s]
   Number angular_damping = 0;               // [1/s]
@@ -108,20 +113,35 @@ struct SceneJoint {
   Number spring_damping = 0;             // [1]
 };
 
+/// A record of the world, such as a force: scene_records.hpp.
+struct SceneField {
+  std::string name;
+  std::vector<Number> numbers;  // of a matrix by rows; of a flag or a choice its number; of a body its place, or -1
+};
+struct SceneRecord {
+  std::string kind;                // as force_list.hpp names it
+  std::vector<SceneField> fields;  // those that differ from what the engine's record has
+};
+
 /// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
-enum class Script : std::uint32_t { none, mixer, mixed, hit, medley };
-inline constexpr const char* kScriptNames[] = {"none", "mixer", "mixed", "hit", "medley"};
+enum class Script : std::uint32_t { none, mixer, mixed, hit, medley, flight, flight_left, sail, guns, cars };
+inline constexpr const char* kScriptNames[] = {"none",   "mixer",       "mixed", "hit", "medley",
+                                               "flight", "flight_left", "sail",  "guns", "cars"};
 
 struct Scene {
   std::string name = "scene";
   Vector gravity = {0, -10, 0};  // [m/s^2]
   bool allow_sleep = true;
+  Number restitution_threshold = 0.25;  // [m/s] as in Settings
   int hz = 60, substeps = 8;  // as in Settings
   SolverName solver = SolverName::soft_step;
+  BroadPhaseName broad_phase = {};  // the world's own; it changes no bit
+  Projection projection = Projection::nonlinear;
   int frames = 600;  // of a run that asks for no other count
   Script script = Script::none;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
+  std::vector<SceneRecord> records;
 };
 
 /// A scene that cannot be; `place` is a JSON pointer into its file, "" for the whole.

@@ -5,6 +5,7 @@
 #include "blob_files.hpp"
 #include "object_reader.hpp"
 #include "scene_keys.hpp"
+#include "scene_records.hpp"
 #include "shape_keys.hpp"
 
 namespace isostep::scenes {
@@ -72,6 +73,12 @@ void read_flags(ObjectReader& reader, std::span<const FlagKey> keys, std::uint32
   }
 }
 
+std::uint32_t read_number(ObjectReader& reader, const char* key, std::int64_t least) {
+  std::int64_t number = least;
+  reader.integer(key, least, 0xffffffff, number);
+  return static_cast<std::uint32_t>(number);
+}
+
 SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& files) {
   ObjectReader reader(node, place);
   SceneBody body;
@@ -88,13 +95,14 @@ SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& f
   reader.number("restitution", body.restitution);
   reader.number("rolling_resistance", body.rolling_resistance);
   reader.vector("surface_velocity", body.surface_velocity);
+  reader.number("static_friction", body.static_friction);
+  reader.vector("anisotropy", body.anisotropy);
+  body.kind = read_number(reader, "kind", 0);
   reader.number("gravity_scale", body.gravity_scale);
   reader.number("linear_damping", body.linear_damping);
   reader.number("angular_damping", body.angular_damping);
   read_flags(reader, kBodyLocks, body.locks);
-  std::int64_t group = 0;
-  reader.integer("group", 0, 0xffffffff, group);
-  body.group = static_cast<std::uint32_t>(group);
+  body.group = read_number(reader, "group", 0);
   reader.flag("allow_sleep", body.allow_sleep);
   reader.flag("collide", body.collide);
   reader.flag("sensor", body.sensor);
@@ -123,7 +131,7 @@ SceneJoint read_joint(const JsonNode& node, const std::string& place, std::size_
   if (joint.a == joint.b) throw SceneError(place, "a joint needs two different bodies");
   reader.require("anchor");
   reader.vector("anchor", joint.anchor);
-  if (!holds_point(joint.type)) {
+  if (joins_two_points(joint.type)) {
     reader.require("anchor_b");
     reader.vector("anchor_b", joint.anchor_b);
   }
@@ -157,9 +165,14 @@ Scene read_scene(std::string_view json, const std::string& folder) {
   read_name(reader, scene);
   reader.vector("gravity", scene.gravity);
   reader.flag("allow_sleep", scene.allow_sleep);
+  reader.number("restitution_threshold", scene.restitution_threshold);
   scene.hz = read_count(reader, "hz", 10, 1000, scene.hz);
   scene.substeps = read_count(reader, "substeps", 1, 64, scene.substeps);
   if (reader.has("solver")) scene.solver = static_cast<SolverName>(reader.choice("solver", kSolverNames));
+  if (reader.has("projection"))
+    scene.projection = static_cast<Projection>(reader.choice("projection", kProjectionNames));
+  if (reader.has("broad_phase"))
+    scene.broad_phase = static_cast<BroadPhaseName>(reader.choice("broad_phase", kBroadPhaseNames));
   scene.frames = read_count(reader, "frames", 0, 1'000'000'000, scene.frames);
   if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
   reader.require("bodies");
@@ -171,6 +184,9 @@ Scene read_scene(std::string_view json, const std::string& folder) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     scene.joints.push_back(read_joint(joints[i], item("", "joints", i), scene.bodies.size()));
   }
+  const auto records = reader.array("records");
+  for (std::size_t i = 0; i < records.size(); ++i)
+    scene.records.push_back(read_record(records[i], item("", "records", i), scene.bodies.size()));
   reader.finish();
   return scene;
 }

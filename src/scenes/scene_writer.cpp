@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file.hpp"
 #include "scene_keys.hpp"
+#include "scene_records.hpp"
 #include "shape_keys.hpp"
 
 namespace isostep::scenes {
@@ -44,6 +45,7 @@ std::string in_quotes(const std::string& text) {
 
 class ObjectWriter {
  public:
+  ObjectWriter() = default;
   explicit ObjectWriter(std::string type) { raw("type", in_quotes(type)); }
   void raw(const char* key, const std::string& value) {
     text_ += (text_.empty() ? "\"" : ", \"") + std::string(key) + "\": " + value;
@@ -91,6 +93,9 @@ std::string text_of(const SceneBody& body) {
   out.member("restitution", body.restitution, plain.restitution);
   out.member("rolling_resistance", body.rolling_resistance, plain.rolling_resistance);
   out.member("surface_velocity", body.surface_velocity, plain.surface_velocity);
+  out.member("static_friction", body.static_friction, plain.static_friction);
+  out.member("anisotropy", body.anisotropy, plain.anisotropy);
+  if (body.kind != plain.kind) out.raw("kind", std::to_string(body.kind));
   out.member("gravity_scale", body.gravity_scale, plain.gravity_scale);
   out.member("linear_damping", body.linear_damping, plain.linear_damping);
   out.member("angular_damping", body.angular_damping, plain.angular_damping);
@@ -112,7 +117,7 @@ std::string text_of(const SceneJoint& joint) {
   out.raw("a", std::to_string(joint.a));
   out.raw("b", std::to_string(joint.b));
   out.member("anchor", joint.anchor);
-  if (!holds_point(joint.type)) out.member("anchor_b", joint.anchor_b);
+  if (joins_two_points(joint.type)) out.member("anchor_b", joint.anchor_b);
   out.member("orientation", joint.orientation, plain.orientation);
   for (const auto& [key, flag] : kJointFlags) out.member(key, (joint.flags & flag) != 0, false);
   for (const auto& [key, member] : kJointNumbers) out.member(key, joint.*member, plain.*member);
@@ -131,16 +136,25 @@ std::string write_scene(const Scene& scene) {
   std::string text = "{\"name\": " + in_quotes(scene.name) + ", \"gravity\": " + list(scene.gravity) +
                      ", \"allow_sleep\": " + list(scene.allow_sleep) + ", \"frames\": " + std::to_string(scene.frames);
   const Scene standard;
+  if (!(scene.restitution_threshold == standard.restitution_threshold))
+    text += ", \"restitution_threshold\": " + scene.restitution_threshold.text();
   if (scene.hz != standard.hz) text += ", \"hz\": " + std::to_string(scene.hz);
   if (scene.substeps != standard.substeps) text += ", \"substeps\": " + std::to_string(scene.substeps);
   if (scene.solver != standard.solver) {
     text += ", \"solver\": " + in_quotes(kSolverNames[static_cast<std::size_t>(scene.solver)]);
+  }
+  if (scene.projection != standard.projection) {
+    text += ", \"projection\": " + in_quotes(kProjectionNames[static_cast<std::size_t>(scene.projection)]);
+  }
+  if (scene.broad_phase != standard.broad_phase) {
+    text += ", \"broad_phase\": " + in_quotes(kBroadPhaseNames[static_cast<std::size_t>(scene.broad_phase)]);
   }
   if (scene.script != Script::none) {
     text += ", \"script\": " + in_quotes(kScriptNames[static_cast<std::size_t>(scene.script)]);
   }
   text += ",\n \"bodies\": [" + lines_of(scene.bodies) + "]";
   if (!scene.joints.empty()) text += ",\n \"joints\": [" + lines_of(scene.joints) + "]";
+  if (!scene.records.empty()) text += ",\n \"records\": [" + lines_of(scene.records) + "]";
   return text + "}\n";
 }
 

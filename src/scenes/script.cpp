@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "script.hpp"
 
+#include "book/book.hpp"
 #include "build.hpp"
+#include "cars.hpp"
+#include "isostep/effects/fracture/breaking.hpp"
 #include "isostep/world/state.hpp"
 #include "medley.hpp"
 #include "mixed.hpp"
@@ -13,6 +16,7 @@ namespace isostep::scenes {
 namespace {
 
 constexpr char kPlace[] = "script";
+constexpr std::uint32_t kMostBroken = 4;  // a frame: 60 frames a second with room to spare
 
 template <class S> S scalar(double value) { return value_of<S>(value, kPlace); }
 template <class S> Vec3<S> vector(double x, double y, double z) {
@@ -189,10 +193,16 @@ template <class S> void play_medley(World<S>& world) {
 }  // namespace
 
 template <class S> void before_step(Script script, World<S>& world) {
+  if (!world.state().force_records->breakables.all().empty()) break_bodies(world, kMostBroken);
   if (script == Script::mixer) stir(world);
   if (script == Script::mixed) Mixing<S>(world).run();
   if (script == Script::hit) hit(world);
   if (script == Script::medley) play_medley(world);
+  if (script == Script::flight) fly(world, Turn::right);
+  if (script == Script::flight_left) fly(world, Turn::left);
+  if (script == Script::sail) steer(world);
+  if (script == Script::guns) shoot(world);
+  if (script == Script::cars) drive_cars(world);
 }
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);

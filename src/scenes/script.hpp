@@ -7,7 +7,7 @@
 
 namespace isostep::scenes {
 
-/// Call before every step. Remembers nothing: after a load it does the same again.
+/// Call before every step: the script, and the pieces of what broke. Remembers nothing: after a load it does the same.
 template <class S> void before_step(Script script, World<S>& world);
 
 #define ISO_EXTERN(S) extern template void before_step<S>(Script, World<S>&);

@@ -66,6 +66,15 @@ inline SceneBody fixed_box(Point at, Point half) {
   body.type = BodyType::static_;
   return body;
 }
+/// With both frames at one point.
+inline SceneJoint joint_of(JointType type, int a, int b, Point anchor) {
+  SceneJoint joint;
+  joint.type = type;
+  joint.a = a;
+  joint.b = b;
+  joint.anchor = vector_of(anchor);
+  return joint;
+}
 /// About the world's y axis.
 inline Rotation yaw(double angle) {
   const SinCos<double> half = sin_cos(angle / 2);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
+#include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/particles/settings.hpp"
 #include "tool/bake/commands.hpp"
@@ -47,6 +48,8 @@ class ToolCommands {
     command->add_option("--substeps", run_.game.substeps, "per step [the scene's]")->check(CLI::Range(1, 64));
     command->add_option("--solver", run_.game.solver, "how contacts are solved [the scene's]")
         ->check(CLI::IsMember(CommandLine::names_in(kSolverNames)));
+    command->add_option("--projection", run_.game.projection, "how worst_first ends overlaps [the scene's]")
+        ->check(CLI::IsMember(CommandLine::names_in(kProjectionNames)));
     command->add_option("--integrator", run_.game.integrator, "how particles are integrated [the scene's]")
         ->check(CLI::IsMember(CommandLine::names_in(kIntegratorNames)));
     command->add_option("--stepping", run_.game.stepping, "how particles' sub-steps end [the scene's]")

@@ -109,6 +109,38 @@ TYPED_TEST(Allocation, AWarmSceneStepsWithoutAnyWhateverItsSolver) {
   }
 }
 
+TYPED_TEST(Allocation, AWarmSceneStepsWithoutAnyHoweverItsOverlapsEnd) {
+  using S = TypeParam;
+  for (std::uint32_t projection = 0; projection < kProjections; ++projection) {
+    Settings<S> settings = test::solver_settings<S>(SolverName::worst_first);
+    settings.projection = static_cast<Projection>(projection);
+    World<S> world(settings);
+    const test::SolverScene<S> scene(world);
+    for (std::uint64_t frame = 0; frame < 240; ++frame) scene.play(world, frame);
+    const Count count;
+    for (std::uint64_t frame = 240; frame < 270; ++frame) scene.play(world, frame);
+    EXPECT_EQ(count.so_far(), 0u) << kProjectionNames[projection];
+  }
+}
+
+TYPED_TEST(Allocation, PairsOfMaterialsAreFoundWithoutAny) {
+  using S = TypeParam;
+  for (std::uint32_t i = 0; i < this->bodies_.size(); ++i) {
+    Material<S> material;
+    material.kind = i % 50;
+    material.anisotropy = {S(0.25), S(1), S(1)};
+    this->world_.set_material(this->bodies_[i], material);
+    MaterialPair<S> pair;
+    pair.kind_a = 1 + i;
+    pair.kind_b = 1 + i / 2;
+    EXPECT_TRUE(this->world_.add(pair));
+  }
+  this->world_.step();
+  const Count count;
+  for (int frame = 0; frame < 60; ++frame) this->world_.step();
+  EXPECT_EQ(count.so_far(), 0u);
+}
+
 TYPED_TEST(Allocation, AWarmSnapshotIsSavedLoadedAndHashedWithoutAny) {
   typename World<TypeParam>::Snapshot frame;
   this->world_.save(frame);

@@ -32,6 +32,7 @@ struct Circumstances {
   std::uint32_t past = 0;  // bodies that were there before and left their slots
   Simd simd = Simd::best;
   TaskRunner runner = {};
+  Projection projection = Projection::nonlinear;
 };
 using Motions = std::vector<std::vector<std::uint64_t>>;  // by island, by frame
 
@@ -61,6 +62,7 @@ struct Seen {
 template <class S> Motions motions_of(SolverName solver, const Circumstances& how, Seen* seen = nullptr) {
   Settings<S> s = settings<S>(-10, 60, 4);
   s.solver = solver;
+  s.projection = how.projection;
   World<S> w(s);
   w.use_simd(how.simd);
   w.use_threads(how.runner);
@@ -155,6 +157,21 @@ TYPED_TEST(Islands, move_the_same_in_whatever_order_they_were_made) {
   expect_equal(motions_of<S>(this->kSolver, {backwards}), this->expected(), "backwards");
   expect_equal(motions_of<S>(this->kSolver, {in_turn(1)}), this->expected(), "in turn");
   expect_equal(motions_of<S>(this->kSolver, {in_turn(2), 17, Simd::scalar}), this->expected(), "in slots used before");
+}
+
+TYPED_TEST(Islands, move_as_each_does_alone_however_worst_first_ends_overlaps) {
+  using S = typename TestFixture::Number;
+  if (this->kSolver != SolverName::worst_first) return;
+  for (std::uint32_t i = 0; i < kProjections; ++i) {
+    SCOPED_TRACE(kProjectionNames[i]);
+    const auto projection = static_cast<Projection>(i);
+    const Motions together = motions_of<S>(this->kSolver, {in_order(), 0, Simd::best, {}, projection});
+    EXPECT_EQ(together == this->expected(), projection == Projection::nonlinear);
+    for (int k = 0; k < Island<float>::kKinds; ++k) {
+      expect_equal(motions_of<S>(this->kSolver, {{k}, 0, Simd::best, {}, projection}), together, "alone");
+    }
+    expect_equal(motions_of<S>(this->kSolver, {in_turn(1), 17, Simd::scalar, {}, projection}), together, "in turn");
+  }
 }
 
 }  // namespace

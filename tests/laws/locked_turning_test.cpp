@@ -55,5 +55,40 @@ TYPED_TEST(LockedTurning, a_torque_meets_the_inertia_about_the_free_axis) {
   EXPECT_NEAR(to_double(w.angular_velocity(by_impulse).y), 2 / this->about_y(), pick<S>(1e-5, 1e-12, 1e-3, 1e-7));
 }
 
+/// The weld asks for what the lock holds already. Along that axis its block moves nothing, and what float and Q16.16
+/// round must not come back from there through what hangs on it.
+TYPED_TEST(LockedTurning, a_body_that_is_welded_and_locked_holds_what_hangs_on_it) {
+  using S = TypeParam;
+  for (const JointType weld : {JointType::fixed, JointType::slider, JointType::angular}) {
+    for (const SolverName solver : {SolverName::soft_step, SolverName::direct}) {
+      Settings<S> s = settings<S>(-10);
+      s.solver = solver;
+      World<S> w(s);
+      const ShapeId box = add_box(w, 0.2, 0.1, 0.3);
+      BodyId last;
+      std::vector<JointId> joints;
+      const auto add = [&](JointType type, D3 at, double mass, std::uint32_t locks) {
+        BodyDefinition<S> d = moving<S>(box, at);
+        d.mass = num<S>(mass);
+        d.orientation = turn<S>({0.6, 0.48, 0.64}, 1);
+        d.locks = locks;
+        d.collide = false;
+        const BodyId body = w.create(d);
+        const D3 anchor = at + D3{-0.2, 0.1, 0.3};
+        joints.push_back(w.create(w.joint_at(type, last, body, {vec<S>(anchor), turn<S>({0.48, 0.64, 0.6}, 0.7)})));
+        last = body;
+      };
+      add(weld, {0, 5, 0}, 0.3, kAboutX);
+      add(JointType::hinge, {0.5, 5, 0.25}, 0.25, 0);
+      add(weld, {0.5, 4.5, 0.5}, 0.7, kAboutX << 1);
+      add(JointType::fixed, {0.75, 4, 0.5}, 1, 0);
+      for (int i = 0; i < 180; ++i) {
+        ASSERT_TRUE(w.step().clean()) << kJointNames[static_cast<int>(weld)] << ", frame " << i;
+        for (const JointId joint : joints) ASSERT_LT(to_double(w.joint_error(joint)), 0.02);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

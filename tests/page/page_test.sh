@@ -61,6 +61,26 @@ END
 "$tool" run "$dir/gem.json" --frames 2 --hashes "$dir/gem" --html "$dir/gem.html" >/dev/null || fail "gem"
 check gem 3 "$(last_of "$dir/gem")"
 
+# What acts and is no body: a boat's water, wind and four surfaces; a charge while it lasts; pieces of what breaks.
+shades() { open "$1" "$2" --dump-dom | sed -n 's/.*<pre id="check".* shades \([0-9]*\) .*/\1/p'; }
+# acts NAME EFFECTS FRAME: so many records are in the page, and without them the picture of that frame has fewer colours.
+acts() {
+  grep -q " effects $2 " "$dir/check" || fail "$1: not $2 effects: $(cat "$dir/check")"
+  with=$(shades "$1" "frame=$3") without=$(shades "$1" "frame=$3&effects=0")
+  [ "$with" -gt "$without" ] || fail "$1: $with colours with its effects, $without without"
+}
+"$tool" run sail --frames 60 --hashes "$dir/sail" --html "$dir/sail.html" >/dev/null || fail "sail"
+check sail 61 "$(last_of "$dir/sail")"
+acts sail 6 60
+"$tool" run explosion --frames 80 --hashes "$dir/charge" --html "$dir/charge.html" >/dev/null || fail "explosion"
+check charge 81 "$(last_of "$dir/charge")"
+acts charge 1 78
+"$tool" run fracture --frames 60 --hashes "$dir/pieces" --html "$dir/pieces.html" >/dev/null || fail "fracture"
+check pieces 61 "$(last_of "$dir/pieces")"
+seen() { open pieces "frame=$1" --dump-dom | sed -n 's/.*>\([0-9]*\) bodies, .*/\1/p'; }
+whole=$(seen 0) broken=$(seen 60)
+[ "$whole" = 2 ] && [ "$broken" -ge 9 ] || fail "fracture: ${whole:-no} bodies, then ${broken:-none}"
+
 # Particles, and a picture.
 "$tool" run cloth --frames 60 --hashes "$dir/cloth" --html "$dir/cloth.html" >/dev/null || fail "cloth"
 check cloth 61 "$(last_of "$dir/cloth")"

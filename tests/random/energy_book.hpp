@@ -43,7 +43,7 @@ template <class S> class EnergyBook {
     }
     for (const JointId id : w.joints()) {
       const JointProperties<S>& p = *w.joint(id);
-      if ((p.flags & joint_flag::kMotor) != 0) motors_.push_back({id, angles_of(w, p).twist});
+      if ((p.flags & joint_flag::kMotor) != 0) motors_.push_back({id, driven_place(w, p)});
     }
   }
   void after_step(const World<S>& w) {
@@ -56,7 +56,9 @@ template <class S> class EnergyBook {
     for (const Driven& motor : motors_) {
       const JointProperties<S>& p = *w.joint(motor.joint);
       const double speed = to_double(p.motor_speed), most = kMargin * std::fabs(speed) / hz;
-      const double turned = std::remainder(angles_of(w, p).twist - motor.angle, 2 * 3.14159265358979323846);
+      const double moved = driven_place(w, p) - motor.place;
+      const bool turns = measure_of(p.type) == JointMeasure::angle;
+      const double turned = turns ? std::remainder(moved, 2 * 3.14159265358979323846) : moved;
       give(to_double(p.motor_torque) * std::clamp(speed < 0 ? -turned : turned, 0.0, most));
     }
   }
@@ -80,7 +82,7 @@ template <class S> class EnergyBook {
   };
   struct Driven {
     JointId joint;
-    double angle;  // [rad]
+    double place;  // [rad] or [m]
   };
   void give(double energy) {
     allowed_ += energy;

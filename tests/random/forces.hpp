@@ -14,13 +14,23 @@ template <class S> class RandomForces {
 
   /// One more, one less, or one that is another now.
   void change() {
-    const std::uint32_t kind = dice_.below(7), what = dice_.below(8);
+    const std::uint32_t kind = dice_.below(kKinds), what = dice_.below(8);
     std::uint32_t i = 0;
-    ForceRecords<S>::members(
+    ForceRecords<S>::forces(
         [&](const char*, const auto& registry) {
           if (i++ == kind) change(registry, what);
         },
         *world_.state().force_records);
+  }
+
+  /// A null id where there is no dynamic body.
+  BodyId body() {
+    const std::vector<BodyId> all = world_.bodies();
+    for (int tries = 0; tries < 8; ++tries) {
+      const BodyId id = all[dice_.below(static_cast<std::uint32_t>(all.size()))];
+      if (world_.type(id) == BodyType::dynamic) return id;
+    }
+    return {};
   }
 
  private:
@@ -38,15 +48,6 @@ template <class S> class RandomForces {
     }
     Record record = *world_.find(id);
     if (draw(record)) world_.set(id, record);
-  }
-  /// A null id where there is no dynamic body.
-  BodyId body() {
-    const std::vector<BodyId> all = world_.bodies();
-    for (int tries = 0; tries < 8; ++tries) {
-      const BodyId id = all[dice_.below(static_cast<std::uint32_t>(all.size()))];
-      if (world_.type(id) == BodyType::dynamic) return id;
-    }
-    return {};
   }
   double mass(BodyId id) const { return to_double(world_.mass(id)); }
 
@@ -98,6 +99,45 @@ template <class S> class RandomForces {
     buoyancy.surface_height = num<S>(dice_.in(0, 2));
     return true;
   }
+  bool draw(Explosion<S>& blast) {
+    const BodyId id = body();
+    if (!id) return false;
+    const double weight = mass(id) * 10;
+    blast.centre = vec<S>(dice_.point(2) + D3{0, 1, 0});
+    blast.begin = world_.tick() + dice_.below(20);
+    blast.implosion_force = num<S>(dice_.in(0, 1) * weight);
+    blast.implosion_most = num<S>(dice_.in(0, 4));
+    blast.implosion_duration = num<S>(dice_.in(0, 0.25));
+    blast.wave_force = num<S>(dice_.in(0, 20) * weight);
+    blast.wave_speed = num<S>(dice_.in(4, 60));
+    blast.wave_width = num<S>(dice_.in(0, 1));
+    blast.wave_ramp = num<S>(dice_.in(0, 1));
+    blast.wave_duration = num<S>(dice_.in(0, 1));
+    blast.chimney_force = num<S>(dice_.in(0, 1) * weight);
+    blast.chimney_duration = num<S>(dice_.in(0, 0.5));
+    blast.is_shielded = dice_.one_in(2);
+    return true;
+  }
+  bool draw(Water<S>& water) {
+    const BodyId id = body();
+    if (!id) return false;
+    water.surface_height = num<S>(dice_.in(-1, 2));
+    water.density = num<S>(mass(id) * dice_.in(0, 2));
+    water.middle = vec<S>(dice_.point(2));
+    if (dice_.one_in(2)) {
+      const double x = dice_.in(1, 4), z = dice_.in(1, 4);
+      water.half = vec<S>(x, 8, z);
+    }
+    water.current = vec<S>(dice_.arrow(0, 2));
+    water.linear_drag = num<S>(dice_.in(0, 2));
+    water.quadratic_drag = num<S>(dice_.in(0, 1));
+    water.angular_drag = num<S>(dice_.in(0, 2));
+    water.wave_length = num<S>(dice_.in(4, 20));
+    water.wave_height = dice_.one_in(2) ? num<S>(dice_.in(0, 0.25)) : S(0);
+    water.wave_period = num<S>(dice_.in(1, 4));
+    water.wave_direction = normalise(vec<S>(dice_.arrow(1, 2)));
+    return true;
+  }
   bool draw(BodyDrag<S>& drag) {
     drag.body = body();
     if (!drag.body) return false;
@@ -119,8 +159,17 @@ template <class S> class RandomForces {
     }
     surface.control = num<S>(dice_.in(-1, 1));
     surface.is_quadratic = dice_.one_in(2);
+    surface.is_under_water = dice_.one_in(3);
     return true;
   }
+
+  static constexpr std::uint32_t kKinds = [] {
+    std::uint32_t kinds = 0;
+#define ISO_COUNT(name, Record, Id, S) ++kinds;
+    ISO_FOR_EACH_FORCE(ISO_COUNT, S)
+#undef ISO_COUNT
+    return kinds;
+  }();
 
   World<S>& world_;
   Dice& dice_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -10,6 +11,7 @@ struct JointAngles {
   double twist = 0;             // [rad] of b's frame against a's about z, in (-pi, pi]; a hinge's angle
   double swing = 0;             // [rad] between the z axes
   double apart = 0;             // [m] between the anchors
+  double along = 0;             // [m] of b's anchor along a's z
   double angular_velocity = 0;  // [rad/s] of b against a about a's z
   D3 axis = {0, 0, 0};          // [1] a's z, world
   D3 anchor = {0, 0, 0};        // [m] on a, world
@@ -45,8 +47,15 @@ template <class S> JointAngles angles_of(const World<S>& w, const JointPropertie
   angles.apart = length(b.anchor - a.anchor);
   angles.axis = to_matrix(a.frame).column(2);
   angles.anchor = a.anchor;
+  angles.along = dot(b.anchor - a.anchor, angles.axis);
   angles.angular_velocity = dot(b.angular_velocity - a.angular_velocity, angles.axis);
   return angles;
+}
+
+/// [rad] or [m] what a motor of the joint moves.
+template <class S> double driven_place(const World<S>& w, const JointProperties<S>& p) {
+  const JointAngles now = angles_of(w, p);
+  return measure_of(p.type) == JointMeasure::angle ? now.twist : now.along;
 }
 
 /// [J] of one dynamic body; kappa is mass times inverse inertia about the principal axes.

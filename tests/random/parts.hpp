@@ -14,6 +14,7 @@
 
 namespace isostep::test {
 
+inline constexpr std::uint32_t kMaterialKinds = 3;
 inline constexpr double kLeast = 0.1, kMost = 0.4;  // [m] sizes: inside every scalar's range with the arms below
 
 /// A shape and the radius of a ball about the body's origin that it is in.
@@ -63,6 +64,16 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   return {w.add_shape(std::span<const Child<S>>(children), blobs), reach};
 }
 
+/// Static friction, a grain, a kind. By dice of its own: what is drawn after it is as it was before there was this.
+template <class S> void draw_surface(std::uint64_t seed, Material<S>& material) {
+  Dice dice(seed);
+  if (dice.one_in(3)) material.static_friction = num<S>(dice.in(0, 2));
+  if (dice.one_in(3)) {
+    const double x = dice.in(1.0 / 16, 1), y = dice.in(1.0 / 16, 1);
+    material.anisotropy = vec<S>(x, y, dice.in(1.0 / 16, 1));
+  }
+  if (dice.one_in(2)) material.kind = 1 + dice.below(kMaterialKinds);
+}
 /// Anything but a pose, a type and a speed.
 template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   BodyDefinition<S> d;
@@ -81,6 +92,7 @@ template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   d.allow_sleep = !dice.one_in(8);
   d.user_data = dice.next();
   d.bullet = d.user_data % 8 == 0;
+  draw_surface(d.user_data, d.material);
   return d;
 }
 
@@ -108,13 +120,19 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
   switch (p.type) {
     case JointType::ball: p.flags |= (dice.one_in(2) ? 0u : kLimit) | (dice.one_in(2) ? 0u : kCone); break;
     case JointType::hinge:
+    case JointType::planar:
+    case JointType::slider:
+    case JointType::cylindrical:
       p.flags |= (dice.one_in(3) ? 0u : kLimit) | (springs && dice.one_in(2) ? kSpring : 0u);
       if (!motors || dice.one_in(2)) break;
       p.flags |= kMotor;
       p.motor_speed = num<S>((dice.one_in(2) ? 1 : -1) * dice.in(0.5, 5));
       p.motor_torque = num<S>(dice.magnitude(0.25, 25));
       break;
-    case JointType::fixed: break;
+    case JointType::constant_velocity: p.flags |= dice.one_in(2) ? 0u : kCone; break;
+    case JointType::fixed:
+    case JointType::universal:
+    case JointType::angular: break;
     case JointType::distance: {
       const double apart = angles_of(w, p).apart;
       p.flags |= springs && dice.one_in(2) ? kSpring : kLimit;

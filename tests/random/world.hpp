@@ -3,10 +3,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/effects/fracture/breaking.hpp"
 #include "random/energy_book.hpp"
 #include "random/forces.hpp"
 #include "random/parts.hpp"
 #include "random/terrain.hpp"
+#include "random/vehicles.hpp"
 
 namespace isostep::test {
 
@@ -19,6 +21,11 @@ template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName so
   Settings<S> s = settings<S>(-10, rate, substeps);
   s.allow_sleep = !dice.one_in(4);
   s.solver = solver;
+  // Of dice of its own: what else is drawn is as it was before there was this.
+  if (solver == SolverName::worst_first)
+    s.projection = static_cast<Projection>(Dice(seed * 179424673 + 11).below(kProjections));
+  Dice own(seed * 17 + 3);
+  if (own.one_in(3)) s.restitution_threshold = num<S>(own.in(0.0625, 1));
   return s;
 }
 
@@ -59,6 +66,10 @@ template <class S> class RandomWorld {
                       std::vector<AppliedForce>* forces = nullptr) {
     dig(w, seed, frame);
     change_forces(w, seed, frame);
+    break_some(w, seed, frame);
+    walk_some(w, seed, frame);
+    drive_some(w, seed, frame);
+    change_pairs(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -81,6 +92,7 @@ template <class S> class RandomWorld {
       case 5: {
         Material<S> material;
         material.friction = num<S>(dice.in(0, 1));
+        draw_surface(frame * 31 + seed, material);
         if (moves) w.set_material(b, material);
         break;
       }
@@ -178,6 +190,90 @@ template <class S> class RandomWorld {
     Dice dice(seed * 15485863 + frame * 32452843 + 29);
     if (dice.one_in(6)) RandomForces<S>(w, dice).change();
   }
+  /// Bodies that may break, in the same worlds, and pieces of those that did. Dice of its own.
+  static void break_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    break_bodies(w);
+    Dice dice(seed * 86028121 + frame * 122949823 + 17);
+    if (!dice.one_in(12) || w.bodies().size() > kMostWhileBreaking) return;
+    Breakable<S> breakable;
+    breakable.body = RandomForces<S>(w, dice).body();
+    if (!breakable.body) return;
+    breakable.impulse = num<S>(dice.in(0.5, 8) * to_double(w.mass(breakable.body)));
+    breakable.pattern = static_cast<BreakPattern>(dice.below(4));
+    breakable.most_pieces = 8 + dice.below(5);
+    breakable.depth = 1 + dice.below(2);
+    breakable.seed = seed;
+    breakable.small_mass = num<S>(dice.in(0, 1));
+    breakable.lifetime = dice.below(60);
+    for (const Breakable<S>& other : w.state().force_records->breakables.all())
+      if (other.body == breakable.body) return;
+    w.add(breakable);
+  }
+  static constexpr std::size_t kMostWhileBreaking = 60;  // [1] bodies
+  /// Up to three characters who wander and jump, in the same worlds. Dice of its own.
+  static void walk_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 141650939 + frame * 160481183 + 23);
+    if (!dice.one_in(12)) return;
+    const std::vector<CharacterId> ids = w.state().force_records->characters.slots().template ids<CharacterId>();
+    if (ids.size() < 3 && dice.one_in(2)) return add_character(w, dice);
+    if (ids.empty()) return;
+    const CharacterId id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
+    if (dice.one_in(12)) {
+      w.remove(id);
+      return;
+    }
+    Character<S> character = *w.find(id);
+    character.move = vec<S>(dice.arrow(0, 4));
+    character.jump = num<S>(dice.one_in(3) ? dice.in(1, 4) : 0);
+    w.set(id, character);
+  }
+  static void add_character(World<S>& w, Dice& dice) {
+    BodyDefinition<S> d = still<S>(w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}));
+    d.type = BodyType::kinematic;
+    d.allow_sleep = dice.one_in(2);
+    Character<S> character;
+    character.body = place(w, dice, d, 0.75, {-4, 1, -4}, {4, 3, 4}, 0);
+    character.push_force = num<S>(dice.in(0, 200));
+    character.mass = num<S>(dice.in(0, 20));
+    if (character.body) w.add(character);
+  }
+  /// Vehicles, in the same worlds. Dice of its own.
+  static void drive_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 198491317 + frame * 217645177 + 31);
+    if (!dice.one_in(12)) return;
+    RandomVehicles<S> vehicles(w, dice);
+    BodyId chassis;
+    if (vehicles.has_room() && dice.one_in(2)) {
+      BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.25, 1), {0, 0, 0});
+      d.mass = num<S>(dice.in(2, 40));
+      chassis = place(w, dice, d, 1.25, {-4, 1, -4}, {4, 3, 4}, 0);
+    }
+    vehicles.change(chassis);
+  }
+  /// A record of two kinds more, or other, or none: whatever they say, contacts take energy. Dice of its own.
+  static void change_pairs(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    Dice dice(seed * 49979687 + frame * 67867967 + 11);
+    if (!dice.one_in(8)) return;
+    MaterialPair<S> pair;
+    pair.kind_a = 1 + dice.below(kMaterialKinds);
+    pair.kind_b = 1 + dice.below(kMaterialKinds);
+    pair.friction = num<S>(dice.in(0, 1.25));
+    pair.static_friction = num<S>(dice.in(0, 2));
+    if (dice.one_in(3)) pair.restitution = num<S>(dice.in(0, 1));
+    if (dice.one_in(3)) pair.rolling_resistance = num<S>(dice.in(0, 0.0625));
+    const auto& pairs = w.state().force_records->material_pairs;
+    const std::vector<MaterialPairId> ids = pairs.slots().template ids<MaterialPairId>();
+    for (const MaterialPairId id : ids) {
+      if (kinds_key(w.find(id)->kind_a, w.find(id)->kind_b) != kinds_key(pair.kind_a, pair.kind_b)) continue;
+      if (dice.one_in(2)) w.remove(id);
+      else w.set(id, pair);
+      return;
+    }
+    w.add(pair);
+  }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {
     for (const BodyId id : w.bodies()) {
@@ -265,13 +361,14 @@ template <class S> class RandomWorld {
   void book_spring(const JointProperties<S>& p, const std::vector<BodyId>& bodies) {
     if ((p.flags & joint_flag::kSpring) == 0) return;
     const JointAngles now = angles_of(world, p);
-    const bool turns = p.type == JointType::hinge;
+    const bool turns = measure_of(p.type) == JointMeasure::angle, slides = !turns && p.type != JointType::distance;
     double inertia = 0;
     for (const BodyId id : bodies) {
       if (world.type(id) != BodyType::dynamic) continue;
       inertia += turns ? inertia_about(world.view(id), now.anchor, now.axis) : to_double(world.mass(id));
     }
-    book.add_spring(p, (turns ? now.twist : now.apart) - to_double(p.spring_target), inertia);
+    const double at = turns ? now.twist : slides ? now.along : now.apart;
+    book.add_spring(p, at - to_double(p.spring_target), inertia);
   }
 
   static constexpr std::uint64_t kLift = 0x11f7;

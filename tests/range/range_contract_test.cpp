@@ -18,10 +18,12 @@ using TrappingQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
 
 template <class S> class RangeWorld : public ::testing::Test {
  public:
-  explicit RangeWorld(SolverName solver) : world(settings(solver)) {}
-  static Settings<S> settings(SolverName solver) {
+  explicit RangeWorld(SolverName solver, Projection projection = Projection::nonlinear)
+      : world(settings(solver, projection)) {}
+  static Settings<S> settings(SolverName solver, Projection projection) {
     Settings<S> settings;
     settings.solver = solver;
+    settings.projection = projection;
     return settings;
   }
 
@@ -49,19 +51,25 @@ template <class S> class RangeWorld : public ::testing::Test {
     EXPECT_GT(points, 0u);
   }
 };
-template <class S, SolverName kName> struct Solved {
+template <class S, SolverName kName, Projection kWay = Projection::nonlinear> struct Solved {
   using Scalar = S;
   static constexpr SolverName kSolver = kName;
+  static constexpr Projection kProjection = kWay;
 };
+template <class S, Projection kWay> using Projected = Solved<S, SolverName::worst_first, kWay>;
 template <class Case> class RangeContract : public RangeWorld<typename Case::Scalar> {
  public:
-  RangeContract() : RangeWorld<typename Case::Scalar>(Case::kSolver) {}
+  RangeContract() : RangeWorld<typename Case::Scalar>(Case::kSolver, Case::kProjection) {}
 };
 using Cases =
     ::testing::Types<Solved<TrappingQ16, SolverName::soft_step>, Solved<TrappingQ32, SolverName::soft_step>,
                      Solved<TrappingQ16, SolverName::pgs>, Solved<TrappingQ32, SolverName::pgs>,
                      Solved<TrappingQ16, SolverName::worst_first>, Solved<TrappingQ32, SolverName::worst_first>,
-                     Solved<TrappingQ16, SolverName::direct>, Solved<TrappingQ32, SolverName::direct>>;
+                     Projected<TrappingQ16, Projection::linear>, Projected<TrappingQ32, Projection::linear>,
+                     Projected<TrappingQ16, Projection::relaxed>, Projected<TrappingQ32, Projection::relaxed>,
+                     Projected<TrappingQ16, Projection::velocity_based>,
+                     Projected<TrappingQ32, Projection::velocity_based>, Solved<TrappingQ16, SolverName::direct>,
+                     Solved<TrappingQ32, SolverName::direct>>;
 TYPED_TEST_SUITE(RangeContract, Cases);
 
 TYPED_TEST(RangeContract, APileOfEveryShapeSettles) {
@@ -102,6 +110,33 @@ TYPED_TEST(RangeContract, BodiesAtTheSpeedLimitCollide) {
   this->step(60);
 }
 
+TYPED_TEST(RangeContract, MaterialsAtTheirLimitsSlideAtTheSpeedLimit) {
+  using S = typename TypeParam::Scalar;
+  const ShapeId floor = this->floor();
+  const ShapeId box = this->world.add_shape(Box{{0.5, 0.125, 0.5}});
+  Material<S> belt;
+  belt.friction = belt.static_friction = S(16);
+  belt.anisotropy = {S(1), S(1), S(1.0 / 64)};
+  belt.surface_velocity = {Limits<S>::speed(), 0, 0};
+  belt.kind = 1;
+  this->world.create({.shape = floor, .position = {0, -1, 0}, .material = belt});
+  Material<S> runners = belt;
+  runners.anisotropy = {S(1.0 / 64), S(1.0 / 64), S(1)};
+  runners.surface_velocity = {0, 0, Limits<S>::speed()};
+  for (int i = 0; i < 8; ++i) {
+    const BodyId body = this->add(box, {S(2 * i), S(0.125), 0}, S(1));
+    runners.kind = i % 2 == 0 ? 0u : 1u;
+    this->world.set_material(body, runners);
+    const S speed = Limits<S>::speed() * S(0.5);
+    this->world.set_velocity(body, {-speed, 0, i % 3 == 0 ? -speed : S(i)}, {0, Limits<S>::angular_speed(), 0});
+  }
+  MaterialPair<S> pair;
+  pair.kind_a = pair.kind_b = 1;
+  pair.friction = pair.static_friction = S(16);
+  EXPECT_TRUE(this->world.add(pair));
+  this->step(60);
+}
+
 TYPED_TEST(RangeContract, DeepOverlapsArePushedApart) {
   using S = typename TypeParam::Scalar;
   this->floor();
@@ -113,7 +148,7 @@ TYPED_TEST(RangeContract, DeepOverlapsArePushedApart) {
 /// Overlap times rate is what a contact asks for at first: at the highest rate it fits no 16 bits.
 TYPED_TEST(RangeContract, DeepOverlapsArePushedApartAtTheHighestRate) {
   using S = typename TypeParam::Scalar;
-  Settings<S> fast = this->settings(TypeParam::kSolver);
+  Settings<S> fast = this->settings(TypeParam::kSolver, TypeParam::kProjection);
   fast.hz = 240;
   fast.substeps = 64;
   this->world = World<S>(fast);

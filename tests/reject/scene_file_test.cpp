@@ -61,6 +61,7 @@ TEST(SceneFile, WithARateOrASolverThatCannotBeIsRefused) {
   EXPECT_EQ(refusal(R"({"hz": 9, "bodies": []})").rfind("/hz: ", 0), 0u);
   EXPECT_EQ(refusal(R"({"substeps": 65, "bodies": []})").rfind("/substeps: ", 0), 0u);
   EXPECT_EQ(refusal(R"({"solver": "magic", "bodies": []})").rfind("/solver: ", 0), 0u);
+  EXPECT_EQ(refusal(R"({"projection": "magic", "bodies": []})").rfind("/projection: ", 0), 0u);
   EXPECT_NE(refusal(R"({"hz": 1000, "substeps": 17, "bodies": []})").find("16384 sub-steps a second"),
             std::string::npos);
 }

@@ -13,6 +13,11 @@ namespace isostep {
 /// A free slot holds Record{}, whose meaning is that nothing is there.
 template <class Record, class IdType> class Registry {
  public:
+  ISO_INLINE Registry() = default;
+  ISO_INLINE Registry(const Registry&) = default;
+  ISO_INLINE Registry(Registry&&) = default;
+  ISO_INLINE Registry& operator=(const Registry&) = default;
+  ISO_INLINE Registry& operator=(Registry&&) = default;
   /// `space`: of a world's ids, see SlotMap.
   ISO_INLINE IdType add(const Record& record, std::uint32_t space = 0) {
     const IdType id = slots_.template take<IdType>(space);

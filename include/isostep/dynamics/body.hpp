@@ -52,18 +52,30 @@ template <class S> struct BodyState {
   }
 };
 
-/// What a surface is like. Two surfaces mix: friction by the root of the product, the rest by the larger.
+/// What a surface is like. Two surfaces mix: friction by the root of the product, the rest by the larger; two kinds
+/// that stand in the world's table of pairs (material_pair.hpp) have what the table says. contact_friction.hpp: which
+/// coefficient of friction a contact has in a step.
 template <class S> struct Material {
-  S friction = S(0.6);                            // [1] Coulomb
-  S restitution = S(0);                           // [1] 0..1, of what meets at 0.25 m/s or more
+  S friction = S(0.6);                            // [1] Coulomb, of what slides: the dynamic coefficient
+  S restitution = S(0);                           // [1] 0..1, of what meets at Settings::restitution_threshold or more
   S rolling_resistance = S(0);                    // [m] lever arm of the normal force that resists rolling
   Vec3<S> surface_velocity = {S(0), S(0), S(0)};  // [m/s] world, a conveyor belt's
+  S static_friction = S(0);                       // [1] of what does not slide; below friction: the same as friction
+  /// [1] 1/64..1: the part of friction that is left along the body's own x, y and z axes. Between the axes the force at
+  /// its limit ends on an ellipsoid with these radii, so that runners {1/16, 1, 1} along x hold across.
+  Vec3<S> anisotropy = {S(1), S(1), S(1)};
+  std::uint32_t kind = 0;      // of material, for the table of pairs; 0: none
+  std::uint32_t reserved = 0;  // 0: keeps records of 8-byte scalars without padding
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("friction", self.friction);
     visit("restitution", self.restitution);
     visit("rolling_resistance", self.rolling_resistance);
     visit("surface_velocity", self.surface_velocity);
+    visit("static_friction", self.static_friction);
+    visit("anisotropy", self.anisotropy);
+    visit("kind", self.kind);
+    visit("reserved", self.reserved);
   }
 };
 

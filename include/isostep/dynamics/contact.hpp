@@ -77,11 +77,13 @@ template <class S> struct MixedMaterial {
   }
 };
 
-/// Friction by the root of the product, the rest by the larger.
+/// The root of the product.
+template <class S> ISO_INLINE S mixed_friction(S a, S b) { return a == b ? a : sqrt(a * b); }
+
+/// Friction by the root of the product, of what slides; the rest by the larger.
 template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const Material<S>& b) {
-  const S friction = a.friction == b.friction ? a.friction : sqrt(a.friction * b.friction);
-  return {friction, max(a.restitution, b.restitution), max(a.rolling_resistance, b.rolling_resistance),
-          b.surface_velocity - a.surface_velocity};
+  return {mixed_friction(a.friction, b.friction), max(a.restitution, b.restitution),
+          max(a.rolling_resistance, b.rolling_resistance), b.surface_velocity - a.surface_velocity};
 }
 
 /// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the

@@ -107,8 +107,8 @@ template <class S> ISO_INLINE Fault fault_of(const Link<S>& l) {
   if (ParticleLimits<S>::position() < l.length) return Fault::out_of_range;
   return l.type <= LinkType::rod && S(0) < l.length && is_share(l.restitution) ? Fault::none : Fault::bad_argument;
 }
-/// A direction, to a thousandth. A component may be beyond 1 by what a turn rounds.
-template <class S> ISO_INLINE bool is_direction(Vec3<Unit<S>> n) {
+/// A length of 1, to a thousandth. A component may be beyond 1 by what a turn rounds.
+template <class S> ISO_INLINE bool near_unit(Vec3<Unit<S>> n) {
   if (!is_finite(n)) return false;
   const S length = dot(convert<S>(n), convert<S>(n));
   return S(0.998) < length && length < S(1.002);
@@ -119,7 +119,7 @@ template <class S> ISO_INLINE Fault fault_of(const Collider<S>& c) {
   const S edge = ParticleLimits<S>::position();
   if (!lies_within(c.offset, edge) || !lies_within(c.start, edge) || !lies_within(c.end, edge) || edge < c.radius)
     return Fault::out_of_range;
-  const bool good = c.type == ColliderType::plane  ? is_direction<S>(c.normal)
+  const bool good = c.type == ColliderType::plane  ? near_unit<S>(c.normal)
                     : c.type == ColliderType::line ? S(0) <= c.radius
                                                    : false;
   return good ? Fault::none : Fault::bad_shape;
@@ -137,7 +137,7 @@ template <class S> ISO_INLINE Fault fault_of(const ParticleTouch<S>& t) {
       kMostFriction<S> < t.friction) {
     return Fault::out_of_range;
   }
-  const bool good = static_cast<bool>(t.particle) && is_direction<S>(t.normal) && InverseMass<S>(0) <= t.inverse_mass &&
+  const bool good = static_cast<bool>(t.particle) && near_unit<S>(t.normal) && InverseMass<S>(0) <= t.inverse_mass &&
                     S(0) <= t.friction && is_share(t.restitution);
   return good ? Fault::none : Fault::bad_argument;
 }

@@ -12,16 +12,22 @@
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/force_bounds.hpp"
+#include "isostep/world/proxies.hpp"
+#include "isostep/world/wheel_forces.hpp"
 
 namespace isostep {
 
-/// Input:   what commands asked for since the last step, the force records, bodies as a sub-step finds them.
-/// Output:  an acceleration for each awake body; the report's clamped_force.
+/// Input:   what commands asked for since the last step, the force records, bodies as a sub-step finds them; the broad
+///          phase for what shields from explosions.
+/// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed, and the
+///          records of wheels written.
 /// Keeps:   nothing from step to step but memory.
-/// Order:   what commands asked for, then the records kind by kind (force_list.hpp), each kind ascending by slot.
+/// Order:   what commands asked for, then the records kind by kind (force_list.hpp), each kind ascending by slot, then
+///          wheels.
 template <class S> class BodyForces {
  public:
-  ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+  ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies), wheels_(state, map, proxies) {}
 
   /// Takes what commands left in the state.
   void begin_step();
@@ -43,35 +49,78 @@ template <class S> class BodyForces {
     Vec3<S> velocity;   // [m/s]
   };
 
+  /// The plane of a water, for a point.
+  struct Surface {
+    Vec3<U> normal;
+    S depth;           // [m] of the point below it, along the normal
+    Vec3<S> velocity;  // [m/s] of the water there
+  };
+  /// What a body displaces.
+  struct Wet {
+    S mass;       // [kg] of water
+    Vec3<S> arm;  // [m] its middle from the body's centre of mass
+    std::uint32_t row;
+    const Water<S>* water;
+    Vec3<S> flow;  // [m/s] of the water there
+  };
+  static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass, for what resists its motion
+
+  ISO_INLINE bool no_records() const { return state_.force_records->no_forces() && !wheels_.any(); }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   void act(const ForceZone<S>& zone);
   void act(const Attractor<S>& attractor);
   void act(const BodySpring<S>& spring);
   void act(const Thruster<S>& thruster);
   void act(const BuoyancyPoint<S>& buoyancy);
-  void act(const BodyDrag<S>& drag);
-  void act(const AeroSurface<S>& surface);
+  void act(const Explosion<S>& explosion);
+  void act(const Water<S>& water);
+  void act(const BodyDrag<S>&) {}  // these resist
+  void act(const AeroSurface<S>&) {}
 
   End end_at(BodyId body, Vec3<S> local) const;
   Vec3<S> wind_at(Vec3<S> point) const;
   void accelerate(std::uint32_t row, Vec3<S> acceleration);
   void push(std::uint32_t row, Vec3<S> force, Vec3<S> arm);
   void push(const End& end, Vec3<S> force) { push(end.row, force, end.arm); }
+  void push(const typename WheelForces<S>::Push& wheel);
   void note_cut(std::uint32_t row, bool cut);
   bool is_pushed(std::uint32_t row, std::uint32_t mask) const;
-  Vec3<S> next_velocity(std::uint32_t row) const;
-  Vec3<S> next_angular_velocity(std::uint32_t row) const;
   Mat3<S> give_of(const End& end, const Mat3<U>& axes) const;
   Vec3<S> settled(const End& end, const Mat3<U>& axes, const Mat3<S>& tensor, Vec3<S> velocity) const;
 
+  template <class Registry, class Visit> static void for_each_taken(const Registry& registry, const Visit& visit);
+  // resisting_forces.inl
+  void resist_all();
+  void resist(const BodyDrag<S>& drag);
+  void resist(const AeroSurface<S>& surface);
+  S mass_part(std::uint32_t row) const;
+  Vec3<S> next_velocity(std::uint32_t row) const;
+  Vec3<S> next_angular_velocity(std::uint32_t row) const;
+  void slow_turning(std::uint32_t row, Vec3<S> way, S rate);
+  // explosion_forces.inl
+  Vec3<S> exposed_point(std::uint32_t row, Vec3<S> from) const;
+  bool is_shielded(Vec3<S> from, Vec3<S> to) const;
+  S blast(const Explosion<S>& explosion, S t, S distance, S fleeing, S above, S aside) const;
+  void remove_ended();
+  // water_forces.inl
+  Surface surface_at(const Water<S>& water, Vec3<S> at) const;
+  Wet wet_part(std::uint32_t row, S density, const Surface& surface) const;
+  void resist(const Wet& wet);
+  bool is_under_water(Vec3<S> point, Vec3<S>& velocity) const;
+
   WorldState<S>& state_;
   const BodyMap<S>& map_;
-  std::vector<Acceleration<S>> asked_, accelerations_;  // by commands; of all
+  const Proxies<S>& proxies_;
+  WheelForces<S> wheels_;
+  std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
+  std::vector<Wet> wet_;
+  std::vector<std::uint32_t> resisting_;  // by awake body: how many forces resist its motion
   Bitset cut_;                                          // awake bodies
   std::uint32_t cut_count_ = 0;
   const SolverBodies<S>* bodies_ = nullptr;  // of the sub-step
   std::int32_t rate_ = 1;                    // [1/s] of sub-steps
   Step<S> h_ = {};                           // [s] it takes
+  std::uint32_t substep_ = 0, substeps_ = 1;  // which of how many in a step
 };
 
 #define ISO_EXTERN(S) extern template class BodyForces<S>;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/math/affine.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/world/body_forces.hpp"
 
@@ -11,9 +10,11 @@ namespace isostep {
 template <class S> void BodyForces<S>::begin_step() {
   accelerations_.clear();
   cut_.clear();
+  substep_ = 0;
   cut_count_ = 0;
+  wheels_.begin_step();
   const Acceleration<S> none = {Vec3<S>::zero(), Vec3<S>::zero()};
-  if (state_.forces.empty() && state_.force_records->untouched()) return;
+  if (state_.forces.empty() && no_records()) return;
   accelerations_.assign(state_.awake.states.size(), none);
   for (const PendingForce<S>& force : state_.forces) {
     const std::uint32_t index = map_.location(force.slot).index;
@@ -23,10 +24,14 @@ template <class S> void BodyForces<S>::begin_step() {
   state_.forces.clear();
   asked_ = accelerations_;
 }
-template <class S> void BodyForces<S>::end_step(StepReport& report) { report.clamped_force += cut_count_; }
+template <class S> void BodyForces<S>::end_step(StepReport& report) {
+  report.clamped_force += cut_count_;
+  if (!state_.force_records->no_forces()) remove_ended();
+  wheels_.end_step();
+}
 
 template <class S> SubstepForces<S> BodyForces<S>::substeps() {
-  if (state_.force_records->untouched()) return {};
+  if (no_records()) return {};
   const auto renew = [](void* forces, const SolverBodies<S>& bodies, std::int32_t rate) {
     static_cast<BodyForces*>(forces)->renew(bodies, rate);
   };
@@ -37,17 +42,31 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   bodies_ = &bodies;
   rate_ = rate;
   h_ = divide_to<Step<S>>(S(1), S(rate));
+  substeps_ = static_cast<std::uint32_t>(rate / state_.settings.hz);
   accelerations_ = asked_;
-  ForceRecords<S>::members(
+  wet_.clear();
+  wet_.reserve(state_.force_records->waters.all().size() * accelerations_.size());
+  ForceRecords<S>::forces(
       [&](const char*, const auto& registry) {
-        for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
-          if (registry.is_taken(slot)) act(registry.all()[slot]);
-        }
+        for_each_taken(registry, [&](const auto& record) { act(record); });
       },
       *state_.force_records);
+  resist_all();
+  if (wheels_.any()) {
+    for (const auto& wheel : wheels_.solve(bodies, accelerations_, rate)) push(wheel);
+  }
+  ++substep_;
 }
 
 // ---- what all of them use
+
+template <class S>
+template <class Registry, class Visit>
+void BodyForces<S>::for_each_taken(const Registry& registry, const Visit& visit) {
+  for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
+    if (registry.is_taken(slot)) visit(registry.all()[slot]);
+  }
+}
 
 template <class S> typename BodyForces<S>::End BodyForces<S>::end_at(BodyId body, Vec3<S> local) const {
   if (!body) return {0, local, Vec3<S>::zero(), Vec3<S>::zero()};
@@ -93,16 +112,20 @@ template <class S> void BodyForces<S>::push(std::uint32_t row, Vec3<S> force, Ve
   }
   note_cut(row, bounder.cut);
 }
-
-/// As the sub-step would leave it with the forces so far, before contacts and joints: what resists motion resists that,
-/// so that it balances steady forces exactly.
-template <class S> Vec3<S> BodyForces<S>::next_velocity(std::uint32_t row) const {
-  const S scale = state_.awake.properties[row - 1].gravity_scale;
-  const Vec3<S> pull = scale == S(1) ? state_.settings.gravity : state_.settings.gravity * scale;
-  return convert<S>(bodies_->velocity[row].linear) + (accelerations_[row - 1].linear + pull) * h_;
-}
-template <class S> Vec3<S> BodyForces<S>::next_angular_velocity(std::uint32_t row) const {
-  return convert<S>(bodies_->velocity[row].angular) + accelerations_[row - 1].angular * h_;
+/// Of wheels, which know what they do to a body's velocity.
+template <class S> void BodyForces<S>::push(const typename WheelForces<S>::Push& wheel) {
+  const S most = detail::most_acceleration(rate_, Limits<S>::speed());
+  const S most_turning =
+      detail::most_acceleration(rate_, detail::most_angular_speed(state_.awake.states[wheel.row - 1].fat));
+  detail::Bounder<S> bounder;
+  const auto rate_of = [&](Vec3<Velocity<S>> v, S limit) {
+    const auto part = [&](Velocity<S> x) { return bounder.held(saturate_to<S>(product(S(rate_), x)), limit); };
+    return Vec3<S>{part(v.x), part(v.y), part(v.z)};
+  };
+  Acceleration<S>& sum = accelerations_[wheel.row - 1];
+  sum.linear = bounder.sum(sum.linear, rate_of(wheel.linear, most), most);
+  sum.angular = bounder.sum(sum.angular, rate_of(wheel.angular, most_turning), most_turning);
+  note_cut(wheel.row, bounder.cut);
 }
 
 // ---- zones and attractors: for every awake body
@@ -126,11 +149,9 @@ template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) {
 }
 template <class S> Vec3<S> BodyForces<S>::wind_at(Vec3<S> point) const {
   Vec3<S> wind = Vec3<S>::zero();
-  const auto& zones = state_.force_records->force_zones;
-  for (std::uint32_t slot = 0; slot < zones.all().size(); ++slot) {
-    const ForceZone<S>& zone = zones.all()[slot];
-    if (zones.is_taken(slot) && detail::is_inside(zone, point)) wind = saturating_add(wind, zone.wind);
-  }
+  for_each_taken(state_.force_records->force_zones, [&](const ForceZone<S>& zone) {
+    if (detail::is_inside(zone, point)) wind = saturating_add(wind, zone.wind);
+  });
   return held_within(wind, Limits<S>::speed());
 }
 
@@ -178,97 +199,6 @@ template <class S> void BodyForces<S>::act(const BuoyancyPoint<S>& buoyancy) {
   const S share = clamp(sunk / (buoyancy.max_depth + buoyancy.max_depth), S(0), S(1));
   const S displaced = saturate_to<S>(product(saturate_to<S>(product(buoyancy.density, buoyancy.volume)), share));
   push(end, down.direction * -saturate_to<S>(product(displaced, down.length)));
-}
-
-// ---- what resists motion: backward Euler, stable whatever its coefficients
-
-template <class S> void BodyForces<S>::act(const BodyDrag<S>& drag) {
-  const std::uint32_t row = map_.row_of(drag.body.slot);
-  if (!bodies_->moves(row)) return;
-  const SolverMass<S>& mass = bodies_->mass[row];
-  detail::Bounder<S> bounder;
-  const S half = highest<S>() * S(0.5);
-  // v' = v - h (linear + quadratic |v'|) v' / m: first |v'|, the root of 1 + a and b, then the rest.
-  const Vec3<S> v = next_velocity(row) - wind_at(state_.awake.states[row - 1].centre);
-  const S one = S(1) + bounder.quotient(drag.linear, mass.mass, half) * h_;
-  const S b = bounder.quotient(drag.quadratic, mass.mass, half) * h_, speed = length(v);
-  const S root = sqrt(saturate_to<S>(product(one, one) + product(saturate_to<S>(product(b, speed)), S(4))));
-  const S next_speed = speed / (one * S(0.5) + root * S(0.5));
-  const S c = saturating_add(drag.linear, saturate_to<S>(product(drag.quadratic, next_speed)));
-  const S rate = bounder.quotient(c, mass.mass, half), settled = rate / (S(1) + rate * h_);
-  accelerate(row, -Vec3<S>{saturate_to<S>(product(v.x, settled)), saturate_to<S>(product(v.y, settled)),
-                           saturate_to<S>(product(v.z, settled))});
-  if (!(S(0) < drag.angular)) return;
-  const S turning = bounder.quotient(drag.angular, mass.mass, half);
-  const S largest = max(max_abs(mass.kappa.rows[0]), max(max_abs(mass.kappa.rows[1]), max_abs(mass.kappa.rows[2])));
-  const S fastest = min(saturate_to<S>(product(turning, largest)), half);
-  if (!(S(0) < largest)) return;
-  const Vec3<S> w = (mass.kappa * next_angular_velocity(row)) / largest;
-  const S slowed = fastest / (S(1) + fastest * h_);
-  Acceleration<S>& sum = accelerations_[row - 1];
-  const S most = detail::most_acceleration(rate_, Limits<S>::angular_speed());
-  detail::Bounder<S> turned;
-  const Vec3<S> against = {turned.rounded(product(w.x, -slowed), most), turned.rounded(product(w.y, -slowed), most),
-                           turned.rounded(product(w.z, -slowed), most)};
-  sum.angular = turned.sum(sum.angular, against, most);
-  note_cut(row, turned.cut);
-}
-
-/// How much a point of a body gives way to a unit of force per mass, seen in a frame: kappa's part is dimensionless.
-template <class S> Mat3<S> BodyForces<S>::give_of(const End& end, const Mat3<U>& axes) const {
-  const Mat3<S>& kappa = bodies_->mass[end.row].kappa;
-  Mat3<S> columns;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3<S> way = convert<S>(axes.column(i));
-    columns.rows[i] = transposed_times(axes, way + cross(kappa * cross(end.arm, way), end.arm));
-  }
-  return transpose(columns);
-}
-/// tensor v', where v' is what `velocity` (both of the frame `axes`) becomes by that force in the sub-step: v' = v +
-/// h K tensor v', with K what the point gives way.
-template <class S>
-Vec3<S> BodyForces<S>::settled(const End& end, const Mat3<U>& axes, const Mat3<S>& tensor, Vec3<S> velocity) const {
-  const Mat3<S> give = give_of(end, axes);
-  const S mass = bodies_->mass[end.row].mass, most = highest<S>() * S(0.25);
-  detail::Bounder<S> bounder;
-  Mat3<S> slowing, system;  // h tensor / m; 1 - give times that
-  for (int i = 0; i < 3; ++i) slowing.rows[i] = bounder.quotient(tensor.rows[i] * h_, mass, most);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const S part = bounder.rounded(dot_sum(give.rows[i], slowing.column(j)), most);
-      system.rows[i][j] = (i == j ? S(1) : S(0)) - part;
-    }
-  }
-  const Inverse<Mat3<S>> solved = inverse_of(system);
-  const Vec3<S> next = solved.exists ? solved.inverse * velocity : velocity;
-  return {saturate_to<S>(dot_sum(tensor.rows[0], next)), saturate_to<S>(dot_sum(tensor.rows[1], next)),
-          saturate_to<S>(dot_sum(tensor.rows[2], next))};
-}
-namespace detail {
-template <class S> Mat3<S> tensor_of(const AeroSurface<S>& surface, S speed) {
-  const Mat3<S>& end = surface.control < S(0) ? surface.low : surface.high;
-  const S part = abs(surface.control), rest = S(1) - part;
-  Mat3<S> tensor;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const S mixed = round_to<S>(product(surface.tensor.rows[i][j], rest) + product(end.rows[i][j], part));
-      tensor.rows[i][j] = surface.is_quadratic ? saturate_to<S>(product(mixed, speed)) : mixed;
-    }
-  }
-  return tensor;
-}
-}  // namespace detail
-template <class S> void BodyForces<S>::act(const AeroSurface<S>& surface) {
-  const End end = end_at(surface.body, surface.point);
-  if (!bodies_->moves(end.row)) return;
-  const Quat<U> body = state_.awake.states[end.row - 1].orientation;
-  const Mat3<U> axes = to_matrix(normalise(body * surface.orientation));
-  const Vec3<S> wind = wind_at(end.at);
-  const Vec3<S> next = next_velocity(end.row) + cross(next_angular_velocity(end.row), end.arm);
-  const Vec3<S> through_air = next - wind;
-  // The speed of now, which in balance is that of next: what the others lead to is more.
-  const Mat3<S> tensor = detail::tensor_of(surface, length(end.velocity - wind));
-  push(end, axes * settled(end, axes, tensor, transposed_times(axes, through_air)));
 }
 
 }  // namespace isostep

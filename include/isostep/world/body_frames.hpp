@@ -34,7 +34,8 @@ template <class S>
 void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
                    std::uint32_t j, S margin, Manifold<S>& out);
 
-/// Of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table.
+/// Of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table. That has one
+/// coefficient of friction and is of no kind.
 template <class S>
 Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
 

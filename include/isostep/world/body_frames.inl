@@ -4,6 +4,7 @@
 
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
+#include "isostep/dynamics/contact_friction.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/world/body_frames.hpp"
 
@@ -61,7 +62,8 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
           plain,
           (body.flags & body_flag::kSensor) != 0,
           at.is_asleep(),
-          surfaces};
+          surfaces,
+          mixes_alone(body.material)};
 }
 
 template <class S, class Visit>
@@ -181,6 +183,8 @@ Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Ma
   Material<S> material = own;
   material.friction = from_lattice<S>(listed->friction, SurfaceMaterial::kBits);
   material.restitution = from_lattice<S>(listed->restitution, SurfaceMaterial::kBits);
+  material.static_friction = S(0);
+  material.kind = 0;
   return material;
 }
 

@@ -62,6 +62,7 @@ template <class S> class BodyMap {
   /// Of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
+  Pose<S> origin_pose_at(std::uint32_t slot) const;
   /// Pose of the centre of mass, or for kNoBody of the world itself.
   Pose<S> centre_pose_at(std::uint32_t slot) const;
 

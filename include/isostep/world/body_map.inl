@@ -65,6 +65,9 @@ template <class S> Pose<S> BodyMap<S>::origin_pose(const BodyState<S>& state, co
   if (body.local_centre == Vec3<S>::zero()) return {state.centre, state.orientation};
   return {state.centre - to_matrix(state.orientation) * body.local_centre, state.orientation};
 }
+template <class S> Pose<S> BodyMap<S>::origin_pose_at(std::uint32_t slot) const {
+  return origin_pose(state_at(locations_[slot]), properties_at(locations_[slot]));
+}
 template <class S> Pose<S> BodyMap<S>::centre_pose_at(std::uint32_t slot) const {
   if (slot == kNoBody) return Pose<S>::identity();
   const BodyState<S>& state = state_at(locations_[slot]);

@@ -26,6 +26,9 @@ template <class S> bool is_unit(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
 }
+template <class S> ISO_INLINE bool is_direction(const Vec3<Unit<S>>& v) {
+  return is_unit<S>(Quat<Unit<S>>{v.x, v.y, v.z, Unit<S>(0)});
+}
 
 /// By its length, not by axis.
 template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < length(v)); }
@@ -61,18 +64,30 @@ inline constexpr char kWithinAngularSpeed[] = "a length up to Limits::angular_sp
 inline constexpr char kWithinPosition[] = "coordinates up to Limits::position()";
 inline constexpr char kUnitLength[] = "a quaternion of length 1";
 
+/// [1] A 64th, so that the squares of what divides by it fit every scalar.
+template <class S> bool is_grain(Vec3<S> factors) {
+  const auto good = [](S f) { return S(1.0 / 64) <= f && f <= S(1); };
+  return good(factors.x) && good(factors.y) && good(factors.z);
+}
+
 template <class S> FaultReport fault_of(const Material<S>& m) {
   return Checklist()
       .finite(m.friction, "material.friction")
       .finite(m.restitution, "material.restitution")
       .finite(m.rolling_resistance, "material.rolling_resistance")
       .finite(m.surface_velocity, "material.surface_velocity")
+      .finite(m.static_friction, "material.static_friction")
+      .finite(m.anisotropy, "material.anisotropy")
       .in_range(no_longer(m.surface_velocity, Limits<S>::speed()), "material.surface_velocity", kWithinSpeed)
       .in_range(m.friction <= kMaxFriction<S>, "material.friction", "0 to 16")
+      .in_range(m.static_friction <= kMaxFriction<S>, "material.static_friction", "0 to 16")
       .in_range(m.rolling_resistance <= Limits<S>::extent(), "material.rolling_resistance", "0 to Limits::extent()")
       .proper(S(0) <= m.friction, "material.friction", "0 to 16")
       .proper(S(0) <= m.restitution && m.restitution <= S(1), "material.restitution", "0 to 1")
       .proper(S(0) <= m.rolling_resistance, "material.rolling_resistance", "0 to Limits::extent()")
+      .proper(S(0) <= m.static_friction, "material.static_friction", "0 to 16")
+      .proper(is_grain(m.anisotropy), "material.anisotropy", "1/64 to 1")
+      .proper(m.reserved == 0, "material.reserved", "0")
       .report();
 }
 
@@ -146,8 +161,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .in_range(within(j.upper, reach), "upper", expected)
       .in_range(within(j.cone, kMaxAngle<S>), "cone", "0 to 2 pi")
       .in_range(within(j.spring_target, reach), "spring_target", expected)
-      .in_range(within(j.motor_speed, Limits<S>::angular_speed()), "motor_speed",
-                "a size up to Limits::angular_speed()")
+      .in_range(within(j.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
+                length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
       .in_range(j.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")

@@ -202,46 +202,67 @@ template <class Record> using SetForce = SetRecord<Record, typename detail::Forc
 /// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
 /// one: its record above, its line here, its `execute`; see README.md. The position is the number in replays: append,
 /// never reorder.
-#define ISO_FOR_EACH_COMMAND(X, S)                                 \
-  X(add_shape, AddShape<S>, ShapeId, S)                            \
-  X(remove_shape, RemoveShape, bool, S)                            \
-  X(create_body, CreateBody<S>, BodyId, S)                         \
-  X(destroy_body, DestroyBody, bool, S)                            \
-  X(wake_body, WakeBody, bool, S)                                  \
-  X(set_pose, SetPose<S>, bool, S)                                 \
-  X(set_velocity, SetVelocity<S>, bool, S)                         \
-  X(apply_force, ApplyForce<S>, bool, S)                           \
-  X(apply_impulse, ApplyImpulse<S>, bool, S)                       \
-  X(set_material, SetMaterial<S>, bool, S)                         \
-  X(set_filter, SetFilter, bool, S)                                \
-  X(set_motion, SetMotion<S>, bool, S)                             \
-  X(set_user_data, SetUserData, bool, S)                           \
-  X(set_gravity, SetGravity<S>, bool, S)                           \
-  X(create_joint, CreateJoint<S>, JointId, S)                      \
-  X(destroy_joint, DestroyJoint, bool, S)                          \
-  X(set_joint, SetJoint<S>, bool, S)                               \
-  X(set_heights, SetHeights, bool, S)                              \
-  X(add_force_zone, AddRecord<ForceZone<S>>, ForceZoneId, S)       \
-  X(set_force_zone, SetForce<ForceZone<S>>, bool, S)               \
-  X(remove_force_zone, RemoveRecord<ForceZoneId>, bool, S)         \
-  X(add_attractor, AddRecord<Attractor<S>>, AttractorId, S)        \
-  X(set_attractor, SetForce<Attractor<S>>, bool, S)                \
-  X(remove_attractor, RemoveRecord<AttractorId>, bool, S)          \
-  X(add_body_spring, AddRecord<BodySpring<S>>, BodySpringId, S)    \
-  X(set_body_spring, SetForce<BodySpring<S>>, bool, S)             \
-  X(remove_body_spring, RemoveRecord<BodySpringId>, bool, S)       \
-  X(add_thruster, AddRecord<Thruster<S>>, ThrusterId, S)           \
-  X(set_thruster, SetForce<Thruster<S>>, bool, S)                  \
-  X(remove_thruster, RemoveRecord<ThrusterId>, bool, S)            \
-  X(add_buoyancy, AddRecord<BuoyancyPoint<S>>, BuoyancyId, S)      \
-  X(set_buoyancy, SetForce<BuoyancyPoint<S>>, bool, S)             \
-  X(remove_buoyancy, RemoveRecord<BuoyancyId>, bool, S)            \
-  X(add_drag, AddRecord<BodyDrag<S>>, DragId, S)                   \
-  X(set_drag, SetForce<BodyDrag<S>>, bool, S)                      \
-  X(remove_drag, RemoveRecord<DragId>, bool, S)                    \
-  X(add_aero_surface, AddRecord<AeroSurface<S>>, AeroSurfaceId, S) \
-  X(set_aero_surface, SetForce<AeroSurface<S>>, bool, S)           \
-  X(remove_aero_surface, RemoveRecord<AeroSurfaceId>, bool, S)
+#define ISO_FOR_EACH_COMMAND(X, S)                                    \
+  X(add_shape, AddShape<S>, ShapeId, S)                               \
+  X(remove_shape, RemoveShape, bool, S)                               \
+  X(create_body, CreateBody<S>, BodyId, S)                            \
+  X(destroy_body, DestroyBody, bool, S)                               \
+  X(wake_body, WakeBody, bool, S)                                     \
+  X(set_pose, SetPose<S>, bool, S)                                    \
+  X(set_velocity, SetVelocity<S>, bool, S)                            \
+  X(apply_force, ApplyForce<S>, bool, S)                              \
+  X(apply_impulse, ApplyImpulse<S>, bool, S)                          \
+  X(set_material, SetMaterial<S>, bool, S)                            \
+  X(set_filter, SetFilter, bool, S)                                   \
+  X(set_motion, SetMotion<S>, bool, S)                                \
+  X(set_user_data, SetUserData, bool, S)                              \
+  X(set_gravity, SetGravity<S>, bool, S)                              \
+  X(create_joint, CreateJoint<S>, JointId, S)                         \
+  X(destroy_joint, DestroyJoint, bool, S)                             \
+  X(set_joint, SetJoint<S>, bool, S)                                  \
+  X(set_heights, SetHeights, bool, S)                                 \
+  X(add_force_zone, AddRecord<ForceZone<S>>, ForceZoneId, S)          \
+  X(set_force_zone, SetForce<ForceZone<S>>, bool, S)                  \
+  X(remove_force_zone, RemoveRecord<ForceZoneId>, bool, S)            \
+  X(add_attractor, AddRecord<Attractor<S>>, AttractorId, S)           \
+  X(set_attractor, SetForce<Attractor<S>>, bool, S)                   \
+  X(remove_attractor, RemoveRecord<AttractorId>, bool, S)             \
+  X(add_body_spring, AddRecord<BodySpring<S>>, BodySpringId, S)       \
+  X(set_body_spring, SetForce<BodySpring<S>>, bool, S)                \
+  X(remove_body_spring, RemoveRecord<BodySpringId>, bool, S)          \
+  X(add_thruster, AddRecord<Thruster<S>>, ThrusterId, S)              \
+  X(set_thruster, SetForce<Thruster<S>>, bool, S)                     \
+  X(remove_thruster, RemoveRecord<ThrusterId>, bool, S)               \
+  X(add_buoyancy, AddRecord<BuoyancyPoint<S>>, BuoyancyId, S)         \
+  X(set_buoyancy, SetForce<BuoyancyPoint<S>>, bool, S)                \
+  X(remove_buoyancy, RemoveRecord<BuoyancyId>, bool, S)               \
+  X(add_drag, AddRecord<BodyDrag<S>>, DragId, S)                      \
+  X(set_drag, SetForce<BodyDrag<S>>, bool, S)                         \
+  X(remove_drag, RemoveRecord<DragId>, bool, S)                       \
+  X(add_aero_surface, AddRecord<AeroSurface<S>>, AeroSurfaceId, S)    \
+  X(set_aero_surface, SetForce<AeroSurface<S>>, bool, S)              \
+  X(remove_aero_surface, RemoveRecord<AeroSurfaceId>, bool, S)        \
+  X(add_explosion, AddRecord<Explosion<S>>, ExplosionId, S)           \
+  X(set_explosion, SetForce<Explosion<S>>, bool, S)                   \
+  X(remove_explosion, RemoveRecord<ExplosionId>, bool, S)             \
+  X(add_water, AddRecord<Water<S>>, WaterId, S)                       \
+  X(set_water, SetForce<Water<S>>, bool, S)                           \
+  X(remove_water, RemoveRecord<WaterId>, bool, S)                     \
+  X(add_material_pair, AddRecord<MaterialPair<S>>, MaterialPairId, S) \
+  X(set_material_pair, SetForce<MaterialPair<S>>, bool, S)            \
+  X(remove_material_pair, RemoveRecord<MaterialPairId>, bool, S)      \
+  X(add_breakable, AddRecord<Breakable<S>>, BreakableId, S)           \
+  X(set_breakable, SetForce<Breakable<S>>, bool, S)                   \
+  X(remove_breakable, RemoveRecord<BreakableId>, bool, S)             \
+  X(add_character, AddRecord<Character<S>>, CharacterId, S)           \
+  X(set_character, SetForce<Character<S>>, bool, S)                   \
+  X(remove_character, RemoveRecord<CharacterId>, bool, S)             \
+  X(add_vehicle, AddRecord<Vehicle<S>>, VehicleId, S)                 \
+  X(set_vehicle, SetForce<Vehicle<S>>, bool, S)                       \
+  X(remove_vehicle, RemoveRecord<VehicleId>, bool, S)                 \
+  X(add_wheel, AddRecord<Wheel<S>>, WheelId, S)                       \
+  X(set_wheel, SetForce<Wheel<S>>, bool, S)                           \
+  X(remove_wheel, RemoveRecord<WheelId>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

@@ -64,6 +64,13 @@ template <class S> class CommandExecutor {
   template <class Record> bool check_force(const Record& record);
   template <class Record> ISO_INLINE bool check_spring(const Record&) { return true; }
   bool check_spring(const BodySpring<S>& spring);
+  bool check_spring(const Wheel<S>& wheel);
+  template <class Record> ISO_INLINE bool check_alone(const Record&, std::uint32_t) { return true; }
+  bool check_alone(const MaterialPair<S>& pair, std::uint32_t slot);
+  bool check_alone(const Breakable<S>& breakable, std::uint32_t slot);
+  bool check_alone(const Character<S>& character, std::uint32_t slot);
+  bool check_alone(const Vehicle<S>& vehicle, std::uint32_t slot);
+  template <class Record> bool check_only_one(const Record& record, std::uint32_t slot);
   template <class Record> void wake_for_force(const Record& record);
   template <class Record> auto add_force(const Record& record);
   template <class Record, class IdType> bool set_force(IdType id, const Record& record);

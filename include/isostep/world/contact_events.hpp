@@ -32,9 +32,6 @@ template <class S> class ContactEvents {
   void emit(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
-  S mass_of_row(std::uint32_t row) const;
-  S normal_impulse(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end) const;
-
   const WorldState<S>& state_;
   std::vector<ContactEnd> end_scratch_;
 };

@@ -7,6 +7,30 @@
 #include "isostep/world/event_order.hpp"
 
 namespace isostep {
+namespace detail {
+
+/// [kg] As solvers have it: 0 for what no impulse moves.
+template <class S> ISO_INLINE S mass_of_row(const WorldState<S>& state, std::uint32_t row) {
+  if (row == 0) return S(0);
+  const BodyProperties<S>& body = state.awake.properties[row - 1];
+  return body.type == BodyType::dynamic ? body.mass : S(0);
+}
+/// [kg m/s] Of contacts first..end-1 together.
+template <class S>
+ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>& contacts, std::size_t first,
+                            std::size_t end) {
+  auto total = SumOf<S, Velocity<S>>{};
+  for (std::size_t i = first; i < end; ++i) {
+    const ContactGeometry<S>& g = contacts.geometry[i];
+    const S mass_a = mass_of_row(state, g.row_a), mass_b = mass_of_row(state, g.row_b);
+    const MassShare<S> share = mass_share(mass_a, mass_b);
+    total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, contacts.impulses[i]);
+  }
+  const auto most = product(highest<S>(), Velocity<S>(1));
+  return most < total ? highest<S>() : round_to<S>(total);
+}
+
+}  // namespace detail
 
 /// Both lists ascend, so the events do, but for ends that commands made.
 template <class S> void ContactEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
@@ -29,30 +53,10 @@ template <class S> void ContactEvents<S>::emit(const SolvedContacts<S>& contacts
     if (was && !is) events.contact_end.push_back({id(pair_a(pair)), id(pair_b(pair))});
     if (!was && is)
       events.contact_begin.push_back(
-          {id(pair_a(pair)), id(pair_b(pair)), normal_impulse(contacts, first, j), contacts.geometry[first].normal});
+          {id(pair_a(pair)), id(pair_b(pair)), detail::normal_impulse(state_, contacts, first, j),
+           contacts.geometry[first].normal});
   }
   if (told) detail::sort_ends(events.contact_end, end_scratch_);
-}
-
-/// [kg] As solvers have it: 0 for what no impulse moves.
-template <class S> S ContactEvents<S>::mass_of_row(std::uint32_t row) const {
-  if (row == 0) return S(0);
-  const BodyProperties<S>& body = state_.awake.properties[row - 1];
-  return body.type == BodyType::dynamic ? body.mass : S(0);
-}
-
-/// [kg m/s] Of contacts first..end-1 together.
-template <class S>
-S ContactEvents<S>::normal_impulse(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end) const {
-  auto total = SumOf<S, Velocity<S>>{};
-  for (std::size_t i = first; i < end; ++i) {
-    const ContactGeometry<S>& g = contacts.geometry[i];
-    const S mass_a = mass_of_row(g.row_a), mass_b = mass_of_row(g.row_b);
-    const MassShare<S> share = mass_share(mass_a, mass_b);
-    total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, contacts.impulses[i]);
-  }
-  const auto most = product(highest<S>(), Velocity<S>(1));
-  return most < total ? highest<S>() : round_to<S>(total);
 }
 
 }  // namespace isostep

@@ -9,7 +9,9 @@
 #include "isostep/state/fields.hpp"
 #include "isostep/world/body_finisher.hpp"
 #include "isostep/world/body_map.hpp"
+#include "isostep/world/characters.hpp"
 #include "isostep/world/command_executor.hpp"
+#include "isostep/world/break_events.hpp"
 #include "isostep/world/contact_events.hpp"
 #include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/destruction.hpp"
@@ -44,10 +46,12 @@ namespace isostep {
 ///   ContinuousCollision -> BodyMap, Proxies
 ///   SensorOverlaps  -> BodyMap
 ///   ContactEvents   -> no other
+///   BreakEvents     -> BodyMap
 ///   RenderPoses     -> no other
 ///   Destruction     -> BodyMap, Proxies, IslandWake
 ///   CommandExecutor -> BodyMap, Proxies, IslandWake, Destruction, RenderPoses; the journal, the assets
 ///   Queries         -> BodyMap, Proxies; the journal
+///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
 ///
 /// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one system needs of another,
@@ -85,15 +89,17 @@ template <class S> class WorldEngine {
   IslandSleep<S> sleep_{state_, map_, proxies_};
   NarrowPhase<S> narrow_phase_{state_, map_};
   Carriers<S> carriers_;
-  StepSolver<S> solver_{state_, map_};
+  StepSolver<S> solver_{state_, map_, proxies_};
   BodyFinisher<S> finisher_{state_, map_, proxies_};
   ContinuousCollision<S> continuous_{state_, map_, proxies_};
   SensorOverlaps<S> sensors_{state_, map_};
   ContactEvents<S> contact_events_{state_};
+  BreakEvents<S> break_events_{state_, map_};
   RenderPoses<S> render_poses_{state_};
   Destruction<S> destruction_{state_, map_, proxies_, wake_};
   CommandExecutor<S> commands_{state_, map_, proxies_, wake_, destruction_, render_poses_, assets_, journal_};
   Queries<S> queries_{state_, map_, proxies_, journal_};
+  Characters<S> characters_{state_, map_, proxies_, wake_, queries_, commands_};
   StateLoader<S> loader_{state_, map_, proxies_};
 
  private:

@@ -31,11 +31,13 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
       return visit("sensor_end", events_.sensor_end);
     case Stage::emit_events:
       visit("contact_begin", events_.contact_begin);
+      visit("broke", events_.broke);
       return visit("contact_end", events_.contact_end);
     case Stage::update_sleep:
       visit("fell_asleep", events_.fell_asleep);
       visit("woke", events_.woke);
       return map_.visit_scratch(visit);
+    case Stage::move_characters: return map_.visit_scratch(visit);
   }
 }
 

@@ -15,6 +15,7 @@ template <class S> Settings<S> in_range(Settings<S> s) {
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
   if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
+  if (static_cast<std::uint32_t>(s.projection) >= kProjections) s.projection = Projection::nonlinear;
   s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
   s.most_pairs = clamp(s.most_pairs, kLeastPairs, kMostPairs);
   const S limit = Limits<S>::speed();
@@ -22,6 +23,8 @@ template <class S> Settings<S> in_range(Settings<S> s) {
     const S g = s.gravity[axis];
     s.gravity[axis] = is_finite(g) ? clamp(g, -limit, limit) : S(0);
   }
+  const S bounce = s.restitution_threshold;
+  s.restitution_threshold = is_finite(bounce) ? clamp(bounce, S(0), limit) : Settings<S>{}.restitution_threshold;
   return s;
 }
 }  // namespace detail
@@ -38,6 +41,9 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
           .in_range(s.solver == settings.solver, "solver", "one of SolverName")
           .in_range(s.id_space == settings.id_space, "id_space", "0 to 255")
           .in_range(s.most_pairs == settings.most_pairs, "most_pairs", "kLeastPairs to kMostPairs")
+          .in_range(s.projection == settings.projection, "projection", "one of Projection")
+          .in_range(s.restitution_threshold == settings.restitution_threshold, "restitution_threshold",
+                    "0 to Limits::speed()")
           .report();
   journal_.accept_call("World", report);
 }

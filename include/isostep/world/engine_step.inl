@@ -6,16 +6,22 @@
 #include "isostep/world/body_forces.inl"
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/body_map.inl"
+#include "isostep/world/break_events.inl"
+#include "isostep/world/characters.inl"
 #include "isostep/world/contact_events.inl"
 #include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
+#include "isostep/world/explosion_forces.inl"
 #include "isostep/world/island_sleep.inl"
 #include "isostep/world/island_wake.inl"
 #include "isostep/world/narrow_phase.inl"
 #include "isostep/world/proxies.inl"
 #include "isostep/world/render_poses.inl"
+#include "isostep/world/resisting_forces.inl"
 #include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/step_solver.inl"
+#include "isostep/world/water_forces.inl"
+#include "isostep/world/wheel_forces.inl"
 
 namespace isostep {
 
@@ -46,11 +52,15 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
-  contact_events_.emit({narrow_phase_.old_contacts(), state_.contacts, narrow_phase_.geometry(), solver_.impulses()},
-                       events_);
+  const SolvedContacts<S> solved = {narrow_phase_.old_contacts(), state_.contacts, narrow_phase_.geometry(),
+                                    solver_.impulses()};
+  contact_events_.emit(solved, events_);
+  break_events_.emit(solved, events_);
   after(Stage::emit_events);
   sleep_.update(events_.fell_asleep);
   after(Stage::update_sleep);
+  characters_.update();
+  after(Stage::move_characters);
   ++state_.tick;
   return report_;
 }
@@ -101,11 +111,14 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class PartPairs<S>;                                                                              \
   template class NarrowPhase<S>;                                                                            \
   template class Carriers<S>;                                                                               \
+  template class WheelForces<S>;                                                                            \
   template class BodyForces<S>;                                                                             \
   template class StepSolver<S>;                                                                             \
   template class BodyFinisher<S>;                                                                           \
   template class ContinuousCollision<S>;                                                                    \
   template class SensorOverlaps<S>;                                                                         \
   template class ContactEvents<S>;                                                                          \
+  template class BreakEvents<S>;                                                                            \
+  template class Characters<S>;                                                                             \
   template class RenderPoses<S>;                                                                            \
   template StepReport WorldEngine<S>::step(const StageObserver&);

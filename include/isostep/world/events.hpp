@@ -42,10 +42,26 @@ struct SensorEvent {
   }
 };
 
+/// A contact broke a body: its Breakable record is marked.
+template <class S> struct Broke {
+  BodyId body;
+  S impulse;                  // [kg m/s] as ContactBegin has it
+  Vec3<S> point;              // [m]
+  Vec3<Unit<S>> direction;    // [1] of the blow, into the body
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("impulse", self.impulse);
+    visit("point", self.point);
+    visit("direction", self.direction);
+  }
+};
+
 template <class S> struct Events {
   std::vector<ContactBegin<S>> contact_begin;
   std::vector<ContactEnd> contact_end;
   std::vector<SensorEvent> sensor_begin, sensor_end;
+  std::vector<Broke<S>> broke;  // ascending by record
   std::vector<BodyId> fell_asleep, woke;
 
   ISO_INLINE void clear() {
@@ -53,6 +69,7 @@ template <class S> struct Events {
     contact_end.clear();
     sensor_begin.clear();
     sensor_end.clear();
+    broke.clear();
     fell_asleep.clear();
     woke.clear();
   }

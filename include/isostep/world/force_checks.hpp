@@ -8,6 +8,8 @@
 namespace isostep::detail {
 
 inline constexpr char kZeroOrMore[] = "0 or more";
+inline constexpr int kMostWavePeriod = 1024;    // [s] its part in a sub-step still has digits
+inline constexpr int kMostBlastSeconds = 1024;  // [s] of each phase; the clock counts to 16384
 
 template <class S> FaultReport fault_of(const ForceZone<S>& z) {
   const S speed = Limits<S>::speed();
@@ -92,37 +94,116 @@ template <class S> FaultReport fault_of(const AeroSurface<S>& a) {
       .report();
 }
 
-/// What a record requires of the bodies that it names: the name of each field, whether it may be null, whether it has
-/// to be dynamic, and where on it the force acts.
+template <class S> FaultReport fault_of(const Water<S>& w) {
+  constexpr char kPlace[] = "a size up to Limits::position()";
+  const S position = Limits<S>::position(), rate = S(kMaxRate);
+  const Vec3<Unit<S>>& way = w.wave_direction;
+  return Checklist()
+      .finite(w.surface_height, "surface_height")
+      .finite(w.density, "density")
+      .also(fault_of_place(w.middle, "middle"))
+      .finite(w.half, "half")
+      .finite(w.current, "current")
+      .finite(w.linear_drag, "linear_drag")
+      .finite(w.quadratic_drag, "quadratic_drag")
+      .finite(w.angular_drag, "angular_drag")
+      .finite(w.wave_height, "wave_height")
+      .finite(w.wave_length, "wave_length")
+      .finite(w.wave_period, "wave_period")
+      .in_range(within(w.surface_height, position), "surface_height", kPlace)
+      .in_range(w.density <= Limits<S>::mass(), "density", "0 to Limits::mass()")
+      .in_range(within(w.half, position), "half", "0 to Limits::position()")
+      .in_range(no_longer(w.current, Limits<S>::speed()), "current", kWithinSpeed)
+      .in_range(w.linear_drag <= rate, "linear_drag", "0 to 16384")
+      .in_range(w.quadratic_drag <= rate, "quadratic_drag", "0 to 16384")
+      .in_range(w.angular_drag <= rate, "angular_drag", "0 to 16384")
+      .in_range(w.wave_length <= position, "wave_length", "16 Limits::minimum_size() to Limits::position()")
+      .in_range(w.wave_period <= S(kMostWavePeriod), "wave_period", "1/64 to 1024")
+      .proper(S(0) <= w.density, "density", "0 to Limits::mass()")
+      .proper(S(0) <= w.half.x && S(0) <= w.half.y && S(0) <= w.half.z, "half", "0 to Limits::position()")
+      .proper(S(0) <= w.linear_drag, "linear_drag", "0 to 16384")
+      .proper(S(0) <= w.quadratic_drag, "quadratic_drag", "0 to 16384")
+      .proper(S(0) <= w.angular_drag, "angular_drag", "0 to 16384")
+      .proper(S(16) * Limits<S>::minimum_size() <= w.wave_length, "wave_length",
+              "16 Limits::minimum_size() to Limits::position()")
+      .proper(S(1.0 / 64) <= w.wave_period, "wave_period", "1/64 to 1024")
+      // A steeper wave breaks (Stokes: a seventh of its length from trough to crest).
+      .proper(S(0) <= w.wave_height && w.wave_height * S(14) <= w.wave_length, "wave_height", "0 to wave_length / 14")
+      .proper(is_direction<S>(way), "wave_direction", "a vector of length 1")
+      .report();
+}
+template <class S> FaultReport fault_of(const Explosion<S>& e) {
+  constexpr char kSeconds[] = "0 to 1024", kLength[] = "0 to Limits::position()";
+  Checklist list;
+  list.also(fault_of_place(e.centre, "centre"));
+  const auto length = [&](S x, const char* field) {
+    list.finite(x, field).in_range(x <= Limits<S>::position(), field, kLength).proper(S(0) <= x, field, kLength);
+  };
+  const auto seconds = [&](S x, const char* field) {
+    list.finite(x, field).in_range(x <= S(kMostBlastSeconds), field, kSeconds).proper(S(0) <= x, field, kSeconds);
+  };
+  list.finite(e.implosion_force, "implosion_force");
+  length(e.implosion_least, "implosion_least");
+  length(e.implosion_most, "implosion_most");
+  seconds(e.implosion_duration, "implosion_duration");
+  list.finite(e.wave_force, "wave_force");
+  length(e.wave_speed, "wave_speed");
+  length(e.wave_width, "wave_width");
+  list.finite(e.wave_ramp, "wave_ramp").proper(S(0) <= e.wave_ramp && e.wave_ramp <= S(1), "wave_ramp", "0 to 1");
+  seconds(e.wave_duration, "wave_duration");
+  list.finite(e.chimney_force, "chimney_force");
+  length(e.chimney_radius, "chimney_radius");
+  length(e.chimney_height, "chimney_height");
+  seconds(e.chimney_duration, "chimney_duration");
+  // Beyond that the wave has nothing to meet, and its place would leave the format.
+  list.in_range(product(e.wave_speed, e.wave_duration) <= product(Limits<S>::position(), S(1)), "wave_duration",
+                "wave_speed wave_duration up to Limits::position()");
+  return list.proper(Limits<S>::minimum_size() <= e.wave_speed, "wave_speed", "Limits::minimum_size() or more")
+      .proper(Limits<S>::minimum_size() <= e.chimney_radius, "chimney_radius", "Limits::minimum_size() or more")
+      .report();
+}
+
+/// What a record requires of the bodies that it names: the name of each field, whether it may be null, of which type it
+/// has to be, and where on it the force acts.
+enum class MustBe { any, dynamic, kinematic };
 template <class S> struct NamedBody {
   BodyId body;
   const char* field;
-  bool may_be_null, must_move;
+  bool may_be_null;
+  MustBe must_be;
   Vec3<S> point;  // [m] body frame
   const char* point_field;
 };
+ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
+  if (must_be == MustBe::any) return true;
+  return type == (must_be == MustBe::dynamic ? BodyType::dynamic : BodyType::kinematic);
+}
 template <class S> struct NamedBodies {
   NamedBody<S> all[2];
   int count;
 };
 template <class S> NamedBodies<S> bodies_of(const ForceZone<S>&) { return {{}, 0}; }
+template <class S> NamedBodies<S> bodies_of(const Explosion<S>&) { return {{}, 0}; }
+template <class S> NamedBodies<S> bodies_of(const Water<S>&) { return {{}, 0}; }
 template <class S> NamedBodies<S> bodies_of(const Attractor<S>& a) {
-  return {{{a.body, "body", true, false, Vec3<S>::zero(), "point"}, {}}, 1};
+  return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
 }
 template <class S> NamedBodies<S> bodies_of(const BodySpring<S>& s) {
-  return {{{s.a, "a", false, false, s.anchor_a, "anchor_a"}, {s.b, "b", true, false, s.anchor_b, "anchor_b"}}, 2};
+  return {{{s.a, "a", false, MustBe::any, s.anchor_a, "anchor_a"},
+           {s.b, "b", true, MustBe::any, s.anchor_b, "anchor_b"}},
+          2};
 }
 template <class S> NamedBodies<S> bodies_of(const Thruster<S>& t) {
-  return {{{t.body, "body", false, true, t.point, "point"}, {}}, 1};
+  return {{{t.body, "body", false, MustBe::dynamic, t.point, "point"}, {}}, 1};
 }
 template <class S> NamedBodies<S> bodies_of(const BuoyancyPoint<S>& b) {
-  return {{{b.body, "body", false, true, b.point, "point"}, {}}, 1};
+  return {{{b.body, "body", false, MustBe::dynamic, b.point, "point"}, {}}, 1};
 }
 template <class S> NamedBodies<S> bodies_of(const BodyDrag<S>& d) {
-  return {{{d.body, "body", false, true, Vec3<S>::zero(), ""}, {}}, 1};
+  return {{{d.body, "body", false, MustBe::dynamic, Vec3<S>::zero(), ""}, {}}, 1};
 }
 template <class S> NamedBodies<S> bodies_of(const AeroSurface<S>& a) {
-  return {{{a.body, "body", false, true, a.point, "point"}, {}}, 1};
+  return {{{a.body, "body", false, MustBe::dynamic, a.point, "point"}, {}}, 1};
 }
 
 /// [kg] What an end of a spring bears at a point: the mass, less what turning gives way.

@@ -28,6 +28,7 @@
 #include "isostep/geometry/baked/rounded_polyhedron.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/mass_tensor.inl"
+#include "isostep/geometry/submersion.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/math/instantiate.inl"
 #include "isostep/particles/instantiate.inl"
@@ -55,6 +56,7 @@
   template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar,         \
                                                                 Contents<OwnScalar>);                                 \
   template struct MassTensor<OwnScalar>;                                                                              \
+  template Submersion<OwnScalar> submersion<OwnScalar>(ShapeView<OwnScalar>, Vec3<Unit<OwnScalar>>, OwnScalar);       \
   template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
   template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);               \

@@ -10,7 +10,9 @@
 namespace isostep {
 
 namespace detail {
-template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s], and [rad/s] times the body's size
+template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
+/// [s] of fall: what is thrown up is that slow for twice as long, and the delay is longer.
+template <class S> inline constexpr S kSleepFall = S(0.1875);
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
 }  // namespace detail
 
@@ -18,6 +20,7 @@ template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep)
   if (!state_.settings.allow_sleep) return;
   update_clocks();
   stop_clocks_of_carried();
+  stop_clocks_by_forces();
   if (!some_body_is_ready()) return;
   find_islands();
   find_island_clocks();
@@ -35,7 +38,7 @@ template <class S> std::uint32_t IslandSleep<S>::delay() const {
 }
 
 template <class S> void IslandSleep<S>::update_clocks() {
-  const Velocity<S> limit = convert<Velocity<S>>(detail::kSleepSpeed<S>);
+  const S pull = max_abs(state_.settings.gravity) * detail::kSleepFall<S>;
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
@@ -43,9 +46,26 @@ template <class S> void IslandSleep<S>::update_clocks() {
     // A kinematic body rests when told to: however slow, it carries what lies on it.
     const bool still =
         state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
+    const S fallen = pull * abs(body.gravity_scale);
+    const S least = fallen == S(0) ? detail::kSleepSpeed<S> : min(detail::kSleepSpeed<S>, fallen);
+    const Velocity<S> limit = convert<Velocity<S>>(least);
     const bool slow = max_abs(state.velocity) < limit && max_abs(state.angular_velocity) < limit;
     const bool rests = body.type == BodyType::kinematic ? still : slow;
     state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
+  }
+}
+/// A blast may be on its way, and water with a wave moves again what it lets rest for a while.
+template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
+  if (state_.force_records->no_forces()) return;
+  const auto& explosions = state_.force_records->explosions;
+  const auto& waters = state_.force_records->waters;
+  bool blast = false;
+  for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) blast = blast || explosions.is_taken(slot);
+  for (BodyState<S>& state : state_.awake.states) {
+    bool moved = blast;
+    for (const Water<S>& water : waters.all())
+      moved = moved || (S(0) < water.wave_height && in_region(water, state.fat));
+    if (moved) state.sleep_clock = 0;
   }
 }
 /// What rests on something that moves is not at rest: a drum or a conveyor carries it.
@@ -95,6 +115,17 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
     if (spring.a && spring.b) tie(spring.a.slot, spring.b.slot);
   }
+  for_each_wheel_on_ground(tie);
+}
+
+/// visit(slot of a wheel's body, slot of the ground)
+template <class S>
+template <class Visit>
+void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
+  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+    if (state_.body_slots.holds(wheel.body) && state_.body_slots.holds(wheel.contact_body))
+      visit(wheel.body.slot, wheel.contact_body.slot);
+  }
 }
 
 /// How long all bodies of an island have rested.
@@ -120,6 +151,7 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
   for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
     if (spring.a && spring.b) keep_awake(spring.a.slot, spring.b.slot);
   }
+  for_each_wheel_on_ground(keep_awake);
 }
 
 /// From here on `clock_` is 1 for islands that fall asleep. False: there is none.

@@ -28,16 +28,16 @@ template <class S> class IslandWake {
   /// One island after another in this order, at the cost of one merge.
   void wake(std::span<const std::uint32_t> slots);
   void wake_all();
-  /// Islands that something awake and moving has a contact with. False: there was none. Waking brings new pairs, so the
-  /// caller updates the broad phase and calls again.
+  /// Islands that something awake and moving has a contact with, or something awake a wheel on. False: there was none.
+  /// Waking brings new pairs, so the caller updates the broad phase and calls again.
   bool wake_touched();
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.
   void wake_touching(std::uint32_t slot);
   /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
-  /// Every island with a joint or spring to, or a contact with, a body that no island holds. Its box need not meet
-  /// theirs any more: a contact sleeps as the last step found it.
+  /// Every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need not
+  /// meet theirs any more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);

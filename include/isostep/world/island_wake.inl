@@ -40,6 +40,11 @@ template <class S> bool IslandWake<S>::wake_touched() {
     if (!is_touched(pair)) continue;
     touched_.push_back(map_.location(pair_a(pair)).is_asleep() ? pair_a(pair) : pair_b(pair));
   }
+  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+    if (!state_.body_slots.holds(wheel.body) || !state_.body_slots.holds(wheel.contact_body)) continue;
+    if (map_.location(wheel.body.slot).set != Location::kAwake) continue;
+    if (map_.location(wheel.contact_body.slot).is_asleep()) touched_.push_back(wheel.contact_body.slot);
+  }
   wake(touched_);
   return !touched_.empty();
 }
@@ -86,6 +91,9 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
   for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
     if (spring.a && spring.b && (spring.a.slot == slot || spring.b.slot == slot))
       wake(spring.a.slot == slot ? spring.b.slot : spring.a.slot);
+  }
+  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+    if (wheel.body && wheel.contact_body && wheel.contact_body.slot == slot) wake(wheel.body.slot);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/material_table.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 
@@ -65,10 +66,12 @@ template <class S> class NarrowPhase {
   std::size_t first_old_contact(std::size_t group) const;
   void fill_contact(const PartPair& parts, const Manifold<S>& manifold, Contact<S>& contact, ContactGeometry<S>& g,
                     std::size_t& old_cursor) const;
+  void settle_friction(const PartPair& parts, const Contact<S>& contact, ContactGeometry<S>& g) const;
   std::span<const Contact<S>> old_contacts_of(const ContactKey& key, std::size_t cursor) const;
 
   WorldState<S>& state_;
   PartPairs<S> part_pairs_;
+  MaterialTable<S> material_table_;
   std::span<const std::uint64_t> pairs_;  // for one update
   const PairKernels<S>* kernels_ = nullptr;
   std::vector<std::uint8_t> point_counts_;  // by place in a group

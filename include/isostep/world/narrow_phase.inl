@@ -6,6 +6,7 @@
 
 #include "isostep/collision/narrowphase/surface_triangle.hpp"
 #include "isostep/core/lower_bound.hpp"
+#include "isostep/dynamics/contact_friction.hpp"
 #include "isostep/world/narrow_phase.hpp"
 #include "isostep/world/part_pairs.inl"
 
@@ -94,6 +95,7 @@ std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const
   pairs_ = pairs;
   kernels_ = tools.pair_kernels;
   part_pairs_.begin();
+  material_table_.update(state_.force_records->material_pairs);
   old_contacts_.swap(state_.contacts);
   overlaps_.clear();
   placed_ = 0;
@@ -221,6 +223,59 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   }
   if (a.surfaces || b.surfaces)
     detail::inherit_across_edges<S>({old_contacts_of(contact.key, old_cursor), b.surfaces}, g, is_new, contact);
+  if (!a.mixes_alone || !b.mixes_alone) settle_friction(parts, contact, g);
+}
+
+namespace detail {
+/// In the middle of a contact's points, or at its first.
+template <class S> struct ContactArms {
+  Vec3<S> a, b;  // [m]
+
+  static ISO_INLINE ContactArms middle_of(const ContactGeometry<S>& g, std::uint32_t count) {
+    constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
+    ContactArms sum = {g.points[0].arm_a, g.points[0].arm_b};
+    for (std::uint32_t p = 1; p < count; ++p) sum = {sum.a + g.points[p].arm_a, sum.b + g.points[p].arm_b};
+    return {sum.a * kShares[count - 1], sum.b * kShares[count - 1]};
+  }
+};
+/// [m/s] Of a body at the end of an arm. Null: it does not move.
+template <class S> ISO_INLINE Vec3<Velocity<S>> velocity_at(const BodyState<S>* body, Vec3<S> arm) {
+  if (body == nullptr) return Vec3<Velocity<S>>::zero();
+  const Vec3<Velocity<S>> w = body->angular_velocity;
+  const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
+    return round_to<Velocity<S>>(product(w[i], arm[j]) - product(w[j], arm[i]));
+  };
+  return body->velocity + Vec3<Velocity<S>>{part(1, 2), part(2, 0), part(0, 1)};
+}
+}  // namespace detail
+
+/// Of a contact of a material that does not mix alone: by its pair's record, if there is one, and as it slips.
+template <class S>
+void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& contact, ContactGeometry<S>& g) const {
+  using Arms = detail::ContactArms<S>;
+  const BodyFrame<S>&a = part_pairs_.frames()[parts.frame_a], &b = part_pairs_.frames()[parts.frame_b];
+  Material<S> of_a = part_pairs_.materials()[parts.frame_a], of_b = part_pairs_.materials()[parts.frame_b];
+  if (a.surfaces) of_a = material_of_leaf(a, parts.child_a, of_a);
+  else if (b.surfaces) of_b = material_of_leaf(b, parts.child_b, of_b);
+  SurfaceContact<S> surface;
+  surface.friction = g.material.friction;
+  surface.static_friction = mixed_friction(static_friction_of(of_a), static_friction_of(of_b));
+  if (const MaterialPair<S>* const pair = material_table_.find(of_a.kind, of_b.kind)) {
+    surface.friction = pair->friction;
+    surface.static_friction = max(pair->friction, pair->static_friction);
+    g.material.restitution = pair->restitution;
+    g.material.rolling_resistance = pair->rolling_resistance;
+  }
+  surface.a = {of_a.anisotropy, a.origin.rotation};
+  surface.b = {of_b.anisotropy, b.origin.rotation};
+  const auto state_of = [&](std::uint32_t row) { return row == 0 ? nullptr : &state_.awake.states[row - 1]; };
+  const auto slip_at = [&](const Arms& arms) {
+    return detail::velocity_at<S>(state_of(g.row_b), arms.b) - detail::velocity_at<S>(state_of(g.row_a), arms.a) +
+           convert<Velocity<S>>(g.material.surface_velocity);
+  };
+  surface.slip = slip_at(Arms::middle_of(g, contact.count));
+  surface.first_slip = slip_at({g.points[0].arm_a, g.points[0].arm_b});
+  choose_friction(surface, contact.friction_impulse, g);
 }
 /// Those of the key's bodies, of which the cursor is among or beside.
 template <class S>

@@ -46,6 +46,11 @@ template <class S> class Queries {
                      const QueryFilter& filter) const;
   std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
                                           const QueryFilter& filter) const;
+  /// Of every body, child and triangle within `margin` of a shape, in order of these; `out` is filled anew.
+  void near_contacts(const QueryShape<S>& shape, const Pose<S>& pose, S margin, NearContacts<S>& out,
+                     const QueryFilter& filter) const;
+  /// [m] how far a shape of the world reaches from its frame's origin along a direction.
+  S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
   S joint_error(JointId joint) const;
 
@@ -72,13 +77,14 @@ template <class S> class Queries {
   // query_overlaps.inl
   FaultReport fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const;
   Asked asked_of(const QueryShape<S>& shape, const Pose<S>& pose) const;
+  template <class Visit> void visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, Visit&& visit) const;
+  void near_contacts_of(const Asked& asked, S margin, std::uint32_t slot, std::vector<NearContact<S>>& out) const;
   template <class Visit>
   void visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot, const Visit& visit) const;
   // queries.inl
   bool accept_box(const Aabb<S>& box) const;
   bool sees(const QueryFilter& filter, std::uint32_t slot) const;
   BodyId id_of(std::uint32_t slot) const;
-  Pose<S> pose_of(std::uint32_t slot) const;
 
   const WorldState<S>& state_;
   const BodyMap<S>& map_;

@@ -16,11 +16,6 @@ namespace isostep {
 template <class S> BodyId Queries<S>::id_of(std::uint32_t slot) const {
   return state_.body_slots.template id_of<BodyId>(slot);
 }
-/// Of the body's origin.
-template <class S> Pose<S> Queries<S>::pose_of(std::uint32_t slot) const {
-  const Location at = map_.location(slot);
-  return BodyMap<S>::origin_pose(map_.state_at(at), map_.properties_at(at));
-}
 
 template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_t slot) const {
   const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
@@ -44,7 +39,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
   const S reach = min(max_distance, edge);
   proxies_.boxes().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;
-    const Transform<S> placed = Transform<S>::of(pose_of(slot));
+    const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
     for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
       const ClosestPoint<S> found = isostep::closest_point(map_.contents().view(child.primitive),
                                                            compose(placed, Transform<S>::of(child.pose)), point);

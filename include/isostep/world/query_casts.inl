@@ -27,7 +27,7 @@ void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& lis
 template <class S>
 template <class Probe, class List>
 void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const {
-  const Transform<S> placed = Transform<S>::of(pose_of(slot));
+  const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
   const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);

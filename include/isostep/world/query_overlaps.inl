@@ -6,6 +6,7 @@
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/bounds.hpp"
+#include "isostep/math/rotations.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/queries.hpp"
 
@@ -58,22 +59,42 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 }
 }  // namespace detail
 
+/// visit(i, part, at, here) -> bool for the children of a body's shape, ascending, until it returns false. Of those of
+/// a tree the ones whose boxes meet the shape's, grown by `margin`. `at` and `here` are the places of the part and of
+/// the shape asked with, both relative to the latter's position, as the narrow phase wants them.
+template <class S>
+template <class Visit>
+void Queries<S>::visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, Visit&& visit) const {
+  Pose<S> placed = map_.origin_pose_at(slot);
+  placed.position -= asked.pose.position;
+  const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
+                     there = Transform<S>::of(placed);
+  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
+  const std::span<const Child<S>> children = map_.children_of(shape);
+  const auto visit_child = [&](std::uint32_t i) {
+    return visit(i, map_.contents().view(children[i].primitive), compose(there, Transform<S>::of(children[i].pose)),
+                 here);
+  };
+  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
+    for (const std::uint32_t i : detail::children_near(*tree, there, grow(bounds(asked.view(), here), margin))) {
+      if (!visit_child(i)) return;
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < children.size(); ++i) {
+    if (!visit_child(i)) return;
+  }
+}
+
 /// visit(hit) -> bool for the parts of a body that overlap, until it returns false: every triangle, the lowest one of
 /// each child, or the lowest of all. Children ascend.
 template <class S>
 template <class Visit>
 void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot,
                                 const Visit& visit) const {
-  Pose<S> placed = pose_of(slot);
-  placed.position -= asked.pose.position;  // relative, as the narrow phase wants it
-  const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
-                     there = Transform<S>::of(placed);
-  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
-  const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);
-  const auto visit_child = [&](std::uint32_t i) {  // false: visit wants no more
-    const ShapeView<S> part = map_.contents().view(children[i].primitive);
-    const Transform<S> at = compose(there, Transform<S>::of(children[i].pose));
+  const auto visit_child = [&](std::uint32_t i, const ShapeView<S>& part, const Transform<S>& at,
+                               const Transform<S>& here) {  // false: visit wants no more
     Manifold<S> manifold;
     const bool is_whole = !is_surface(part.primitive.type), each = filter.per == HitPer::triangle;
     std::uint32_t lowest = kNoTriangle;
@@ -95,15 +116,7 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
     const std::uint8_t material = is_whole ? std::uint8_t{0} : detail::material_of(part, lowest);
     return (told || visit(OverlapHit{body, i, lowest, material})) && filter.per != HitPer::body;
   };
-  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
-    for (const std::uint32_t i : detail::children_near(*tree, there, bounds(asked.view(), here))) {
-      if (!visit_child(i)) return;
-    }
-    return;
-  }
-  for (std::uint32_t i = 0; i < children.size(); ++i) {
-    if (!visit_child(i)) return;
-  }
+  visit_parts_near(asked, S(0), slot, visit_child);
 }
 
 namespace detail {
@@ -178,6 +191,56 @@ std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, 
     return true;
   });
   return first;
+}
+
+template <class S>
+void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t slot,
+                                  std::vector<NearContact<S>>& out) const {
+  Manifold<S> manifold;
+  const auto tell = [&] {
+    if (manifold.count == 0) return true;
+    S least = manifold.points[0].separation;
+    for (int i = 1; i < manifold.count; ++i) least = min(least, manifold.points[i].separation);
+    out.push_back({id_of(slot), -manifold.normal, least});
+    return true;
+  };
+  const auto visit_child = [&](std::uint32_t, const ShapeView<S>& part, const Transform<S>& at,
+                               const Transform<S>& here) {
+    if (!is_surface(part.primitive.type)) {
+      collide(asked.view(), here, part, at, margin, manifold);
+      return tell();
+    }
+    return visit_triangles_near(asked.view(), here, part, at, margin, [&](std::uint32_t triangle) {
+      collide_with_triangle(asked.view(), here, part, triangle, at, margin, manifold);
+      return tell();
+    });
+  };
+  visit_parts_near(asked, margin, slot, visit_child);
+}
+
+template <class S>
+void Queries<S>::near_contacts(const QueryShape<S>& shape, const Pose<S>& pose, S margin, NearContacts<S>& out,
+                               const QueryFilter& filter) const {
+  out.all.clear();
+  out.slots.clear();
+  if (!journal_.accept_call("near_contacts", fault_of_shape(shape, pose))) return;
+  const Asked asked = asked_of(shape, pose);
+  proxies_.boxes().query(grow(bounds(asked.view(), Transform<S>::of(asked.pose)), margin), [&](std::uint32_t slot) {
+    if (sees(filter, slot)) out.slots.push_back(slot);
+    return true;
+  });
+  const auto count = static_cast<std::uint32_t>(out.slots.size());
+  out.scratch.resize(out.slots.size());
+  stable_sort(out.slots.data(), out.scratch.data(), count, OwnKey{});
+  for (const std::uint32_t slot : out.slots) near_contacts_of(asked, margin, slot, out.all);
+}
+
+/// By the box of the shape in a frame whose y is that direction.
+template <class S>
+S Queries<S>::reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const {
+  const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
+  const Quat<Unit<S>> turned = rotation_between(along, y) * orientation;
+  return bounds(asked_of(shape, {Vec3<S>::zero(), turned}).view(), Transform<S>::of({Vec3<S>::zero(), turned})).high.y;
 }
 
 }  // namespace isostep

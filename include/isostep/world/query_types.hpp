@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "isostep/core/id.hpp"
 #include "isostep/geometry/primitive.hpp"
@@ -61,6 +62,19 @@ struct OverlapHit {
   friend ISO_INLINE bool operator==(const OverlapHit& a, const OverlapHit& b) {
     return a.body == b.body && a.child == b.child && a.triangle == b.triangle && a.material == b.material;
   }
+};
+
+/// What is near to a shape.
+template <class S> struct NearContact {
+  BodyId body;
+  Vec3<Unit<S>> normal;  // [1] of the surface, towards the shape
+  S separation;          // [m] of the deepest point; below 0: overlap
+};
+
+/// A list of them, with memory that is used again.
+template <class S> struct NearContacts {
+  std::vector<NearContact<S>> all;
+  std::vector<std::uint32_t> slots, scratch;
 };
 
 /// What is nearest to a point.

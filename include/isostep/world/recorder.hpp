@@ -19,6 +19,7 @@ template <class S> ISO_INLINE std::uint64_t settings_digest(const Settings<S>& s
   writer.write(settings.gravity);
   writer.write(settings.allow_sleep);
   writer.write(settings.id_space);
+  writer.write(settings.projection);
   return hash_bytes(bytes.data(), bytes.size());
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/fields.hpp"
+#include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -30,6 +31,10 @@ template <class S> struct Settings {
   /// than a core steps in real time. Beyond it a step leaves out pairs, those last that hold bodies up, and reports
   /// StepReport::crowded (crowd.hpp). Twice as many pairs of compounds' parts are collided, StepReport::cut_compounds.
   std::int32_t most_pairs = 1 << 19;
+  Projection projection = Projection::nonlinear;  // of worst_first; other solvers take any and use none
+  /// [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it;
+  /// of a gas at restitution 1 glancing blows below it lose their energy.
+  S restitution_threshold = S(0.25);
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("hz", self.hz);
@@ -39,6 +44,8 @@ template <class S> struct Settings {
     visit("solver", self.solver);
     visit("id_space", self.id_space);
     visit("most_pairs", self.most_pairs);
+    visit("projection", self.projection);
+    visit("restitution_threshold", self.restitution_threshold);
   }
 };
 

@@ -22,12 +22,13 @@ enum class Stage : std::uint32_t {
   update_sensors,
   emit_events,
   update_sleep,
+  move_characters,
 };
-inline constexpr std::uint32_t kStages = 13;
+inline constexpr std::uint32_t kStages = 14;
 inline constexpr const char* kStageNames[kStages] = {
     "find_pairs",  "apply_forces",   "update_manifolds", "colour_constraints", "prepare",     "solve_substeps",
     "restitution", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors", "emit_events",
-    "update_sleep"};
+    "update_sleep", "move_characters"};
 
 /// Of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;

@@ -10,7 +10,8 @@ namespace detail {
 /// What a world was made with: gravity alone is changed by commands.
 template <class S> bool same_making(const Settings<S>& a, const Settings<S>& b) {
   return a.hz == b.hz && a.substeps == b.substeps && a.allow_sleep == b.allow_sleep && a.solver == b.solver &&
-         a.id_space == b.id_space && a.most_pairs == b.most_pairs;
+         a.id_space == b.id_space && a.most_pairs == b.most_pairs && a.projection == b.projection &&
+         a.restitution_threshold == b.restitution_threshold;
 }
 }  // namespace detail
 

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
-#include "isostep/world/force_checks.hpp"
+#include "isostep/world/record_checks.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -25,7 +26,9 @@ template <class S> class StateValidator {
     if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
         static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces ||
-        s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs) {
+        s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs ||
+        static_cast<std::uint32_t>(s.projection) >= kProjections || !is_finite(s.restitution_threshold) ||
+        s.restitution_threshold < S(0) || Limits<S>::speed() < s.restitution_threshold) {
       return "settings out of range";
     }
     set_of_body_.assign(state_.body_slots.entries().size(), Location::kNone);
@@ -276,7 +279,11 @@ template <class S> class StateValidator {
           if (broken == nullptr) broken = force_records(registry);
         },
         *state_.force_records);
-    return broken;
+    if (broken == nullptr) broken = material_pairs();
+    if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
+    if (broken == nullptr)
+      broken = one_a_body(state_.force_records->characters, "two characters have the same body");
+    return broken != nullptr ? broken : one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
   }
   template <class Record, class IdType> const char* force_records(const Registry<Record, IdType>& registry) const {
     const std::vector<Record>& all = registry.all();
@@ -299,13 +306,35 @@ template <class S> class StateValidator {
   bool names_well(const detail::NamedBody<S>& named) const {
     if (!named.body) return named.may_be_null;
     return state_.body_slots.holds(named.body) &&
-           (!named.must_move || type_of_body_[named.body.slot] == BodyType::dynamic);
+           detail::is_as_asked(type_of_body_[named.body.slot], named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
   bool ties_well(const BodySpring<S>& spring) const {
     const auto moves = [&](BodyId body) { return body && type_of_body_[body.slot] == BodyType::dynamic; };
     if (!moves(spring.a) && !moves(spring.b)) return false;
     return !moves(spring.a) || !moves(spring.b) || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
+  }
+  const char* material_pairs() const {
+    const auto& pairs = state_.force_records->material_pairs;
+    std::vector<std::uint64_t> kinds;
+    for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
+      const std::uint64_t key = kinds_key(pairs.all()[slot].kind_a, pairs.all()[slot].kind_b);
+      if (pairs.is_taken(slot)) kinds.push_back(key);
+      else if (key != 0) return "a free pair of materials names a kind";
+    }
+    std::vector<std::uint64_t> scratch(kinds.size());
+    stable_sort(kinds.data(), scratch.data(), static_cast<std::uint32_t>(kinds.size()), OwnKey{});
+    for (std::size_t i = 1; i < kinds.size(); ++i) {
+      if (kinds[i - 1] == kinds[i]) return "two pairs of materials have the same kinds";
+    }
+    return nullptr;
+  }
+  template <class Records> const char* one_a_body(const Records& all, const char* rule) const {
+    std::vector<std::uint8_t> has(state_.body_slots.entries().size(), 0);
+    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
+      if (all.is_taken(slot) && has[all.all()[slot].body.slot]++ != 0) return rule;
+    }
+    return nullptr;
   }
   const char* untold() const {
     const std::vector<ContactEnd>& contacts = state_.untold.contact_end;

@@ -20,7 +20,7 @@ namespace isostep {
 /// Keeps:   nothing from step to step but memory.
 template <class S> class StepSolver {
  public:
-  StepSolver(WorldState<S>& state, const BodyMap<S>& map);
+  StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies);
 
   /// Takes the forces that commands left in the state.
   ISO_INLINE void take_forces() { forces_.begin_step(); }
@@ -53,7 +53,7 @@ template <class S> class StepSolver {
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   Solvers<S> solvers_;
-  BodyForces<S> forces_{state_, map_};
+  BodyForces<S> forces_;
   std::vector<JointEnds<S>> joint_ends_;
   std::vector<Velocity<S>> impulses_;
   std::vector<std::uint8_t> cut_;

@@ -7,7 +7,9 @@
 
 namespace isostep {
 
-template <class S> StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+template <class S>
+StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
+    : state_(state), map_(map), forces_(state, map, proxies) {}
 
 template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
@@ -38,7 +40,9 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           tools.tree_kernels,
           carried,
           forces_.substeps(),
-          cut_};
+          cut_,
+          state_.settings.projection,
+          convert<Velocity<S>>(state_.settings.restitution_threshold)};
 }
 
 }  // namespace isostep

@@ -135,16 +135,16 @@ template <class S> class World final {
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
 
-  // Forces that act from step to step, as records: each kind of force_list.hpp. They act on what is awake; adding one,
-  // changing or removing it wakes the bodies that it names, and those of zones and attractors all. They go with the
-  // bodies that they name.
+  // Records: each kind of force that acts from step to step, force_list.hpp, and of record_list.hpp. They act on what
+  // is awake; adding one, changing or removing it wakes the bodies that it names, and those of zones, attractors and
+  // pairs of materials all. They go with the bodies that they name.
 #define ISO_FORCE(name, Record, Id, S)   \
   Id add(const Record& record);          \
   bool set(Id id, const Record& record); \
   bool remove(Id id);                    \
   /* Null for a stale id; until the next command or load. */ \
   const Record* find(Id id) const;
-  ISO_FOR_EACH_FORCE(ISO_FORCE, S)
+  ISO_FOR_EACH_RECORD(ISO_FORCE, S)
 #undef ISO_FORCE
 
   /// Every mutator above is one of these with its fields as arguments: command.hpp.
@@ -183,6 +183,8 @@ template <class S> class World final {
   Vec3<S> center_of_mass(BodyId body) const;
   Vec3<S> velocity(BodyId body) const;
   Vec3<S> angular_velocity(BodyId body) const;
+  /// [m/s] of a point [m] that moves with the body, both world.
+  Vec3<S> velocity_at(BodyId body, Vec3<S> point) const;
   S mass(BodyId body) const;
   std::uint64_t user_data(BodyId body) const;
   std::vector<BodyId> bodies() const;

@@ -111,7 +111,7 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   template <class S> const Record* World<S>::find(Id id) const {                                                    \
     return detail::registry_of(*engine_->state_.force_records, id).find(id);                                        \
   }
-ISO_FOR_EACH_FORCE(ISO_FORCE, S)
+ISO_FOR_EACH_RECORD(ISO_FORCE, S)
 #undef ISO_FORCE
 template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
 template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch) {
@@ -247,6 +247,12 @@ template <class S> Vec3<S> World<S>::velocity(BodyId body) const {
 template <class S> Vec3<S> World<S>::angular_velocity(BodyId body) const {
   const BodyState<S>* state = engine_->map_.state_of(body);
   return state == nullptr ? Vec3<S>::zero() : convert<S>(state->angular_velocity);
+}
+template <class S> Vec3<S> World<S>::velocity_at(BodyId body, Vec3<S> point) const {
+  const FloatEnvironment environment;
+  const BodyState<S>* state = engine_->map_.state_of(body);
+  if (state == nullptr) return Vec3<S>::zero();
+  return velocity(body) + detail::saturated_cross(angular_velocity(body), point - state->centre);
 }
 template <class S> S World<S>::mass(BodyId body) const {
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);

@@ -19,14 +19,7 @@ void add_link(Scene& scene, double x) {
   link.collide = false;
   scene.bodies.push_back(link);
 }
-SceneJoint joint_of(JointType type, int a, int b, double x) {
-  SceneJoint joint;
-  joint.type = type;
-  joint.a = a;
-  joint.b = b;
-  joint.anchor = {x, kTop, 0};
-  return joint;
-}
+SceneJoint joint_at(JointType type, int a, int b, double x) { return joint_of(type, a, b, {x, kTop, 0}); }
 
 Scene chain_of(int frames, int substeps) {
   Scene scene;
@@ -41,13 +34,13 @@ Scene ball_chain(int links, double ball_mass) {
   Scene scene = chain_of(600, 16);
   for (int i = 0; i < links; ++i) {
     add_link(scene, (i + 0.5) * kLink);
-    scene.joints.push_back(joint_of(JointType::ball, i - 1, i, i * kLink));
+    scene.joints.push_back(joint_at(JointType::ball, i - 1, i, i * kLink));
   }
   SceneBody ball = body_of(sphere_part(0.5), {links * kLink + 0.5, kTop, 0});
   ball.mass = ball_mass;
   ball.collide = false;
   scene.bodies.push_back(ball);
-  scene.joints.push_back(joint_of(JointType::ball, links - 1, links, links * kLink));
+  scene.joints.push_back(joint_at(JointType::ball, links - 1, links, links * kLink));
   return scene;
 }
 
@@ -71,7 +64,7 @@ Scene stretched_chain() {
   Scene scene = chain_of(kLongRun, 8);
   for (int i = 0; i < kLinks; ++i) {
     const double start = i * (kLink + kGap);
-    SceneJoint rod = joint_of(JointType::distance, i - 1, i, start);
+    SceneJoint rod = joint_at(JointType::distance, i - 1, i, start);
     rod.anchor_b = {start + kGap, kTop, 0};
     rod.flags = joint_flag::kLimit;
     rod.lower = rod.upper = kRod;
@@ -86,7 +79,7 @@ Scene limited_chain() {
   constexpr int kLinks = 16;
   Scene scene = chain_of(kLongRun, 8);
   for (int i = 0; i < kLinks; ++i) {
-    SceneJoint hinge = joint_of(JointType::hinge, i - 1, i, i * kLink);
+    SceneJoint hinge = joint_at(JointType::hinge, i - 1, i, i * kLink);
     hinge.flags = joint_flag::kLimit;
     hinge.lower = -0.3;
     hinge.upper = 0.3;

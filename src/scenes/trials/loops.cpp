@@ -22,20 +22,6 @@ class LoopError : public Judge {
   double duration_;  // [s]
   double worst_ = 0, finite_ = 0;
 };
-Scene at_rest() {
-  Scene scene;
-  scene.allow_sleep = false;
-  scene.frames = 300;
-  return scene;
-}
-SceneJoint joint_of(JointType type, int a, int b, Point anchor) {
-  SceneJoint joint;
-  joint.type = type;
-  joint.a = a;
-  joint.b = b;
-  joint.anchor = vector_of(anchor);
-  return joint;
-}
 void shoot(Scene& scene, double radius, double mass, Point from, Point velocity) {
   SceneBody ball = body_of(sphere_part(radius), from);
   ball.mass = mass;
@@ -49,7 +35,7 @@ constexpr double kGap = 0.005;
 
 /// Crank, coupler and rocker of 1 kg each between two pivots of the world, 2 m apart; axes along z.
 Scene four_bar() {
-  Scene scene = at_rest();
+  Scene scene = awake(300);
   const Point pins[] = {{0, 4, 0}, {0, 5, 0}, {2, 6, 0}, {2, 4, 0}};
   scene.joints.push_back(joint_of(JointType::hinge, -1, 0, pins[0]));
   for (int i = 0; i < 3; ++i) {
@@ -69,7 +55,7 @@ Scene four_bar() {
 
 /// A cube of twelve beams, 3 m and 10 kg each: at every corner three meet, joined in a ring.
 Scene braced_frame() {
-  Scene scene = at_rest();
+  Scene scene = awake(300);
   add_floor(scene);
   std::vector<int> beams[8];  // by corner: bit 0 of its number is x, 1 is y, 2 is z
   const auto corner = [](int i) { return Point{i & 1 ? 1.5 : -1.5, i & 2 ? 3.1 : 0.1, i & 4 ? 1.5 : -1.5}; };
@@ -97,7 +83,7 @@ Scene braced_frame() {
 
 /// A ring of 16 links of half a metre, ball joints between, lies on the floor.
 Scene ring() {
-  Scene scene = at_rest();
+  Scene scene = awake(300);
   add_floor(scene);
   constexpr int kLinks = 16;
   const double radius = 0.25 / std::sin(kTurn / 2 / kLinks);    // [m] of the joints

@@ -7,8 +7,8 @@
 namespace isostep::tool {
 
 struct GameOptions {
-  int hz = -1, substeps = -1;                // -1: the scene's
-  std::string solver, integrator, stepping;  // names; empty: the scene's
+  int hz = -1, substeps = -1;                            // -1: the scene's
+  std::string solver, projection, integrator, stepping;  // names; empty: the scene's
 };
 
 }  // namespace isostep::tool

@@ -16,6 +16,7 @@ template <class S> ParticleSettings<S> asked_of(ParticleSettings<S> settings, co
   if (options.substeps > 0) settings.substeps = options.substeps;
   if (!choose(settings.solver, options.solver, kParticleSolverNames))
     throw ToolError(exit_status::kUsage, "particles have no solver " + options.solver);
+  if (!options.projection.empty()) throw ToolError(exit_status::kUsage, "--projection is for rigid bodies");
   choose(settings.integrator, options.integrator, kIntegratorNames);
   choose(settings.stepping, options.stepping, kSteppingNames);
   return settings;

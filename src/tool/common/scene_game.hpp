@@ -48,12 +48,14 @@ template <class Methods> void ask(Methods& methods, const GameOptions& options) 
   if (options.hz > 0) methods.hz = options.hz;
   if (options.substeps > 0) methods.substeps = options.substeps;
   choose(methods.solver, options.solver, kSolverNames);
+  choose(methods.projection, options.projection, kProjectionNames);
 }
 /// Whether a world is already as the options ask; methods it has no choice of are refused before.
 template <class S> bool is_as_asked(const Settings<S>& own, const GameOptions& options) {
   Settings<S> asked = own;
   ask(asked, options);
-  return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver;
+  return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver &&
+         asked.projection == own.projection;
 }
 
 /// What every kind of game has: World, Scene; `world`, which its constructor builds from a scene, once `begin(world)`
@@ -77,6 +79,7 @@ template <class S> struct SceneGame {
     asked.hz = scene.hz;
     asked.substeps = scene.substeps;
     asked.solver = scene.solver;
+    asked.projection = scene.projection;
     ask(asked, options);
     return scenes::settings_of<S>(asked);
   }

@@ -109,6 +109,7 @@ class Owners {
     if (name == "parts")
       return named("body", body_of_frame(value(item.text() + ".frame_a")),
                    body_of_frame(value(item.text() + ".frame_b")));
+    if (name == "broke") return named("body", value(item.text() + ".body.slot"));
     if (name == "overlaps" || name == "new_overlaps") return by_fields("body", item, ".sensor", ".other");
     if (is_any(name, std::array{"contact_begin", "contact_end", "untold_contact_end"}))
       return by_fields("body", item, ".a.slot", ".b.slot");

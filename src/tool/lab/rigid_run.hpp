@@ -46,6 +46,7 @@ template <class S> class RigidRun {
     asked.hz = point.hz;
     asked.substeps = point.substeps;
     asked.solver = rigid_solver(point.solver);
+    asked.projection = scene.projection;
     return scenes::settings_of<S>(asked);
   }
 

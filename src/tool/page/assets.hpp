@@ -8,7 +8,7 @@ namespace isostep::tool::page::assets {
 
 extern const std::string_view kPage;      // page.html
 extern const std::string_view kStyle;     // player.css
-extern const std::string_view kScript;    // decode.js, surfaces.js, extent.js, overlay.js, view.js, orbit.js, player.js
+extern const std::string_view kScript;    // decode.js, surfaces.js, ...: see embed_page.cmake
 extern const std::string_view kThree;     // three.js, minified; empty where it could not be had
 extern const std::string_view kBuildDir;  // where the build lies
 

@@ -85,9 +85,16 @@ class DecodedRun {
   place(frame, actor) {
     return this.places[frame * this.actors.length + actor];
   }
+  // Where it is first.
+  firstPlace(actor) {
+    let frame = 0;
+    while (frame + 1 < this.count && this.state(frame, actor) === kGone) ++frame;
+    return this.place(frame, actor);
+  }
 
   read(reader, n) {
     const place = new Uint32Array(n), state = new Uint8Array(n), at = new Int32Array(3 * n);
+    let pushes = new Float32Array(4 * this.about.effects.length);
     this.poses.room(7);
     for (const x of [0, 0, 0, 0, 0, 0, 1]) this.poses.push(x);
     for (let f = 0; f < this.count; ++f) {
@@ -102,6 +109,8 @@ class DecodedRun {
         state[word >>> 2] = word & 3;
       }
       this.readPoses(reader, place, at);
+      if (pushes.length > 0) pushes = this.readPushes(reader, pushes);
+      frame.pushes = pushes;
       this.readPoints(reader, frame);
       this.frames.push(frame);
       this.places.set(place, f * n);
@@ -150,6 +159,17 @@ class DecodedRun {
     }
     q[largest] = Math.sqrt(Math.max(0, left));
     for (const x of q) this.poses.push(x);
+  }
+
+  // Four numbers an effect: newtons, control. What did not change is as it was.
+  readPushes(reader, before) {
+    const count = reader.u32(), pushes = count > 0 ? before.slice() : before;
+    for (let left = count; left > 0; --left) {
+      const at = 4 * reader.u32();
+      for (let i = 0; i < 3; ++i) pushes[at + i] = reader.i16() / 32767 * this.about.strongest;
+      pushes[at + 3] = reader.i16() / 32767;
+    }
+    return pushes;
   }
 
   // Seven numbers a point: position, normal, newtons.

@@ -26,8 +26,8 @@ file(WRITE "${OUT}" "// Written by the build from src/tool/page.\n#include \"too
   "namespace isostep::tool::page::assets {\n\n")
 embed(kPage ${PAGE}/page.html)
 embed(kStyle ${PAGE}/player.css)
-embed(kScript ${PAGE}/decode.js ${PAGE}/surfaces.js ${PAGE}/extent.js ${PAGE}/overlay.js ${PAGE}/view.js
-  ${PAGE}/orbit.js ${PAGE}/player.js)
+embed(kScript ${PAGE}/decode.js ${PAGE}/surfaces.js ${PAGE}/extent.js ${PAGE}/overlay.js ${PAGE}/effects.js
+  ${PAGE}/view.js ${PAGE}/orbit.js ${PAGE}/player.js)
 embed(kThree ${THREE})
 file(APPEND "${OUT}" "const std::string_view kBuildDir = R\"isostep(${BUILD})isostep\";\n"
   "\n}  // namespace isostep::tool::page::assets\n")

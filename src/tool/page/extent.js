@@ -9,6 +9,7 @@ function reachOf(actor) {
 }
 
 // The bounds of what moves, over some frames; of what falls, the farthest hundredth on every side does not count.
+// `scale` [m]: how much of the world the first picture shows.
 function extentOf(run) {
   const axes = [[], [], []], box = new THREE.Box3(), at = new THREE.Vector3();
   const each = (type, visit) => {
@@ -36,9 +37,14 @@ function extentOf(run) {
       box.union(new THREE.Box3().setFromCenterAndSize(place, new THREE.Vector3(1, 1, 1).multiplyScalar(1.1 * reach)));
   });
   if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
-  return {
-    box,
-    centre: box.getCenter(new THREE.Vector3()),
-    size: Math.max(box.getSize(new THREE.Vector3()).length(), 0.2)
-  };
+  const size = Math.max(box.getSize(new THREE.Vector3()).length(), 0.2), focus = focusOf(run, size);
+  return {box, centre: box.getCenter(new THREE.Vector3()), size, focus, scale: focus ? 8 * focus.reach : size};
+}
+
+// A body that moves alone, and so far that one would not see it: {actor, reach}, or null.
+function focusOf(run, size) {
+  const moving = run.actors.map((actor, i) => i).filter((i) => run.actors[i].type === 'dynamic');
+  if (moving.length !== 1 || run.about.particles) return null;
+  const reach = reachOf(run.actors[moving[0]]);
+  return size > 12 * reach ? {actor: moving[0], reach} : null;
 }

@@ -3,9 +3,10 @@
 
 class Orbit {
   constructor(canvas, extent, views) {
-    this.camera = new THREE.PerspectiveCamera(38, 1, 0.002 * extent.size, 120 * extent.size);
+    this.camera = new THREE.PerspectiveCamera(38, 1, 0.002 * extent.scale, 120 * extent.size);
     this.extent = extent;
     this.views = views;
+    this.near = extent.focus !== null;  // the body that the extent's focus is, not everything
     this.home();
     const fingers = new Map();
     canvas.addEventListener('pointerdown', (event) => {
@@ -34,9 +35,9 @@ class Orbit {
   }
   home() {
     this.target = this.extent.centre.clone();
-    this.around = 0.72;
+    this.around = this.near ? -0.5 : 0.72;
     this.up = 0.38;
-    this.distance = this.fit();
+    this.distance = this.near ? 1.3 * this.extent.scale : this.fit();
     this.moved = true;
   }
   // [m] From where one sees the extent's box whole, above the bar.
@@ -75,7 +76,8 @@ class Orbit {
     this.moved = true;
   }
   zoom(factor) {
-    this.distance = Math.min(60, Math.max(0.02, this.distance / this.extent.size * factor)) * this.extent.size;
+    const {size, scale} = this.extent;
+    this.distance = Math.min(60 * size, Math.max(0.02 * scale, this.distance * factor));
     this.moved = true;
   }
   place(aspect) {

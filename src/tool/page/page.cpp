@@ -58,6 +58,15 @@ Json json_of(const Bond& bond) {
   return {{"kind", bond.kind},       {"a", bond.a},         {"b", bond.b},      {"at_a", list(bond.at_a)},
           {"at_b", list(bond.at_b)}, {"first", bond.first}, {"last", bond.last}};
 }
+/// One number stands alone.
+Json json_of(const Effect& effect) {
+  Json json = {{"kind", effect.kind}, {"actor", effect.actor}, {"first", effect.first}, {"last", effect.last}};
+  for (const auto& [name, numbers] : effect.numbers) {
+    if (numbers.size() == 1) json[name] = numbers[0];
+    else json[name] = numbers;
+  }
+  return json;
+}
 Json json_of(const Scenery& scenery) {
   return {{"plane", scenery.plane},
           {"outward", list(scenery.outward)},
@@ -88,6 +97,8 @@ Json json_of(const Recording& run, const Packed& packed, Surfaces& surfaces) {
           {"points_every", packed.points_every},
           {"actors", list_of(run.actors, places)},
           {"bonds", list_of(run.bonds)},
+          {"strongest", packed.strongest},
+          {"effects", list_of(run.effects)},
           {"scenery", list_of(run.scenery)}};
 }
 

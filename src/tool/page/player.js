@@ -48,10 +48,15 @@ class Player {
     const offer = (id, is) => {
       kHere(id).parentElement.hidden = !is;
     };
-    offer('follow', this.parted);
+    this.followed = this.parted ? this.views[0].parted : this.views[0].extent.focus;
+    offer('follow', this.followed);
+    kHere('follow-name').textContent = this.parted ? 'follow the parted body' : 'follow the body';
+    kHere('follow').checked = !this.parted && this.followed !== null;
+    offer('effects', this.runs.some((run) => run.about.effects.length > 0));
     offer('joints', this.runs.some((run) => run.about.bonds.length > 0));
     for (const id of ['contacts', 'sleep']) offer(id, !this.runs[0].about.particles);
     if (this.runs[0].about.particles) kHere('joints-name').textContent = 'springs and links';
+    else if (this.runs[0].about.bonds.some(isTie)) kHere('joints-name').textContent = 'joints and springs';
     if (this.parted) {
       kHere('parted').textContent = `parts at frame ${this.tick(this.parted.frame)}`;
       kHere('parted').onclick = () => this.jump(this.parted.frame);
@@ -71,7 +76,11 @@ class Player {
     kHere('next').onclick = () => this.jump(this.frame + 1);
     kHere('home').onclick = () => this.orbit.home();
     kHere('scrub').oninput = (event) => this.jump(Number(event.target.value));
-    for (const id of ['contacts', 'joints', 'sleep']) kHere(id).onchange = () => this.recolour();
+    for (const id of ['contacts', 'joints', 'effects', 'sleep']) kHere(id).onchange = () => this.recolour();
+    kHere('follow').onchange = () => {
+      this.orbit.near = kHere('follow').checked && this.views[0].extent.focus !== null;
+      this.orbit.home();
+    };
     addEventListener('resize', () => {
       this.orbit.moved = true;
     });
@@ -92,9 +101,10 @@ class Player {
   // What the address asks for: #frame=120&contacts&speed=0.25&around=1&up=0.3&zoom=0.8
   obey() {
     const number = (name, otherwise) => this.wanted.has(name) ? Number(this.wanted.get(name)) : otherwise;
-    for (const id of ['contacts', 'joints', 'sleep', 'follow']) {
+    for (const id of ['contacts', 'joints', 'effects', 'sleep', 'follow']) {
       if (this.wanted.has(id)) kHere(id).checked = this.wanted.get(id) !== '0';
     }
+    kHere('follow').onchange();
     if (this.wanted.has('speed')) kHere('speed').value = this.wanted.get('speed');
     if (this.wanted.has('frame')) this.jump(number('frame', 0) / kFilm.every);
     this.orbit.around = number('around', this.orbit.around);
@@ -134,15 +144,14 @@ class Player {
       const options = {
         contacts: kHere('contacts').checked,
         joints: kHere('joints').checked,
+        effects: kHere('effects').checked,
         sleep: kHere('sleep').checked
       };
       for (const view of this.views) view.show(frame, Math.max(0, share), options);
       this.read(frame);
     }
-    if (kHere('follow').checked && this.parted && this.views[0].parted)
-      this.views[0].position(this.views[0].parted.actor, this.orbit.target);
-    else if (this.stale === false && !this.orbit.moved)
-      return;
+    if (this.stale === false && !this.orbit.moved) return;
+    if (kHere('follow').checked && this.followed) this.views[0].position(this.followed.actor, this.orbit.target);
     this.stale = this.orbit.moved = false;
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
     this.renderer.setSize(width, height, false);
@@ -221,7 +230,7 @@ class Player {
     const parted = this.parted ? this.tick(this.parted.frame) : 'never';
     kHere('check').textContent =
         `ready frames ${this.runs.map((run) => run.count).join(' ')} last ${last} parted ${parted} ` +
-        `shades ${this.shades()} errors ${pageErrors.length}`;
+        `shades ${this.shades()} effects ${this.runs[0].about.effects.length} errors ${pageErrors.length}`;
   }
 }
 

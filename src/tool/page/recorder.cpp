@@ -34,7 +34,7 @@ Pose rounded(const DrawnPose& pose) {
 }  // namespace
 
 void Recorder::begin(std::uint64_t tick, std::uint64_t hash, double energy) {
-  recording_.frames.push_back({tick, hash, energy, 0, {}, {}, {}});
+  recording_.frames.push_back({tick, hash, energy, 0, {}, {}, {}, {}});
   recording_.scenery.clear();
 }
 
@@ -185,6 +185,41 @@ void Recorder::link(const DrawnLink& link) {
 void Recorder::collider(const DrawnCollider& collider) {
   recording_.scenery.push_back({collider.type == ColliderType::plane, array_of(collider.normal),
                                 array_of(collider.start), array_of(collider.end), collider.radius});
+}
+
+void Recorder::effect(std::uint32_t slot, std::uint32_t generation, BodyId body, Effect told) {
+  if (body) told.actor = actor_of(body.slot);
+  const auto fresh = static_cast<std::uint32_t>(recording_.effects.size());
+  const std::uint64_t id = std::uint64_t{generation} << 32 | slot;
+  std::uint32_t& index = effects_.try_emplace({told.kind, id}, fresh).first->second;
+  if (index != fresh) {
+    const Effect& known = recording_.effects[index];
+    if (known.numbers != told.numbers || known.actor != told.actor) index = fresh;
+  }
+  effect_ = index;
+  if (index == fresh) {
+    told.first = now();
+    recording_.effects.push_back(std::move(told));
+  }
+  recording_.effects[index].last = now();
+}
+void Recorder::push(Vector force, double control) {
+  frame().pushes.push_back({effect_,
+                            {static_cast<float>(force.x), static_cast<float>(force.y), static_cast<float>(force.z)},
+                            static_cast<float>(control)});
+}
+/// Worlds of bodies have no other springs.
+void Recorder::body_spring(BodySpringId id, BodyId a, BodyId b, Vector at_a, Vector at_b, bool only_pulls) {
+  Bond* const fresh = bond(springs_, id);
+  if (fresh == nullptr) return;
+  const auto array = [](Vector v) {
+    return std::array<float, 3>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
+  fresh->kind = kSpringKinds[only_pulls ? 1 : 0];
+  fresh->a = actor_of(a.slot);
+  if (b) fresh->b = actor_of(b.slot);
+  fresh->at_a = array(at_a);
+  fresh->at_b = array(at_b);
 }
 
 }  // namespace isostep::tool::page

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "effect_records.hpp"
 #include "isostep/world/debug_draw.hpp"
 #include "recording.hpp"
 #include "scenes/measure.hpp"
@@ -20,6 +24,7 @@ class Recorder : public DebugDraw {
   template <class W> void record(const W& world) {
     begin(world.tick(), world.hash(), scenes::measure_energy(world).total());
     draw(world, *this);
+    record_effects(world, *this);
     finish();
   }
 
@@ -33,6 +38,11 @@ class Recorder : public DebugDraw {
   void spring(const DrawnSpring& spring) override;
   void link(const DrawnLink& link) override;
   void collider(const DrawnCollider& collider) override;
+
+  // What record_effects tells, after all bodies. `body` null: of the world.
+  void effect(std::uint32_t slot, std::uint32_t generation, BodyId body, Effect effect);
+  void push(Vector force, double control);  // of the effect told last
+  void body_spring(BodySpringId id, BodyId a, BodyId b, Vector at_a, Vector at_b, bool only_pulls);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -57,10 +67,12 @@ class Recorder : public DebugDraw {
   template <class IdType> Bond* bond(std::vector<Known>& known, IdType id);
 
   Recording& recording_;
-  std::vector<Cast> casts_;                      // by actor
-  std::vector<Known> by_slot_;                   // actors
-  std::vector<Known> joints_, springs_, links_;  // bonds
-  bool parts_wanted_ = false;                    // of the body told last
+  std::vector<Cast> casts_;                                                      // by actor
+  std::vector<Known> by_slot_;                                                   // actors
+  std::vector<Known> joints_, springs_, links_;                                  // bonds
+  std::map<std::pair<std::string_view, std::uint64_t>, std::uint32_t> effects_;  // by kind and id
+  std::uint32_t effect_ = 0;                                                     // told last
+  bool parts_wanted_ = false;                                                    // of the body told last
 };
 
 }  // namespace isostep::tool::page

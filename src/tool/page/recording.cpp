@@ -17,7 +17,11 @@ constexpr std::size_t kPointBytes = 10;
 class Packer {
  public:
   Packer(const Recording& recording, Packed& packed)
-      : recording_(recording), packed_(packed), out_(packed.bytes), last_(recording.actors.size()) {}
+      : recording_(recording),
+        packed_(packed),
+        out_(packed.bytes),
+        last_(recording.actors.size()),
+        pushed_(recording.effects.size()) {}
 
   void pack_frame(const Frame& frame, bool with_points) {
     out_.u64(frame.tick);
@@ -27,6 +31,7 @@ class Packer {
     out_.count(frame.changed.size());
     for (const Changed& changed : frame.changed) out_.u32(changed.actor << 2 | static_cast<std::uint32_t>(changed.to));
     pack_poses(frame);
+    if (!recording_.effects.empty()) pack_pushes(frame);
     out_.count(with_points ? frame.points.size() : 0);
     if (!with_points) return;
     for (const ContactPoint& point : frame.points) pack_point(point);
@@ -37,6 +42,7 @@ class Packer {
     bool is = false;
     Pose pose;
   };
+  using Rounded = std::array<std::int16_t, 4>;  // force and control
 
   void pack_poses(const Frame& frame) {
     std::vector<const Moved*> whole, near;
@@ -71,6 +77,28 @@ class Packer {
     if (recording_.particles) return;
     for (const std::uint16_t x : pose.turn) out_.u16(x);
   }
+  /// Those that changed.
+  void pack_pushes(const Frame& frame) {
+    std::vector<const Push*> changed;
+    for (const Push& push : frame.pushes) {
+      if (Rounded& known = pushed_[push.effect]; known != rounded(push)) {
+        known = rounded(push);
+        changed.push_back(&push);
+      }
+    }
+    out_.count(changed.size());
+    for (const Push* push : changed) {
+      out_.u32(push->effect);
+      for (const std::int16_t x : pushed_[push->effect]) out_.u16(static_cast<std::uint16_t>(x));
+    }
+  }
+  Rounded rounded(const Push& push) const {
+    const auto part = [](float x, float most) {
+      return static_cast<std::int16_t>(most > 0 ? std::lround(std::clamp(x / most, -1.0f, 1.0f) * 32767) : 0);
+    };
+    const float most = packed_.strongest;
+    return {part(push.force[0], most), part(push.force[1], most), part(push.force[2], most), part(push.control, 1)};
+  }
   void pack_point(const ContactPoint& point) {
     for (int i = 0; i < 3; ++i) {
       const float size = packed_.points_size[i];
@@ -85,6 +113,7 @@ class Packer {
   Packed& packed_;
   ByteWriter out_;
   std::vector<Known> last_;
+  std::vector<Rounded> pushed_;  // as told last, by effect
 };
 
 void bound_points(const Recording& recording, Packed& packed) {
@@ -102,6 +131,16 @@ void bound_points(const Recording& recording, Packed& packed) {
     packed.points_low[i] = low[i] == kFar ? 0 : low[i];
     packed.points_size[i] = low[i] == kFar ? 0 : high[i] - low[i];
   }
+}
+
+float strongest_push(const Recording& recording) {
+  float most = 0;
+  for (const Frame& frame : recording.frames) {
+    for (const Push& push : frame.pushes) {
+      for (const float x : push.force) most = std::max(most, std::fabs(x));
+    }
+  }
+  return most;
 }
 
 /// The least n for which the points of every n-th frame fit.
@@ -138,6 +177,7 @@ Packed pack(const Recording& recording, std::size_t room) {
   Packed packed;
   bound_points(recording, packed);
   packed.points_every = least_stride(recording, room);
+  packed.strongest = strongest_push(recording);
   Packer packer(recording, packed);
   for (std::size_t i = 0; i < recording.frames.size(); ++i)
     packer.pack_frame(recording.frames[i], i % packed.points_every == 0);

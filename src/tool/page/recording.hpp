@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "effects.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "surfaces.hpp"
@@ -80,6 +81,7 @@ struct Frame {
   std::vector<Changed> changed;
   std::vector<Moved> moved;  // since the frame before, ascending by actor
   std::vector<ContactPoint> points;
+  std::vector<Push> pushes = {};  // of every effect that pushes
 };
 
 struct Recording {
@@ -88,6 +90,7 @@ struct Recording {
   bool particles = false;  // no actor turns
   std::vector<Actor> actors;
   std::vector<Bond> bonds;
+  std::vector<Effect> effects;
   std::vector<Scenery> scenery;
   Surfaces surfaces;
   std::vector<Frame> frames;
@@ -102,6 +105,7 @@ struct Packed {
   std::vector<std::uint8_t> bytes;
   std::array<float, 3> points_low, points_size;  // [m] contact points are 16-bit fractions of that box
   std::uint32_t points_every = 1;
+  float strongest = 0;  // [N] component of a push: pushes are 16-bit fractions of it
 };
 Packed pack(const Recording& recording, std::size_t room);
 std::string base64(const std::vector<std::uint8_t>& bytes);

@@ -27,11 +27,11 @@ function ballTexture() {
     }
   });
 }
-function gridTexture() {
+function gridTexture(field, lines) {
   return textureOf(256, 256, (paint, width) => {
-    paint.fillStyle = '#e9edf2';
+    paint.fillStyle = field;
     paint.fillRect(0, 0, width, width);
-    paint.strokeStyle = '#cfd7e0';
+    paint.strokeStyle = lines;
     paint.lineWidth = 4;
     paint.strokeRect(0, 0, width, width);
   });
@@ -43,6 +43,7 @@ class View {
     this.surfaces = surfaces;
     this.extent = extent;
     this.parted = parted;  // {actor, frame}, or null
+    this.focus = extent.focus && run.actors[extent.focus.actor] ? extent.focus : null;
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef1f5);
     this.scene.fog = new THREE.Fog(0xeef1f5, 6 * extent.size, 30 * extent.size);
@@ -51,10 +52,11 @@ class View {
     this.addBodies();
     this.addScenery();
     this.overlay = new Overlay(this);
+    this.effects = new Effects(this);
   }
 
   addLights() {
-    const {centre, size} = this.extent;
+    const {centre, scale: size} = this.extent;
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0xbfc8d2, 1.55));
     const sun = new THREE.DirectionalLight(0xfff4e2, 2.5);
     sun.position.copy(centre).add(new THREE.Vector3(0.55, 1.25, 0.8).multiplyScalar(1.5 * size));
@@ -67,6 +69,7 @@ class View {
     sun.shadow.bias = -0.0006;
     sun.shadow.camera.updateProjectionMatrix();
     this.scene.add(sun, sun.target);
+    this.sun = sun;
   }
 
   // Every primitive is a unit one, stretched: boxes, balls, cylinders, cones, and of capsules the tube between two
@@ -151,7 +154,7 @@ class View {
     const {type} = this.run.actors[actor];
     if (type === 'dynamic' || Math.max(...scale) < 0.25 * this.extent.size) return false;
     if (type === 'kinematic') return true;
-    const top = this.run.poses.all[7 * this.run.place(0, actor) + 1] + at[1] + 0.5 * scale[1];
+    const top = this.run.poses.all[7 * this.run.firstPlace(actor) + 1] + at[1] + 0.5 * scale[1];
     return !(scale[1] < 0.5 * Math.min(scale[0], scale[2]) && top < this.extent.centre.y);
   }
   // Where faces meet at more than 20 degrees.
@@ -171,7 +174,7 @@ class View {
     this.run.actors.forEach((actor, index) => {
       for (const part of actor.parts || []) {
         if (part.type !== 'half_space') continue;
-        const pose = 7 * this.run.place(0, index), all = this.run.poses.all;
+        const pose = 7 * this.run.firstPlace(index), all = this.run.poses.all;
         const turn = new THREE.Quaternion(all[pose + 3], all[pose + 4], all[pose + 5], all[pose + 6]);
         const at = new THREE.Vector3(...part.at)
                        .applyQuaternion(turn)
@@ -193,7 +196,7 @@ class View {
     let material;
     if (ground) {
       const cell = Math.pow(10, Math.round(Math.log10(size / 8)));
-      const grid = gridTexture();
+      const grid = gridTexture('#e9edf2', '#cfd7e0');
       grid.repeat.set(width / cell, width / cell);
       material = new THREE.MeshStandardMaterial({map: grid, roughness: 1});
     } else {
@@ -236,7 +239,14 @@ class View {
       edges.matrix.multiplyMatrices(body, part.local);
       edges.matrixWorldNeedsUpdate = true;
     }
+    if (this.focus) this.shineOn(this.position(this.focus.actor, from));
     this.overlay.show(frame, options);
+    this.effects.show(frame, share, options);
+  }
+  // Shadows are fine only near what the light is on.
+  shineOn(place) {
+    this.sun.position.sub(this.sun.target.position).add(place);
+    this.sun.target.position.copy(place);
   }
   position(actor, out) {
     return out.fromArray(this.at, 7 * actor);

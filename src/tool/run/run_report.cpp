@@ -87,6 +87,7 @@ std::string json_of(const RunReport& r) {
   nlohmann::ordered_json json = {{"scene", r.scene},       {"scalar", r.scalar},   {"solver", r.solver},
                                  {"substeps", r.substeps}, {"threads", r.threads}, {"simd", r.simd},
                                  {"frames", r.frames},     {"hash", hex(r.hash)}};
+  if (!r.projection.empty()) json["projection"] = r.projection;
   json.update(json_of_times(r.ms));
   json.update(nlohmann::ordered_json{{"contacts", r.contacts},
                                      {"points", r.points},
@@ -108,7 +109,8 @@ std::string json_of(const RunReport& r) {
 
 std::string table_of(const RunReport& r) {
   std::string text;
-  text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), r.solver.c_str(),
+  const std::string solver = r.projection.empty() ? r.solver : r.solver + " " + r.projection;
+  text += line("%s in %s, %s (%d sub-steps, %s lanes), %d frames", r.scene.c_str(), r.scalar.c_str(), solver.c_str(),
                r.substeps, r.simd.c_str(), r.frames);
   if (r.threads > 1) text += line("threads       %d; times are real, not of one thread", r.threads);
   text += line("hash          %s", hex(r.hash).c_str());

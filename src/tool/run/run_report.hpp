@@ -42,6 +42,7 @@ struct BlobReport {
 };
 
 struct RunReport : AnyRunReport {
+  std::string projection;                                         // of worst_first; else empty
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
   double joint_error_max = 0;                                     // [m] over the run
   int asleep_at = -1;  // first frame, from 0, that ends with nobody awake; -1: none

@@ -50,6 +50,8 @@ template <class S> class RigidWatch {
   RunReport report(const World<S>& world) const {
     RunReport report = found_;
     report.solver = solver_name(world.settings().solver);
+    if (world.settings().solver == SolverName::worst_first)
+      report.projection = kProjectionNames[static_cast<std::uint32_t>(world.settings().projection)];
     report.simd = world.simd_name();
     report.substeps = world.settings().substeps;
     const WorldCounts counts = world.counts();

@@ -26,6 +26,7 @@ const Row kRows[] = {
     {"patchwork_implicit_euler", "patchwork", 40, "", "implicit_euler"},
     {"patchwork_time_division", "patchwork", 60, "worst_first", "", "time_division"},
     {"springs", "springs", 260},
+    {"elements", "elements", 150},
 };
 
 /// The same replay with a header that does not tell where it was made.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "isostep/world/state.hpp"
 #include "isostep/world/world.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
@@ -67,15 +68,17 @@ TEST(SceneFile, SaysWhatTheMaterialsOfTrianglesAre) {
 }
 
 TEST(SceneFile, NamesTheRateAndTheSolver) {
-  const std::string text = R"({"hz": 120, "substeps": 3, "solver": "pgs", "bodies": []})";
+  const std::string text = R"({"hz": 120, "substeps": 3, "solver": "pgs", "projection": "relaxed", "bodies": []})";
   const Settings<float> settings = settings_of<float>(read_scene(text));
   EXPECT_EQ(settings.hz, 120);
   EXPECT_EQ(settings.substeps, 3);
   EXPECT_EQ(settings.solver, SolverName::pgs);
+  EXPECT_EQ(settings.projection, Projection::relaxed) << "taken, though pgs uses none";
   const Scene again = read_scene(write_scene(read_scene(text)));
   EXPECT_EQ(again.hz, 120);
   EXPECT_EQ(again.substeps, 3);
   EXPECT_EQ(again.solver, SolverName::pgs);
+  EXPECT_EQ(again.projection, Projection::relaxed);
 }
 
 TEST(SceneFile, MembersReachTheWorld) {
@@ -107,8 +110,12 @@ TEST(SceneFile, MembersReachTheWorld) {
 }
 
 TEST(SceneFile, SurfacesAndLocksReachTheWorldAndReturnToTheFile) {
-  const std::string text = R"({"bodies": [{"type": "static", "friction": 0.25, "rolling_resistance": 0.125,
-    "surface_velocity": [2, 0, -1], "shapes": [{"type": "sphere", "radius": 1}]},
+  const std::string text = R"({"restitution_threshold": 0.125, "records": [
+    {"type": "material_pair", "kind_a": 7, "kind_b": 4294967295, "friction": 0.75, "static_friction": 1,
+     "restitution": 0.5, "rolling_resistance": 0.0625}],
+    "bodies": [{"type": "static", "friction": 0.25, "rolling_resistance": 0.125,
+    "surface_velocity": [2, 0, -1], "static_friction": 0.5, "anisotropy": [0.25, 1, 0.5], "kind": 7,
+    "shapes": [{"type": "sphere", "radius": 1}]},
     {"type": "dynamic", "lock_y": true, "lock_angular_z": true, "shapes": [{"type": "sphere", "radius": 1}]}]})";
   for (const Scene& scene : {read_scene(text), read_scene(write_scene(read_scene(text)))}) {
     World<double> world(settings_of<double>(scene));
@@ -117,6 +124,18 @@ TEST(SceneFile, SurfacesAndLocksReachTheWorldAndReturnToTheFile) {
     EXPECT_EQ(belt.friction, 0.25);
     EXPECT_EQ(belt.rolling_resistance, 0.125);
     EXPECT_EQ(belt.surface_velocity, (Vec3<double>{2, 0, -1}));
+    EXPECT_EQ(belt.static_friction, 0.5);
+    EXPECT_EQ(belt.anisotropy, (Vec3<double>{0.25, 1, 0.5}));
+    EXPECT_EQ(belt.kind, 7u);
+    EXPECT_EQ(world.settings().restitution_threshold, 0.125);
+    const auto& pairs = world.state().force_records->material_pairs;
+    ASSERT_EQ(pairs.all().size(), 1u);
+    EXPECT_EQ(pairs.all()[0].kind_a, 7u);
+    EXPECT_EQ(pairs.all()[0].kind_b, 4294967295u);
+    EXPECT_EQ(pairs.all()[0].friction, 0.75);
+    EXPECT_EQ(pairs.all()[0].static_friction, 1.0);
+    EXPECT_EQ(pairs.all()[0].restitution, 0.5);
+    EXPECT_EQ(pairs.all()[0].rolling_resistance, 0.0625);
     EXPECT_EQ(world.view(built.bodies[0]).properties->flags & body_flag::kAllLocks, 0u);
     EXPECT_EQ(world.view(built.bodies[1]).properties->flags & body_flag::kAllLocks,
               body_flag::kLockX << 1 | body_flag::kLockAngularX << 2);

@@ -114,6 +114,47 @@ TYPED_TEST(SelfcheckScenes, MedleyByEverySolverHasContactsAndPulledJointsWithinT
   }
 }
 
+template <class S> std::set<std::string> kinds_of(const World<S>& world) {
+  std::set<std::string> kinds;
+  ForceRecords<S>::members(
+      [&](const char* kind, const auto& registry) {
+        if (!registry.slots().template ids<BodyId>().empty()) kinds.insert(kind);
+      },
+      *world.state().force_records);
+  return kinds;
+}
+
+TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
+  using S = TypeParam;
+  const Scene scene = *find_scene("elements");
+  World<S> world(settings_of<S>(scene));
+  const std::vector<BodyId> bodies = build(scene, world).bodies;
+  std::size_t every = 0;
+  ForceRecords<S>::members([&](const char*, const auto&) { ++every; }, *world.state().force_records);
+  EXPECT_EQ(kinds_of(world).size(), every);
+  EXPECT_LE(world.counts().bodies, 12u);
+  std::size_t broke = 0, most = 0;
+  for (int i = 0; i < scene.frames; ++i) {
+    before_step(scene.script, world);
+    ASSERT_EQ(world.fault(), Fault::none) << i << ": " << describe(world.fault());
+    ASSERT_TRUE(world.step().clean()) << i;
+    broke += world.events().broke.size();
+    most = std::max<std::size_t>(most, world.counts().bodies);
+  }
+  const auto height = [&](int body) { return to_double(world.center_of_mass(bodies[body]).y); };
+  EXPECT_EQ(broke, 1u);
+  EXPECT_GE(most, 13u);                                           // the cube's pieces came
+  EXPECT_FALSE(world.contains(bodies[6]));                        // in its place
+  EXPECT_LT(world.counts().bodies, most);                         // and went
+  EXPECT_EQ(kinds_of(world).count("explosions"), 0u);             // ended
+  EXPECT_GT(to_double(world.center_of_mass(bodies[8]).x), 15.0);  // blown away
+  EXPECT_NEAR(height(1), 0.9, 0.3);                               // the raft floats
+  EXPECT_GT(height(2), -0.25);                                    // so does the buoy
+  EXPECT_GT(height(4), 2.0);                                      // hangs on its spring
+  EXPECT_GT(to_double(world.center_of_mass(bodies[5]).z), 2.0);   // flown away
+  EXPECT_GT(to_double(world.center_of_mass(bodies[10]).x), 1.5);  // walked
+}
+
 TYPED_TEST(SelfcheckScenes, PatchworkPullsEveryLinkAndTouchesEverything) {
   using S = TypeParam;
   ParticleGame<S> game(*find_particle_scene("patchwork"));

@@ -78,6 +78,8 @@ TEST_F(CommandLine, RefusesWordsThatItDoesNotKnowWith64) {
   expect_one_line(run({"run", "S1", "--hz", "9"}), 64, "--hz");
   expect_one_line(run({"run", "S1", "--threads", "0"}), 64, "--threads");
   expect_one_line(run({"run", "S1", "--solver", "magic"}), 64, "--solver");
+  expect_one_line(run({"run", "S1", "--projection", "magic"}), 64, "--projection");
+  expect_one_line(run({"run", "bridge", "--projection", "linear"}), 64, "--projection is for rigid bodies");
   expect_one_line(run({"run", "S1", "--simd", "mmx"}), 64, "--simd");
   expect_one_line(run({"run", "S0"}), 64, "S0");
   expect_one_line(run({"verify"}), 64, "paths");
@@ -179,6 +181,20 @@ TEST_F(CommandLine, TellsWhatPassedAWallAndWhichBlobsAWorldHolds) {
   EXPECT_NE(ground.find("{\"shape\":\"hull\",\"id\":\""), std::string::npos) << ground;
   const Answer table = run({"run", "S16", "--frames", "1"});
   EXPECT_NE(table.out.find("lost          0\nblobs         1 of type hull: "), std::string::npos) << table.out;
+}
+
+TEST_F(CommandLine, EndsOverlapsByTheProjectionThatIsNamed) {
+  for (const std::string projection : {"nonlinear", "linear", "relaxed", "velocity_based"}) {
+    const Answer answer =
+        run({"run", "S1x5", "--frames", "2", "--solver", "worst_first", "--projection", projection, "--json"});
+    EXPECT_EQ(answer.status, 0) << projection;
+    EXPECT_NE(answer.out.find("\"projection\":\"" + projection + "\""), std::string::npos) << answer.out;
+    const Answer table = run({"run", "S1x5", "--frames", "2", "--solver", "worst_first", "--projection", projection});
+    EXPECT_NE(table.out.find("worst_first " + projection), std::string::npos) << table.out;
+  }
+  const Answer other = run({"run", "S1x5", "--frames", "2", "--projection", "linear", "--json"});
+  EXPECT_EQ(other.status, 0);
+  EXPECT_EQ(other.out.find("projection"), std::string::npos) << "soft_step has none: " << other.out;
 }
 
 TEST_F(CommandLine, SolvesByTheSolverThatIsNamed) {

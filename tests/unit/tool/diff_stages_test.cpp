@@ -115,7 +115,8 @@ std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& 
       {"finalise_bodies", {"report"}},
       {"update_sensors", {"sensor_begin", "sensor_end"}},
       {"emit_events", {"contact_begin", "contact_end"}},
-      {"update_sleep", {"locations", "joint_locations", "fell_asleep", "woke"}}};
+      {"update_sleep", {"locations", "joint_locations", "fell_asleep", "woke"}},
+      {"move_characters", {"locations", "joint_locations"}}};
 }
 
 const Arrays kBlocks = {"prepared", "prepared[].tangents", "prepared[].normals", "prepared[].rolling"};

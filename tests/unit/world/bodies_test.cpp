@@ -267,5 +267,16 @@ TYPED_TEST(WorldBodies, a_body_stops_at_the_edge_of_the_world_and_that_is_report
   EXPECT_TRUE(w.step().clean());
 }
 
+TYPED_TEST(WorldBodies, a_point_of_a_body_moves_and_turns_with_it) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {1, 2, 3}, {4, 0, 0});
+  d.angular_velocity = vec<S>(0, 2, 0);
+  const BodyId id = w.create(d);
+  expect_near(real(w.velocity_at(id, vec<S>(1, 2, 3.5))), {5, 0, 0}, 1e-3);
+  expect_near(real(w.velocity_at(id, vec<S>(1.5, 5, 3))), {4, 0, -1}, 1e-3);
+  EXPECT_EQ(w.velocity_at({}, vec<S>(1, 2, 3)), Vec3<S>::zero());
+}
+
 }  // namespace
 }  // namespace isostep::test

@@ -17,9 +17,21 @@ template <class S> Attractor<S> broken(Attractor<S> attractor) {
   attractor.least_distance = S(0);
   return attractor;
 }
+template <class S> Explosion<S> broken(Explosion<S> explosion) {
+  explosion.wave_speed = S(0);
+  return explosion;
+}
+template <class S> Water<S> broken(Water<S> water) {
+  water.density = S(-1);
+  return water;
+}
 template <class S> BodySpring<S> broken(BodySpring<S> spring) {
   spring.stiffness = S(-1);
   return spring;
+}
+template <class S> MaterialPair<S> broken(MaterialPair<S> pair) {
+  pair.kind_b = 0;
+  return pair;
 }
 /// Of what acts on one body: on none.
 template <class Record> Record broken(Record record) {
@@ -85,9 +97,9 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
                    [&](auto& w) { return w.set_heights(ground, 0, {1, 1, 1, 1, one}); }));
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one},
                     [&](auto& w) { return w.set_heights(ground, 1, {1, 1, 1, 1, one}); }));
-  static_assert(std::variant_size_v<Command<S>> == 39, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 60, "a command more: test it here");
 
-  // Forces: of each kind the same three.
+  // Records: of each kind the same three.
   EXPECT_TRUE(both(WakeBody{b}, [&](auto& w) { return w.wake(b); }));
   const auto each = [&](auto record, auto id) {
     using Record = decltype(record);
@@ -114,9 +126,34 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   buoyancy.body = b;
   each(buoyancy, BuoyancyId{0, 1});
   each(BodyDrag<S>{b, S(1), S(1), S(1)}, DragId{0, 1});
+  Explosion<S> explosion;
+  explosion.wave_duration = S(1);
+  each(explosion, ExplosionId{0, 1});
+  each(Water<S>{}, WaterId{0, 1});
   AeroSurface<S> surface;
   surface.body = b;
   each(surface, AeroSurfaceId{0, 1});
+  MaterialPair<S> pair;
+  pair.kind_a = 1;
+  pair.kind_b = 2;
+  each(pair, MaterialPairId{0, 1});
+  Breakable<S> breakable;
+  breakable.body = b;
+  each(breakable, BreakableId{0, 1});
+  const ShapeId round = called.add_shape(Sphere<S>{S(1)});
+  EXPECT_EQ(told.add_shape(Sphere<S>{S(1)}), round);
+  BodyDefinition<S> mover = still<S>(round, {0, 50, 0});
+  mover.type = BodyType::kinematic;
+  EXPECT_TRUE(both(CreateBody<S>{mover}, [&](auto& world) { return world.create(mover); }));
+  Character<S> character;
+  character.body = called.bodies().front();  // its slot was free
+  each(character, CharacterId{0, 1});
+  Vehicle<S> vehicle;
+  vehicle.body = b;
+  each(vehicle, VehicleId{0, 1});
+  Wheel<S> wheel;
+  wheel.body = b;
+  each(wheel, WheelId{0, 1});
 }
 
 TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {

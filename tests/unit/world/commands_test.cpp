@@ -80,6 +80,12 @@ TYPED_TEST(WorldCommands, bad_definitions_are_refused) {
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.restitution = num<S>(1.5); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.restitution = S(-1); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.rolling_resistance = S(-1); });
+  this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.static_friction = S(-1); });
+  this->expect_bad_definition(Fault::out_of_range, [&](auto& d) { d.material.static_friction = S(17); });
+  this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.anisotropy.x = num<S>(1.0 / 65); });
+  this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.anisotropy.y = S(0); });
+  this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.anisotropy.z = num<S>(1.01); });
+  this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.material.reserved = 1; });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.linear_damping = S(-1); });
   this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.angular_damping = S(-1); });
   this->expect_bad_definition(Fault::bad_mass, [&](auto& d) { d.mass = S(-1); });
@@ -96,6 +102,8 @@ TYPED_TEST(WorldCommands, bad_definitions_are_refused) {
     this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.inertia.x = nan; });
     this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.material.friction = nan; });
     this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.material.surface_velocity.x = nan; });
+    this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.material.static_friction = nan; });
+    this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.material.anisotropy.z = nan; });
     this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.gravity_scale = nan; });
     this->expect_bad_definition(Fault::not_finite, [&](auto& d) { d.linear_damping = endless<S>(); });
     this->expect_bad_definition(Fault::bad_argument, [&](auto& d) { d.orientation.x = nan; });

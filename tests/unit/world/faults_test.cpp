@@ -179,12 +179,13 @@ TYPED_TEST(WorldFaults, a_snapshot_of_other_settings_or_of_nothing_is_refused_an
   World<S>& w = this->world;
   typename World<S>::Snapshot saved, empty;
   const std::uint64_t before = w.hash();
-  Settings<S> given[5] = {settings<S>(), settings<S>(), settings<S>(), settings<S>(), settings<S>()};
+  Settings<S> given[6] = {settings<S>(), settings<S>(), settings<S>(), settings<S>(), settings<S>(), settings<S>()};
   given[0].hz = 30;
   given[1].substeps = 4;
   given[2].allow_sleep = false;
   given[3].solver = SolverName::pgs;
   given[4].id_space = 1;
+  given[5].projection = Projection::relaxed;
   for (const Settings<S>& its : given) {
     World<S>(its).save(saved);
     EXPECT_FALSE(w.load(saved));

@@ -54,6 +54,20 @@ TYPED_TEST(ForceCommands, a_force_acts_over_one_step_alone_and_forces_add_up) {
   EXPECT_EQ(w.velocity(id), kept);
 }
 
+// v = f h / m, w = I^-1 (p - x) x f h.
+TYPED_TEST(ForceCommands, a_force_at_a_point_pushes_and_turns) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0, 64, 4));
+  BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {1, 2, 3});
+  d.mass = S(2);
+  d.orientation = turn<S>({0.6, 0, 0.8}, 1);
+  const BodyId id = w.create(d);
+  ASSERT_TRUE(w.apply_force_at(id, vec<S>(0, 32, 0), vec<S>(1.5, 2, 3)));
+  w.step();
+  expect_near(real(w.velocity(id)), {0, 0.25, 0}, 8 * grain<S>());
+  expect_near(real(w.angular_velocity(id)), {0, 0, 0.5 * 32 / 0.2 / 64}, 32 * grain<S>());
+}
+
 TYPED_TEST(ForceCommands, impulses_one_after_another_never_turn_a_velocity_round) {
   using S = TypeParam;
   World<S> w(settings<S>(0));

@@ -16,7 +16,7 @@ TYPED_TEST(JointCommands, bad_joints_are_refused) {
     change(j);
     this->expect_refused(fault, [&] { return w.create(j); });
   };
-  expect_bad(Fault::bad_argument, [](auto& j) { j.type = static_cast<JointType>(4); });
+  expect_bad(Fault::bad_argument, [](auto& j) { j.type = static_cast<JointType>(kJointTypes); });
   expect_bad(Fault::bad_argument, [](auto& j) { j.flags = 1u << 5; });
   expect_bad(Fault::bad_argument, [](auto& j) { j.lower = S(1); });
   expect_bad(Fault::bad_argument, [](auto& j) { j.motor_torque = S(-1); });

@@ -26,7 +26,7 @@ template <class S> class StepSolvers : public ::testing::Test {
   BodyId fixed, awake;
   Systems<S> systems;
   StepTools<S> tools = {};
-  StepSolver<S> solver{systems.state, systems.map};
+  StepSolver<S> solver{systems.state, systems.map, systems.proxies};
 };
 TYPED_TEST_SUITE(StepSolvers, SystemScalars);
 

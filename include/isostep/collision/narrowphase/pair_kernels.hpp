@@ -37,6 +37,7 @@ template <class S> struct BodyFrame {
   bool plain;         // one part, not moved
   bool sensor, asleep;
   bool surfaces;        // among its parts: those are counted by leaves, see surface_pairs.hpp
+  bool mixes_alone;     // its material, see contact_friction.hpp
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("half", self.half);
@@ -51,6 +52,7 @@ template <class S> struct BodyFrame {
     visit("sensor", self.sensor);
     visit("asleep", self.asleep);
     visit("surfaces", self.surfaces);
+    visit("mixes_alone", self.mixes_alone);
   }
 };
 

@@ -10,7 +10,8 @@ namespace isostep {
 using AeroSurfaceId = Id<struct AeroSurfaceTag>;
 
 /// Force at a point of the body: tensor v in the surface's frame, with v the velocity of that point, the body's turning
-/// included, through the air (less the wind of the zones around it). What resists has negative entries.
+/// included, through the air (less the wind of the zones around it). What resists has negative entries. Under water,
+/// if it is made for that: through the Water around it, and without a force while the point is above it.
 /// A control surface: control from -1 to 1 leads from `low` over `tensor` to `high`, straight between them.
 /// An angled surface: `orientation` turns its frame in the body's.
 /// Source:  Millington 2007, pp. 217-222, 225-227. Differs: the wind is taken off, the body's turning counts, the
@@ -24,6 +25,7 @@ template <class S> struct AeroSurface {
   Mat3<S> high = Mat3<S>::diagonal(Vec3<S>::zero());
   S control = S(0);  // [1] -1 to 1
   bool is_quadratic = false;
+  bool is_under_water = false;  // a keel, a water rudder, a hydrofoil
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
@@ -34,6 +36,7 @@ template <class S> struct AeroSurface {
     visit("high", self.high);
     visit("control", self.control);
     visit("is_quadratic", self.is_quadratic);
+    visit("is_under_water", self.is_under_water);
   }
 };
 

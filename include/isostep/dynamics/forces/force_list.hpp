@@ -1,4 +1,4 @@
-// The closed list of forces that act from step to step, as records of the world.
+// The closed list of forces that act from step to step, and all records that are registered with a world.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,30 +8,41 @@
 #include "isostep/dynamics/forces/body_spring.hpp"
 #include "isostep/dynamics/forces/buoyancy_point.hpp"
 #include "isostep/dynamics/forces/drag.hpp"
+#include "isostep/dynamics/forces/explosion.hpp"
 #include "isostep/dynamics/forces/force_zone.hpp"
 #include "isostep/dynamics/forces/thruster.hpp"
+#include "isostep/dynamics/forces/water.hpp"
+#include "isostep/dynamics/record_list.hpp"
 
 namespace isostep {
 
-/// In the first word of a portable form, beside what names the world: there are force records in it.
+/// In the first word of a portable form, beside what names the world: there are records in it.
 inline constexpr std::uint32_t kPortableForcesBit = 0x20000000u;
 
-/// ISO_FOR_EACH_FORCE(R, S) expands R(name, Record, Id, S) for each kind, in the order in which they act: those that
-/// resist motion come last, for they ask what the others are about to do. Every kind has three commands, add_name,
-/// set_name and remove_name, and a registry in ForceRecords, whose name is the same with an s. To add one: README.md.
+/// ISO_FOR_EACH_FORCE(R, S) expands R(name, Record, Id, S) for each kind, in the order in which they act. What resists
+/// motion - drag, surfaces, the drag of water - acts after all others, for it asks what they are about to do. Every
+/// kind has three commands, add_name, set_name and remove_name, and a registry in ForceRecords, whose name is the same
+/// with an s. To add one: README.md.
 #define ISO_FOR_EACH_FORCE(R, S)                 \
   R(force_zone, ForceZone<S>, ForceZoneId, S)    \
   R(attractor, Attractor<S>, AttractorId, S)     \
   R(body_spring, BodySpring<S>, BodySpringId, S) \
   R(thruster, Thruster<S>, ThrusterId, S)        \
   R(buoyancy, BuoyancyPoint<S>, BuoyancyId, S)   \
+  R(explosion, Explosion<S>, ExplosionId, S)     \
+  R(water, Water<S>, WaterId, S)                 \
   R(drag, BodyDrag<S>, DragId, S)                \
   R(aero_surface, AeroSurface<S>, AeroSurfaceId, S)
 
-/// Only commands change them: copies share them until one does.
+/// All records: those and what is no force, record_list.hpp.
+#define ISO_FOR_EACH_RECORD(R, S) \
+  ISO_FOR_EACH_FORCE(R, S)        \
+  ISO_FOR_EACH_OTHER_RECORD(R, S)
+
+/// Of all kinds. Only commands change them: copies share them until one does.
 template <class S> struct ForceRecords {
 #define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
-  ISO_FOR_EACH_FORCE(ISO_REGISTRY, S)
+  ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
 #undef ISO_REGISTRY
 
   // As the compiler makes them, but no weak functions in each of the files that copy what is Shared.
@@ -44,11 +55,24 @@ template <class S> struct ForceRecords {
   /// visit("name", registry) in the order of the list.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
 #define ISO_VISIT(name, Record, Id, S) visit(#name "s", self.name##s);
+    ISO_FOR_EACH_RECORD(ISO_VISIT, S)
+#undef ISO_VISIT
+  }
+  /// The same of the forces alone.
+  template <class Visitor, class Self> static ISO_INLINE void forces(Visitor&& visit, Self&& self) {
+#define ISO_VISIT(name, Record, Id, S) visit(#name "s", self.name##s);
     ISO_FOR_EACH_FORCE(ISO_VISIT, S)
 #undef ISO_VISIT
   }
   /// None was ever added.
   ISO_INLINE bool untouched() const {
+    bool none = true;
+#define ISO_NONE(name, Record, Id, S) none = none && name##s.slots().entries().size() == 0;
+    ISO_FOR_EACH_RECORD(ISO_NONE, S)
+#undef ISO_NONE
+    return none;
+  }
+  ISO_INLINE bool no_forces() const {
     bool none = true;
 #define ISO_NONE(name, Record, Id, S) none = none && name##s.slots().entries().size() == 0;
     ISO_FOR_EACH_FORCE(ISO_NONE, S)
@@ -61,13 +85,13 @@ namespace detail {
 /// The registry of an id's type.
 #define ISO_REGISTRY(name, Record, Id, S) \
   template <class Records> ISO_INLINE auto& registry_of(Records& records, Id) { return records.name##s; }
-ISO_FOR_EACH_FORCE(ISO_REGISTRY, S)
+ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
 #undef ISO_REGISTRY
 /// The id of a kind of record.
 template <class Record> struct ForceIdOf;
 #define ISO_ID_OF(name, Record, Id, S) \
   template <class S> struct ForceIdOf<Record> { using Type = Id; };
-ISO_FOR_EACH_FORCE(ISO_ID_OF, S)
+ISO_FOR_EACH_RECORD(ISO_ID_OF, S)
 #undef ISO_ID_OF
 
 /// The bodies that a record names.

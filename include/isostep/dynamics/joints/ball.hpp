@@ -3,41 +3,21 @@
 #pragma once
 
 #include "isostep/dynamics/joints/point_joint.hpp"
+#include "isostep/dynamics/joints/turn_rows.hpp"
 
 namespace isostep {
 
 namespace detail {
-/// [1] least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
-/// sub-step follows, and at half a turn it means nothing.
-template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
-
-/// Twist, about z, of a rotation that also swings: its rate is the relative angular velocity about the mean of the two
-/// z axes, divided by cos(swing / 2).
 template <class S>
 ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
                                 JointConstraint<S>& joint) {
-  using U = Unit<S>;
-  const U half = U(0.5);
-  const Vec3<U> sum = za * half + zb * half;  // as long as cos(swing / 2)
-  const Direction<U> mean = direction_of(sum.x, sum.y, sum.z);
+  const Twist<S> twist = twist_of<S>(za, zb);
   JointDrive<S>& drive = joint.drives[0];
-  const S cosine = max(convert<S>(mean.length), kLeastTwistCosine<S>);
-  drive.row = angular_row<S>({mean.x, mean.y, mean.z}, drive.radius / cosine);
+  drive.row = angular_row<S>(twist.axis, drive.radius / twist.cosine);
   const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
-  drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < cosine;
+  drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < twist.cosine;
   set_angle(drive, joint.properties, twist_angle<S>(relative_rotation(f)));
 }
-/// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
-template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
-  using U = Unit<S>;
-  const Vec3<U> n = cross(za, zb);
-  const Direction<U> axis = direction_of(n.x, n.y, n.z);
-  JointDrive<S>& drive = joint.drives[1];
-  drive.row = angular_row<S>({axis.x, axis.y, axis.z}, drive.radius);
-  drive.position = atan2_to<S>(axis.length, dot(za, zb)) * drive.radius;
-  drive.upper = joint.properties.cone * drive.radius;
-}
-
 }  // namespace detail
 
 /// Origins coincide. kLimit: lower..upper of the twist about z; kCone: of the angle between the z axes.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/joint_frames.hpp"
+#include "isostep/dynamics/joints/slide_rows.hpp"
 
 namespace isostep {
 
@@ -13,6 +13,7 @@ template <class S> struct DistanceJoint {
   static constexpr const char* kFlagNames = "of a distance joint kLimit, kSpring, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::length;
   static constexpr bool kPoint = false;
+  static constexpr bool kTwoPoints = true;
   static constexpr bool kDrivesAlone = true;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>& p) {
@@ -27,7 +28,7 @@ template <class S> struct DistanceJoint {
     JointDrive<S>& drive = joint.drives[0];
     joint.block_count = 1;
     joint.drive_count = rod ? 0 : 1;
-    drive.place = 0;
+    drive.block = drive.place = 0;
     drive.push_speed = detail::kJointPushSpeed<S>;
     drive.bounded_below = is_bounded(p) && p.lower > S(0);
     drive.bounded_above = is_bounded(p);
@@ -56,11 +57,7 @@ template <class S> struct DistanceJoint {
     drive.target = p.spring_target;
   }
 
-  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) {
-    const JointBlock<S>& block = joint.blocks[0];
-    const Velocity<S> of_drive = joint.drive_count > 0 ? joint.drives[0].impulse : Velocity<S>(0);
-    return scaled(block.rows[0].linear, block.impulse.x + of_drive);
-  }
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return detail::pull_of_rows(joint); }
   static ISO_INLINE S error(const JointProperties<S>& p, const Pose<S>& a, const Pose<S>& b) {
     const S apart = distance(a.position, b.position);
     return is_bounded(p) ? max(S(0), max(apart - p.upper, p.lower - apart)) : S(0);

@@ -28,11 +28,12 @@ template <class S> struct JointConstraint {
   Pose<S> pose_a, pose_b;  // when the step began: what stands for row 0 throughout
   Vec3<S> arm_a, arm_b;    // [m] from each centre to the joint, world, now
   S radius;                // [m] lever of purely angular rows, so that their coefficients are near one
+  S reach;                 // [m] farther out, what slides along a counts as that far
   S motor_force;           // [m/s^2] most impulse a second
   S most_motor;            // [m/s] most impulse in a sub-step
   std::uint32_t block_count, drive_count;
   bool holds;               // something moves at all
-  JointBlock<S> blocks[2];  // point or rod, angular; drives are rows of the last
+  JointBlock<S> blocks[2];  // where the origins are, angles
   JointDrive<S> drives[2];  // angle, twist or length; swing
   Mat3<S> up, down;         // [1] D_1^-1 K_10 and K_01 of a joint solved by itself
 };

@@ -91,7 +91,7 @@ template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& ka
   }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) detail::set_turns(joint.drives[i].row, kappa_a, kappa_b);
   if (joint.drives[0].sprung) {
-    if (joint.block_count > 1) detail::weigh_block(joint.blocks[0], joint.share);
+    if (joint.block_count > 1) detail::weigh_block(joint.blocks[1 - joint.drives[0].block], joint.share);
     detail::weigh_spring(joint);
   }
 }
@@ -122,10 +122,10 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
   const Vec3<V> speed = speed_along(of, motion);
   Vec3<V> right = -speed;
   if (!relax) right -= detail::block_bias(of, step.softness.bias_rate);
-  if (block + 1 < joint.block_count) return right;
   const V most = detail::motor_limit(joint, step.h);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
+    if (drive.block != block) continue;
     const int at = static_cast<int>(drive.place);
     right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax), most);
   }
@@ -141,9 +141,9 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
   };
   detail::JointPush<S> push;
   Vec3<V> asked[2] = {change.point, change.angular};
-  Vec3<V>& of_drives = asked[joint.block_count - 1];
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
+    Vec3<V>& of_drives = asked[drive.block];
     const int at = static_cast<int>(drive.place);
     if (!detail::is_constant(drive, drive.piece)) {
       const bool fixed = detail::fixes_speed(drive.piece);

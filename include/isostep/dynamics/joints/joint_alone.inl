@@ -13,14 +13,14 @@ template <class S> void factor_joint(JointConstraint<S>& joint) {
   JointBlock<S>& point = joint.blocks[0];
   if (joint.block_count > 1) {
     JointBlock<S>& angular = joint.blocks[1];
-    angular.inverse = invert_symmetric(angular.coupling, detail::kBlockCompliance<S>);
+    angular.inverse = invert_block(angular, detail::kBlockCompliance<S>);
     const Mat3<S> k = scaled_by(detail::block_coupling(angular, true, point, true), joint.share.a) +
                       scaled_by(detail::block_coupling(angular, false, point, false), joint.share.b);
     joint.down = transpose(k);
     joint.up = angular.inverse * k;
     subtract(point.coupling, joint.down * joint.up);
   }
-  point.inverse = invert_symmetric(point.coupling, detail::kBlockCompliance<S>);
+  point.inverse = invert_block(point, detail::kBlockCompliance<S>);
 }
 
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right) {

@@ -18,7 +18,7 @@ namespace isostep {
 ///          w / sqrt(1 + w^2): its pivot stays near one however weak it is.
 template <class S> struct JointDrive {
   JointRow<S> row;
-  std::uint32_t place;     // among the rows of the joint's last block
+  std::uint32_t block, place;  // which of the joint's rows it is
   S radius;                // [m] of an angle
   S position;              // [m] an angle times the radius, or a length
   S lower, upper, target;  // [m]

@@ -11,9 +11,9 @@ template <class S> ISO_INLINE JointRow<S> scaled_row(const JointRow<S>& row, Uni
 }
 /// A fixed speed is the row itself, a spring a weaker one that yields, a constant impulse none.
 template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
-  JointBlock<S>& block = joint.blocks[joint.block_count - 1];
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
+    JointBlock<S>& block = joint.blocks[drive.block];
     const int at = static_cast<int>(drive.place);
     const bool fixed = fixes_speed(drive.piece), springs = !fixed && drive.spring > S(0);
     block.rows[at] = fixed ? drive.row : springs ? scaled_row(drive.row, drive.spring_row.y) : JointRow<S>::zero();
@@ -22,7 +22,7 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
   }
 }
 
-/// Strength of a spring that has its frequency while the joint's own point holds and the rest of the world is still.
+/// Strength of a spring that has its frequency while the joint's other block holds and the rest of the world is still.
 /// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with e the effective mass and angle = 2 pi frequency h; roots are
 ///          taken apart, for where a spring is weak their product keeps digits that w^2 loses.
 template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
@@ -30,9 +30,9 @@ template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
   JointDrive<S>& drive = joint.drives[0];
   S k = self_coupling(drive.row, drive.row, joint.share);
   if (joint.block_count > 1) {
-    const JointBlock<S>& point = joint.blocks[0];
-    const Mat3<S> inverse = invert_symmetric(point.coupling, kBlockCompliance<S>);
-    const auto with = [&](int r) { return self_coupling(drive.row, point.rows[r], joint.share); };
+    const JointBlock<S>& other = joint.blocks[1 - drive.block];
+    const Mat3<S> inverse = invert_symmetric(other.coupling, kBlockCompliance<S>);
+    const auto with = [&](int r) { return self_coupling(drive.row, other.rows[r], joint.share); };
     const Vec3<S> c = {with(0), with(1), with(2)};
     k = max(k - dot(c, inverse * c), k * kLeastCompliance<S>);
   }

@@ -71,6 +71,16 @@ template <class S> ISO_INLINE Quat<Unit<S>> relative_rotation(const JointFrames<
 /// [rad] angle about z of a rotation with w >= 0, whatever its swing.
 template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) { return S(2) * atan2_to<S>(q.z, q.w); }
 
+/// The main drive, where a kind lets it have limits, a motor and a spring.
+template <class S> ISO_INLINE void count_drive(JointConstraint<S>& joint) {
+  const std::uint32_t flags = joint.properties.flags;
+  JointDrive<S>& drive = joint.drives[0];
+  joint.drive_count = (flags & (joint_flag::kLimit | joint_flag::kMotor | joint_flag::kSpring)) != 0 ? 1 : 0;
+  drive.bounded_below = drive.bounded_above = (flags & joint_flag::kLimit) != 0;
+  drive.driven = (flags & joint_flag::kMotor) != 0;
+  drive.sprung = (flags & joint_flag::kSpring) != 0;
+}
+
 /// What the properties ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range, so that
 /// beyond a limit it is nearer to that one than to the other.
 template <class S> ISO_INLINE void set_angle(JointDrive<S>& drive, const JointProperties<S>& p, S angle) {

@@ -4,10 +4,16 @@
 
 #include <concepts>
 
+#include "isostep/dynamics/joints/angular.hpp"
 #include "isostep/dynamics/joints/ball.hpp"
+#include "isostep/dynamics/joints/constant_velocity.hpp"
+#include "isostep/dynamics/joints/cylindrical.hpp"
 #include "isostep/dynamics/joints/distance.hpp"
 #include "isostep/dynamics/joints/fixed.hpp"
 #include "isostep/dynamics/joints/hinge.hpp"
+#include "isostep/dynamics/joints/planar.hpp"
+#include "isostep/dynamics/joints/slider.hpp"
+#include "isostep/dynamics/joints/universal.hpp"
 
 namespace isostep {
 
@@ -20,6 +26,7 @@ concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> so
   { Joint<S>::kFlagNames } -> std::convertible_to<const char*>;     // to whom sets another: "of a hinge kLimit, ..."
   { Joint<S>::kMeasure } -> std::convertible_to<JointMeasure>;      // of its position
   { Joint<S>::kPoint } -> std::convertible_to<bool>;                // origins coincide, and the first block is they
+  { Joint<S>::kTwoPoints } -> std::convertible_to<bool>;            // origins are apart from the start
   { Joint<S>::kDrivesAlone } -> std::convertible_to<bool>;          // no equality is in the block that drives are in
   { Joint<S>::fault(p) } -> std::same_as<FaultReport>;              // of finite numbers that every kind would take
   { Joint<S>::count_rows(joint) } -> std::same_as<void>;            // once a step: blocks, drives and what acts on them
@@ -50,6 +57,10 @@ template <class Visit> ISO_INLINE constexpr decltype(auto) visit_joint_type(Join
 ISO_INLINE constexpr JointMeasure measure_of(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kMeasure; });
+}
+ISO_INLINE constexpr bool joins_two_points(JointType type) {
+  return visit_joint_type(type,
+                          [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kTwoPoints; });
 }
 ISO_INLINE constexpr bool holds_point(JointType type) {
   return visit_joint_type(type, [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kPoint; });

@@ -47,6 +47,7 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   JointDrive<S>& swing = joint.drives[1];
   main = {};
   swing = {};
+  main.block = swing.block = 1;
   main.place = 2;
   main.push_speed = swing.push_speed = kAnglePushSpeed<S>;
   visit_joint_type(joint.properties.type,
@@ -62,10 +63,38 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
   swing.impulse = state.swing;
   // What a drive's place held as an equality, before the joint's settings changed, is let go.
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    joint.blocks[joint.block_count - 1].impulse[static_cast<int>(joint.drives[i].place)] = Velocity<S>(0);
+    joint.blocks[joint.drives[i].block].impulse[static_cast<int>(joint.drives[i].place)] = Velocity<S>(0);
   }
   main.piece = valid_piece(main, state.drive_piece());
   swing.piece = valid_piece(swing, state.swing_piece());
+}
+
+/// force h / reduced mass is the impulse, in its unit, that the motor gives in h; a torque's lever is the radius.
+template <class S>
+ISO_INLINE void set_motor(const SolverMass<S>& a, const SolverMass<S>& b, JointConstraint<S>& joint) {
+  const JointProperties<S>& p = joint.properties;
+  const S reduced = a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b;
+  if (measure_of(p.type) == JointMeasure::length) {
+    joint.motor_force = divide_to<S>(p.motor_torque, reduced);
+    joint.most_motor = Limits<S>::speed();
+    return;
+  }
+  const S radius = joint.drives[0].radius;
+  if (!(radius > S(0))) return;  // nothing turns
+  joint.motor_force = divide_to<S>(p.motor_torque, reduced * radius);
+  // Alone, without what the point holds, it turns a body no faster than its points may move.
+  const S reach = max(S(1), max(max_abs(p.frame_a.position), max_abs(p.frame_b.position)));
+  const S turning = max(trace_bound(a, b, joint.share) * radius, S(1));
+  joint.most_motor = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
+}
+
+/// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().
+template <class S> ISO_INLINE S reach_of(const JointConstraint<S>& joint, const SolverMass<S>& a) {
+  const S kappa = max(a.kappa.rows[0].x, max(a.kappa.rows[1].y, a.kappa.rows[2].z));
+  const S most = S(2) * Limits<S>::position();
+  if (!(kappa > S(0))) return most;
+  const S whole = sqrt(Limits<S>::leverage()) / sqrt(kappa);
+  return clamp(whole - length(joint.properties.frame_a.position), S(0), most);
 }
 
 }  // namespace detail
@@ -86,17 +115,9 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   detail::count_rows(joint);
   detail::load_impulses(state, joint);
   detail::set_radii(a, mass_a, mass_b, joint);
+  joint.reach = detail::reach_of(joint, mass_a);
   joint.motor_force = joint.most_motor = S(0);
-  if (!joint.drives[0].driven) return;
-  // torque h / (reduced mass radius) is the impulse, in its unit, that the motor gives in h.
-  const S reduced = mass_a.mass > S(0) ? mass_a.mass * joint.share.a : mass_b.mass * joint.share.b;
-  const S radius = joint.drives[0].radius;
-  if (!(radius > S(0))) return;  // nothing turns
-  joint.motor_force = divide_to<S>(properties.motor_torque, reduced * radius);
-  // Alone, without what the point holds, it turns a body no faster than its points may move.
-  const S reach = max(S(1), max(max_abs(properties.frame_a.position), max_abs(properties.frame_b.position)));
-  const S turning = max(detail::trace_bound(mass_a, mass_b, joint.share) * radius, S(1));
-  joint.most_motor = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
+  if (joint.drives[0].driven) detail::set_motor(mass_a, mass_b, joint);
 }
 
 }  // namespace isostep

@@ -176,6 +176,33 @@ template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
 template <class S> inline constexpr S kTautLimit = S(2);
 }  // namespace detail
 
+/// invert_symmetric() of a block's coupling; without a row that asks for what others of it hold or for what no body can
+/// do: a weld of a body that a lock keeps from turning about an axis.
+/// Why:    its inverse is 1 / softness along such a direction, and multiplies what float and Q16.16 rounded of the
+///         neighbours' couplings by as much: what is left of those is noise, and a tree of them explodes. What moves by
+///         less than three times the softness is softer than anything that a tree of these formats may hold.
+/// Differs: a point moves along every axis; a drive's place may be empty, and finer formats have the digits.
+template <class S> ISO_INLINE Mat3<S> invert_block(const JointBlock<S>& block, S softness) {
+  Mat3<S> inverse = invert_symmetric(block.coupling, softness);
+  if (block.point || !(S(4) * softness < detail::kLeastCompliance<S>)) return inverse;
+  const S most = S(0.25) / softness;
+  Mat3<S> rest = block.coupling;
+  for (int left = 0; left < 3; ++left) {
+    int k = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (rest.rows[i][i] == S(0)) continue;  // exact: an empty row, or one that was left out
+      if (k < 0 || inverse.rows[k][k] < inverse.rows[i][i]) k = i;
+    }
+    if (k < 0 || inverse.rows[k][k] < most) break;
+    for (int i = 0; i < 3; ++i) rest.rows[i][k] = rest.rows[k][i] = S(0);
+    inverse = invert_symmetric(rest, softness);
+    for (int i = 0; i < 3; ++i) {
+      if (rest.rows[i][i] == S(0)) inverse.rows[i][i] = S(0);
+    }
+  }
+  return inverse;
+}
+
 /// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
 template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {
   Mat3<S> k;

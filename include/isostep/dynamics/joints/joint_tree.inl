@@ -37,7 +37,7 @@ template <class S> typename JointTrees<S>::Link& JointTrees<S>::link_between(std
 
 /// Whether a block asks for nothing in this pass: all its rows are drives that push with a constant impulse or none.
 template <class S> bool JointTrees<S>::is_idle(const JointConstraint<S>& joint, std::uint32_t block) const {
-  if (joint.drive_count == 0 || block + 1 < joint.block_count) return false;
+  if (joint.drive_count == 0 || block != joint.drives[0].block) return false;
   const bool alone = visit_joint_type(
       joint.properties.type, [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::kDrivesAlone; });
   if (!alone) return false;
@@ -64,7 +64,7 @@ void JointTrees<S>::factor(const Elimination& tree, std::span<JointConstraint<S>
     if (node.idle) continue;
     JointBlock<S>& block = joints[node.joint].blocks[node.block];
     const S softness = node.closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
-    block.inverse = invert_symmetric(block.coupling, softness);
+    block.inverse = invert_block(block, softness);
     const std::span<Link> links(links_.data() + node.first_link, node.link_count);
     for (Link& link : links) link.up = block.inverse * link.up;
     for (const Link& j : links) {

@@ -68,7 +68,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
       wanted = min(-scaled(detail::kDirectContactShare<S> * rate, max(separation, -farthest)), detail::kPushSpeed<S>);
     // Only where something pushed: a gap that merely closed has nothing to give back.
     const bool bounces = pass == Pass::bounced && block.restitution[0] > S(0) && row.total_impulse[0] > V(0) &&
-                         row.approach[0] < -detail::kRestitutionSpeed<S>;
+                         row.approach[0] < -context.restitution_threshold;
     if (bounces) wanted = -scaled(block.restitution[0], row.approach[0]);
     ask(r, wanted);
   }
@@ -121,7 +121,7 @@ template <class S> bool DirectSolver<S>::bounces(const StepContext<S>& context, 
     if (!(block.restitution[0] > S(0))) continue;
     for (std::uint32_t p = 0; p < context.contacts[c].count; ++p) {
       const NormalRow<S, 1>& row = block.normals[p];
-      if (row.approach[0] < -detail::kRestitutionSpeed<S> && row.total_impulse[0] > V(0)) return true;
+      if (row.approach[0] < -context.restitution_threshold && row.total_impulse[0] > V(0)) return true;
     }
   }
   return false;

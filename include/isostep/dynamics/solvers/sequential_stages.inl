@@ -9,7 +9,7 @@ namespace isostep {
 
 namespace detail {
 
-template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule) {
+template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule, Velocity<S> restitution_threshold) {
   const S rate = S(schedule.rate);
   // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step. Loads
   // beyond a 64th of the format (32 m/s for Q16.16) count as that: times friction and the cone's slope they still fit.
@@ -18,7 +18,7 @@ template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule) {
           kPushSpeed<S>,
           divide_to<Velocity<S>>(S(64), rate),
           highest<Velocity<S>>() * Velocity<S>(1.0 / 64),
-          kRestitutionSpeed<S>};
+          restitution_threshold};
 }
 }  // namespace detail
 
@@ -35,7 +35,7 @@ template <class S> void Sequential<S>::run(const StepContext<S>& context) {
   const S rate = S(schedule_.rate);
   Job job = {this,
              context,
-             detail::contact_pass(schedule_),
+             detail::contact_pass(schedule_, context.restitution_threshold),
              {context.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
               rapid_angular_speed<S>(context.hz), angular_speed_to_follow<S>(schedule_.rate)}};
   run_stages(runner_, pieces_, &Sequential::do_piece, &job);

@@ -45,6 +45,7 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
       of_joint("pose_a", joint.pose_a);
       of_joint("pose_b", joint.pose_b);
       of_joint("radius", joint.radius);
+      of_joint("reach", joint.reach);
       of_joint("motor_force", joint.motor_force);
       of_joint("block_count", joint.block_count);
       of_joint("drive_count", joint.drive_count);
@@ -107,9 +108,9 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
 
 // ---- worst first
 
-template <class S>
+template <class S, class Queue>
 template <class Visit>
-void WorstFirstResolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
   visit_rows(visit, stage, context, joints_, bodies_);
   if (stage == SolverStage::colour) {
     visit("points", points_);

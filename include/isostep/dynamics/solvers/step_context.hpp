@@ -11,6 +11,7 @@
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
+#include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
@@ -63,7 +64,9 @@ template <class S> struct StepContext {
   const TreeKernels<S>* tree_kernels;
   std::span<const Carried<S>> carried = {};  // ascending by contact
   SubstepForces<S> forces = {};
-  std::span<std::uint8_t> cut = {};          // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
+  std::span<std::uint8_t> cut = {};  // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
+  Projection projection = Projection::nonlinear;  // of worst_first
+  Velocity<S> restitution_threshold = Velocity<S>(0.25);  // [m/s] slower approaches do not bounce
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.
@@ -71,8 +74,6 @@ enum class SolverStage : std::uint32_t { colour, prepare, solve, apply_restituti
 
 namespace detail {
 template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);  // [m/s] overlap ends no faster
-/// [m/s] Slower ones do not bounce. Of a gas at restitution 1 glancing blows below it lose their energy.
-template <class S> inline constexpr Velocity<S> kRestitutionSpeed = Velocity<S>(0.25);
 }  // namespace detail
 
 }  // namespace isostep

@@ -19,7 +19,7 @@ namespace isostep {
 /// Source:  Millington 2007, ch. 14-15: impulses (306-321), nonlinear projection, relaxation, rotation limit (322-330),
 ///          worst first (338-346), micro-collisions (351-358), friction (359-361).
 /// Symbols: v = speed of b against a along the normal, g = the part of it that this sub-step's forces made,
-///          C = separation, e = restitution. Bounce: v' = -e (v - min(g, 0)) where that was faster than kLeastBounce.
+///          C = separation, e = restitution. Bounce: v' = -e (v - min(g, 0)) where that was faster than the threshold.
 /// Order:   a pass takes the row that is furthest from its aim, and looks again at all that share a moving body with
 ///          it; ties go to the lowest index: contact points in canonical order, then joints.
 /// Differs: a pass begins with the impulses that the last one came to, adds to them, and lets them give way again. From
@@ -30,18 +30,31 @@ namespace isostep {
 ///          of g. A gap that would close within the sub-step is hit at once, so nothing gets through. Geometry is the
 ///          step's: each gap follows the displacements, nothing is re-measured. A row that cannot be bettered waits
 ///          until a neighbour moves.
+/// Projection: of projection.hpp. All aim at the same, a quarter of an overlap a sub-step, at 3 m/s at most. Joints'
+///          errors are projected as nonlinear has it, whatever the setting.
+///          relaxed: a resolution takes half of what its row lacks, and a pass may have eight times as many: contacts
+///          that press a body against each other share what none can take.
+///          velocity_based: before its first sub-step a step takes bodies that overlap back along the motion that they
+///          came with, to where they touched. What no motion can take back is moved as linear has it.
+///          worst_first_take_back.inl.
+/// Queue:   finds the worst row: core/tournament_tree.hpp, sorted_order.hpp, linear_search.hpp. Changes no bit.
 /// Cost:    O(log rows) for each row that shares a moving body with the resolved one. No allocation once warm. Serial.
 /// Limits:  speeds and gaps beyond the ends of Velocity<S> count as those ends, velocities are held at eight times the
 ///          published limits while a pass lasts.
-template <class S> class WorstFirstResolver {
+template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   using V = Velocity<S>;
 
  public:
   /// Rows resolved in a pass at most, of an island that has so many: as many as the book allows.
-  static ISO_INLINE std::uint32_t most_iterations(std::uint32_t rows) { return rows > 0x7fffffffu ? ~0u : 2u * rows; }
+  /// `turns` times it.
+  static ISO_INLINE std::uint32_t most_iterations(std::uint32_t rows, std::uint32_t turns = 1) {
+    return rows > 0x7fffffffu / turns ? ~0u : 2u * turns * rows;
+  }
   /// Looks at an island's rows in a pass at most: 64 a row and a hundredth of a second of them. A falling wall (S2)
   /// takes 60 a row; a crowd in one place would take the cube of its number.
-  static ISO_INLINE std::uint64_t most_looks(std::uint32_t rows) { return (1u << 17) + std::uint64_t{64} * rows; }
+  static ISO_INLINE std::uint64_t most_looks(std::uint32_t rows, std::uint32_t turns = 1) {
+    return (1u << 17) + std::uint64_t{64} * turns * rows;
+  }
 
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
@@ -70,14 +83,14 @@ template <class S> class WorstFirstResolver {
   void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, Point& row);
   void list_neighbours();
   void follow(const StepContext<S>& context);
-  template <class Look, class Apply> void resolve(const Look& look, const Apply& apply);
+  template <class Look, class Apply> void resolve(const Look& look, const Apply& apply, std::uint32_t turns);
   void leave_island(std::uint32_t row);
   template <class Look>
   void look_again(const Look& look, std::uint32_t index, std::uint32_t body, std::uint32_t not_of);
   ISO_INLINE auto before() const {
     return [this](std::uint32_t i, std::uint32_t j) ISO_INLINE_LAMBDA {
       if (!(urgency_[i] == urgency_[j])) return urgency_[j] < urgency_[i];
-      return i < j;
+      return i < j && V(0) < urgency_[i];  // rows with nothing to do are in any order: a list need not sort them
     };
   }
 
@@ -97,13 +110,24 @@ template <class S> class WorstFirstResolver {
   V gap(const Point& row) const;
   V overlap_urgency(const Point& row) const;
   V error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const;
-  void project(const StepContext<S>& context, const Point& row);
+  void end_overlap(const StepContext<S>& context, const Point& row);
+  void project(const StepContext<S>& context, const Point& row, V missing);
+  void shift(const StepContext<S>& context, const Point& row, V missing);
   void project(const StepContext<S>& context, const JointConstraint<S>& joint, const JointStep<S>& step);
   void move(const StepContext<S>& context, std::uint32_t body, const Motion& asked);
+
+  // worst_first_take_back.inl
+  void take_back(const StepContext<S>& context);
+  void recall_motion(const StepContext<S>& context);
+  V recalled(const Point& row) const;
+  V recall_urgency(const Point& row) const;
+  void recall(const StepContext<S>& context, const Point& row);
+  void undo(const StepContext<S>& context, std::uint32_t body, S share);
 
   BodyRows<S> bodies_;
   PreparedJoints<S> joints_;
   std::vector<Motion> gained_;  // by row of the bodies: of velocity, what this sub-step's forces made
+  std::vector<Motion> moved_;   // by row of the bodies: of velocity_based, the last step's motion, less what went back
   std::vector<Point> points_;
   std::vector<TangentPair<S>> rolling_;
   std::vector<std::uint32_t> held_;        // of joints_: those that hold something
@@ -112,7 +136,8 @@ template <class S> class WorstFirstResolver {
   std::vector<std::uint32_t> neighbours_;  // rows that can move a body, ascending
   IslandBudgets budgets_;                  // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
-  TournamentTree worst_;                   // of urgency_
+  Queue worst_;                            // of urgency_
+  V restitution_threshold_ = V(0);         // [m/s] of this step
   bool any_followed_ = false;
   std::uint32_t islands_left_ = 0;  // by the passes of this step, with something still to be done
 };

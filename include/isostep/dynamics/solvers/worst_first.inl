@@ -5,11 +5,12 @@
 #include "isostep/dynamics/solvers/body_rows.inl"
 #include "isostep/dynamics/solvers/worst_first.hpp"
 #include "isostep/dynamics/solvers/worst_first_position.inl"
+#include "isostep/dynamics/solvers/worst_first_take_back.inl"
 #include "isostep/dynamics/solvers/worst_first_velocity.inl"
 
 namespace isostep {
 
-template <class S> void WorstFirstResolver<S>::colour_constraints(const StepContext<S>& context) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constraints(const StepContext<S>& context) {
   bodies_.gather(context);
   joints_.prepare(context, bodies_.rows());
   gained_.resize(bodies_.rows().velocity.size());
@@ -42,8 +43,9 @@ template <class S> void WorstFirstResolver<S>::colour_constraints(const StepCont
                 });
 }
 
-template <class S>
-void WorstFirstResolver<S>::add_point(const StepContext<S>& context, std::uint32_t contact, std::uint32_t point) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std::uint32_t contact,
+                                             std::uint32_t point) {
   const SolverBodies<S>& bodies = bodies_.rows();
   const ContactGeometry<S>& g = context.geometry[contact];
   const SolverMass<S>& a = bodies.mass[g.row_a];
@@ -77,8 +79,8 @@ void WorstFirstResolver<S>::add_point(const StepContext<S>& context, std::uint32
 }
 
 /// The last step's. A contact's friction was borne by its points as its weight was.
-template <class S>
-void WorstFirstResolver<S>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
   row.impulse = contact.normal_impulse[point];
   row.total_impulse = -row.impulse;  // the first warm start is the last step's
   V weight = V(0);
@@ -93,8 +95,8 @@ void WorstFirstResolver<S>::load_impulses(const Contact<S>& contact, std::uint32
 
 /// As soft step has it: the rows' radius is the distance from the contact to the centre that rolls, which keeps the
 /// coefficients near one.
-template <class S>
-void WorstFirstResolver<S>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, Point& row) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, Point& row) {
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto distance = [&](std::uint32_t body, Vec3<S> arm) {
     return bodies.moves(body) ? abs(dot(arm, g.normal)) : S(0);
@@ -118,7 +120,7 @@ void WorstFirstResolver<S>::add_rolling(const ContactGeometry<S>& g, std::uint32
 }
 
 /// As contact_follow.hpp has it.
-template <class S> void WorstFirstResolver<S>::follow(const StepContext<S>& context) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const StepContext<S>& context) {
   const SolverBodies<S>& bodies = bodies_.rows();
   for (Point& row : points_) {
     const bool by_a = bodies_.is_followed(context, row.a), by_b = bodies_.is_followed(context, row.b);
@@ -141,7 +143,7 @@ template <class S> void WorstFirstResolver<S>::follow(const StepContext<S>& cont
 }
 
 /// Only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
-template <class S> void WorstFirstResolver<S>::list_neighbours() {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::list_neighbours() {
   const std::size_t bodies = bodies_.rows().mass.size();
   first_.assign(bodies + 2, 0);  // counted two places on: filling leaves each list's start where it is looked for
   const auto each_end = [&](auto&& visit) ISO_INLINE_LAMBDA {
@@ -157,10 +159,10 @@ template <class S> void WorstFirstResolver<S>::list_neighbours() {
 }
 
 /// Those of `not_of` have been looked at already.
-template <class S>
+template <class S, class Queue>
 template <class Look>
-void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, std::uint32_t body,
-                                       std::uint32_t not_of) {
+void WorstFirstResolver<S, Queue>::look_again(const Look& look, std::uint32_t index, std::uint32_t body,
+                                              std::uint32_t not_of) {
   if (body == 0) return;
   for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) {
     const std::uint32_t other = neighbours_[k];
@@ -171,7 +173,7 @@ void WorstFirstResolver<S>::look_again(const Look& look, std::uint32_t index, st
 }
 
 /// The row's island has spent its budget: none of its rows is resolved again.
-template <class S> void WorstFirstResolver<S>::leave_island(std::uint32_t row) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::leave_island(std::uint32_t row) {
   bool urgent = false;
   for (std::uint32_t i = budgets_.budget_of(row).first_row; i != IslandBudgets::kNobody; i = budgets_.next_of(i)) {
     if (urgency_[i] == V(0)) continue;
@@ -182,16 +184,16 @@ template <class S> void WorstFirstResolver<S>::leave_island(std::uint32_t row) {
   islands_left_ += urgent;
 }
 
-template <class S>
+template <class S, class Queue>
 template <class Look, class Apply>
-void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
+void WorstFirstResolver<S, Queue>::resolve(const Look& look, const Apply& apply, std::uint32_t turns) {
   const auto count = static_cast<std::uint32_t>(ends_.size());
   if (count == 0) return;
   for (std::uint32_t i = 0; i < count; ++i) urgency_[i] = look(i);
   worst_.plant(count, before());
-  budgets_.fill([](IslandBudgets::Budget& budget) ISO_INLINE_LAMBDA {
-    budget.iterations = most_iterations(budget.rows);
-    budget.looks = most_looks(budget.rows);
+  budgets_.fill([turns](IslandBudgets::Budget& budget) ISO_INLINE_LAMBDA {
+    budget.iterations = most_iterations(budget.rows, turns);
+    budget.looks = most_looks(budget.rows, turns);
   });
   for (;;) {
     const std::uint32_t worst = worst_.first();
@@ -211,9 +213,9 @@ void WorstFirstResolver<S>::resolve(const Look& look, const Apply& apply) {
   }
 }
 
-template <class S> void WorstFirstResolver<S>::prepare(const StepContext<S>&) {}
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::prepare(const StepContext<S>&) {}
 
-template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<S>& context) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substeps(const StepContext<S>& context) {
   const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
   const JointStep<S> step = {context.states.data(),
                              &bodies_.rows(),
@@ -224,7 +226,9 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<
                              angular_speed_to_follow<S>(rate)};
   const auto points = static_cast<std::uint32_t>(points_.size());
   const auto joint = [&](std::uint32_t i) -> JointConstraint<S>& { return joints_[held_[i - points]]; };
+  const std::uint32_t turns = context.projection == Projection::relaxed ? detail::kRelaxedTurns : 1;
   islands_left_ = 0;
+  if (context.projection == Projection::velocity_based) take_back(context);
   any_followed_ = bodies_.began_with_followed();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     begin_velocities(context, step);
@@ -232,19 +236,21 @@ template <class S> void WorstFirstResolver<S>::solve_substeps(const StepContext<
             [&](std::uint32_t i) {
               if (i < points) resolve_motion(points_[i]);
               else resolve_motion(joint(i), step);
-            });
+            },
+            1);
     any_followed_ = bodies_.integrate_positions(context, rate, 0, bodies_.count());
     if (any_followed_) follow(context);
     begin_positions(step);
     resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
             [&](std::uint32_t i) {
-              if (i < points) project(context, points_[i]);
+              if (i < points) end_overlap(context, points_[i]);
               else project(context, joint(i), step);
-            });
+            },
+            turns);
   }
 }
 
-template <class S> void WorstFirstResolver<S>::store_impulses(const StepContext<S>& context) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::store_impulses(const StepContext<S>& context) {
   for (std::size_t i = 0; i < context.contacts.size(); ++i) {
     Contact<S>& contact = context.contacts[i];
     for (V& impulse : contact.normal_impulse) impulse = V(0);

@@ -1,4 +1,4 @@
-// The position pass of worst_first.hpp: nonlinear projection of overlaps and of joints' errors.
+// The position pass of worst_first.hpp: projection of overlaps, by moving and by turning, and of joints' errors.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,6 +14,11 @@ namespace detail {
 template <class S> inline constexpr Velocity<S> kRestingOverlap = Velocity<S>(0x1p-11);
 /// [1] of an overlap that a sub-step takes away: all of it at once makes stacks jump (relaxation, pp. 324-325).
 template <class S> inline constexpr S kRelaxation = S(0.25);
+/// [1] of what a contact lacks that a resolution of `relaxed` takes away: two contacts that press on one body get an
+/// equal say.
+template <class S> inline constexpr S kRelaxedPart = S(0.5);
+/// As many turns of `relaxed`: halvings that bring what a sub-step takes at most, 3 m/s for 1/200 s, to the tolerance.
+inline constexpr std::uint32_t kRelaxedTurns = 8;
 /// [m] Errors of position that are left alone.
 template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<S>(0x1p-14);
 /// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
@@ -29,13 +34,13 @@ template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, 
 }  // namespace detail
 
 /// From the two displacements each time, so that it does not gather the roundings of every move.
-template <class S> Velocity<S> WorstFirstResolver<S>::gap(const Point& row) const {
+template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::gap(const Point& row) const {
   const SolverBodies<S>& bodies = bodies_.rows();
   return saturating_add(row.separation,
                         detail::along(row.normal, bodies.displacement[row.a], bodies.displacement[row.b]));
 }
 
-template <class S> void WorstFirstResolver<S>::begin_positions(const JointStep<S>& step) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::begin_positions(const JointStep<S>& step) {
   const V fastest = detail::kPushSpeed<S> * step.h;
   for (Point& row : points_) {
     const V over = min(saturating_add(gap(row), detail::kRestingOverlap<S>), V(0));
@@ -44,13 +49,13 @@ template <class S> void WorstFirstResolver<S>::begin_positions(const JointStep<S
   }
 }
 
-template <class S> Velocity<S> WorstFirstResolver<S>::overlap_urgency(const Point& row) const {
+template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::overlap_urgency(const Point& row) const {
   const V missing = saturating_subtract(row.least_gap, gap(row));
   return detail::kProjectionTolerance<S> < missing ? missing : V(0);
 }
 
-template <class S>
-Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const {
+template <class S, class Queue>
+Velocity<S> WorstFirstResolver<S, Queue>::error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const {
   linearise_joint(joint, step);
   V most = V(0);
   for (std::uint32_t i = 0; i < joint.block_count; ++i) most = max(most, max_abs(joint.blocks[i].error));
@@ -60,10 +65,33 @@ Velocity<S> WorstFirstResolver<S>::error_urgency(JointConstraint<S>& joint, cons
   return detail::kProjectionTolerance<S> < most ? most : V(0);
 }
 
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::end_overlap(const StepContext<S>& context, const Point& row) {
+  const V missing = saturating_subtract(row.least_gap, gap(row));
+  switch (context.projection) {
+    case Projection::nonlinear: return project(context, row, missing);
+    case Projection::linear:
+    case Projection::velocity_based: return shift(context, row, missing);
+    case Projection::relaxed: return project(context, row, saturate_to<V>(product(detail::kRelaxedPart<S>, missing)));
+  }
+}
+
+/// Along the normal alone, by inverse mass (p. 322).
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::shift(const StepContext<S>& context, const Point& row, V missing) {
+  const auto part = [&](S share, V way) {
+    Motion m = Motion::zero();
+    m.linear = detail::pushed(Vec3<V>::zero(), row.normal.linear, saturate_to<V>(product(share, way)), highest<V>());
+    return m;
+  };
+  move(context, row.a, part(row.share.a, -missing));
+  move(context, row.b, part(row.share.b, missing));
+}
+
 /// Linear and angular parts by inverse inertia (pp. 323-328). What turns fast is only moved: its angular velocity would
 /// stay while its axes turn from under it, and that is energy.
-template <class S> void WorstFirstResolver<S>::project(const StepContext<S>& context, const Point& row) {
-  const V missing = saturating_subtract(row.least_gap, gap(row));
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const Point& row, V missing) {
   const V amount = saturate_to<V>(product(row.mass, missing));
   const auto part = [&](std::uint32_t body, S share, Vec3<S> angular, Vec3<S> turn, V way) {
     Motion m = Motion::zero();
@@ -85,9 +113,9 @@ template <class S> void WorstFirstResolver<S>::project(const StepContext<S>& con
 }
 
 /// As solve_joint() has it, of positions: a limit that is passed is a row, a drive within its limits none.
-template <class S>
-void WorstFirstResolver<S>::project(const StepContext<S>& context, const JointConstraint<S>& joint,
-                                    const JointStep<S>& step) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const JointConstraint<S>& joint,
+                                           const JointStep<S>& step) {
   const SolverBodies<S>& bodies = *step.bodies;
   const V fastest = detail::kJointPushSpeed<S> * step.h;
   const auto missing = [&](std::uint32_t block) {
@@ -103,7 +131,7 @@ void WorstFirstResolver<S>::project(const StepContext<S>& context, const JointCo
     drive.sprung = false;
     drive.spring = S(0);
     drive.piece = lacks == V(0) ? DrivePiece::free : DrivePiece::lower;
-    (joint.block_count > 1 ? right.angular : right.point)[static_cast<int>(drive.place)] = lacks;
+    (drive.block == 1 ? right.angular : right.point)[static_cast<int>(drive.place)] = lacks;
   }
   weigh_joint(held, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
   factor_joint(held);
@@ -116,8 +144,8 @@ void WorstFirstResolver<S>::project(const StepContext<S>& context, const JointCo
 }
 
 /// The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
-template <class S>
-void WorstFirstResolver<S>::move(const StepContext<S>& context, std::uint32_t body, const Motion& asked) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::move(const StepContext<S>& context, std::uint32_t body, const Motion& asked) {
   SolverBodies<S>& bodies = bodies_.rows();
   if (!bodies.moves(body)) return;
   Motion way = asked;

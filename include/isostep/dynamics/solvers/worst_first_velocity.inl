@@ -9,9 +9,6 @@ namespace isostep {
 
 namespace detail {
 
-/// [m/s] Slower than this nothing bounces (Millington, p. 358): rest would be a rain of small bounces.
-template <class S> inline constexpr Velocity<S> kLeastRebound = Velocity<S>(0.25);
-
 /// [m/s] Errors of speed that are left alone, but for what rounding alone may make: the book's 0.01 lets a block creep
 /// down its slope by 0.1 m in ten seconds, this by 0.15 mm.
 template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, const Motion<S>& b) {
@@ -23,9 +20,10 @@ template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, c
 }  // namespace detail
 
 /// Forces, then everything that holds while velocities are resolved, then the impulses of the sub-step before.
-template <class S>
-void WorstFirstResolver<S>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
   SolverBodies<S>& bodies = bodies_.rows();
+  restitution_threshold_ = context.restitution_threshold;
   const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
   bodies_.renew_forces(context, rate);
@@ -62,7 +60,7 @@ void WorstFirstResolver<S>::begin_velocities(const StepContext<S>& context, cons
   }
 }
 
-template <class S> void WorstFirstResolver<S>::warm_start(const Point& row) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::warm_start(const Point& row) {
   SolverBodies<S>& bodies = bodies_.rows();
   Motion a = bodies.velocity[row.a], b = bodies.velocity[row.b];
   detail::push(row.normal, row.share, row.impulse, a, b);
@@ -76,7 +74,7 @@ template <class S> void WorstFirstResolver<S>::warm_start(const Point& row) {
 }
 
 /// Joints saturate what they add, not what it adds up to in a pass of many turns.
-template <class S> void WorstFirstResolver<S>::hold(JointConstraint<S>& joint) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::hold(JointConstraint<S>& joint) {
   SolverBodies<S>& bodies = bodies_.rows();
   const V most = convert<V>(Limits<S>::speed());
   for (std::uint32_t i = 0; i < joint.block_count; ++i) {
@@ -94,14 +92,14 @@ template <class S> void WorstFirstResolver<S>::hold(JointConstraint<S>& joint) {
 }
 
 /// What bounced is no longer borne: an impact is not to begin again.
-template <class S> void WorstFirstResolver<S>::forget_impact(Point& row) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impact(Point& row) {
   row.impulse = row.friction.impulse[0] = row.friction.impulse[1] = V(0);
   if (row.rolling == kNoPair) return;
   TangentPair<S>& pair = rolling_[row.rolling];
   pair.impulse[0] = pair.impulse[1] = V(0);
 }
 
-template <class S> Velocity<S> WorstFirstResolver<S>::motion_urgency(const Point& row) const {
+template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const Point& row) const {
   const SolverBodies<S>& bodies = bodies_.rows();
   const Motion& a = bodies.velocity[row.a];
   const Motion& b = bodies.velocity[row.b];
@@ -120,14 +118,15 @@ template <class S> Velocity<S> WorstFirstResolver<S>::motion_urgency(const Point
   return detail::motion_tolerance<S>(a, b) < most ? most : V(0);
 }
 
-template <class S>
-Velocity<S> WorstFirstResolver<S>::motion_urgency(const JointConstraint<S>& joint, const JointStep<S>& step) const {
+template <class S, class Queue>
+Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const JointConstraint<S>& joint,
+                                                         const JointStep<S>& step) const {
   const JointMotion<S> m = isostep::gather(*step.bodies, joint.row_a, joint.row_b);
   V most = V(0);
   for (std::uint32_t i = 0; i < joint.block_count; ++i) {
     Vec3<V> speed = speed_along(joint.blocks[i], m);
-    if (i + 1 == joint.block_count) {
-      for (std::uint32_t d = 0; d < joint.drive_count; ++d) speed[static_cast<int>(joint.drives[d].place)] = V(0);
+    for (std::uint32_t d = 0; d < joint.drive_count; ++d) {
+      if (joint.drives[d].block == i) speed[static_cast<int>(joint.drives[d].place)] = V(0);
     }
     most = max(most, max_abs(speed));
   }
@@ -141,7 +140,7 @@ Velocity<S> WorstFirstResolver<S>::motion_urgency(const JointConstraint<S>& join
 }
 
 /// The normal, then friction and rolling within the cone that this opens (pp. 359-361).
-template <class S> void WorstFirstResolver<S>::resolve_motion(Point& row) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_motion(Point& row) {
   SolverBodies<S>& bodies = bodies_.rows();
   Motion a = bodies.velocity[row.a], b = bodies.velocity[row.b];
   resolve_normal(row, a, b);
@@ -159,14 +158,15 @@ template <class S> void WorstFirstResolver<S>::resolve_motion(Point& row) {
   if (bodies.moves(row.b)) bodies.velocity[row.b] = b;
 }
 
-template <class S> void WorstFirstResolver<S>::resolve_motion(JointConstraint<S>& joint, const JointStep<S>& step) {
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::resolve_motion(JointConstraint<S>& joint, const JointStep<S>& step) {
   solve_joint(joint, step, true);
   hold(joint);
 }
 
 /// Newton's law of impact on the speed that forces did not make (pp. 111, 357). An impulse that is more than enough
 /// gives way, down to none, and what then closes elsewhere counts as made by forces: it was borne until now.
-template <class S> void WorstFirstResolver<S>::resolve_normal(Point& row, Motion& a, Motion& b) {
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_normal(Point& row, Motion& a, Motion& b) {
   const V speed = detail::along(row.normal, a, b);
   const bool closes = speed < row.least_speed;
   if (!closes && !(row.target < speed)) return;
@@ -176,7 +176,7 @@ template <class S> void WorstFirstResolver<S>::resolve_normal(Point& row, Motion
     const V gained = min(detail::along(row.normal, gained_[row.a], gained_[row.b]), V(0));
     const V former = saturating_subtract(speed, gained);
     aim = row.least_speed;
-    if (former < -detail::kLeastRebound<S>) aim = max(aim, -saturate_to<V>(product(row.restitution, former)));
+    if (former < -restitution_threshold_) aim = max(aim, -saturate_to<V>(product(row.restitution, former)));
     row.target = max(row.target, aim);
     gained_change = saturate_to<V>(product(row.mass, -max(gained, speed)));
   }

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "isostep/effects/articulation/articulated_answers.inl"
+#include "isostep/effects/articulation/articulated_accelerations.inl"
 #include "isostep/effects/articulation/articulated_inertias.inl"
 #include "isostep/effects/articulation/articulated_poses.inl"
 #include "isostep/effects/articulation/articulated_tree.inl"

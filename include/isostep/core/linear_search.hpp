@@ -1,0 +1,36 @@
+// LinearSearch: the first of many by an order that changes, looked for among all.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/scalar/platform.hpp"
+
+namespace isostep {
+
+/// As TournamentTree, which it can stand for. Here `before` may leave some in any order, if it is transitive in that.
+/// Source: Millington 2007, pp. 338-346.
+/// Cost:   O(n) when the first gives way, O(1) of any other change.
+class LinearSearch {
+ public:
+  /// All are compared.
+  template <class Before> ISO_INLINE void plant(std::uint32_t count, const Before& before) {
+    count_ = count;
+    first_ = 0;
+    for (std::uint32_t i = 1; i < count_; ++i) {
+      if (before(i, first_)) first_ = i;
+    }
+  }
+  /// One has changed.
+  template <class Before> ISO_INLINE void replay(std::uint32_t index, const Before& before) {
+    if (index == first_) plant(count_, before);
+    else if (before(index, first_)) first_ = index;
+  }
+  /// Of at least one.
+  ISO_INLINE std::uint32_t first() const { return first_; }
+
+ private:
+  std::uint32_t count_ = 0, first_ = 0;
+};
+
+}  // namespace isostep

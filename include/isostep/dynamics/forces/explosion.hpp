@@ -1,0 +1,68 @@
+// Explosion: a blast in three phases, with a clock of its own.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using ExplosionId = Id<struct ExplosionTag>;
+
+/// Acts on dynamic bodies of a category of the mask, at the point of each that is nearest to the centre, along the line
+/// from the centre through it: so bodies spin. Bodies that hold the centre are pushed at their centre of mass.
+/// With t [s] since it went off, d [m] of the point from the centre and T = implosion_duration:
+///   implosion   t < T, implosion_least < d < implosion_most: implosion_force towards the centre
+///   wave        t from T on, for wave_duration, in which it fades to nothing: with y = s (t - T) - d, s = wave_speed,
+///               w = wave_width and k = wave_ramp, wave_force where -w < y < 0, rising to that from y = -w - k w on and
+///               falling from it until y = k w; times 1 - u / s where the point flees at the speed u, at least 0. A
+///               step gives exactly the impulse of what passes the point within it, however thin the wave
+///   chimney     t from T on, for chimney_duration: in a cylinder about the centre, chimney_height up from it and of
+///               radius chimney_radius, chimney_force (1 - r / chimney_radius) at r [m] from the axis
+/// The world removes it once it has ended. While there is one nothing falls asleep. Without gravity there is no up, and
+/// no chimney.
+/// Source:  Millington 2007, pp. 412-418. Differs: the wave's outer ramp falls outwards, and the chimney's force
+///          outwards from its axis, as the text has it and the formulas have not.
+template <class S> struct Explosion {
+  Vec3<S> centre = {S(0), S(0), S(0)};  // [m]
+  std::uint64_t begin = 0;              // [steps] World::tick() at which it goes off; add() makes now of what is past
+  S implosion_force = S(0);             // [N]
+  S implosion_least = S(0);             // [m]
+  S implosion_most = S(0);              // [m]
+  S implosion_duration = S(0);          // [s]
+  S wave_force = S(0);                  // [N]
+  S wave_speed = S(50);                 // [m/s]
+  S wave_width = S(1);                  // [m]
+  S wave_ramp = S(0.5);                 // [1] of the width
+  S wave_duration = S(0);               // [s]
+  S chimney_force = S(0);               // [N]
+  S chimney_radius = S(1);              // [m]
+  S chimney_height = S(1);              // [m]
+  S chimney_duration = S(0);            // [s]
+  bool is_shielded = false;             // static bodies between the centre and the point keep it off
+  std::uint32_t mask = 0xffffffffu;     // categories: Filter
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("centre", self.centre);
+    visit("begin", self.begin);
+    visit("implosion_force", self.implosion_force);
+    visit("implosion_least", self.implosion_least);
+    visit("implosion_most", self.implosion_most);
+    visit("implosion_duration", self.implosion_duration);
+    visit("wave_force", self.wave_force);
+    visit("wave_speed", self.wave_speed);
+    visit("wave_width", self.wave_width);
+    visit("wave_ramp", self.wave_ramp);
+    visit("wave_duration", self.wave_duration);
+    visit("chimney_force", self.chimney_force);
+    visit("chimney_radius", self.chimney_radius);
+    visit("chimney_height", self.chimney_height);
+    visit("chimney_duration", self.chimney_duration);
+    visit("is_shielded", self.is_shielded);
+    visit("mask", self.mask);
+  }
+  /// [s] from when it goes off.
+  ISO_INLINE S duration() const { return implosion_duration + max(wave_duration, chimney_duration); }
+};
+
+}  // namespace isostep

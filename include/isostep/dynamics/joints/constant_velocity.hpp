@@ -1,0 +1,40 @@
+// Constant velocity joint: two points coincide, and nothing twists; a cone may bound the bend.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/point_joint.hpp"
+#include "isostep/dynamics/joints/turn_rows.hpp"
+
+namespace isostep {
+
+/// Origins coincide, and b does not twist about z against a: two shafts turn at one speed whatever the bend. kCone: of
+/// the angle between the z axes. Bends of 165 degrees and more hold the twist less and less.
+template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
+  static constexpr JointType kType = JointType::constant_velocity;
+  static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kCone;
+  static constexpr const char* kFlagNames = "of a constant velocity joint kCone, kCollideConnected";
+  static constexpr JointMeasure kMeasure = JointMeasure::angle;
+  static constexpr bool kDrivesAlone = false;
+
+  static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
+    const bool cone = (joint.properties.flags & joint_flag::kCone) != 0;
+    joint.block_count = 2;
+    joint.drive_count = cone ? 2 : 0;
+    joint.drives[0].place = 1;  // nothing drives it: the twist is an equality
+    joint.drives[1].bounded_above = cone;
+  }
+  static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
+    detail::point_block(f, h, joint.blocks[0]);
+    const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
+    const detail::Twist<S> twist = detail::twist_of<S>(za, zb);
+    JointBlock<S>& block = joint.blocks[1];
+    detail::empty_block(block);
+    block.rows[2] = detail::angular_row<S>(twist.axis, joint.radius / twist.cosine);
+    block.error.z = detail::bounded_error(joint.radius * detail::twist_angle<S>(detail::relative_rotation(f)), h);
+    if (joint.drive_count == 0) return;
+    joint.drives[0].row = JointRow<S>::zero();
+    detail::linearise_swing(za, zb, joint);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,71 @@
+// Rows of joints that hold angles: all three, the tilt of the z axes, the twist about them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_frames.hpp"
+
+namespace isostep::detail {
+
+/// Orientations coincide.
+/// Symbols: 2 (x, y, z) of the relative rotation is the error angle to first order, in a's axes.
+template <class S>
+ISO_INLINE void weld_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
+  const Quat<Unit<S>> q = relative_rotation(f);
+  const S twice = S(2) * joint.radius;
+  JointBlock<S>& block = joint.blocks[1];
+  block.point = false;
+  for (int i = 0; i < 3; ++i) block.rows[i] = angular_row<S>(a.column(i), joint.radius);
+  block.error = {bounded_error(twice * q.x, h), bounded_error(twice * q.y, h), bounded_error(twice * q.z, h)};
+}
+
+/// z axes coincide.
+/// Symbols: z_a x z_b is the rotation, to first order, by which b's axis has left a's; it has no part along z_a.
+template <class S>
+ISO_INLINE void axle_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
+  const Vec3<Unit<S>> tilt = transposed_times(a, to_matrix(f.b).column(2));  // b's axis in a's frame
+  JointBlock<S>& block = joint.blocks[1];
+  block.point = false;
+  block.rows[0] = angular_row<S>(a.column(0), joint.radius);
+  block.rows[1] = angular_row<S>(a.column(1), joint.radius);
+  block.rows[2] = JointRow<S>::zero();
+  block.error = {bounded_error(-(joint.radius * tilt.y), h), bounded_error(joint.radius * tilt.x, h), Velocity<S>(0)};
+}
+
+/// The drive of the angle about z where the z axes coincide.
+template <class S>
+ISO_INLINE void linearise_turn(const JointFrames<S>& f, const Mat3<Unit<S>>& a, JointConstraint<S>& joint) {
+  if (joint.drive_count == 0) return;
+  joint.drives[0].row = angular_row<S>(a.column(2), joint.drives[0].radius);
+  set_angle(joint.drives[0], joint.properties, twist_angle<S>(relative_rotation(f)));
+}
+
+/// [1] least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
+/// sub-step follows, and at half a turn it means nothing.
+template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
+
+/// Twist, about z, of a rotation that also swings: its rate is the relative angular velocity about the mean of the two
+/// z axes, divided by cos(swing / 2).
+template <class S> struct Twist {
+  Vec3<Unit<S>> axis;
+  S cosine;  // [1] of half the swing, kLeastTwistCosine or more
+};
+template <class S> ISO_INLINE Twist<S> twist_of(Vec3<Unit<S>> za, Vec3<Unit<S>> zb) {
+  using U = Unit<S>;
+  const U half = U(0.5);
+  const Vec3<U> sum = za * half + zb * half;  // as long as cos(swing / 2)
+  const Direction<U> mean = direction_of(sum.x, sum.y, sum.z);
+  return {{mean.x, mean.y, mean.z}, max(convert<S>(mean.length), kLeastTwistCosine<S>)};
+}
+
+/// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
+template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
+  using U = Unit<S>;
+  const Vec3<U> n = cross(za, zb);
+  const Direction<U> axis = direction_of(n.x, n.y, n.z);
+  JointDrive<S>& drive = joint.drives[1];
+  drive.row = angular_row<S>({axis.x, axis.y, axis.z}, drive.radius);
+  drive.position = atan2_to<S>(axis.length, dot(za, zb)) * drive.radius;
+  drive.upper = joint.properties.cone * drive.radius;
+}
+
+}  // namespace isostep::detail

@@ -1,0 +1,51 @@
+// MaterialTable<S>: finds the record of two kinds of material.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/lower_bound.hpp"
+#include "isostep/core/registry.hpp"
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/material_pair.hpp"
+
+namespace isostep {
+
+/// Kinds in ascending order, for one step. Keeps nothing from step to step but memory.
+template <class S> class MaterialTable {
+ public:
+  /// The records stay where they are until the next call.
+  ISO_INLINE void update(const Registry<MaterialPair<S>, MaterialPairId>& pairs) {
+    rows_.clear();
+    records_ = pairs.all().data();
+    for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
+      if (pairs.is_taken(slot)) rows_.push_back({kinds_key(records_[slot].kind_a, records_[slot].kind_b), slot});
+    }
+    if (rows_.empty()) return;
+    scratch_.resize(rows_.size());
+    stable_sort(rows_.data(), scratch_.data(), static_cast<std::uint32_t>(rows_.size()), Key{});
+  }
+  /// Null where there is none, and for kind 0.
+  ISO_INLINE const MaterialPair<S>* find(std::uint32_t kind_a, std::uint32_t kind_b) const {
+    if (rows_.empty() || kind_a == 0 || kind_b == 0) return nullptr;
+    const std::uint64_t key = kinds_key(kind_a, kind_b);
+    const std::size_t at =
+        lower_bound(rows_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return rows_[i].kinds < key; });
+    return at < rows_.size() && rows_[at].kinds == key ? &records_[rows_[at].slot] : nullptr;
+  }
+
+ private:
+  struct Row {
+    std::uint64_t kinds;
+    std::uint32_t slot;
+  };
+  struct Key {
+    ISO_INLINE constexpr std::uint64_t operator()(const Row& row) const { return row.kinds; }
+  };
+
+  std::vector<Row> rows_, scratch_;
+  const MaterialPair<S>* records_ = nullptr;
+};
+
+}  // namespace isostep

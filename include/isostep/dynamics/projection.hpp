@@ -1,0 +1,37 @@
+// How the solver worst_first ends overlaps, by name: the closed list that settings, scene files and the tool speak of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "isostep/scalar/platform.hpp"
+
+/// ISO_FOR_EACH_PROJECTION(X) expands X(name): in Projection, in scene files and on the command line. Millington 2007,
+/// pp. 322-328:
+///   nonlinear       moves and turns, each by its inverse inertia
+///   linear          moves along the normal alone
+///   relaxed         as nonlinear, by half of what a contact lacks each time that it is the worst
+///   velocity_based  takes bodies back along the motion that they came with, to where they touched
+#define ISO_FOR_EACH_PROJECTION(X) X(nonlinear) X(linear) X(relaxed) X(velocity_based)
+
+namespace isostep {
+
+#define ISO_ENUMERATOR(name) name,
+enum class Projection : std::uint32_t { ISO_FOR_EACH_PROJECTION(ISO_ENUMERATOR) };
+#undef ISO_ENUMERATOR
+
+#define ISO_NAME(name) #name,
+inline constexpr const char* kProjectionNames[] = {ISO_FOR_EACH_PROJECTION(ISO_NAME)};
+#undef ISO_NAME
+inline constexpr std::uint32_t kProjections = sizeof kProjectionNames / sizeof kProjectionNames[0];
+
+ISO_INLINE std::optional<Projection> projection_named(std::string_view name) {
+  for (std::uint32_t i = 0; i < kProjections; ++i) {
+    if (name == kProjectionNames[i]) return static_cast<Projection>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace isostep

@@ -1,0 +1,115 @@
+// CharacterWalk: one move among planes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/world/character_walk.hpp"
+
+namespace isostep {
+
+template <class S> QueryFilter CharacterWalk<S>::filter() const {
+  QueryFilter filter;
+  filter.mask = character_.mask;
+  filter.ignore = character_.body;
+  return filter;
+}
+
+/// What it overlaps from the start is in its way only where it goes further in.
+template <class S> auto CharacterWalk<S>::cast(Vec3<S> way) const -> std::optional<Hit> {
+  ShapeCast<S> asked = {place_.shape, {at_, place_.pose.orientation}, way, filter()};
+  std::optional<Hit> hit = queries_.cast_shape(asked);
+  if (!hit || !hit->inside || dot(way, hit->normal) < S(0)) return hit;
+  asked.filter.start_inside = StartInside::ignore;
+  return queries_.cast_shape(asked);
+}
+
+/// [m] up to a skin before what it met.
+template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>& along) const {
+  const S cosine = -dot(convert<S>(detail::unit_of<S>(along)), hit.normal);
+  const S room = along.length * hit.fraction - character_.skin / max(cosine, detail::kGrazing<S>);
+  return max(walks_[hit.body.slot] != 0 ? room * S(0.5) : room, S(0));
+}
+
+template <class S> void CharacterWalk<S>::touch(const Hit& hit) {
+  for (const CharacterTouch<S>& known : touches()) {
+    if (known.body == hit.body) return;
+  }
+  if (touch_count_ < detail::kMostPlanes) touches_[touch_count_++] = {hit.body, hit.point, hit.normal};
+}
+
+/// The same plane without its slope; of a ceiling and what looks straight up the plane itself.
+template <class S> Vec3<Unit<S>> CharacterWalk<S>::upright(Vec3<Unit<S>> normal) const {
+  const Vec3<S> across = flat(convert<S>(normal));
+  const Direction<S> d = detail::heading<S>(across);
+  return d.length > detail::kGrazing<S> ? detail::unit_of<S>(d) : normal;
+}
+
+/// Along one plane, or along the edge between two; a corner of three is the end, and so is what would lead back.
+template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& planes) {
+  const auto against = [&](Vec3<S> v) {
+    for (int i = 0; i < planes.count; ++i) {
+      if (dot(v, planes.normals[i]) < -resolution<S>() * S(4)) return true;
+    }
+    return false;
+  };
+  const auto forward = [&](Vec3<S> v) { return S(0) < dot(v, way) ? v : Vec3<S>::zero(); };
+  if (!against(way)) return way;
+  for (int i = 0; i < planes.count; ++i) {
+    const Vec3<Unit<S>> n = planes.normals[i];
+    const Vec3<S> along = way - convert<S>(n) * dot(way, n);
+    if (!against(along)) return forward(along);
+  }
+  for (int i = 0; i < planes.count; ++i) {
+    for (int j = i + 1; j < planes.count; ++j) {
+      const Vec3<S> edge = convert<S>(cross(planes.normals[i], planes.normals[j]));
+      const Direction<S> d = detail::heading<S>(edge);
+      if (!(detail::kGrazing<S> < d.length)) continue;
+      const Vec3<Unit<S>> crease = detail::unit_of<S>(d);
+      const Vec3<S> along = convert<S>(crease) * dot(way, crease);
+      if (!against(along)) return forward(along);
+    }
+  }
+  return Vec3<S>::zero();
+}
+
+/// The same way over the horizontal, up or down a floor.
+template <class S> Vec3<S> CharacterWalk<S>::along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const {
+  const S slope = dot(convert<S>(normal), up_);
+  return slope < detail::kGrazing<S> ? way : way - convert<S>(up_) * (dot(way, normal) / slope);
+}
+
+template <class S> auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait) -> Planes {
+  Planes planes;
+  const Vec3<S> asked = way;
+  for (int casts = 0; casts < detail::kMostSlides && planes.count < detail::kMostPlanes; ++casts) {
+    const Direction<S> along = detail::heading<S>(way);
+    if (!(detail::kLeastWay<S> < along.length)) break;
+    // Beyond its end by two skins: what is in its way is met a skin before.
+    const Direction<S> reach = {along.x, along.y, along.z, along.length + S(2) * character_.skin};
+    const std::optional<Hit> hit = cast(detail::along<S>(reach, reach.length));
+    const S gone = hit ? min(travel(*hit, reach), along.length) : along.length;
+    at_ += detail::along<S>(along, gone);
+    if (!(gone < along.length)) break;
+    touch(*hit);
+    const S rest = along.length - gone;
+    const bool steep = dot(convert<S>(hit->normal), up_) < character_.least_up;
+    planes.normals[planes.count++] = steep && gait != Gait::falls ? upright(hit->normal) : hit->normal;
+    const Vec3<S> left = detail::along<S>(along, rest);
+    way = clipped(steep || gait != Gait::walks ? left : along_floor(left, hit->normal), planes);
+    if (!(S(0) < dot(way, asked))) break;  // it would come back: corners do not shiver
+  }
+  return planes;
+}
+
+/// The edge of a step looks steep to what is round: then its face counts, a little further in.
+template <class S> bool CharacterWalk<S>::is_walkable(const Hit& hit) const {
+  if (character_.least_up <= dot(convert<S>(hit.normal), up_)) return true;
+  const Vec3<S> across = flat(convert<S>(hit.normal));
+  const Direction<S> out = detail::heading<S>(across);
+  const S in = S(2) * character_.skin;
+  const Vec3<S> lift = convert<S>(up_) * in;
+  const Vec3<S> above = hit.point - detail::along<S>(out, in) + lift;
+  const auto face = queries_.cast_ray(above, lift * S(-2), filter());
+  return face && !face->inside && character_.least_up <= dot(convert<S>(face->normal), up_);
+}
+
+}  // namespace isostep

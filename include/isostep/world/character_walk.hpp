@@ -1,0 +1,112 @@
+// CharacterWalk<S>: where a character goes in one step, by casts of its shape among bodies that stand still.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "isostep/dynamics/character.hpp"
+#include "isostep/world/queries.hpp"
+
+namespace isostep {
+
+namespace detail {
+inline constexpr int kMostSlides = 5;   // casts of a move
+inline constexpr int kMostPlanes = 8;   // that a move runs along
+inline constexpr int kMostWaysOut = 8;  // moves out of an overlap
+/// [m] a step that it leaves an overlap by, besides what its ground moved it by.
+template <class S> inline constexpr S kMostWayOut = S(0.125);
+/// [m] less is rounding, and no way.
+template <class S> inline constexpr S kLeastWay = S(0x1p-16);
+/// [1] least cosine by which a skin counts along a way.
+template <class S> inline constexpr S kGrazing = S(0.125);
+/// [m] a step up is worth taking from so much more way on.
+template <class S> inline constexpr S kWorthAStep = S(0x1p-10);
+/// [m] of height above step_height that is rounding.
+template <class S> inline constexpr S kStepSlack = S(0x1p-11);
+
+/// [1] and `size` [m] along it.
+template <class S> ISO_INLINE Vec3<Unit<S>> unit_of(const Direction<S>& d) { return {d.x, d.y, d.z}; }
+template <class S> ISO_INLINE Vec3<S> along(const Direction<S>& d, S size) {
+  return {size * d.x, size * d.y, size * d.z};
+}
+template <class S> ISO_INLINE Direction<S> heading(Vec3<S> v) { return direction_of(v.x, v.y, v.z); }
+}  // namespace detail
+
+/// What a character met that may be pushed.
+template <class S> struct CharacterTouch {
+  BodyId body;
+  Vec3<S> point;         // [m] world
+  Vec3<Unit<S>> normal;  // [1] towards the character
+};
+
+/// Input:   a record, its body's shape and pose, the queries. Output: the record as the step leaves it, way(), what it
+///          touched on its way.
+template <class S> class CharacterWalk {
+ public:
+  struct Place {
+    QueryShape<S> shape;
+    Pose<S> pose;  // of the body's origin
+    S below;       // [m] from there down to the lowest point of the shape
+    Vec3<Unit<S>> up;
+    Vec3<S> gravity;
+    std::int32_t hz;
+  };
+  CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
+                NearContacts<S>& near, Character<S>& character);
+
+  /// `carried` [m]: how far the ground under its foot has moved.
+  void run(Vec3<S> carried);
+
+  ISO_INLINE Vec3<S> way() const { return at_ - start_; }
+  ISO_INLINE std::span<const CharacterTouch<S>> touches() const { return {touches_, touch_count_}; }
+  /// [m] on the ground, world.
+  ISO_INLINE Vec3<S> foot() const { return foot_; }
+
+ private:
+  using Hit = ShapeCastHit<S>;
+  /// Planes that a move has met.
+  struct Planes {
+    Vec3<Unit<S>> normals[detail::kMostPlanes];
+    int count = 0;
+  };
+  // character_walk.inl
+  void leave_overlaps(S most);
+  void take_off(Vec3<S> carried);
+  void fall();
+  void fly();
+  void walk();
+  bool step_up(Vec3<S> from, Vec3<S> way);
+  void find_ground(bool walks, Vec3<S> carried);
+  void stand_on(const Hit& hit, S gap);
+
+  // character_slide.inl
+  QueryFilter filter() const;
+  std::optional<Hit> cast(Vec3<S> way) const;
+  S travel(const Hit& hit, const Direction<S>& along) const;
+  /// Moves along `way` as far as it goes. Who does not fall finds slopes upright that are too steep; who walks goes up
+  /// the others as fast as on the level.
+  enum class Gait { falls, rises, walks };
+  Planes slide(Vec3<S> way, Gait gait);
+  Vec3<S> along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const;
+  void touch(const Hit& hit);
+  bool is_walkable(const Hit& hit) const;
+  Vec3<S> flat(Vec3<S> v) const { return v - convert<S>(up_) * dot(v, up_); }
+  Vec3<Unit<S>> upright(Vec3<Unit<S>> normal) const;
+  static Vec3<S> clipped(Vec3<S> way, const Planes& planes);
+
+  const Queries<S>& queries_;
+  Place place_;
+  std::span<const std::uint8_t> walks_;  // by body slot: a character's
+  NearContacts<S>& near_;
+  Character<S>& character_;
+  Vec3<S> start_, at_;  // [m] of the body's origin
+  Vec3<S> foot_;
+  S floor_ = S(0);  // [m] height of what it stands on, as the step begins
+  Vec3<Unit<S>> up_;
+  Step<S> h_;
+  CharacterTouch<S> touches_[detail::kMostPlanes];
+  std::size_t touch_count_ = 0;
+};
+
+}  // namespace isostep

@@ -1,0 +1,162 @@
+// Bodies of character_walk.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/world/character_slide.inl"
+
+namespace isostep {
+
+template <class S>
+CharacterWalk<S>::CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
+                                NearContacts<S>& near, Character<S>& character)
+    : queries_(queries),
+      place_(place),
+      walks_(walks),
+      near_(near),
+      character_(character),
+      start_(place.pose.position),
+      at_(place.pose.position),
+      foot_(place.pose.position),
+      up_(place.up),
+      h_(divide_to<Step<S>>(S(1), S(place.hz))) {}
+
+template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
+  const bool stood = character_.footing == Footing::floor;
+  if (stood) at_ += carried;
+  floor_ = dot(character_.foot_at + carried, up_);
+  leave_overlaps(detail::kMostWayOut<S> + max_abs(carried));
+  const bool jumps = stood && S(0) < character_.jump, walks = stood && !jumps;
+  if (jumps) take_off(carried);
+  if (walks) {
+    walk();
+  } else {
+    fall();
+    fly();
+  }
+  find_ground(walks, carried);
+}
+
+/// The deepest first. Another character gives way too, so half is enough.
+template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
+  const Vec3<S> begin = at_;
+  for (int round = 0; round < detail::kMostWaysOut; ++round) {
+    queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, near_, filter());
+    const NearContact<S>* deepest = nullptr;
+    for (const NearContact<S>& contact : near_.all) {
+      if (deepest == nullptr || contact.separation < deepest->separation) deepest = &contact;
+    }
+    if (deepest == nullptr || character_.skin * S(0.5) <= deepest->separation) {
+      character_.stuck = 0;
+      return;
+    }
+    const S missing = character_.skin - deepest->separation;
+    const S way = walks_[deepest->body.slot] != 0 ? missing * S(0.5) : missing;
+    at_ += convert<S>(deepest->normal) * way;
+    const Vec3<S> gone = at_ - begin;
+    const Direction<S> d = detail::heading<S>(gone);
+    if (most < d.length) {
+      at_ = begin + detail::along<S>(d, most);
+      break;
+    }
+  }
+  ++character_.stuck;
+}
+
+/// It keeps the velocity of its ground.
+template <class S> void CharacterWalk<S>::take_off(Vec3<S> carried) {
+  character_.velocity = flat(character_.move) + carried * S(place_.hz) + convert<S>(up_) * character_.jump;
+  character_.jump = S(0);
+  character_.footing = Footing::airborne;
+}
+
+template <class S> void CharacterWalk<S>::fall() {
+  Vec3<S>& velocity = character_.velocity;
+  velocity += place_.gravity * character_.gravity_scale * h_;
+  const Vec3<S> wanted = flat(character_.move);
+  // Nobody steers up a slope that is too steep, and to stand still is no way to hold on to it.
+  const bool steers = character_.footing != Footing::steep || S(0) < dot(wanted, character_.normal);
+  const Direction<S> lacks = detail::heading<S>(wanted - flat(velocity));
+  if (steers) velocity += detail::along<S>(lacks, min(lacks.length, character_.air_acceleration * h_));
+  velocity = held_within(velocity, Limits<S>::speed() * S(0.5));
+}
+
+template <class S> void CharacterWalk<S>::fly() {
+  const Planes planes =
+      slide(character_.velocity * h_, dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises);
+  for (int i = 0; i < planes.count; ++i) {
+    const Vec3<Unit<S>> n = planes.normals[i];
+    character_.velocity -= convert<S>(n) * min(dot(character_.velocity, n), S(0));
+  }
+}
+
+/// Along the ground: over the horizontal as fast as is asked for.
+template <class S> void CharacterWalk<S>::walk() {
+  const Vec3<S> ahead = flat(character_.move) * h_, from = at_;
+  const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks);
+  bool blocked = false;
+  for (int i = 0; i < planes.count; ++i)
+    blocked = blocked || dot(convert<S>(planes.normals[i]), up_) < character_.least_up;
+  if (blocked && S(0) < character_.step_height) step_up(from, ahead);
+}
+
+/// Up, on, and down again: taken where that ends on a floor, no higher than a step, and farther on.
+template <class S> bool CharacterWalk<S>::step_up(Vec3<S> from, Vec3<S> way) {
+  const Vec3<S> reached = at_;
+  const std::size_t touched = touch_count_;
+  const auto take_back = [&] {
+    at_ = reached;
+    touch_count_ = touched;
+    return false;
+  };
+  const auto move_along_up = [&](S by) {
+    const Vec3<S> lift = convert<S>(up_) * by;
+    const std::optional<Hit> hit = cast(lift);
+    const Direction<S> d = detail::heading<S>(lift);
+    at_ += hit ? detail::along<S>(d, travel(*hit, d)) : lift;
+    return hit;
+  };
+  at_ = from;
+  // What is round stands on an edge with its lowest point below it.
+  const S sunk = max(floor_ - dot(from, up_) + place_.below, S(0));
+  const S rise = character_.step_height + sunk + character_.skin;
+  move_along_up(rise);
+  const S risen = dot(at_ - from, up_);
+  // A skin away from the riser, a short step would end before its edge.
+  const Direction<S> ahead = detail::heading<S>(way);
+  slide(detail::along<S>(ahead, max(ahead.length, S(2) * character_.skin)), Gait::walks);
+  const std::optional<Hit> floor = move_along_up(-(risen + character_.skin));
+  const S higher = floor ? dot(floor->point, up_) - floor_ : S(0),
+          farther = dot(at_ - reached, detail::unit_of<S>(ahead));
+  if (!floor || !is_walkable(*floor) || character_.step_height + detail::kStepSlack<S> < higher) return take_back();
+  if (!(detail::kWorthAStep<S> < farther)) return take_back();
+  touch_count_ = touched;
+  return true;
+}
+
+/// Who walks follows the ground down by a step.
+template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carried) {
+  const bool rises = !walks && character_.skin < dot(character_.velocity, up_);
+  const S reach = (walks ? character_.step_height : character_.skin) + character_.skin;
+  const Vec3<S> down = convert<S>(up_) * -reach;
+  const std::optional<Hit> hit = rises ? std::nullopt : cast(down);
+  if (hit && is_walkable(*hit)) return stand_on(*hit, reach * hit->fraction);
+  if (walks) character_.velocity = flat(character_.move) + carried * S(place_.hz);
+  const bool near = hit && reach * hit->fraction < S(2) * character_.skin;
+  character_.footing = near ? Footing::steep : Footing::airborne;
+  character_.ground = near ? hit->body : BodyId{};
+  character_.normal = near ? hit->normal : Vec3<Unit<S>>::zero();
+  if (near) foot_ = hit->point;
+}
+
+/// `gap` [m] down to it.
+template <class S> void CharacterWalk<S>::stand_on(const Hit& hit, S gap) {
+  const S rise = dot(convert<S>(hit.normal), up_);
+  at_ += convert<S>(up_) * (character_.skin / max(rise, S(0.5)) - gap);
+  character_.footing = Footing::floor;
+  character_.ground = hit.body;
+  character_.normal = character_.least_up <= rise ? hit.normal : up_;
+  character_.velocity = way() * S(place_.hz);
+  foot_ = hit.point;
+}
+
+}  // namespace isostep

@@ -1,0 +1,61 @@
+// Characters<S>: moves what walks, at the end of a step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/world/character_walk.hpp"
+#include "isostep/world/command_executor.hpp"
+#include "isostep/world/queries.hpp"
+
+namespace isostep {
+
+/// Input:   the world as the step leaves it, and the Character records.
+/// Output:  their bodies' poses, what the records tell, and forces for the next step on what they push and stand on.
+/// Order:   all look at the world before any moves, slot by slot; then all are put where they go, likewise.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class Characters {
+ public:
+  ISO_INLINE Characters(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
+                        const Queries<S>& queries, CommandExecutor<S>& commands)
+      : state_(state), map_(map), proxies_(proxies), wake_(wake), queries_(queries), commands_(commands) {}
+
+  void update();
+
+ private:
+  /// A force that acts for the next step.
+  struct Push {
+    BodyId body;
+    Vec3<S> force, point;  // [N], [m] world
+  };
+  struct Move {
+    std::uint32_t record;  // slot
+    Character<S> character;
+    Vec3<S> way;  // [m]
+  };
+  void walk(std::uint32_t slot);
+  Vec3<S> local_to(BodyId body, Vec3<S> point) const;
+  void push_touched(const CharacterWalk<S>& walk, const Character<S>& character);
+  void bear(const Character<S>& character);
+  void put(const Move& move);
+  void push(const Push& push);
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  IslandWake<S>& wake_;
+  const Queries<S>& queries_;
+  CommandExecutor<S>& commands_;
+  std::vector<std::uint8_t> walks_;  // by body slot: it has a character
+  std::vector<Move> moves_;
+  std::vector<Push> pushes_;
+  NearContacts<S> near_;
+};
+
+#define ISO_EXTERN(S) extern template class Characters<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

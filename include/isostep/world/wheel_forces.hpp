@@ -1,0 +1,115 @@
+// WheelForces<S>: what the wheels of vehicles do to their bodies and the ground, in every sub-step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
+#include "isostep/dynamics/wheel_rows.hpp"
+#include "isostep/state/command_journal.hpp"
+#include "isostep/world/body_map.hpp"
+#include "isostep/world/proxies.hpp"
+#include "isostep/world/queries.hpp"
+
+namespace isostep {
+
+/// Input:   the records of wheels and vehicles, the bodies as a sub-step finds them and what else is about to
+///          accelerate them; once a step the broad phase, for the ground below each wheel.
+/// Output:  an impulse for each awake body and its ground; the wheels' records from `spin` on.
+/// Keeps:   nothing from step to step but memory.
+/// Order:   bodies ascending by slot, the wheels of each ascending by slot. Each iteration solves all of them once, so
+///          that wheels of bodies which stand on one another agree too.
+template <class S> class WheelForces {
+ public:
+  using U = Unit<S>;
+  using V = Velocity<S>;
+  /// A change of velocity of the body in a row of SolverBodies.
+  struct Push {
+    std::uint32_t row;
+    Vec3<V> linear, angular;  // [m/s], [rad/s]
+  };
+
+  ISO_INLINE WheelForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
+      : state_(state), map_(map), queries_(state, map, proxies, journal_) {}
+
+  ISO_INLINE bool any() const { return !state_.force_records->wheels.all().empty(); }
+  /// Finds the ground.
+  void begin_step();
+  /// What the wheels do in a sub-step of 1 / rate seconds before which the bodies would be accelerated by that much.
+  const std::vector<Push>& solve(const SolverBodies<S>& bodies, const std::vector<Acceleration<S>>& accelerations,
+                                 std::int32_t rate);
+  /// Writes the records.
+  void end_step();
+
+ private:
+  using Row = detail::WheelRow<S>;
+  static constexpr int kIterations = 8;
+  static constexpr std::uint32_t kMostMet = 8;  // bodies that a wheel looks at for ground
+  static constexpr std::uint32_t kNone = ~0u;
+
+  /// A wheel in this step.
+  struct Run {
+    std::uint32_t slot, row, ground;  // of its record; of SolverBodies
+    std::uint32_t partner;            // of the anti-roll bar, by run; kNone
+    std::uint32_t vehicle;            // slot of its record; kNone
+    BodyId met;                       // null: no ground
+    Vec3<S> point;                    // [m] of the ground as the step began, world
+    Vec3<S> ground_arm;               // [m] that from the ground's centre of mass
+    Vec3<U> normal;                   // [1]
+    Vec3<U> axle;                     // [1] body frame, steered
+    S friction;                       // [1] of the ground
+    S anti_roll;                      // [N/m]
+    detail::WheelSpin<S> spin;
+    S angle, length;  // [rad], [m]
+    // As the sub-step finds it.
+    bool touches;
+    Vec3<S> at;  // [m] world
+    Row up, along, across;
+    S lean;                      // [1] length by distance from the ground: 1 or more
+    V load, push_along, push_across;
+  };
+  /// The wheels of one body.
+  struct Group { std::uint32_t row, first, end, vehicle; };
+
+  // wheel_ground.inl
+  void list_runs();
+  void join_bars(const Group& group);
+  void steer(const Group& group);
+  void find_ground(Run& run);
+  template <class Hits> bool take_ground(Run& run, const Hits& hits, std::size_t count, Vec3<U> down);
+  bool bears(std::uint32_t body, BodyId ground) const;
+  // wheel_forces.inl
+  const Wheel<S>& wheel(const Run& run) const { return state_.force_records->wheels.all()[run.slot]; }
+  MotionRow<V> next_motion(std::uint32_t row) const;
+  void place(Run& run);
+  V without(const Run& run, const Row& row, V impulse) const;
+  void press(Run& run);
+  void grip(Run& run);
+  void tell(Run& run);
+  // wheel_drive.inl
+  void drive(const Group& group);
+  void lock(const Group& group);
+  void turn(const Run& run, V& rim, S torque) const;
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  CommandJournal journal_;  // of queries that are refused
+  Queries<S> queries_;
+  std::vector<Run> runs_;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> first_;  // by row: where its wheels begin
+  std::vector<MotionRow<V>> motion_;  // by row: as the sub-step would leave it
+  std::vector<Push> pushes_;
+  const SolverBodies<S>* bodies_ = nullptr;
+  const std::vector<Acceleration<S>>* accelerations_ = nullptr;
+  std::int32_t rate_ = 1;
+  Step<S> h_ = {};
+};
+
+#define ISO_EXTERN(S) extern template class WheelForces<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

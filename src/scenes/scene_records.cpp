@@ -1,0 +1,222 @@
+// Reading, writing and building records, driven by the fields that they visit.
+// SPDX-License-Identifier: MIT
+#include "scene_records.hpp"
+
+#include <type_traits>
+
+#include "build.hpp"
+#include "object_reader.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+#define ISO_NAME(name, Record, Id, S) #name,
+constexpr const char* kRecordNames[] = {ISO_FOR_EACH_RECORD(ISO_NAME, double)};
+#undef ISO_NAME
+constexpr const char* kZoneShapes[] = {"everywhere", "sphere", "box"};
+constexpr const char* kBreakPatterns[] = {"eight_boxes", "grain", "radial", "voronoi"};
+constexpr const char* kFootings[] = {"airborne", "floor", "steep"};
+
+/// visit(Record<S>{}) for the kind of that name. False: there is none.
+template <class S, class Visit> bool visit_kind(const std::string& kind, const Visit& visit) {
+#define ISO_CASE(name, Record, Id, S) \
+  if (kind == #name) {                \
+    visit(Record{});                  \
+    return true;                      \
+  }
+  ISO_FOR_EACH_RECORD(ISO_CASE, S)
+#undef ISO_CASE
+  return false;
+}
+/// visit(name, member) of a record's fields; of a pose its two.
+template <class Record, class Visit> void visit_fields(Record& record, const Visit& visit) {
+  std::remove_const_t<Record>::fields(
+      [&](const char* name, auto& member) {
+        if constexpr (requires { member.orientation; }) {
+          visit("position", member.position);
+          visit("orientation", member.orientation);
+        } else {
+          visit(name, member);
+        }
+      },
+      record);
+}
+template <class T> constexpr bool is_name = std::is_enum_v<T>;
+/// The words of a choice.
+std::span<const char* const> words_of(ZoneShape) { return kZoneShapes; }
+std::span<const char* const> words_of(BreakPattern) { return kBreakPatterns; }
+std::span<const char* const> words_of(Footing) { return kFootings; }
+
+Number whole(std::int64_t n) { return Number(std::to_string(n)); }
+const SceneField* find(const SceneRecord& record, std::string_view name) {
+  for (const SceneField& field : record.fields) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
+// ---- from a file: what it gives, as numbers
+
+class FieldReader {
+ public:
+  FieldReader(ObjectReader& reader, std::size_t bodies, SceneRecord& to) : reader_(reader), bodies_(bodies), to_(to) {}
+
+  template <class T> void operator()(const char* name, const T&) const {
+    if (std::is_same_v<T, BodyId> && (std::string_view(name) == "body" || std::string_view(name) == "a"))
+      if (!may_act_on_the_world()) reader_.require(name);
+    if (!reader_.has(name)) return;
+    SceneField field = {name, {}};
+    read(name, T{}, field.numbers);
+    to_.fields.push_back(std::move(field));
+  }
+
+ private:
+  bool may_act_on_the_world() const { return to_.kind == "attractor"; }
+  void read(const char* name, double, std::vector<Number>& out) const { reader_.number(name, out.emplace_back(0)); }
+  void read(const char* name, bool, std::vector<Number>& out) const {
+    bool set = false;
+    reader_.flag(name, set);
+    out = {whole(set)};
+  }
+  void read(const char* name, std::uint32_t, std::vector<Number>& out) const { read_whole(name, 0, 0xffffffff, out); }
+  void read(const char* name, std::uint64_t, std::vector<Number>& out) const {
+    read_whole(name, 0, 999'999'999'999, out);  // as many digits as files may have
+  }
+  void read(const char* name, BodyId, std::vector<Number>& out) const {
+    read_whole(name, -1, static_cast<std::int64_t>(bodies_) - 1, out);
+  }
+  void read(const char* name, const Vec3<double>&, std::vector<Number>& out) const {
+    Vector v = zero_vector();
+    reader_.vector(name, v);
+    out.assign(v.begin(), v.end());
+  }
+  void read(const char* name, const Quat<double>&, std::vector<Number>& out) const {
+    Rotation q = no_rotation();
+    reader_.rotation(name, q);
+    out.assign(q.begin(), q.end());
+  }
+  void read(const char* name, const Mat3<double>&, std::vector<Number>& out) const {
+    std::vector<Vector> rows;
+    reader_.vectors(name, rows);
+    if (rows.size() != 3) throw SceneError(reader_.place_of(name), "expected three rows");
+    for (const Vector& row : rows) out.insert(out.end(), row.begin(), row.end());
+  }
+  template <std::size_t N> void read(const char* name, const double (&)[N], std::vector<Number>& out) const {
+    reader_.list(name, out);
+    if (out.size() != N) throw SceneError(reader_.place_of(name), "expected " + std::to_string(N) + " numbers");
+  }
+  template <class T>
+    requires is_name<T>
+  void read(const char* name, T, std::vector<Number>& out) const {
+    out = {whole(static_cast<std::int64_t>(reader_.choice(name, words_of(T{}))))};
+  }
+  void read_whole(const char* name, std::int64_t least, std::int64_t most, std::vector<Number>& out) const {
+    std::int64_t n = 0;
+    reader_.integer(name, least, most, n);
+    out = {whole(n)};
+  }
+
+  ObjectReader& reader_;
+  std::size_t bodies_;
+  SceneRecord& to_;
+};
+
+// ---- to a file
+
+std::string list(std::span<const Number> numbers) {
+  std::string text;
+  for (const Number& n : numbers) text += (text.empty() ? "" : ", ") + n.text();
+  return "[" + text + "]";
+}
+template <class T> std::string text_of(const T&, const std::vector<Number>& numbers) {
+  if constexpr (std::is_same_v<T, bool>) return numbers[0].text() == "0" ? "false" : "true";
+  else if constexpr (is_name<T>) return '"' + std::string(words_of(T{})[std::stoul(numbers[0].text())]) + '"';
+  else if constexpr (std::is_same_v<T, Mat3<double>>) {
+    const std::span<const Number> all(numbers);
+    return "[" + list(all.subspan(0, 3)) + ", " + list(all.subspan(3, 3)) + ", " + list(all.subspan(6, 3)) + "]";
+  } else return numbers.size() == 1 ? numbers[0].text() : list(numbers);
+}
+
+// ---- into a world
+
+template <class S> class FieldBuilder {
+ public:
+  FieldBuilder(const SceneRecord& record, const std::vector<BodyId>& bodies, std::string place)
+      : record_(record), bodies_(bodies), place_(std::move(place)) {}
+
+  template <class T> void operator()(const char* name, T& member) const {
+    const SceneField* const field = find(record_, name);
+    if (field != nullptr) set(member, field->numbers, place_ + "/" + name);
+  }
+
+ private:
+  template <class T> void set(T& to, const std::vector<Number>& from, const std::string& place) const {
+    if constexpr (std::is_same_v<T, bool>) to = from[0].text() != "0";
+    else if constexpr (is_name<T>) to = static_cast<T>(std::stoul(from[0].text()));
+    else if constexpr (std::is_integral_v<T>) to = static_cast<T>(std::stoull(from[0].text()));
+    else if constexpr (std::is_same_v<T, BodyId>) {
+      const long long index = std::stoll(from[0].text());
+      to = index < 0 ? BodyId{} : bodies_[static_cast<std::size_t>(index)];
+    } else if constexpr (std::is_array_v<T>) {
+      for (std::size_t i = 0; i < from.size(); ++i) to[i] = value_of<S>(from[i], place);
+    } else if constexpr (requires { to.rows; }) {
+      for (std::size_t i = 0; i < 9; ++i) to.rows[i / 3][static_cast<int>(i % 3)] = value_of<S>(from[i], place);
+    } else if constexpr (requires { to.w; }) {
+      to = {unit(from[0], place), unit(from[1], place), unit(from[2], place), unit(from[3], place)};
+    } else if constexpr (std::is_same_v<T, Vec3<S>>) {
+      to = {value_of<S>(from[0], place), value_of<S>(from[1], place), value_of<S>(from[2], place)};
+    } else if constexpr (requires { to.z; }) {
+      to = {unit(from[0], place), unit(from[1], place), unit(from[2], place)};
+    } else to = value_of<S>(from[0], place);
+  }
+  static Unit<S> unit(const Number& from, const std::string& place) {
+    Unit<S> value{};
+    TextError error = TextError::none;
+    if (!from.read(value, error)) throw SceneError(place, from.text() + " is no part of a direction");
+    return value;
+  }
+
+  const SceneRecord& record_;
+  const std::vector<BodyId>& bodies_;
+  std::string place_;
+};
+
+}  // namespace
+
+SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies) {
+  ObjectReader reader(node, place);
+  SceneRecord record = {kRecordNames[reader.choice("type", kRecordNames)], {}};
+  visit_kind<double>(record.kind, [&](auto kind) { visit_fields(kind, FieldReader(reader, bodies, record)); });
+  reader.finish();
+  return record;
+}
+
+std::string text_of(const SceneRecord& record) {
+  std::string text = "{\"type\": \"" + record.kind + '"';
+  visit_kind<double>(record.kind, [&](auto kind) {
+    visit_fields(kind, [&](const char* name, const auto& member) {
+      const SceneField* const field = find(record, name);
+      if (field != nullptr) text += std::string(", \"") + name + "\": " + text_of(member, field->numbers);
+    });
+  });
+  return text + "}";
+}
+
+template <class S> void add_records(World<S>& world, const Scene& scene, const std::vector<BodyId>& bodies) {
+  for (std::size_t i = 0; i < scene.records.size(); ++i) {
+    const SceneRecord& record = scene.records[i];
+    const std::string place = "/records/" + std::to_string(i);
+    const bool known = visit_kind<S>(record.kind, [&](auto made) {
+      visit_fields(made, FieldBuilder<S>(record, bodies, place));
+      if (world.add(made)) return;
+      throw SceneError(place, std::string("the record is refused: ") + describe(world.fault()));
+    });
+    if (!known) throw SceneError(place, "no record is called " + record.kind);
+  }
+}
+
+#define ISO_INSTANTIATE(S) template void add_records<S>(World<S>&, const Scene&, const std::vector<BodyId>&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep::scenes

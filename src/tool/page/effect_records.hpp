@@ -1,0 +1,118 @@
+// The force records of a world, told to a recorder kind by kind: what of each is drawn.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "effects.hpp"
+#include "isostep/particles/particle_world.hpp"
+#include "weather.hpp"
+
+namespace isostep::tool::page {
+
+inline std::vector<double> list_of(Vector v) { return {v.x, v.y, v.z}; }
+
+template <class S> Effect effect_of(const Water<S>& water, Vector up) {
+  const Vector direction = in_double(water.wave_direction);
+  return {"water",
+          {{"height", {to_double(water.surface_height)}},
+           {"up", list_of(up)},
+           {"middle", list_of(in_double(water.middle))},
+           {"half", list_of(in_double(water.half))},
+           {"wave", {to_double(water.wave_height), to_double(water.wave_length), to_double(water.wave_period)}},
+           {"along", list_of(direction - up * dot(up, direction))}}};
+}
+
+/// Phases without a force last no time.
+template <class S> Effect effect_of(const Explosion<S>& e, Vector up) {
+  const auto lasting = [](S force, S duration) { return force == S(0) ? 0.0 : to_double(duration); };
+  const bool level = up == Vector::zero();
+  return {"explosion",
+          {{"centre", list_of(in_double(e.centre))},
+           {"begin", {static_cast<double>(e.begin)}},
+           {"up", list_of(level ? Vector{0, 1, 0} : up)},
+           {"pause", {to_double(e.implosion_duration)}},
+           {"implosion", {to_double(e.implosion_most), lasting(e.implosion_force, e.implosion_duration)}},
+           {"wave", {to_double(e.wave_speed), to_double(e.wave_width), lasting(e.wave_force, e.wave_duration)}},
+           {"chimney",
+            {to_double(e.chimney_radius), to_double(e.chimney_height),
+             level ? 0.0 : lasting(e.chimney_force, e.chimney_duration)}}}};
+}
+
+template <class S> Effect effect_of(const ForceZone<S>& zone) {
+  const Quat<double> turn = in_double(zone.pose.orientation);
+  return {"zone",
+          {{"shape", {static_cast<double>(zone.shape)}},
+           {"at", list_of(in_double(zone.pose.position))},
+           {"turn", {turn.x, turn.y, turn.z, turn.w}},
+           {"half", list_of(in_double(zone.half))},
+           {"acceleration", list_of(in_double(zone.acceleration))},
+           {"wind", list_of(in_double(zone.wind))}}};
+}
+
+template <class S> Effect effect_of(const Thruster<S>& thruster) {
+  return {"thruster", {{"point", list_of(in_double(thruster.point))}}};
+}
+
+/// [1] The direction in which a tensor resists most: across the plate that it could be of. The eigenvector of the
+/// largest eigenvalue of its symmetric part, by power iteration.
+inline Vector plate_normal(const Mat3<double>& tensor) {
+  Vector normal = {0.48, 0.6, 0.64};
+  for (int i = 0; i < 64; ++i) {
+    const Vector next = tensor * normal + transposed_times(tensor, normal);
+    const double size = length(next);
+    if (!(size > 0)) return {0, 1, 0};
+    normal = next / size;
+  }
+  return normal;
+}
+
+/// Normals in the body's frame at control -1, 0 and 1.
+template <class S> Effect effect_of(const AeroSurface<S>& surface) {
+  const Mat3<double> axes = to_matrix(normalise(in_double(surface.orientation)));
+  const Mat3<double> none = Mat3<double>::diagonal(Vector::zero());
+  const Vector middle = plate_normal(in_double(surface.tensor));
+  std::vector<double> normals;
+  for (const Mat3<S>* const end : {&surface.low, &surface.tensor, &surface.high}) {
+    const Mat3<double> tensor = in_double(*end);
+    bool empty = true;
+    for (int i = 0; i < 3; ++i) empty = empty && tensor.rows[i] == none.rows[i];
+    Vector normal = empty ? middle : plate_normal(tensor);
+    if (dot(normal, middle) < 0) normal = -normal;
+    for (const double x : list_of(axes * normal)) normals.push_back(x);
+  }
+  return {"surface",
+          {{"point", list_of(in_double(surface.point))},
+           {"normals", normals},
+           {"wet", {surface.is_under_water ? 1.0 : 0.0}}}};
+}
+
+/// `to` is a Recorder. Attractors, drag and points of buoyancy are not drawn.
+template <class S, class To> void record_effects(const World<S>& world, To& to) {
+  const ForceRecords<S>& records = *world.state().force_records;
+  if (records.no_forces()) return;
+  const Weather<S> weather(world);
+  const Vector up = weather.up();
+  for_each_record(records.waters, [&](WaterId id, const Water<S>& water) {
+    if (!(up == Vector::zero())) to.effect(id.slot, id.generation, {}, effect_of(water, up));
+  });
+  for_each_record(records.explosions, [&](ExplosionId id, const Explosion<S>& explosion) {
+    to.effect(id.slot, id.generation, {}, effect_of(explosion, up));
+  });
+  for_each_record(records.force_zones, [&](ForceZoneId id, const ForceZone<S>& zone) {
+    to.effect(id.slot, id.generation, {}, effect_of(zone));
+  });
+  for_each_record(records.thrusters, [&](ThrusterId id, const Thruster<S>& thruster) {
+    to.effect(id.slot, id.generation, thruster.body, effect_of(thruster));
+    to.push(weather.force_of(thruster), 0);
+  });
+  for_each_record(records.aero_surfaces, [&](AeroSurfaceId id, const AeroSurface<S>& surface) {
+    to.effect(id.slot, id.generation, surface.body, effect_of(surface));
+    to.push(weather.force_of(surface), to_double(surface.control));
+  });
+  for_each_record(records.body_springs, [&](BodySpringId id, const BodySpring<S>& spring) {
+    to.body_spring(id, spring.a, spring.b, in_double(spring.anchor_a), in_double(spring.anchor_b), spring.only_pulls);
+  });
+}
+/// Their springs and links are drawn as bonds.
+template <class S, class To> void record_effects(const ParticleWorld<S>&, To&) {}
+
+}  // namespace isostep::tool::page

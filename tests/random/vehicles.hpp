@@ -1,0 +1,84 @@
+// Random vehicles: added to worlds, driven and taken to pieces: functions of the state and the dice.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "random/dice.hpp"
+#include "unit/world/worlds.hpp"
+
+namespace isostep::test {
+
+/// Up to two vehicles of two to six wheels, whose engines end at some metres a second.
+template <class S> class RandomVehicles {
+ public:
+  static constexpr double kFastest = 4;  // [m/s] of a rim
+
+  RandomVehicles(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
+
+  /// Where `placed` is a body for one, that becomes a vehicle; else one is driven, or loses a wheel, or all.
+  void change(BodyId placed) {
+    if (placed) return build(placed);
+    const auto vehicles = world_.state().force_records->vehicles.slots().template ids<VehicleId>();
+    const auto wheels = world_.state().force_records->wheels.slots().template ids<WheelId>();
+    if (vehicles.empty()) return;
+    const VehicleId id = vehicles[dice_.below(static_cast<std::uint32_t>(vehicles.size()))];
+    if (dice_.one_in(24)) {
+      world_.remove(id);
+    } else if (dice_.one_in(24) && !wheels.empty()) {
+      world_.remove(wheels[dice_.below(static_cast<std::uint32_t>(wheels.size()))]);
+    } else {
+      Vehicle<S> vehicle = *world_.find(id);
+      drive(vehicle);
+      world_.set(id, vehicle);
+    }
+  }
+  bool has_room() const { return world_.state().force_records->vehicles.slots().template ids<VehicleId>().size() < 2; }
+
+ private:
+  void build(BodyId body) {
+    const double mass = to_double(world_.mass(body)), radius = dice_.in(0.125, 0.25);
+    Vehicle<S> vehicle;
+    vehicle.body = body;
+    vehicle.engine_torque = num<S>(mass * dice_.in(0, 2));
+    vehicle.engine_speed = num<S>(kFastest / radius * dice_.in(0.25, 1));
+    vehicle.gears[1] = S(-1);
+    vehicle.gears[2] = S(0.5);
+    vehicle.differential_lock = num<S>(dice_.in(0, 1));
+    vehicle.brake_torque = num<S>(mass * dice_.in(0, 4));
+    vehicle.handbrake_torque = num<S>(mass * dice_.in(0, 4));
+    vehicle.ackermann = num<S>(dice_.in(0, 1));
+    drive(vehicle);
+    if (!world_.add(vehicle)) return;
+    const std::uint32_t wheels = 2 + dice_.below(5);
+    for (std::uint32_t i = 0; i < wheels; ++i) {
+      Wheel<S> wheel;
+      wheel.body = body;
+      wheel.hard_point = vec<S>(i % 2 == 0 ? 0.5 : -0.5, dice_.in(-0.125, 0.125), dice_.in(-1, 1));
+      wheel.free_length = num<S>(dice_.in(0.125, 0.5));
+      wheel.travel = num<S>(dice_.in(0, to_double(wheel.free_length)));
+      wheel.stiffness = num<S>(mass * dice_.in(0, 60));
+      wheel.damping = num<S>(mass * dice_.in(0, 6));
+      wheel.radius = num<S>(radius);
+      wheel.inertia = num<S>(mass * radius * radius * dice_.in(0.0078125, 0.125));
+      wheel.grip_along = num<S>(dice_.in(0, 2));
+      wheel.grip_across = num<S>(dice_.in(0, 2));
+      wheel.steer_angle = num<S>(dice_.one_in(2) ? dice_.in(-0.75, 0.75) : 0);
+      wheel.drive_share = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 0);
+      wheel.handbrake_share = num<S>(dice_.in(0, 1));
+      wheel.axle = dice_.below(3);
+      wheel.anti_roll = num<S>(mass * dice_.in(0, 30));
+      world_.add(wheel);
+    }
+  }
+  void drive(Vehicle<S>& vehicle) {
+    vehicle.throttle = num<S>(dice_.in(-1, 1));
+    vehicle.brake = num<S>(dice_.one_in(3) ? dice_.in(0, 1) : 0);
+    vehicle.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
+    vehicle.steer = num<S>(dice_.in(-1, 1));
+    vehicle.gear = dice_.below(3);
+  }
+
+  World<S>& world_;
+  Dice& dice_;
+};
+
+}  // namespace isostep::test

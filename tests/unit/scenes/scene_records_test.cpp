@@ -1,0 +1,137 @@
+// Records in scene files: each kind with each field reaches the world and returns to the file; what is wrong is named.
+// SPDX-License-Identifier: MIT
+#include "scenes/scene_records.hpp"
+
+#include <gtest/gtest.h>
+
+#include "isostep/world/state.hpp"
+#include "scenes/build.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+constexpr char kBodies[] = R"({"bodies": [
+  {"type": "dynamic", "position": [0, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
+  {"type": "dynamic", "position": [3, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
+  {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]}], "records": [)";
+
+std::string scene_of(const std::string& record) { return kBodies + record + "]}"; }
+
+constexpr const char* kRecords[] = {
+    R"({"type": "force_zone", "shape": "sphere", "position": [1, 2, 3], "orientation": [0, 0, 0, 1], )"
+    R"("half": [2, 0, 0], "acceleration": [0, 1, 0], "wind": [3, 0, 0], "mask": 5})",
+    R"({"type": "attractor", "body": 1, "point": [1, 0, 0], "strength": 4, "least_distance": 0.5, )"
+    R"("range": 8, "mask": 1})",
+    R"({"type": "body_spring", "a": 0, "b": 1, "anchor_a": [0, 0.25, 0], "anchor_b": [0, 0, 0.25], )"
+    R"("rest_length": 2, "stiffness": 8, "damping": 0.5, "only_pulls": true})",
+    R"({"type": "thruster", "body": 0, "point": [0, 0.25, 0], "force": [1, 2, 3]})",
+    R"({"type": "buoyancy", "body": 0, "point": [0, 0.25, 0], "max_depth": 0.5, "volume": 0.5, )"
+    R"("surface_height": 1, "density": 2})",
+    R"({"type": "explosion", "centre": [1, 0, 0], "begin": 30, "implosion_force": 1, "implosion_least": 0.5, )"
+    R"("implosion_most": 4, "implosion_duration": 0.25, "wave_force": 8, "wave_speed": 30, "wave_width": 2, )"
+    R"("wave_ramp": 0.25, "wave_duration": 0.5, "chimney_force": 3, "chimney_radius": 2, "chimney_height": 4, )"
+    R"("chimney_duration": 1, "is_shielded": true, "mask": 7})",
+    R"({"type": "water", "surface_height": 1, "density": 2, "middle": [1, 0, 0], "half": [8, 8, 8], )"
+    R"("current": [0.5, 0, 0], "linear_drag": 1, "quadratic_drag": 0.25, "angular_drag": 1, "wave_height": 0.25, )"
+    R"("wave_length": 8, "wave_period": 2, "wave_direction": [0, 0, 1], "mask": 3})",
+    R"({"type": "drag", "body": 0, "linear": 1, "quadratic": 0.5, "angular": 0.25})",
+    R"({"type": "aero_surface", "body": 0, "point": [0, 0, 0.25], "orientation": [0, 1, 0, 0], )"
+    R"("tensor": [[-1, 0, 0], [0, -2, 0], [0, 0, -3]], "low": [[0, 1, 0], [0, 0, 0], [0, 0, 0]], )"
+    R"("high": [[0, 2, 0], [0, 0, 0], [0, 0, 0]], "control": 0.5, "is_quadratic": true, "is_under_water": true})",
+    R"({"type": "material_pair", "kind_a": 1, "kind_b": 4294967295, "friction": 0.5, "static_friction": 1, )"
+    R"("restitution": 0.25, "rolling_resistance": 0.125})",
+    R"({"type": "breakable", "body": 0, "impulse": 4, "pattern": "radial", "most_pieces": 12, "depth": 2, )"
+    R"("grain": [1, 0, 0], "seed": 7, "small_mass": 0.25, "lifetime": 60, "expires": 600, "owns_shape": true, )"
+    R"("broken_by": 0.5, "hit_point": [0, 0.25, 0], "hit_direction": [0, -1, 0]})",
+    R"({"type": "character", "body": 2, "step_height": 0.25, "least_up": 0.5, "skin": 0.03125, "mass": 60, )"
+    R"("push_force": 100, "air_acceleration": 5, "gravity_scale": 0.5, "mask": 3, "move": [1, 0, 0], "jump": 2, )"
+    R"("footing": "steep", "ground": 0, "foot": [0, 0.5, 0], "foot_at": [6, 1.5, 0], "velocity": [0, -1, 0], )"
+    R"("normal": [0, 1, 0], "stuck": 1})",
+    R"({"type": "vehicle", "body": 0, "engine_torque": 200, "engine_speed": 400, )"
+    R"("gears": [0, -3, 3, 2, 1.5, 1, 0.75, 0.5], "gear": 2, "final_drive": 3, "differential_lock": 0.5, )"
+    R"("brake_torque": 8, "handbrake_torque": 4, "ackermann": 0.5, "throttle": 0.5, "brake": 0.25, )"
+    R"("handbrake": 0.125, "steer": -0.5})",
+    R"({"type": "wheel", "body": 0, "hard_point": [0, 0.25, 0], "suspension": [0, 0, -1], )"
+    R"("axle_direction": [0, 1, 0], "free_length": 0.5, "travel": 0.25, "stiffness": 8, "damping": 2, )"
+    R"("radius": 0.25, "inertia": 2, "grip_along": 0.5, "grip_across": 0.75, "steer_angle": 0.5, )"
+    R"("drive_share": 0.5, "brake_share": 0.5, "handbrake_share": 1, "axle": 3, "anti_roll": 4, "spin": 2, )"
+    R"("angle": 1, "length": 0.375, "contact_body": 1, "contact_point": [1, 0, 0], "contact_normal": [0, 1, 0], )"
+    R"("load": 3, "along": 1, "across": 2})",
+};
+#define ISO_COUNT(name, Record, Id, S) +1
+constexpr std::size_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, double);
+#undef ISO_COUNT
+static_assert(std::size(kRecords) == kKinds, "a kind more: give it here all its fields, none as it is by itself");
+
+template <class S> class SceneRecords : public testing::Test {};
+using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
+TYPED_TEST_SUITE(SceneRecords, Scalars);
+
+/// Every field of the one record that a world has is another than the record has by itself.
+template <class S> void expect_all_fields_set(const World<S>& world, const char* text) {
+  int records = 0;
+  ForceRecords<S>::members(
+      [&](const char*, const auto& registry) {
+        for (const auto& record : registry.all()) {
+          ++records;
+          using Record = std::remove_cvref_t<decltype(record)>;
+          const Record plain;
+          Record::fields(
+              [&](const char* name, const auto& member) {
+                std::vector<std::uint8_t> a, b;
+                Writer(a).write(member);
+                Record::fields(
+                    [&](const char* other, const auto& same) {
+                      if (std::string_view(name) == other) Writer(b).write(same);
+                    },
+                    plain);
+                EXPECT_NE(a, b) << text << ": " << name;
+              },
+              record);
+        }
+      },
+      *world.state().force_records);
+  EXPECT_EQ(records, 1) << text;
+}
+
+TYPED_TEST(SceneRecords, reach_the_world_with_all_their_fields_and_return_to_the_file) {
+  using S = TypeParam;
+  for (const char* record : kRecords) {
+    const Scene scene = read_scene(scene_of(record));
+    ASSERT_EQ(scene.records.size(), 1u);
+    EXPECT_EQ(text_of(scene.records[0]), record);
+    World<S> world(settings_of<S>(scene)), again(settings_of<S>(scene));
+    build(scene, world);
+    build(read_scene(write_scene(scene)), again);
+    EXPECT_EQ(world.hash(), again.hash());
+    expect_all_fields_set(world, record);
+  }
+}
+
+TEST(SceneRecordFaults, name_the_place) {
+  const auto error = [](const std::string& record) -> std::string {
+    try {
+      const Scene scene = read_scene(scene_of(record));
+      World<Q16_16> world(settings_of<Q16_16>(scene));
+      build(scene, world);
+    } catch (const SceneError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error(R"({"type": "drag", "body": 0, "linear": 1})"), "");
+  EXPECT_NE(error(R"({"type": "magic"})").find("/records/0/type: expected force_zone, "), std::string::npos);
+  EXPECT_EQ(error(R"({"type": "drag", "body": 0, "speed": 1})"), "/records/0/speed: unknown key");
+  EXPECT_EQ(error(R"({"type": "drag"})"), "/records/0: the key \"body\" is missing");
+  EXPECT_NE(error(R"({"type": "drag", "body": 3})").find("/records/0/body: expected a whole"), std::string::npos);
+  EXPECT_NE(error(R"({"type": "drag", "body": 0, "linear": 1e9})").find("/records/0/linear"), std::string::npos);
+  EXPECT_NE(error(R"({"type": "drag", "body": 0, "linear": -1})").find("linear"), std::string::npos);
+  EXPECT_EQ(error(R"({"type": "aero_surface", "body": 0, "tensor": [[1, 0, 0]]})"),
+            "/records/0/tensor: expected three rows");
+  EXPECT_NE(error(R"({"type": "force_zone", "shape": "round"})").find("expected everywhere, sphere or box"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace isostep::scenes

@@ -1,0 +1,314 @@
+// Vehicles and wheels as records: faults, snapshots, recordings, sleep, and ground that gives way.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/state/verify.hpp"
+#include "isostep/world/recorder.hpp"
+#include "unit/world/worlds.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class VehicleRecords : public ::testing::Test {
+ protected:
+  static constexpr double kMass = 400;
+
+  static Wheel<S> wheel_of(BodyId body, int i) {
+    Wheel<S> wheel;
+    wheel.body = body;
+    wheel.hard_point = vec<S>(i % 2 == 0 ? 0.8 : -0.8, 0, i < 2 ? 1.25 : -1.25);
+    wheel.stiffness = S(10000);
+    wheel.damping = S(800);
+    wheel.drive_share = S(1);
+    wheel.steer_angle = i < 2 ? num<S>(0.5) : S(0);
+    return wheel;
+  }
+  BodyId add_body(D3 at, double mass = kMass) {
+    BodyDefinition<S> d = moving<S>(add_box(w, 0.75, 0.25, 1.75), at);
+    d.mass = num<S>(mass);
+    return w.create(d);
+  }
+  Vehicle<S> vehicle_of(BodyId body) const {
+    Vehicle<S> v;
+    v.body = body;
+    v.engine_torque = S(300);
+    v.brake_torque = S(600);
+    return v;
+  }
+  BodyId add_car(D3 at) {
+    const BodyId body = add_body(at);
+    vehicle = w.add(vehicle_of(body));
+    for (int i = 0; i < 4; ++i) wheels[i] = w.add(wheel_of(body, i));
+    EXPECT_TRUE(vehicle && wheels[3]) << describe(w.fault());
+    return body;
+  }
+  void control(double throttle, double brake, double steer = 0) {
+    Vehicle<S> v = *w.find(vehicle);
+    v.throttle = num<S>(throttle);
+    v.brake = num<S>(brake);
+    v.steer = num<S>(steer);
+    EXPECT_TRUE(w.set(vehicle, v));
+  }
+  double height(BodyId body) { return to_double(w.center_of_mass(body).y); }
+  template <class Record, class Change> void expect_fault(Record record, const char* field, const Change& change) {
+    change(record);
+    EXPECT_FALSE(w.add(record)) << field;
+    EXPECT_STREQ(w.fault().field, field);
+  }
+
+  World<S> w{settings<S>()};
+  VehicleId vehicle;
+  WheelId wheels[4];
+};
+TYPED_TEST_SUITE(VehicleRecords, AllScalars);
+
+TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_vehicle) {
+  using S = TypeParam;
+  using V = Vehicle<S>;
+  const V v = this->vehicle_of(this->add_body({0, 2, 0}));
+  this->expect_fault(v, "body", [&](V& r) { r.body = {}; });
+  this->expect_fault(v, "body", [&](V& r) { r.body = add_ground(this->w); });
+  this->expect_fault(v, "engine_torque", [](V& r) { r.engine_torque = S(-1); });
+  this->expect_fault(v, "engine_speed", [](V& r) { r.engine_speed = S(-1); });
+  this->expect_fault(v, "gear", [](V& r) { r.gear = kMostGears; });
+  this->expect_fault(v, "differential_lock", [](V& r) { r.differential_lock = S(2); });
+  this->expect_fault(v, "brake_torque", [](V& r) { r.brake_torque = S(-1); });
+  this->expect_fault(v, "handbrake_torque", [](V& r) { r.handbrake_torque = S(-1); });
+  this->expect_fault(v, "ackermann", [](V& r) { r.ackermann = S(2); });
+  this->expect_fault(v, "throttle", [](V& r) { r.throttle = S(-2); });
+  this->expect_fault(v, "brake", [](V& r) { r.brake = S(2); });
+  this->expect_fault(v, "handbrake", [](V& r) { r.handbrake = S(-1); });
+  this->expect_fault(v, "steer", [](V& r) { r.steer = S(2); });
+  EXPECT_TRUE(this->w.add(v));
+  this->expect_fault(v, "body", [](V&) {});
+  if constexpr (kIsFixed<S>) return;
+  const S infinite = from_bits<S>(to_bits(highest<S>()) + 1);
+  this->expect_fault(v, "gears", [&](V& r) { r.gears[3] = infinite; });
+  this->expect_fault(v, "final_drive", [&](V& r) { r.final_drive = infinite; });
+}
+
+TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
+  using S = TypeParam;
+  using W = Wheel<S>;
+  using U = Unit<S>;
+  const W wheel = this->wheel_of(this->add_body({0, 2, 0}), 0);
+  this->expect_fault(wheel, "body", [&](W& r) { r.body = {}; });
+  this->expect_fault(wheel, "hard_point", [](W& r) { r.hard_point.x = Limits<S>::position() + Limits<S>::position(); });
+  this->expect_fault(wheel, "suspension", [](W& r) { r.suspension.y = U(0); });
+  this->expect_fault(wheel, "axle_direction", [](W& r) { r.axle_direction.x = U(0); });
+  this->expect_fault(wheel, "axle_direction", [](W& r) { r.axle_direction = r.suspension; });
+  this->expect_fault(wheel, "free_length", [](W& r) { r.free_length = S(0); });
+  this->expect_fault(wheel, "travel", [](W& r) { r.travel = r.free_length * S(2); });
+  this->expect_fault(wheel, "stiffness", [](W& r) { r.stiffness = S(-1); });
+  this->expect_fault(wheel, "damping", [](W& r) { r.damping = S(-1); });
+  this->expect_fault(wheel, "radius", [](W& r) { r.radius = S(0); });
+  this->expect_fault(wheel, "inertia", [](W& r) { r.inertia = S(0); });
+  this->expect_fault(wheel, "grip_along", [](W& r) { r.grip_along = S(-1); });
+  this->expect_fault(wheel, "grip_across", [](W& r) { r.grip_across = S(17); });
+  this->expect_fault(wheel, "steer_angle", [](W& r) { r.steer_angle = S(2); });
+  this->expect_fault(wheel, "drive_share", [](W& r) { r.drive_share = S(-1); });
+  this->expect_fault(wheel, "brake_share", [](W& r) { r.brake_share = S(2); });
+  this->expect_fault(wheel, "handbrake_share", [](W& r) { r.handbrake_share = S(2); });
+  this->expect_fault(wheel, "anti_roll", [](W& r) { r.anti_roll = S(-1); });
+  this->expect_fault(wheel, "angle", [](W& r) { r.angle = S(7); });
+  this->expect_fault(wheel, "load", [](W& r) { r.load = S(-1); });
+  EXPECT_TRUE(this->w.add(wheel));
+  if constexpr (std::is_same_v<S, Q16_16>)
+    this->expect_fault(wheel, "inertia", [](W& r) { r.inertia = num<S>(0.125); });
+}
+
+TYPED_TEST(VehicleRecords, go_on_alike_after_a_snapshot_and_from_the_portable_form) {
+  using S = TypeParam;
+  add_ground(this->w, 0.9);
+  this->add_car({0, 1, 0});
+  this->control(1, 0, 0.5);
+  run(this->w, 45);
+  typename World<S>::Snapshot middle;
+  this->w.save(middle);
+  const auto bytes = bytes_of(this->w);
+  const auto drive_on = [&](World<S>& world) {
+    for (int i = 0; i < 90; ++i) {
+      Vehicle<S> v = *world.find(this->vehicle);
+      v.brake = S(i > 45 ? 1 : 0);
+      v.steer = S(i % 2);
+      world.set(this->vehicle, v);
+      world.step();
+    }
+    return world.hash();
+  };
+  const std::uint64_t first = drive_on(this->w);
+  ASSERT_TRUE(this->w.load(middle));
+  EXPECT_EQ(drive_on(this->w), first);
+  World<S> other;
+  Reader reader(bytes);
+  ASSERT_TRUE(other.read_portable(reader));
+  EXPECT_EQ(drive_on(other), first);
+}
+
+TYPED_TEST(VehicleRecords, stand_by_every_solver) {
+  using S = TypeParam;
+  for (std::uint32_t solver = 0; solver < kSolvers; ++solver) {
+    Settings<S> s = settings<S>();
+    s.solver = static_cast<SolverName>(solver);
+    World<S> fresh(s);
+    this->w = std::move(fresh);
+    add_ground(this->w, 1);
+    const BodyId car = this->add_car({0, 0.6, 0});
+    this->control(0, 1);
+    run(this->w, 240);
+    EXPECT_NEAR(this->height(car), 0.55, 0.002) << kSolverNames[solver];
+  }
+}
+
+TYPED_TEST(VehicleRecords, sleep_with_their_ground_and_wake_by_their_inputs) {
+  using S = TypeParam;
+  const BodyId ground = add_ground(this->w, 1);
+  const BodyId car = this->add_car({0, 0.55, 0});
+  this->control(0, 1);
+  EXPECT_TRUE(settle(this->w));
+  EXPECT_FALSE(this->w.is_awake(car));
+  this->control(1, 0);
+  run(this->w, 60);
+  EXPECT_GT(to_double(this->w.velocity(car).z), 0.5);
+  this->control(0, 1);
+  EXPECT_TRUE(settle(this->w));
+  this->w.destroy(ground);
+  run(this->w, 30);
+  EXPECT_LT(this->height(car), 0);
+  EXPECT_FALSE(this->w.find(this->wheels[0])->contact_body);
+  this->w.destroy(car);
+  EXPECT_EQ(this->w.find(this->wheels[0]), nullptr);
+  EXPECT_EQ(this->w.find(this->vehicle), nullptr);
+}
+
+TYPED_TEST(VehicleRecords, push_the_ground_back) {
+  using S = TypeParam;
+  // A raft without weight that nothing holds: what the car gains it loses, along and about every axis.
+  const ShapeId plate = add_box(this->w, 8, 0.25, 8);
+  BodyDefinition<S> d = moving<S>(plate, {0, -0.25, 0});
+  d.mass = S(2000);
+  d.gravity_scale = S(0);
+  d.material.friction = S(1);
+  const BodyId raft = this->w.create(d);
+  const BodyId car = this->add_car({0, 0.55, 0});
+  this->w.set_motion(car, S(0), S(0), S(0), 0);
+  this->w.set_velocity(car, vec<S>(0, -1, 0), vec<S>(0, 0, 0));
+  this->control(1, 0, 0.25);
+  for (int i = 0; i < 60; ++i) this->w.step();
+  const D3 a = real(this->w.velocity(car)) * this->kMass, b = real(this->w.velocity(raft)) * 2000.0;
+  EXPECT_GT(length(b), 100);
+  EXPECT_NEAR(a.x + b.x, 0, pick<S>(0.1, 1e-6, 2, 1e-3));
+  EXPECT_NEAR(a.y + b.y, -this->kMass, pick<S>(0.1, 1e-6, 2, 1e-3));
+  EXPECT_NEAR(a.z + b.z, 0, pick<S>(0.1, 1e-6, 2, 1e-3));
+}
+
+TYPED_TEST(VehicleRecords, stop_at_the_end_of_their_travel) {
+  add_ground(this->w, 1);
+  const BodyId car = this->add_car({0, 0.6, 0});
+  for (const WheelId id : this->wheels) {
+    Wheel<TypeParam> wheel = *this->w.find(id);
+    wheel.stiffness = TypeParam(0);
+    wheel.damping = TypeParam(0);
+    wheel.travel = num<TypeParam>(0.125);
+    this->w.set(id, wheel);
+  }
+  run(this->w, 180);
+  EXPECT_NEAR(this->height(car), 0.35 + 0.175, 0.002);
+  EXPECT_LT(length(real(this->w.velocity(car))), 0.001);
+}
+
+TYPED_TEST(VehicleRecords, lean_less_with_a_bar) {
+  using S = TypeParam;
+  double leans[2];
+  for (int bar = 0; bar < 2; ++bar) {
+    World<S> fresh(settings<S>());
+    this->w = std::move(fresh);
+    add_ground(this->w, 1);
+    const BodyId car = this->add_car({0, 0.55, 0});
+    for (int i = 0; i < 4 && bar != 0; ++i) {
+      Wheel<S> wheel = *this->w.find(this->wheels[i]);
+      wheel.axle = i < 2 ? 1 : 2;
+      wheel.anti_roll = S(5000);
+      this->w.set(this->wheels[i], wheel);
+    }
+    this->control(0, 1);
+    for (int i = 0; i < 180; ++i) {
+      this->w.apply_force(car, {S(0), S(0), S(0)}, vec<S>(0, 0, 500));
+      this->w.step();
+    }
+    leans[bar] = to_double(to_matrix(this->w.pose(car).orientation).column(0).y);
+  }
+  // Of stiffness k t^2 4 less m g h: a bar adds 2 k' t^2 4 for its difference of lengths.
+  EXPECT_NEAR(leans[0], 500 / (4 * 10000 * 0.64 - 400 * 10 * 0.55), 0.1 * leans[0]);
+  EXPECT_NEAR(leans[1], 500 / (4 * 20000 * 0.64 - 400 * 10 * 0.55), 0.1 * leans[1]);
+}
+
+TYPED_TEST(VehicleRecords, end_at_the_speed_of_their_engine_and_drive_backwards) {
+  using S = TypeParam;
+  add_ground(this->w, 1);
+  const BodyId car = this->add_car({0, 0.55, 0});
+  Vehicle<S> v = *this->w.find(this->vehicle);
+  v.engine_speed = S(20);
+  v.gears[0] = S(2);
+  v.gears[1] = S(-2);
+  v.gears[2] = S(0);
+  this->w.set(this->vehicle, v);
+  this->control(1, 0);
+  run(this->w, 480);
+  EXPECT_NEAR(to_double(this->w.velocity(car).z), 10 * 0.35, 0.06);
+  v.gear = 1;
+  this->w.set(this->vehicle, v);
+  this->control(1, 0);
+  run(this->w, 960);
+  EXPECT_NEAR(to_double(this->w.velocity(car).z), -10 * 0.35, 0.06);
+}
+
+TYPED_TEST(VehicleRecords, spin_freely_at_one_side_unless_locked) {
+  using S = TypeParam;
+  double reached[2];
+  for (int locked = 0; locked < 2; ++locked) {
+    World<S> fresh(settings<S>());
+    this->w = std::move(fresh);
+    add_ground(this->w, 1);
+    const BodyId car = this->add_car({0, 0.55, 0});
+    for (int i = 0; i < 4; i += 2) {
+      Wheel<S> wheel = *this->w.find(this->wheels[i]);
+      wheel.grip_along = S(0);
+      this->w.set(this->wheels[i], wheel);
+    }
+    Vehicle<S> v = *this->w.find(this->vehicle);
+    v.differential_lock = S(locked);
+    v.engine_speed = S(40);
+    this->w.set(this->vehicle, v);
+    this->control(1, 0);
+    run(this->w, 60);
+    reached[locked] = length(real(this->w.velocity(car)));
+    const double slick = to_double(this->w.find(this->wheels[2])->spin);
+    const double firm = to_double(this->w.find(this->wheels[3])->spin);
+    if (locked != 0) EXPECT_NEAR(slick, firm, 1);
+    else EXPECT_GT(slick, firm + 10);
+  }
+  EXPECT_GT(reached[1], 1.5 * reached[0]);
+}
+
+TYPED_TEST(VehicleRecords, stand_on_one_another) {
+  using S = TypeParam;
+  add_ground(this->w, 1);
+  BodyDefinition<S> d = moving<S>(add_box(this->w, 2, 0.25, 3), {0, 0.25, 0});
+  d.mass = S(4000);
+  d.material.friction = S(1);
+  const BodyId plate = this->w.create(d);
+  EXPECT_TRUE(settle(this->w));
+  const BodyId car = this->add_car({0, 1.2, 0});
+  this->control(0, 1);
+  run(this->w, 20);
+  EXPECT_TRUE(this->w.is_awake(plate));
+  EXPECT_TRUE(settle(this->w));
+  EXPECT_FALSE(this->w.is_awake(car));
+  this->w.set_velocity(plate, vec<S>(0, 0, 1), vec<S>(0, 0, 0));
+  EXPECT_TRUE(this->w.is_awake(car));
+  run(this->w, 5);
+  EXPECT_GT(to_double(this->w.velocity(car).z), 0.1);
+}
+
+}  // namespace
+}  // namespace isostep::test
