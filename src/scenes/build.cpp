@@ -231,7 +231,7 @@ template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     built.joints.push_back(add_joint<S>(world, scene.joints[i], built.bodies, "/joints/" + std::to_string(i)));
   }
-  add_records(world, scene, built.bodies);
+  add_records(world, scene, {built.bodies, built.joints});
   return built;
 }
 

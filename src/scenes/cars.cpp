@@ -12,10 +12,13 @@ namespace {
 constexpr double kPitch = 12;      // [m]
 constexpr double kMostSteer = 0.3;  // [rad]
 
-void add_car(Scene& scene, Point at) {
-  const int body = static_cast<int>(scene.bodies.size());
+}  // namespace
+
+void add_car(Scene& scene, Point at, double heading) {
+  const double body = static_cast<double>(scene.bodies.size());
   scene.bodies.push_back(body_of(box_part({0.9, 0.3, 2.1}), at));
   scene.bodies.back().mass = 1200;
+  if (heading != 0) scene.bodies.back().orientation = yaw(heading);
   scene.records.push_back({"vehicle", {{"body", {body}}, {"engine_torque", {1200}}, {"brake_torque", {1500}}}});
   for (const int wheel : {0, 1, 2, 3}) {
     const bool front = wheel < 2;
@@ -28,8 +31,6 @@ void add_car(Scene& scene, Point at) {
                               {"drive_share", {1}}}});
   }
 }
-
-}  // namespace
 
 Scene cars() {
   Scene scene;

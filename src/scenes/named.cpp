@@ -4,7 +4,9 @@
 
 #include "book/book.hpp"
 #include "cars.hpp"
+#include "street.hpp"
 #include "trials/trial.hpp"
+#include "walkers.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -87,6 +89,8 @@ constexpr NamedScene kScenes[] = {
     {"S13m", "S13 at a sheet of triangles", bullets_at_a_sheet, false},
     {"S13d", "S13 with each at a plate of its own", bullets_at_plates, false},
     {"S17", "64 cars drive, brake and steer", cars},
+    {"S18c", "200 characters walk over the pile of S4", walkers},
+    {"street", "four cars and four walkers in the town, driven by bots", street, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"town", "a mesh of streets, houses, stairs, ramps, a hill; who falls, rolls, tumbles, is shot", town, false},
     {"yard", "the same on static hulls, placed by a seed", yard, false},

@@ -124,9 +124,22 @@ struct SceneRecord {
 };
 
 /// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
-enum class Script : std::uint32_t { none, mixer, mixed, hit, medley, flight, flight_left, sail, guns, cars };
-inline constexpr const char* kScriptNames[] = {"none",   "mixer",       "mixed", "hit", "medley",
-                                               "flight", "flight_left", "sail",  "guns", "cars"};
+enum class Script : std::uint32_t {
+  none,
+  mixer,
+  mixed,
+  hit,
+  medley,
+  flight,
+  flight_left,
+  sail,
+  guns,
+  cars,
+  walkers,
+  street
+};
+inline constexpr const char* kScriptNames[] = {"none",        "mixer", "mixed", "hit",  "medley",  "flight",
+                                               "flight_left", "sail",  "guns",  "cars", "walkers", "street"};
 
 struct Scene {
   std::string name = "scene";

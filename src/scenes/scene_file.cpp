@@ -186,7 +186,7 @@ Scene read_scene(std::string_view json, const std::string& folder) {
   }
   const auto records = reader.array("records");
   for (std::size_t i = 0; i < records.size(); ++i)
-    scene.records.push_back(read_record(records[i], item("", "records", i), scene.bodies.size()));
+    scene.records.push_back(read_record(records[i], item("", "records", i), scene.bodies.size(), scene.joints.size()));
   reader.finish();
   return scene;
 }

@@ -59,11 +59,13 @@ const SceneField* find(const SceneRecord& record, std::string_view name) {
 
 class FieldReader {
  public:
-  FieldReader(ObjectReader& reader, std::size_t bodies, SceneRecord& to) : reader_(reader), bodies_(bodies), to_(to) {}
+  FieldReader(ObjectReader& reader, std::size_t bodies, std::size_t joints, SceneRecord& to)
+      : reader_(reader), bodies_(bodies), joints_(joints), to_(to) {}
 
   template <class T> void operator()(const char* name, const T&) const {
     if (std::is_same_v<T, BodyId> && (std::string_view(name) == "body" || std::string_view(name) == "a"))
       if (!may_act_on_the_world()) reader_.require(name);
+    if (std::is_same_v<T, JointId> && std::string_view(name) != "joint_c") reader_.require(name);
     if (!reader_.has(name)) return;
     SceneField field = {name, {}};
     read(name, T{}, field.numbers);
@@ -84,6 +86,9 @@ class FieldReader {
   }
   void read(const char* name, BodyId, std::vector<Number>& out) const {
     read_whole(name, -1, static_cast<std::int64_t>(bodies_) - 1, out);
+  }
+  void read(const char* name, JointId, std::vector<Number>& out) const {
+    read_whole(name, -1, static_cast<std::int64_t>(joints_) - 1, out);
   }
   void read(const char* name, const Vec3<double>&, std::vector<Number>& out) const {
     Vector v = zero_vector();
@@ -117,7 +122,7 @@ class FieldReader {
   }
 
   ObjectReader& reader_;
-  std::size_t bodies_;
+  std::size_t bodies_, joints_;
   SceneRecord& to_;
 };
 
@@ -141,8 +146,8 @@ template <class T> std::string text_of(const T&, const std::vector<Number>& numb
 
 template <class S> class FieldBuilder {
  public:
-  FieldBuilder(const SceneRecord& record, const std::vector<BodyId>& bodies, std::string place)
-      : record_(record), bodies_(bodies), place_(std::move(place)) {}
+  FieldBuilder(const SceneRecord& record, const SceneIds& ids, std::string place)
+      : record_(record), ids_(ids), place_(std::move(place)) {}
 
   template <class T> void operator()(const char* name, T& member) const {
     const SceneField* const field = find(record_, name);
@@ -155,8 +160,9 @@ template <class S> class FieldBuilder {
     else if constexpr (is_name<T>) to = static_cast<T>(std::stoul(from[0].text()));
     else if constexpr (std::is_integral_v<T>) to = static_cast<T>(std::stoull(from[0].text()));
     else if constexpr (std::is_same_v<T, BodyId>) {
-      const long long index = std::stoll(from[0].text());
-      to = index < 0 ? BodyId{} : bodies_[static_cast<std::size_t>(index)];
+      to = at(ids_.bodies, from[0]);
+    } else if constexpr (std::is_same_v<T, JointId>) {
+      to = at(ids_.joints, from[0]);
     } else if constexpr (std::is_array_v<T>) {
       for (std::size_t i = 0; i < from.size(); ++i) to[i] = value_of<S>(from[i], place);
     } else if constexpr (requires { to.rows; }) {
@@ -169,6 +175,10 @@ template <class S> class FieldBuilder {
       to = {unit(from[0], place), unit(from[1], place), unit(from[2], place)};
     } else to = value_of<S>(from[0], place);
   }
+  template <class AnyId> static AnyId at(const std::vector<AnyId>& ids, const Number& place) {
+    const long long index = std::stoll(place.text());
+    return index < 0 ? AnyId{} : ids[static_cast<std::size_t>(index)];
+  }
   static Unit<S> unit(const Number& from, const std::string& place) {
     Unit<S> value{};
     TextError error = TextError::none;
@@ -177,16 +187,16 @@ template <class S> class FieldBuilder {
   }
 
   const SceneRecord& record_;
-  const std::vector<BodyId>& bodies_;
+  const SceneIds& ids_;
   std::string place_;
 };
 
 }  // namespace
 
-SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies) {
+SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies, std::size_t joints) {
   ObjectReader reader(node, place);
   SceneRecord record = {kRecordNames[reader.choice("type", kRecordNames)], {}};
-  visit_kind<double>(record.kind, [&](auto kind) { visit_fields(kind, FieldReader(reader, bodies, record)); });
+  visit_kind<double>(record.kind, [&](auto kind) { visit_fields(kind, FieldReader(reader, bodies, joints, record)); });
   reader.finish();
   return record;
 }
@@ -202,12 +212,12 @@ std::string text_of(const SceneRecord& record) {
   return text + "}";
 }
 
-template <class S> void add_records(World<S>& world, const Scene& scene, const std::vector<BodyId>& bodies) {
+template <class S> void add_records(World<S>& world, const Scene& scene, const SceneIds& ids) {
   for (std::size_t i = 0; i < scene.records.size(); ++i) {
     const SceneRecord& record = scene.records[i];
     const std::string place = "/records/" + std::to_string(i);
     const bool known = visit_kind<S>(record.kind, [&](auto made) {
-      visit_fields(made, FieldBuilder<S>(record, bodies, place));
+      visit_fields(made, FieldBuilder<S>(record, ids, place));
       if (world.add(made)) return;
       throw SceneError(place, std::string("the record is refused: ") + describe(world.fault()));
     });
@@ -215,7 +225,7 @@ template <class S> void add_records(World<S>& world, const Scene& scene, const s
   }
 }
 
-#define ISO_INSTANTIATE(S) template void add_records<S>(World<S>&, const Scene&, const std::vector<BodyId>&);
+#define ISO_INSTANTIATE(S) template void add_records<S>(World<S>&, const Scene&, const SceneIds&);
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

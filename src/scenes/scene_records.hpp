@@ -13,14 +13,19 @@
 namespace isostep::scenes {
 
 /// A record of one of the kinds of ISO_FOR_EACH_RECORD. Its members in a file are the fields of the engine's record:
-/// numbers, vectors, rotations, flags; matrices as three rows; bodies as their places in the scene, -1 for none;
+/// numbers, vectors, rotations, flags; matrices as three rows; bodies and joints as their places, -1 for none;
 /// choices as words.
-SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies);
+SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies, std::size_t joints);
 std::string text_of(const SceneRecord& record);
-/// Into a world that has the scene's bodies. Throws SceneError.
-template <class S> void add_records(World<S>& world, const Scene& scene, const std::vector<BodyId>& bodies);
+/// What a scene's places stand for in a world.
+struct SceneIds {
+  const std::vector<BodyId>& bodies;
+  const std::vector<JointId>& joints;
+};
+/// Into a world that has the scene's bodies and joints. Throws SceneError.
+template <class S> void add_records(World<S>& world, const Scene& scene, const SceneIds& ids);
 
-#define ISO_EXTERN(S) extern template void add_records<S>(World<S>&, const Scene&, const std::vector<BodyId>&);
+#define ISO_EXTERN(S) extern template void add_records<S>(World<S>&, const Scene&, const SceneIds&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -11,6 +11,8 @@
 #include "mixed.hpp"
 #include "named.hpp"
 #include "shapes.hpp"
+#include "street.hpp"
+#include "walkers.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -203,6 +205,8 @@ template <class S> void before_step(Script script, World<S>& world) {
   if (script == Script::sail) steer(world);
   if (script == Script::guns) shoot(world);
   if (script == Script::cars) drive_cars(world);
+  if (script == Script::street) play_street(world);
+  if (script == Script::walkers) lead_walkers(world);
 }
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);

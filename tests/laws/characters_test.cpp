@@ -295,6 +295,34 @@ TYPED_TEST(Characters, passes_no_wall_however_fast) {  // case 11
   }
 }
 
+/// Crates of 400 kg fall into a shaft of 1.5 x 1.5 m, with somebody at its bottom.
+TYPED_TEST(Characters, stays_in_a_shaft_that_is_filled_over_it) {  // case 9
+  constexpr double kInner = 0.75, kRoom = kInner - kRadius;
+  add_ground(this->w);
+  for (const double side : {-1.0, 1.0}) {
+    this->box({0.25, 6, 1.25}, {side * (kInner + 0.25), 6, 0});
+    this->box({1.25, 6, 0.25}, {0, 6, side * (kInner + 0.25)});
+  }
+  const CharacterId id = this->walker({0, 0, 0});
+  for (int i = 0; i < 12; ++i) {
+    const double x = i % 2 * 0.75 - 0.375, z = 0.37 - i / 2 % 2 * 0.74;
+    this->box({0.35, 0.3, 0.35}, {x, 2.5 + 0.35 * i, z}, BodyType::dynamic, 400);
+  }
+  double farthest = 0, lowest = 1;
+  std::uint32_t stuck = 0;
+  for (int i = 0; i < 240; ++i) {
+    this->ask(id, {i % 60 < 30 ? 3.0 : -3.0, 0, i % 40 < 20 ? 3.0 : -3.0});
+    this->w.step();
+    const D3 foot = this->foot(id);
+    farthest = std::max({farthest, std::fabs(foot.x), std::fabs(foot.z)});
+    lowest = std::min(lowest, foot.y);
+    stuck = std::max(stuck, this->w.find(id)->stuck);
+  }
+  EXPECT_GT(stuck, 10u);  // they do press
+  EXPECT_LT(farthest, kRoom);
+  EXPECT_GT(lowest, -this->kSkin);
+}
+
 TYPED_TEST(Characters, a_crowd_in_a_corridor_keeps_apart_and_can_be_rolled_back) {  // case 12
   using S = TypeParam;
   add_ground(this->w);

@@ -62,6 +62,21 @@ template <class S> class Vehicles : public ::testing::Test {
     v.steer = num<S>(steer / 0.5);
     ASSERT_TRUE(w.set(car.vehicle, v)) << describe(w.fault());
   }
+  void set_curve(const Car& car, double peak_slip, double peak, double slide_slip, double slide) {
+    for (const WheelId id : car.wheels) {
+      Wheel<S> wheel = *w.find(id);
+      wheel.peak_slip = num<S>(peak_slip);
+      wheel.peak_grip = num<S>(peak);
+      wheel.slide_slip = num<S>(slide_slip);
+      wheel.slide_grip = num<S>(slide);
+      ASSERT_TRUE(w.set(id, wheel)) << describe(w.fault());
+    }
+  }
+  void torque(const Car& car, double brakes) {
+    Vehicle<S> v = *w.find(car.vehicle);
+    v.brake_torque = num<S>(brakes);
+    ASSERT_TRUE(w.set(car.vehicle, v)) << describe(w.fault());
+  }
   void slope(double degrees) {
     BodyDefinition<S> d = still<S>(w.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}));
     d.material.friction = S(1);
@@ -130,6 +145,54 @@ TYPED_TEST(Vehicles, brakes_stop_it_within_the_square_of_its_speed_over_twice_th
   EXPECT_LT(length(this->speed(car)), 0.01);
   this->told("stopped_in", (this->place(car).z - from) / expected * 20);
   this->told("heading", std::atan2(forward.x, forward.z) * 180 / kPi);
+}
+
+/// Brakes hold each wheel with more than the tyre's 1 without slip and less than the 1.25 of its peak, at a slip of
+/// 0.125: it slips where mu is what they ask for. They slow the wheels as well: F = T / r - I a / r^2. Loads of the
+/// front wheels are more by m a h / 2 base.
+TYPED_TEST(Vehicles, brakes_at_the_slip_at_which_the_curve_bears_its_brakes) {
+  add_ground(this->w, 1);
+  const auto car = this->add_car({0, this->kHeight, 0}, 30);
+  this->set_curve(car, 0.125, 1.25, 0.5, 1);
+  const auto more = [&](double a) { return this->kMass * a * this->kHeight / (2 * this->kBase); };
+  const double load = this->kMass * 10 / 4, front = 1.1 * (load + more(11)), rear = 1.1 * (load - more(11));
+  for (const WheelId id : {car.wheels[2], car.wheels[3]}) {
+    Wheel<TypeParam> wheel = *this->w.find(id);
+    wheel.brake_share = num<TypeParam>(rear / front);
+    ASSERT_TRUE(this->w.set(id, wheel));
+  }
+  this->torque(car, front * this->kWheelRadius);
+  this->control(car, 0, 1);
+  run(this->w, 30);
+  const double before = this->speed(car).z;
+  double slip = 0;
+  for (int i = 0; i < 60; ++i) {
+    run(this->w, 1);
+    for (const WheelId id : car.wheels) slip += to_double(this->w.find(id)->slip) / 240;
+  }
+  const double square = this->kWheelRadius * this->kWheelRadius, a = 11 / (1 + 4 / (this->kMass * square));
+  const double mu_front = (front - a / square) / (load + more(a)), mu_rear = (rear - a / square) / (load - more(a));
+  const double braking = before - this->speed(car).z, expected = ((mu_front - 1) + (mu_rear - 1)) / 2 * 0.125 / 0.25;
+  EXPECT_NEAR(braking, a, 0.005 * a);
+  EXPECT_NEAR(slip, expected, 0.1 * expected);
+  this->told("braking", braking);
+  this->told("slip", slip);
+}
+
+TYPED_TEST(Vehicles, slides_with_locked_wheels_by_the_end_of_the_curve) {
+  add_ground(this->w, 1);
+  const auto car = this->add_car({0, this->kHeight, 0}, 20);
+  this->set_curve(car, 0.0625, 1.25, 0.25, 0.75);
+  this->control(car, 0, 1);
+  this->torque(car, 6000);
+  run(this->w, 30);
+  const double before = this->speed(car).z;
+  run(this->w, 60);
+  EXPECT_NEAR(before - this->speed(car).z, 7.5, 0.02 * 7.5);
+  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.find(id)->slip), 1, 0.01);
+  run(this->w, 180);
+  EXPECT_LT(length(this->speed(car)), 0.01);
+  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.find(id)->slip), 0, 0.01);
 }
 
 TYPED_TEST(Vehicles, steering_leads_the_rear_axle_round_a_circle) {

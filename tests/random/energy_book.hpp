@@ -43,7 +43,8 @@ template <class S> class EnergyBook {
     }
     for (const JointId id : w.joints()) {
       const JointProperties<S>& p = *w.joint(id);
-      if ((p.flags & joint_flag::kMotor) != 0) motors_.push_back({id, driven_place(w, p)});
+      if ((p.flags & joint_flag::kMotor) != 0)
+        motors_.push_back({id, p, driven_place(w, p)});
     }
   }
   void after_step(const World<S>& w) {
@@ -54,8 +55,12 @@ template <class S> class EnergyBook {
       give(std::max(work, 0.0));
     }
     for (const Driven& motor : motors_) {
-      const JointProperties<S>& p = *w.joint(motor.joint);
+      const JointProperties<S>& p = motor.properties;
       const double speed = to_double(p.motor_speed), most = kMargin * std::fabs(speed) / hz;
+      if (!w.contains(motor.joint)) {  // it broke
+        give(to_double(p.motor_torque) * most);
+        continue;
+      }
       const double moved = driven_place(w, p) - motor.place;
       const bool turns = measure_of(p.type) == JointMeasure::angle;
       const double turned = turns ? std::remainder(moved, 2 * 3.14159265358979323846) : moved;
@@ -82,6 +87,7 @@ template <class S> class EnergyBook {
   };
   struct Driven {
     JointId joint;
+    JointProperties<S> properties;
     double place;  // [rad] or [m]
   };
   void give(double energy) {

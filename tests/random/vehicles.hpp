@@ -61,6 +61,12 @@ template <class S> class RandomVehicles {
       wheel.inertia = num<S>(mass * radius * radius * dice_.in(0.0078125, 0.125));
       wheel.grip_along = num<S>(dice_.in(0, 2));
       wheel.grip_across = num<S>(dice_.in(0, 2));
+      if (dice_.one_in(2)) {
+        wheel.peak_slip = num<S>(dice_.in(0.015625, 0.25));
+        wheel.slide_slip = num<S>(to_double(wheel.peak_slip) + dice_.in(0.015625, 1));
+        wheel.peak_grip = num<S>(dice_.in(0, 2));
+        wheel.slide_grip = num<S>(dice_.in(0, 2));
+      }
       wheel.steer_angle = num<S>(dice_.one_in(2) ? dice_.in(-0.75, 0.75) : 0);
       wheel.drive_share = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 0);
       wheel.handbrake_share = num<S>(dice_.in(0, 1));

@@ -6,7 +6,9 @@
 #include "isostep/effects/fracture/breaking.hpp"
 #include "random/energy_book.hpp"
 #include "random/forces.hpp"
+#include "random/mechanisms.hpp"
 #include "random/parts.hpp"
+#include "random/rules.hpp"
 #include "random/terrain.hpp"
 #include "random/vehicles.hpp"
 
@@ -69,7 +71,9 @@ template <class S> class RandomWorld {
     break_some(w, seed, frame);
     walk_some(w, seed, frame);
     drive_some(w, seed, frame);
+    couple_some(w, seed, frame);
     change_pairs(w, seed, frame);
+    change_rules(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -253,6 +257,11 @@ template <class S> class RandomWorld {
     }
     vehicles.change(chassis);
   }
+  /// Couplings, and joints that may break. Dice of its own.
+  static void couple_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    Dice dice(seed * 275604541 + frame * 295075147 + 37);
+    if (seed % 2 == 0 && dice.one_in(12)) RandomMechanisms<S>(w, dice).change();
+  }
   /// A record of two kinds more, or other, or none: whatever they say, contacts take energy. Dice of its own.
   static void change_pairs(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 49979687 + frame * 67867967 + 11);
@@ -273,6 +282,12 @@ template <class S> class RandomWorld {
       return;
     }
     w.add(pair);
+  }
+  /// Belts, ghosts, one-way bodies and reports of hits, where movers are. Dice of its own.
+  static void change_rules(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 236887691 + frame * 256203161 + 19);
+    if (dice.one_in(8)) RandomRules<S>(w, dice, kMoverSpeed).change();
   }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {

@@ -137,6 +137,29 @@ TYPED_TEST(RangeContract, MaterialsAtTheirLimitsSlideAtTheSpeedLimit) {
   this->step(60);
 }
 
+TYPED_TEST(RangeContract, BeltsTurnAndRunAtTheirLimitsOnOneWayBodies) {
+  using S = typename TypeParam::Scalar;
+  const ShapeId floor = this->floor();
+  const ShapeId box = this->world.add_shape(Box{{0.5, 0.125, 0.5}});
+  Material<S> rough;
+  rough.friction = S(16);
+  rough.surface_velocity = {Limits<S>::speed(), 0, 0};
+  const BodyId belt = this->world.create({.shape = floor, .position = {0, -1, 0}, .material = rough});
+  EXPECT_TRUE(
+      this->world.add(SurfaceVelocity<S>{belt, {Limits<S>::speed(), 0, 0}, {0, Limits<S>::angular_speed(), 0}}));
+  EXPECT_TRUE(this->world.add(OneWay<S>{belt}));
+  for (int i = 0; i < 8; ++i) {
+    const BodyId body = this->add(box, {S(2 * i), S(0.125), S(i)}, S(1));
+    this->world.set_material(body, rough);
+    EXPECT_TRUE(this->world.add(HitReport<S>{body, S(0)}));
+    SurfaceVelocity<S> wheel = {body, {0, 0, -Limits<S>::speed()}, {-Limits<S>::angular_speed(), 0, 0}};
+    if (i % 2 != 0) wheel.linear = wheel.angular = Vec3<S>::zero();
+    EXPECT_TRUE(this->world.add(wheel));
+    this->world.set_velocity(body, {-Limits<S>::speed() * S(0.5), 0, S(i)}, {0, Limits<S>::angular_speed(), 0});
+  }
+  this->step(60);
+}
+
 TYPED_TEST(RangeContract, DeepOverlapsArePushedApart) {
   using S = typename TypeParam::Scalar;
   this->floor();

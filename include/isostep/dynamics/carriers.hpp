@@ -1,4 +1,4 @@
-// Carriers<S>: finds the kinematic bodies that turn, and the contacts on them.
+// Carriers<S>: finds the kinematic bodies that turn, and the contacts on them and on turning belts.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,25 +7,32 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/belt.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/contact.hpp"
 
 namespace isostep {
 
-/// Input:   the awake bodies, the geometry of the contacts, the rate at which the solver integrates [1/s].
-/// Output:  contacts on carriers, ascending.
+/// Input:   the awake bodies, the geometry of the contacts, the rate at which the solver integrates [1/s]; where belts
+///          turn, them and the contacts.
+/// Output:  contacts on carriers and on turning belts, ascending.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class Carriers {
  public:
   void update(std::span<const BodyState<S>> states, std::span<const BodyProperties<S>> properties,
-              std::span<const ContactGeometry<S>> geometry, std::int32_t rate);
+              std::span<const ContactGeometry<S>> geometry, std::int32_t rate,
+              std::span<const Contact<S>> contacts = {}, const Belts<S>* belts = nullptr);
   ISO_INLINE const std::vector<Carried<S>>& carried() const { return carried_; }
 
  private:
   void find_carriers(std::span<const BodyState<S>> states, std::span<const BodyProperties<S>> properties,
                      std::int32_t rate);
+  bool add_on_carrier(std::uint32_t contact, const ContactGeometry<S>& g);
+  void add_on_belt(std::uint32_t contact, const ContactKey& key, const ContactGeometry<S>& g, std::int32_t rate);
+  void spin_on_belts(const ContactKey& key, Carried<S>& carried) const;
 
+  const Belts<S>* belts_ = nullptr;   // for one update; null: none turns
   std::vector<Carrier<S>> carriers_;  // by row
   std::vector<Carried<S>> carried_;
 };

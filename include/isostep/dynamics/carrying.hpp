@@ -39,15 +39,26 @@ template <class S> struct Carrier {
   }
 };
 
-/// A contact on a carrier.
+/// A contact on a carrier, or on a turning belt: the surface of a SurfaceVelocity that turns while its body does not.
+/// Of a belt all of (R - 1) (d + D) / h acts on the surface: its w x d is in `belt`.
 template <class S> struct Carried {
   using V = Velocity<S>;
   std::uint32_t contact;
   std::uint32_t rider;  // row of SolverBodies
   Carrier<S> carrier;
   Vec3<S> place;  // [m] d
-  Vec3<S> belt;   // [m/s] of the material
+  Vec3<S> belt;   // [m/s] of the material and the belts
   bool on_b;      // the carrier is b
+  Vec3<V> spin = Vec3<V>::zero();  // [rad/s] of b's surface against a's, besides the bodies' own
+
+  ISO_INLINE bool spins() const { return !(spin == Vec3<V>::zero()); }
+  /// [m/s] by which the surface's speed `arm` [m] away from the middle of the contact differs from that in the middle.
+  ISO_INLINE Vec3<V> spun(Vec3<S> arm) const {
+    const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
+      return saturate_to<V>(product(spin[i], arm[j]) - product(spin[j], arm[i]));
+    };
+    return held_within(Vec3<V>{part(1, 2), part(2, 0), part(0, 1)}, convert<V>(Limits<S>::speed()));
+  }
 
   /// [m/s] speed of b's surface against a's in the sub-step that begins.
   ISO_INLINE Vec3<V> surface(const SolverBodies<S>& bodies) const {

@@ -104,4 +104,27 @@ template <class S> struct ContactGeometry {
   MixedMaterial<S> material;
 };
 
+namespace detail {
+/// The arms from both bodies to the middle of a contact's points, where its friction acts, or to its first.
+template <class S> struct ContactArms {
+  Vec3<S> a, b;  // [m]
+
+  static ISO_INLINE ContactArms middle_of(const ContactGeometry<S>& g, std::uint32_t count) {
+    constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
+    ContactArms sum = {g.points[0].arm_a, g.points[0].arm_b};
+    for (std::uint32_t p = 1; p < count; ++p) sum = {sum.a + g.points[p].arm_a, sum.b + g.points[p].arm_b};
+    return {sum.a * kShares[count - 1], sum.b * kShares[count - 1]};
+  }
+};
+/// [m/s] Of a body at the end of an arm. Null: it does not move.
+template <class S> ISO_INLINE Vec3<Velocity<S>> velocity_at(const BodyState<S>* body, Vec3<S> arm) {
+  if (body == nullptr) return Vec3<Velocity<S>>::zero();
+  const Vec3<Velocity<S>> w = body->angular_velocity;
+  const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
+    return round_to<Velocity<S>>(product(w[i], arm[j]) - product(w[j], arm[i]));
+  };
+  return body->velocity + Vec3<Velocity<S>>{part(1, 2), part(2, 0), part(0, 1)};
+}
+}  // namespace detail
+
 }  // namespace isostep

@@ -4,7 +4,13 @@
 
 #include "isostep/dynamics/breakable.hpp"
 #include "isostep/dynamics/character.hpp"
+#include "isostep/dynamics/coupling.hpp"
+#include "isostep/dynamics/joint_load.hpp"
+#include "isostep/dynamics/ghost.hpp"
+#include "isostep/dynamics/hit_report.hpp"
 #include "isostep/dynamics/material_pair.hpp"
+#include "isostep/dynamics/one_way.hpp"
+#include "isostep/dynamics/surface_velocity.hpp"
 #include "isostep/dynamics/vehicle.hpp"
 
 /// As ISO_FOR_EACH_FORCE in forces/force_list.hpp, of what does not act by `act` in a sub-step.
@@ -14,3 +20,14 @@
   R(character, Character<S>, CharacterId, S)           \
   R(vehicle, Vehicle<S>, VehicleId, S)                 \
   R(wheel, Wheel<S>, WheelId, S)
+
+/// The same, of newer kinds: what says how bodies touch, and what joints bear and share. The position is the kind's
+/// number in hashes and portable forms: append, never reorder. A world to which none of a kind was ever added has the
+/// hash and form of one that does not know it.
+#define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
+  R(surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
+  R(ghost, Ghost<S>, GhostId, S)                                \
+  R(one_way, OneWay<S>, OneWayId, S)                            \
+  R(hit_report, HitReport<S>, HitReportId, S)                   \
+  R(joint_load, JointLoad<S>, JointLoadId, S)                   \
+  R(coupling, Coupling<S>, CouplingId, S)

@@ -65,6 +65,9 @@ template <class S> struct Vehicle {
 ///               are joined by a bar, which adds anti_roll times the difference of their lengths.
 ///   tyre        along and across the wheel a force that ends the slip, at most that of the ellipse with the radii
 ///               mu load: mu is the root of grip times the ground's friction. What stands sticks
+///   slip        the speed with which the tyre slides by that of its middle over the ground, or by 1 m/s if that is
+///               slower. Of that mu is a table: itself at 0, peak_grip times that at peak_slip, slide_grip times that
+///               from slide_slip on, lines between. As it is made, it does not depend on slip
 /// The ground bears the opposite of each force. All are solved in every sub-step, together for all wheels of a body.
 /// From `spin` on a step writes; contact_body is null, and load, along and across are 0, where the wheel meets nothing.
 template <class S> struct Wheel {
@@ -80,6 +83,10 @@ template <class S> struct Wheel {
   S inertia = S(1);            // [kg m^2] about the axle
   S grip_along = S(1);         // [1] friction
   S grip_across = S(1);        // [1]
+  S peak_slip = S(0.0625);     // [1] above 0
+  S peak_grip = S(1);          // [1]
+  S slide_slip = S(0.25);      // [1] above peak_slip
+  S slide_grip = S(1);         // [1]
   S steer_angle = S(0);        // [rad] at steer 1
   S drive_share = S(0);        // [1] of the torque, to those of the other wheels
   S brake_share = S(1);        // [1]
@@ -88,7 +95,9 @@ template <class S> struct Wheel {
   S anti_roll = S(0);          // [N/m] the larger of the two counts
   S spin = S(0);               // [rad/s] about the axle, seen from the body
   S angle = S(0);              // [rad] that it has turned, 0 to 2 pi
+  S steered = S(0);            // [rad] from axle_direction, counter-clockwise seen from above
   S length = S(0);             // [m] from the hard point to the wheel's middle
+  S slip = S(0);               // [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half
   BodyId contact_body = {};
   Vec3<S> contact_point = {S(0), S(0), S(0)};                          // [m] world
   Vec3<Unit<S>> contact_normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the ground, world
@@ -109,6 +118,10 @@ template <class S> struct Wheel {
     visit("inertia", self.inertia);
     visit("grip_along", self.grip_along);
     visit("grip_across", self.grip_across);
+    visit("peak_slip", self.peak_slip);
+    visit("peak_grip", self.peak_grip);
+    visit("slide_slip", self.slide_slip);
+    visit("slide_grip", self.slide_grip);
     visit("steer_angle", self.steer_angle);
     visit("drive_share", self.drive_share);
     visit("brake_share", self.brake_share);
@@ -117,7 +130,9 @@ template <class S> struct Wheel {
     visit("anti_roll", self.anti_roll);
     visit("spin", self.spin);
     visit("angle", self.angle);
+    visit("steered", self.steered);
     visit("length", self.length);
+    visit("slip", self.slip);
     visit("contact_body", self.contact_body);
     visit("contact_point", self.contact_point);
     visit("contact_normal", self.contact_normal);

@@ -159,10 +159,16 @@ template <class Visitor> class StateFields {
     else arrays(visit_, *value);
   }
   template <class Records> void records(Records& value) const {
-    if (value->untouched()) return;
     using Value = std::remove_cvref_t<decltype(*value)>;
-    if constexpr (Visitor::kEdits) Value::members(*this, value.change());
-    else Value::members(*this, *value);
+    const bool first = !value->untouched();
+    const std::uint32_t kinds = value->newer_kinds();
+    const auto visit_them = [&](auto& records) {
+      if (first) Value::first_members(*this, records);
+      Value::newer_members(kinds, *this, records);
+    };
+    if (!first && kinds == 0) return;
+    if constexpr (Visitor::kEdits) visit_them(value.change());
+    else visit_them(*value);
   }
   template <class Store> void store(const char* name, const Store& value) const { visit_(name, value->names()); }
   template <class List> void islands(const char* name, const List& list) const {

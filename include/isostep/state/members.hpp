@@ -22,8 +22,9 @@
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) visits its vectors, two at most
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
-//   visit.records(value)         Shared<T>: registries that T::members visits. A state to which none was ever added has
-//                                the hash and the portable form of one that knows of none
+//   visit.records(value)         Shared<T>: registries that T::first_members visits, and T::newer_members. A state to
+//                                which none was ever added has the hash and the portable form of one that knows of
+//                                none; of the latter this holds kind by kind
 //   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all; a state
 //                                without any has the hash and the portable form of one that knows of no store
 
@@ -80,7 +81,10 @@ class StateHasher {
     add_page(combiner_, list.pages() - 1);
   }
   template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
-    if (!value->untouched()) Records::members(*this, *value);
+    if (!value->untouched()) Records::first_members(*this, *value);
+    const std::uint32_t kinds = value->newer_kinds();
+    if (kinds != 0) combiner_.add(kinds);
+    Records::newer_members(kinds, *this, *value);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     if (value->empty()) return;
@@ -137,7 +141,10 @@ class StateWriter {
     for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
   }
   template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
-    if (!value->untouched()) Records::members(*this, *value);
+    if (!value->untouched()) Records::first_members(*this, *value);
+    const std::uint32_t kinds = value->newer_kinds();
+    if (kinds != 0) writer_.write(kinds);
+    Records::newer_members(kinds, *this, *value);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     if (!value->empty()) value->write(writer_);
@@ -151,12 +158,16 @@ class StateWriter {
 struct ReadNoStore {
   template <class Store> ISO_INLINE void operator()(Store&) const {}
 };
+/// Which records there are: of the first kinds, and of those that say how bodies touch.
+struct RecordsThere {
+  bool first = false, of_contacts = false;
+};
 /// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
-/// `read_store`: of a store that may be changed, when its turn comes. `has_records`: whether there are any.
+/// `read_store`: of a store that may be changed, when its turn comes.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
-  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {}, bool has_records = false)
-      : reader_(reader), read_store_(std::move(read_store)), has_records_(has_records) {}
+  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {}, RecordsThere there = {})
+      : reader_(reader), read_store_(std::move(read_store)), there_(there) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
   ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
@@ -181,14 +192,19 @@ template <class ReadStore = ReadNoStore> class StateReader {
     }
   }
   template <class Records> ISO_INLINE void records(Shared<Records>& value) {
-    if (has_records_) Records::members(*this, value.change());
+    if (there_.first) Records::first_members(*this, value.change());
+    if (!there_.of_contacts) return;
+    const auto kinds = reader_.read<std::uint32_t>();
+    if (kinds == 0 || (kinds & ~Records::kNewerKinds) != 0)
+      reader_.fail(ErrorCode::invalid, "records of unknown kinds");
+    if (reader_.ok()) Records::newer_members(kinds, *this, value.change());
   }
   template <class Store> ISO_INLINE void store(const char*, Shared<Store>& value) { read_store_(value.change()); }
 
  private:
   Reader& reader_;
   ReadStore read_store_;
-  bool has_records_;
+  RecordsThere there_;
 };
 
 }  // namespace isostep::detail

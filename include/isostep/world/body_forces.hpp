@@ -10,6 +10,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/world/body_map.hpp"
+#include "isostep/world/coupling_forces.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/force_bounds.hpp"
 #include "isostep/world/proxies.hpp"
@@ -23,11 +24,11 @@ namespace isostep {
 ///          records of wheels written.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   what commands asked for, then the records kind by kind (force_list.hpp), each kind ascending by slot, then
-///          wheels.
+///          wheels, then couplings.
 template <class S> class BodyForces {
  public:
   ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
-      : state_(state), map_(map), proxies_(proxies), wheels_(state, map, proxies) {}
+      : state_(state), map_(map), proxies_(proxies), wheels_(state, map, proxies), couplings_(state, map) {}
 
   /// Takes what commands left in the state.
   void begin_step();
@@ -65,7 +66,9 @@ template <class S> class BodyForces {
   };
   static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass, for what resists its motion
 
-  ISO_INLINE bool no_records() const { return state_.force_records->no_forces() && !wheels_.any(); }
+  ISO_INLINE bool no_records() const {
+    return state_.force_records->no_forces() && !wheels_.any() && !couplings_.any();
+  }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   void act(const ForceZone<S>& zone);
   void act(const Attractor<S>& attractor);
@@ -82,7 +85,7 @@ template <class S> class BodyForces {
   void accelerate(std::uint32_t row, Vec3<S> acceleration);
   void push(std::uint32_t row, Vec3<S> force, Vec3<S> arm);
   void push(const End& end, Vec3<S> force) { push(end.row, force, end.arm); }
-  void push(const typename WheelForces<S>::Push& wheel);
+  void push(const VelocityChange<S>& change);
   void note_cut(std::uint32_t row, bool cut);
   bool is_pushed(std::uint32_t row, std::uint32_t mask) const;
   Mat3<S> give_of(const End& end, const Mat3<U>& axes) const;
@@ -112,6 +115,7 @@ template <class S> class BodyForces {
   const BodyMap<S>& map_;
   const Proxies<S>& proxies_;
   WheelForces<S> wheels_;
+  CouplingForces<S> couplings_;
   std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
   std::vector<Wet> wet_;
   std::vector<std::uint32_t> resisting_;  // by awake body: how many forces resist its motion

@@ -13,6 +13,7 @@ template <class S> void BodyForces<S>::begin_step() {
   substep_ = 0;
   cut_count_ = 0;
   wheels_.begin_step();
+  couplings_.begin_step();
   const Acceleration<S> none = {Vec3<S>::zero(), Vec3<S>::zero()};
   if (state_.forces.empty() && no_records()) return;
   accelerations_.assign(state_.awake.states.size(), none);
@@ -53,7 +54,10 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
       *state_.force_records);
   resist_all();
   if (wheels_.any()) {
-    for (const auto& wheel : wheels_.solve(bodies, accelerations_, rate)) push(wheel);
+    for (const VelocityChange<S>& change : wheels_.solve(bodies, accelerations_, rate)) push(change);
+  }
+  if (couplings_.any()) {
+    for (const VelocityChange<S>& change : couplings_.solve(bodies, accelerations_, rate)) push(change);
   }
   ++substep_;
 }
@@ -112,20 +116,20 @@ template <class S> void BodyForces<S>::push(std::uint32_t row, Vec3<S> force, Ve
   }
   note_cut(row, bounder.cut);
 }
-/// Of wheels, which know what they do to a body's velocity.
-template <class S> void BodyForces<S>::push(const typename WheelForces<S>::Push& wheel) {
+/// Of wheels and couplings, which know what they do to a body's velocity.
+template <class S> void BodyForces<S>::push(const VelocityChange<S>& change) {
   const S most = detail::most_acceleration(rate_, Limits<S>::speed());
   const S most_turning =
-      detail::most_acceleration(rate_, detail::most_angular_speed(state_.awake.states[wheel.row - 1].fat));
+      detail::most_acceleration(rate_, detail::most_angular_speed(state_.awake.states[change.row - 1].fat));
   detail::Bounder<S> bounder;
   const auto rate_of = [&](Vec3<Velocity<S>> v, S limit) {
     const auto part = [&](Velocity<S> x) { return bounder.held(saturate_to<S>(product(S(rate_), x)), limit); };
     return Vec3<S>{part(v.x), part(v.y), part(v.z)};
   };
-  Acceleration<S>& sum = accelerations_[wheel.row - 1];
-  sum.linear = bounder.sum(sum.linear, rate_of(wheel.linear, most), most);
-  sum.angular = bounder.sum(sum.angular, rate_of(wheel.angular, most_turning), most_turning);
-  note_cut(wheel.row, bounder.cut);
+  Acceleration<S>& sum = accelerations_[change.row - 1];
+  sum.linear = bounder.sum(sum.linear, rate_of(change.linear, most), most);
+  sum.angular = bounder.sum(sum.angular, rate_of(change.angular, most_turning), most_turning);
+  note_cut(change.row, bounder.cut);
 }
 
 // ---- zones and attractors: for every awake body

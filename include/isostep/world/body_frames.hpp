@@ -39,7 +39,9 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
 template <class S>
 Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
 
-/// Whether two bodies have a contact.
-template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b);
+/// Whether two bodies have a contact, or are no further from each other than that [m].
+template <class S>
+bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b,
+                  S margin = detail::kSpeculativeDistance<S>);
 
 }  // namespace isostep

@@ -188,19 +188,18 @@ Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Ma
   return material;
 }
 
-template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b) {
-  constexpr S kMargin = detail::kSpeculativeDistance<S>;
+template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b, S margin) {
   const BodyFrame<S> a = frame_at(map, map.location(slot_a)), b = frame_at(map, map.location(slot_b));
   bool touch = false;
   std::uint64_t looks = ~std::uint64_t{0};
   const auto visit = [&](std::uint32_t i, std::uint32_t j) {
     Manifold<S> manifold;
-    collide_parts(collide_polyhedra<S>, a, i, b, j, kMargin, manifold);
+    collide_parts(collide_polyhedra<S>, a, i, b, j, margin, manifold);
     touch = manifold.count > 0;
     return !touch;
   };
-  if (is_large(a) || is_large(b)) visit_leaves(a, b, kMargin, looks, visit);
-  else visit_parts(a, b, kMargin, looks, visit);
+  if (is_large(a) || is_large(b)) visit_leaves(a, b, margin, looks, visit);
+  else visit_parts(a, b, margin, looks, visit);
   return touch;
 }
 

@@ -6,10 +6,16 @@
 
 namespace isostep {
 
+/// What may be in a character's way, the firmest first: what stays where it is, what walks, what is pushed aside.
+namespace detail::obstacle {
+inline constexpr std::uint8_t kFixed = 0, kWalks = 1, kDynamic = 2;
+}
+
 template <class S> QueryFilter CharacterWalk<S>::filter() const {
   QueryFilter filter;
   filter.mask = character_.mask;
   filter.ignore = character_.body;
+  filter.ignore_all = place_.passed;
   return filter;
 }
 
@@ -26,7 +32,7 @@ template <class S> auto CharacterWalk<S>::cast(Vec3<S> way) const -> std::option
 template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>& along) const {
   const S cosine = -dot(convert<S>(detail::unit_of<S>(along)), hit.normal);
   const S room = along.length * hit.fraction - character_.skin / max(cosine, detail::kGrazing<S>);
-  return max(walks_[hit.body.slot] != 0 ? room * S(0.5) : room, S(0));
+  return max(walks_[hit.body.slot] == detail::obstacle::kWalks ? room * S(0.5) : room, S(0));
 }
 
 template <class S> void CharacterWalk<S>::touch(const Hit& hit) {

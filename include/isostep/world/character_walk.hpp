@@ -51,6 +51,7 @@ template <class S> class CharacterWalk {
     Vec3<Unit<S>> up;
     Vec3<S> gravity;
     std::int32_t hz;
+    std::span<const BodyId> passed = {};  // it goes through these
   };
   CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
                 NearContacts<S>& near, Character<S>& character);
@@ -97,7 +98,7 @@ template <class S> class CharacterWalk {
 
   const Queries<S>& queries_;
   Place place_;
-  std::span<const std::uint8_t> walks_;  // by body slot: a character's
+  std::span<const std::uint8_t> walks_;  // by body slot: of obstacle
   NearContacts<S>& near_;
   Character<S>& character_;
   Vec3<S> start_, at_;  // [m] of the body's origin

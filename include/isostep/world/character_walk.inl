@@ -36,30 +36,36 @@ template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   find_ground(walks, carried);
 }
 
-/// The deepest first. Another character gives way too, so half is enough.
+/// The deepest first. Another character gives way too, so half is enough. Where all together leave no room, what is
+/// dynamic waits, for the character's body pushes that out as well; and where others who walk leave none either, at
+/// least what stays where it is remains outside.
 template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
-  const Vec3<S> begin = at_;
-  for (int round = 0; round < detail::kMostWaysOut; ++round) {
-    queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, near_, filter());
-    const NearContact<S>* deepest = nullptr;
-    for (const NearContact<S>& contact : near_.all) {
-      if (deepest == nullptr || contact.separation < deepest->separation) deepest = &contact;
+  const auto move_out = [&](std::uint8_t least_firm) {
+    const Vec3<S> begin = at_;
+    for (int round = 0; round < detail::kMostWaysOut; ++round) {
+      queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, near_, filter());
+      const NearContact<S>* deepest = nullptr;
+      for (const NearContact<S>& contact : near_.all) {
+        if (least_firm < walks_[contact.body.slot]) continue;
+        if (deepest == nullptr || contact.separation < deepest->separation) deepest = &contact;
+      }
+      if (deepest == nullptr || character_.skin * S(0.5) <= deepest->separation) return true;
+      const S missing = character_.skin - deepest->separation;
+      const S way = walks_[deepest->body.slot] == detail::obstacle::kWalks ? missing * S(0.5) : missing;
+      at_ += convert<S>(deepest->normal) * way;
+      const Direction<S> gone = detail::heading<S>(at_ - begin);
+      if (!(most < gone.length)) continue;
+      at_ = begin + detail::along<S>(gone, most);
+      return false;
     }
-    if (deepest == nullptr || character_.skin * S(0.5) <= deepest->separation) {
-      character_.stuck = 0;
-      return;
-    }
-    const S missing = character_.skin - deepest->separation;
-    const S way = walks_[deepest->body.slot] != 0 ? missing * S(0.5) : missing;
-    at_ += convert<S>(deepest->normal) * way;
-    const Vec3<S> gone = at_ - begin;
-    const Direction<S> d = detail::heading<S>(gone);
-    if (most < d.length) {
-      at_ = begin + detail::along<S>(d, most);
-      break;
-    }
+    return false;
+  };
+  if (move_out(detail::obstacle::kDynamic)) {
+    character_.stuck = 0;
+    return;
   }
   ++character_.stuck;
+  if (!move_out(detail::obstacle::kWalks)) move_out(detail::obstacle::kFixed);
 }
 
 /// It keeps the velocity of its ground.

@@ -35,7 +35,11 @@ template <class S> class Characters {
     Character<S> character;
     Vec3<S> way;  // [m]
   };
+  using Place = typename CharacterWalk<S>::Place;
   void walk(std::uint32_t slot);
+  void find_passed(const Character<S>& character, const Place& place);
+  bool is_above(const Character<S>& character, const Place& place, const OneWay<S>& way);
+  S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
   Vec3<S> local_to(BodyId body, Vec3<S> point) const;
   void push_touched(const CharacterWalk<S>& walk, const Character<S>& character);
   void bear(const Character<S>& character);
@@ -48,10 +52,11 @@ template <class S> class Characters {
   IslandWake<S>& wake_;
   const Queries<S>& queries_;
   CommandExecutor<S>& commands_;
-  std::vector<std::uint8_t> walks_;  // by body slot: it has a character
+  std::vector<std::uint8_t> walks_;  // by body slot: detail::obstacle
   std::vector<Move> moves_;
   std::vector<Push> pushes_;
   NearContacts<S> near_;
+  std::vector<BodyId> passed_;  // that one character goes through
 };
 
 #define ISO_EXTERN(S) extern template class Characters<S>;

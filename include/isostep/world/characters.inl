@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/geometry/bounds.hpp"
+#include "isostep/math/rotations.hpp"
 #include "isostep/world/character_walk.inl"
 #include "isostep/world/characters.hpp"
 #include "isostep/world/checks.hpp"
@@ -10,13 +12,25 @@
 namespace isostep {
 
 namespace detail {
-/// [m] how far the point of the ground has moved that the character stands on. What is fixed does not.
+/// [m] a step by which the surface of the ground runs under its foot.
+template <class S>
+Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
+  for (const SurfaceVelocity<S>& belt : state.force_records->surface_velocitys.all()) {
+    if (!belt.body || belt.body != character.ground) continue;
+    const Vec3<S> speed = held_within(belt.linear + saturated_cross(belt.angular, character.foot), Limits<S>::speed());
+    const Step<S> h = divide_to<Step<S>>(S(1), S(state.settings.hz));
+    return to_matrix(map.origin_pose_at(belt.body.slot).orientation) * (speed * h);
+  }
+  return Vec3<S>::zero();
+}
+/// [m] how far the point of the ground has moved that the character stands on. What is fixed does not, but for belts.
 template <class S>
 Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
   if (!state.body_slots.holds(character.ground)) return Vec3<S>::zero();
-  if (map.location(character.ground.slot).set == Location::kStatic) return Vec3<S>::zero();
+  const Vec3<S> by_belt = carried_by_belt(state, map, character);
+  if (map.location(character.ground.slot).set == Location::kStatic) return by_belt;
   const Pose<S> pose = map.origin_pose_at(character.ground.slot);
-  return pose.position + to_matrix(pose.orientation) * character.foot - character.foot_at;
+  return pose.position + to_matrix(pose.orientation) * character.foot - character.foot_at + by_belt;
 }
 /// [N] from a push that ends at a speed: no more than `most`, and than the body then has after a step.
 template <class S> S push_on(S mass, S lacks, std::int32_t hz, S most) {
@@ -29,9 +43,13 @@ template <class S> S push_on(S mass, S lacks, std::int32_t hz, S most) {
 template <class S> void Characters<S>::update() {
   const auto& records = state_.force_records->characters;
   if (records.all().empty()) return;
-  walks_.assign(state_.body_slots.entries().size(), 0);
+  walks_.assign(state_.body_slots.entries().size(), detail::obstacle::kFixed);
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    const bool moves = state_.awake.properties[i].type == BodyType::dynamic;
+    if (moves) walks_[state_.awake.states[i].slot] = detail::obstacle::kDynamic;
+  }
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
-    if (records.is_taken(slot)) walks_[records.all()[slot].body.slot] = 1;
+    if (records.is_taken(slot)) walks_[records.all()[slot].body.slot] = detail::obstacle::kWalks;
   }
   moves_.clear();
   pushes_.clear();
@@ -57,13 +75,67 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   const Vec3<Unit<S>> up =
       against.length > S(0) ? detail::unit_of<S>(against) : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
   const S below = queries_.reach_of(shape, pose.orientation, -up);
-  CharacterWalk<S> walk(queries_, {shape, pose, below, up, settings.gravity, settings.hz}, walks_, near_, character);
+  Place place = {shape, pose, below, up, settings.gravity, settings.hz};
+  find_passed(character, place);
+  place.passed = passed_;
+  CharacterWalk<S> walk(queries_, place, walks_, near_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
   character.foot = local_to(character.ground, walk.foot());
   push_touched(walk, character);
   bear(character);
   moves_.push_back({slot, character, walk.way()});
+}
+
+/// Its ghosts, and the one-way bodies that it is not above of.
+template <class S> void Characters<S>::find_passed(const Character<S>& character, const Place& place) {
+  passed_.clear();
+  for (const Ghost<S>& ghost : state_.force_records->ghosts.all()) {
+    if (ghost.a && ghost.a == character.body) passed_.push_back(ghost.b);
+    if (ghost.b && ghost.b == character.body) passed_.push_back(ghost.a);
+  }
+  for (const OneWay<S>& way : state_.force_records->one_ways.all()) {
+    if (way.body && way.body != character.body && !is_above(character, place, way)) passed_.push_back(way.body);
+  }
+}
+
+/// By the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that rises
+/// may have overtaken the character's lowest point in this step.
+template <class S>
+bool Characters<S>::is_above(const Character<S>& character, const Place& place, const OneWay<S>& way) {
+  if (character.footing == Footing::floor && character.ground == way.body) return true;
+  const Pose<S> pose = map_.origin_pose_at(way.body.slot);
+  const Vec3<Unit<S>> axis = to_matrix(pose.orientation) * way.axis;
+  const BodyState<S>& state = map_.state_at(map_.location(way.body.slot));
+  const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / S(place.hz);
+  const S slack = character.skin * S(0.5) + rises;
+  const S lowest = dot(place.pose.position - pose.position, axis) -
+                   queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
+  if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
+  const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / S(place.hz);
+  QueryFilter filter;
+  filter.mask = character.mask;
+  filter.ignore = character.body;
+  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, near_, filter);
+  bool in_front = false;
+  for (const NearContact<S>& contact : near_.all) {
+    if (contact.body != way.body) continue;
+    if (contact.separation < -slack) return false;
+    in_front = in_front || !(convert<S>(dot(contact.normal, axis)) < way.least_cosine);
+  }
+  return in_front;
+}
+
+/// [m] along an axis in the body's frame, from its origin.
+template <class S> S Characters<S>::highest_of(BodyId body, Vec3<Unit<S>> axis) const {
+  const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
+  const Transform<S> upright = Transform<S>::of({Vec3<S>::zero(), rotation_between(axis, y)});
+  S highest = -Limits<S>::position();
+  for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(body.slot)).shape)) {
+    const Transform<S> at = compose(upright, Transform<S>::of(child.pose));
+    highest = max(highest, bounds(map_.contents().view(child.primitive), at).high.y);
+  }
+  return highest;
 }
 
 template <class S> Vec3<S> Characters<S>::local_to(BodyId body, Vec3<S> point) const {

@@ -62,6 +62,7 @@ template <class S> class CommandExecutor {
   bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
   bool check_ends(const JointProperties<S>& joint);
   template <class Record> bool check_force(const Record& record);
+  template <class Record> bool check_joints(const Record& record);
   template <class Record> ISO_INLINE bool check_spring(const Record&) { return true; }
   bool check_spring(const BodySpring<S>& spring);
   bool check_spring(const Wheel<S>& wheel);
@@ -70,8 +71,14 @@ template <class S> class CommandExecutor {
   bool check_alone(const Breakable<S>& breakable, std::uint32_t slot);
   bool check_alone(const Character<S>& character, std::uint32_t slot);
   bool check_alone(const Vehicle<S>& vehicle, std::uint32_t slot);
+  bool check_alone(const JointLoad<S>& load, std::uint32_t slot);
+  bool check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot);
+  bool check_alone(const Ghost<S>& ghost, std::uint32_t slot);
+  bool check_alone(const OneWay<S>& one_way, std::uint32_t slot);
+  bool check_alone(const HitReport<S>& report, std::uint32_t slot);
   template <class Record> bool check_only_one(const Record& record, std::uint32_t slot);
   template <class Record> void wake_for_force(const Record& record);
+  void wake_what_rests_on(BodyId body);
   template <class Record> auto add_force(const Record& record);
   template <class Record, class IdType> bool set_force(IdType id, const Record& record);
   template <class IdType> bool remove_force(IdType id);

@@ -10,6 +10,7 @@
 #include "isostep/collision/continuous/core_motion.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/one_way.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -35,7 +36,8 @@ template <class S> class ContinuousCollision {
   ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined);
+  /// What leaves one of the `ways`, or passes it from below, is not stopped by it; null: there are none.
+  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const Ways<S>* ways = nullptr);
 
  private:
   /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
@@ -93,6 +95,7 @@ template <class S> class ContinuousCollision {
   Mover measure(std::size_t index) const;
   void find_met_by_kinematic(S least);
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
+  bool is_let_out(const Mover& mover, std::uint32_t slot) const;
   void cut(Mover& mover, bool moving);
   Cut sweep(const Mover& mover, bool moving) const;
   bool find_touch(Mover& mover) const;
@@ -113,6 +116,7 @@ template <class S> class ContinuousCollision {
   Proxies<S>& proxies_;
   std::span<const Pose<S>> start_;  // for one update
   std::span<const std::uint64_t> joined_;
+  const Ways<S>* ways_ = nullptr;  // null: none
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
   std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones

@@ -54,9 +54,11 @@ template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
 }  // namespace detail
 
 template <class S>
-void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined) {
+void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined,
+                                    const Ways<S>* ways) {
   start_ = start;
   joined_ = joined;
+  ways_ = ways == nullptr || ways->empty() ? nullptr : ways;
   const Survey found = survey();
   find_movers(found);
   for (Mover& mover : movers_) cut(mover, false);
@@ -233,9 +235,20 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if ((other.type == BodyType::dynamic) != moving || (other.flags & kNone) != body_flag::kCollide) return false;
   if (moving && (other.flags & body_flag::kBullet) != 0) return false;
   if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
+  if (ways_ != nullptr && is_let_out(mover, slot)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
   const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
   return at == joined_.size() || joined_[at] != key;
+}
+
+/// By their velocities as the step leaves them.
+template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, std::uint32_t slot) const {
+  const BodyState<S>& own = state_.awake.states[mover.index];
+  const Location at = map_.location(slot);
+  Vec3<Velocity<S>> velocity = own.velocity;
+  if (at.set == Location::kAwake) velocity -= state_.awake.states[at.index].velocity;
+  const Way<S>*of_other = ways_->find(slot), *of_own = ways_->find(own.slot);
+  return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
 }
 
 /// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.

@@ -1,4 +1,5 @@
-// DebugDraw: what a game overrides to draw a world as the engine sees it: shapes, masses, contacts, joints, sleepers.
+// DebugDraw: what a game overrides to draw a world as the engine sees it: shapes, masses, contacts, joints, wheels,
+// characters, sleepers.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -106,6 +107,32 @@ struct DrawnJoint {
   float error;  // [m] between the anchors; of a distance joint: out of its range
 };
 
+struct DrawnWheel {
+  WheelId wheel;
+  BodyId body;
+  bool awake;           // its body
+  DrawnPose pose;       // of its middle; y: its axle, steered; turns about that as the wheel rolls
+  float radius;         // [m]
+  float hard_point[3];  // [m] where its spring begins
+  float spin;           // [rad/s] positive: rolls forward
+  BodyId ground;        // null: it meets nothing, and what follows is 0
+  float contact[3];     // [m]
+  float normal[3];      // [1] of the ground
+  float load;           // [N] along the normal, of the last sub-step
+  float grip[3];        // [N] of the tyre, on the body, of the last sub-step
+};
+struct DrawnCharacter {
+  CharacterId character;
+  BodyId body;
+  Footing footing;
+  BodyId ground;        // null: airborne, and the normal is 0
+  float foot[3];        // [m] on the ground; of who is airborne, its body's origin
+  float normal[3];      // [1] of the ground
+  float weight;         // [N]
+  float velocity[3];    // [m/s]
+  std::uint32_t stuck;  // [steps] in a row in which it could not leave what it overlaps
+};
+
 struct DrawnParticle {
   ParticleId particle;
   std::uint32_t material;  // slot
@@ -146,6 +173,8 @@ struct DrawOptions {
   bool islands = false;
   bool contacts = true;
   bool joints = true;
+  bool wheels = true;
+  bool characters = true;
   bool particles = true;
   bool springs = true;
   bool links = true;
@@ -166,6 +195,8 @@ class DebugDraw {
   virtual void island(const DrawnIsland& island);
   virtual void contact(const DrawnContact& contact);
   virtual void joint(const DrawnJoint& joint);
+  virtual void wheel(const DrawnWheel& wheel);
+  virtual void character(const DrawnCharacter& character);
   virtual void particle(const DrawnParticle& particle);
   virtual void spring(const DrawnSpring& spring);
   virtual void link(const DrawnLink& link);

@@ -8,6 +8,7 @@
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/scalar/environment.hpp"
 #include "isostep/world/body_frames.hpp"
+#include "isostep/world/debug_draw_movers.inl"
 #include "isostep/world/debug_draw_particles.inl"
 #include "isostep/world/state.hpp"
 
@@ -42,9 +43,13 @@ template <class S> class BodySketch {
         for (const Contact<S>& contact : island->contacts) draw_contact(contact, true);
       }
     }
-    if (!options_.joints) return;
-    draw_joints(state_.joints, false);
-    for (const auto& island : state_.sleeping) draw_joints(island->joints, true);
+    if (options_.joints) {
+      draw_joints(state_.joints, false);
+      for (const auto& island : state_.sleeping) draw_joints(island->joints, true);
+    }
+    const MoverSketch<S> movers(world_, to_, sketch_);
+    if (options_.wheels) movers.draw_wheels();
+    if (options_.characters) movers.draw_characters();
   }
 
  private:

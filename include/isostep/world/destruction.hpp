@@ -31,6 +31,8 @@ template <class S> class Destruction {
  private:
   void destroy_joints_of(std::uint32_t slot);
   void remove_forces_of(std::uint32_t slot);
+  void remove_records_of_joint(std::uint32_t slot);
+  template <class Names> void remove_records(const Names& names);
   void tell_ends();
   void erase_what_names_them();
   void erase_records();

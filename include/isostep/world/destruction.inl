@@ -83,16 +83,29 @@ template <class S> void Destruction<S>::erase_records(BodySet<S>& set, std::uint
 
 template <class S> void Destruction<S>::destroy_joint(std::uint32_t slot) {
   wake_.wake_joint(slot);
+  remove_records_of_joint(slot);
   map_.erase_joint(slot);
   state_.joint_slots.give_back(slot);
 }
 
 /// The records that name it.
 template <class S> void Destruction<S>::remove_forces_of(std::uint32_t slot) {
-  const auto each = [slot](const auto& registry, const auto& visit) {
+  remove_records([slot](const auto& record) {
+    const BodyId a = detail::first_body_of(record), b = detail::second_body_of(record);
+    return (a && a.slot == slot) || (b && b.slot == slot);
+  });
+}
+template <class S> void Destruction<S>::remove_records_of_joint(std::uint32_t slot) {
+  remove_records([slot](const auto& record) {
+    bool named = false;
+    for (const JointId joint : detail::joints_of(record).all) named = named || (joint && joint.slot == slot);
+    return named;
+  });
+}
+template <class S> template <class Names> void Destruction<S>::remove_records(const Names& names) {
+  const auto each = [&](const auto& registry, const auto& visit) {
     for (std::uint32_t i = 0; i < registry.all().size(); ++i) {
-      const BodyId a = detail::first_body_of(registry.all()[i]), b = detail::second_body_of(registry.all()[i]);
-      if ((a && a.slot == slot) || (b && b.slot == slot)) visit(i);
+      if (names(registry.all()[i])) visit(i);
     }
   };
   bool any = false;

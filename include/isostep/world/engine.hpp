@@ -15,9 +15,12 @@
 #include "isostep/world/contact_events.hpp"
 #include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/destruction.hpp"
+#include "isostep/world/hit_events.hpp"
 #include "isostep/world/island_sleep.hpp"
 #include "isostep/world/island_wake.hpp"
+#include "isostep/world/joint_loads.hpp"
 #include "isostep/world/narrow_phase.hpp"
+#include "isostep/world/pair_rules.hpp"
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/queries.hpp"
 #include "isostep/world/render_poses.hpp"
@@ -39,6 +42,7 @@ namespace isostep {
 ///   Proxies         -> no other (has a Crowd inside)
 ///   IslandWake      -> BodyMap, Proxies
 ///   IslandSleep     -> BodyMap, Proxies
+///   PairRules       -> BodyMap
 ///   NarrowPhase     -> BodyMap (as PartPairs inside of it)
 ///   Carriers        -> no other
 ///   StepSolver      -> BodyMap
@@ -47,6 +51,8 @@ namespace isostep {
 ///   SensorOverlaps  -> BodyMap
 ///   ContactEvents   -> no other
 ///   BreakEvents     -> BodyMap
+///   JointLoads      -> BodyMap, Destruction
+///   HitEvents       -> BodyMap
 ///   RenderPoses     -> no other
 ///   Destruction     -> BodyMap, Proxies, IslandWake
 ///   CommandExecutor -> BodyMap, Proxies, IslandWake, Destruction, RenderPoses; the journal, the assets
@@ -87,7 +93,9 @@ template <class S> class WorldEngine {
   Proxies<S> proxies_;
   IslandWake<S> wake_{state_, map_, proxies_};
   IslandSleep<S> sleep_{state_, map_, proxies_};
+  PairRules<S> pair_rules_{state_, map_};
   NarrowPhase<S> narrow_phase_{state_, map_};
+  Belts<S> belts_;
   Carriers<S> carriers_;
   StepSolver<S> solver_{state_, map_, proxies_};
   BodyFinisher<S> finisher_{state_, map_, proxies_};
@@ -95,8 +103,10 @@ template <class S> class WorldEngine {
   SensorOverlaps<S> sensors_{state_, map_};
   ContactEvents<S> contact_events_{state_};
   BreakEvents<S> break_events_{state_, map_};
+  HitEvents<S> hit_events_{state_, map_};
   RenderPoses<S> render_poses_{state_};
   Destruction<S> destruction_{state_, map_, proxies_, wake_};
+  JointLoads<S> joint_loads_{state_, map_, destruction_};
   CommandExecutor<S> commands_{state_, map_, proxies_, wake_, destruction_, render_poses_, assets_, journal_};
   Queries<S> queries_{state_, map_, proxies_, journal_};
   Characters<S> characters_{state_, map_, proxies_, wake_, queries_, commands_};
@@ -105,6 +115,7 @@ template <class S> class WorldEngine {
  private:
   // engine_step.inl
   void find_pairs();
+  void find_contacts();
   void tell_untold();
   template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
 

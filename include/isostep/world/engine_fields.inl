@@ -32,6 +32,8 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
     case Stage::emit_events:
       visit("contact_begin", events_.contact_begin);
       visit("broke", events_.broke);
+      visit("joint_broke", events_.joint_broke);
+      if (!events_.hits.empty()) visit("hits", events_.hits);
       return visit("contact_end", events_.contact_end);
     case Stage::update_sleep:
       visit("fell_asleep", events_.fell_asleep);

@@ -3,25 +3,22 @@
 #pragma once
 
 #include "isostep/dynamics/carriers.inl"
-#include "isostep/world/body_forces.inl"
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/body_map.inl"
 #include "isostep/world/break_events.inl"
-#include "isostep/world/characters.inl"
 #include "isostep/world/contact_events.inl"
 #include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/explosion_forces.inl"
+#include "isostep/world/hit_events.inl"
 #include "isostep/world/island_sleep.inl"
 #include "isostep/world/island_wake.inl"
+#include "isostep/world/joint_loads.inl"
 #include "isostep/world/narrow_phase.inl"
+#include "isostep/world/pair_rules.inl"
 #include "isostep/world/proxies.inl"
 #include "isostep/world/render_poses.inl"
-#include "isostep/world/resisting_forces.inl"
 #include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/step_solver.inl"
-#include "isostep/world/water_forces.inl"
-#include "isostep/world/wheel_forces.inl"
 
 namespace isostep {
 
@@ -38,17 +35,14 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   render_poses_.keep_start();
   solver_.take_forces();
   after(Stage::apply_forces);
-  report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_);
-  const Settings<S>& settings = state_.settings;
-  carriers_.update(state_.awake.states, state_.awake.properties, narrow_phase_.geometry(),
-                   integration_rate(settings.solver, settings.hz, settings.substeps));
+  find_contacts();
   after(Stage::update_manifolds);
   const bool watched = observer.after != nullptr || journal_.is_tracing();
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
   solver_.report_forces(report_);
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
-  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs());
+  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways());
   after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
@@ -56,8 +50,10 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
                                     solver_.impulses()};
   contact_events_.emit(solved, events_);
   break_events_.emit(solved, events_);
+  joint_loads_.update(events_);
+  hit_events_.emit(solved, events_);
   after(Stage::emit_events);
-  sleep_.update(events_.fell_asleep);
+  sleep_.update(events_.fell_asleep, &belts_);
   after(Stage::update_sleep);
   characters_.update();
   after(Stage::move_characters);
@@ -73,6 +69,21 @@ template <class S> void WorldEngine<S>::find_pairs() {
   report_.crowded = proxies_.bodies_left_out();
 }
 
+template <class S> void WorldEngine<S>::find_contacts() {
+  const Settings<S>& settings = state_.settings;
+  const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
+  belts_.update(state_.force_records->surface_velocitys, min(Limits<S>::angular_speed(), S(rate)),
+                [&](std::uint32_t slot) {
+                  const Location at = map_.location(slot);
+                  return std::pair{map_.state_at(at).orientation, map_.properties_at(at).local_centre};
+                });
+  pair_rules_.update(proxies_.pairs());
+  report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_, {pair_rules_.apart(), &belts_});
+  hit_events_.measure(narrow_phase_.geometry());
+  carriers_.update(state_.awake.states, state_.awake.properties, narrow_phase_.geometry(), rate, state_.contacts,
+                   &belts_);
+}
+
 /// What commands ended and woke since the last step, and what this one woke, is reported by this one.
 template <class S> void WorldEngine<S>::tell_untold() {
   events_.clear();
@@ -85,7 +96,8 @@ template <class S> void WorldEngine<S>::tell_untold() {
 template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
-  const StepContext<S> context = solver_.context(narrow_phase_.geometry(), carriers_.carried(), tools_, watched);
+  const StepContext<S> context =
+      solver_.context(narrow_phase_.geometry(), carriers_.carried(), joint_loads_.impulses(), tools_, watched);
   solver.colour_constraints(context);
   after(Stage::colour_constraints);
   solver.prepare(context);
@@ -111,14 +123,14 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class PartPairs<S>;                                                                              \
   template class NarrowPhase<S>;                                                                            \
   template class Carriers<S>;                                                                               \
-  template class WheelForces<S>;                                                                            \
-  template class BodyForces<S>;                                                                             \
   template class StepSolver<S>;                                                                             \
   template class BodyFinisher<S>;                                                                           \
   template class ContinuousCollision<S>;                                                                    \
   template class SensorOverlaps<S>;                                                                         \
   template class ContactEvents<S>;                                                                          \
   template class BreakEvents<S>;                                                                            \
-  template class Characters<S>;                                                                             \
+  template class JointLoads<S>;                                                                             \
+  template class HitEvents<S>;                                                                              \
+  template class PairRules<S>;                                                                            \
   template class RenderPoses<S>;                                                                            \
   template StepReport WorldEngine<S>::step(const StageObserver&);

@@ -57,11 +57,47 @@ template <class S> struct Broke {
   }
 };
 
+/// A joint bore more than its JointLoad lets it, and is gone.
+template <class S> struct JointBroke {
+  JointId joint;
+  BodyId a, b;  // null: the world
+  std::uint64_t user_data;
+  S force;   // [N] as JointLoad has them
+  S torque;  // [N m]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("user_data", self.user_data);
+    visit("force", self.force);
+    visit("torque", self.torque);
+  }
+};
+
+/// A contact of a body with a HitReport began fast.
+template <class S> struct ContactHit {
+  BodyId a, b;
+  Vec3<S> point;         // [m] where they closed fastest
+  Vec3<Unit<S>> normal;  // [1] from a to b
+  S speed;               // [m/s] of approach along the normal, as the step began
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("point", self.point);
+    visit("normal", self.normal);
+    visit("speed", self.speed);
+  }
+};
+
 template <class S> struct Events {
   std::vector<ContactBegin<S>> contact_begin;
   std::vector<ContactEnd> contact_end;
   std::vector<SensorEvent> sensor_begin, sensor_end;
-  std::vector<Broke<S>> broke;  // ascending by record
+  std::vector<Broke<S>> broke;             // ascending by record
+  std::vector<JointBroke<S>> joint_broke;  // ascending by record
+  std::vector<ContactHit<S>> hits;  // ascending by slots
   std::vector<BodyId> fell_asleep, woke;
 
   ISO_INLINE void clear() {
@@ -70,6 +106,8 @@ template <class S> struct Events {
     sensor_begin.clear();
     sensor_end.clear();
     broke.clear();
+    joint_broke.clear();
+    hits.clear();
     fell_asleep.clear();
     woke.clear();
   }

@@ -23,7 +23,21 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_force(
     if (detail::overreaches(body.kappa, body.principal, named.point - body.local_centre))
       return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
   }
-  return check_spring(record);
+  return check_joints(record) && check_spring(record);
+}
+template <class S> template <class Record> bool CommandExecutor<S>::check_joints(const Record& record) {
+  const detail::NamedJoints named = detail::joints_of(record);
+  if constexpr (requires { record.joint; }) return known(state_.joint_slots, record.joint, "joint");
+  if constexpr (requires { record.joint_a; }) {
+    constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
+    const JointProperties<S>* joints[3];
+    for (int i = 0; i < 3; ++i) {
+      if ((i < 2 || named.all[i]) && !known(state_.joint_slots, named.all[i], kFields[i])) return false;
+      joints[i] = map_.properties_of(named.all[i]);
+    }
+    return journal_.accept(detail::fault_of_joints(record, joints));
+  }
+  return true;
 }
 template <class S> bool CommandExecutor<S>::check_spring(const BodySpring<S>& spring) {
   const BodyProperties<S>*a = map_.properties_of(spring.a), *b = map_.properties_of(spring.b);
@@ -59,11 +73,41 @@ bool CommandExecutor<S>::check_only_one(const Record& record, std::uint32_t slot
   }
   return true;
 }
+template <class S> bool CommandExecutor<S>::check_alone(const JointLoad<S>& load, std::uint32_t slot) {
+  const auto& loads = state_.force_records->joint_loads;
+  for (std::uint32_t i = 0; i < loads.all().size(); ++i) {
+    if (i != slot && loads.is_taken(i) && loads.all()[i].joint == load.joint)
+      return journal_.refuse({Fault::bad_argument, "", "joint", "a joint that has no record yet"});
+  }
+  return true;
+}
 template <class S> bool CommandExecutor<S>::check_alone(const Breakable<S>& breakable, std::uint32_t slot) {
   return check_only_one(breakable, slot);
 }
 template <class S> bool CommandExecutor<S>::check_alone(const Vehicle<S>& vehicle, std::uint32_t slot) {
   return check_only_one(vehicle, slot);
+}
+
+template <class S>
+bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
+  return check_only_one(surface, slot);
+}
+template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way, std::uint32_t slot) {
+  return check_only_one(one_way, slot);
+}
+template <class S> bool CommandExecutor<S>::check_alone(const HitReport<S>& report, std::uint32_t slot) {
+  return check_only_one(report, slot);
+}
+/// Whether no record of another slot has the same two bodies.
+template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, std::uint32_t slot) {
+  const auto& all = state_.force_records->ghosts;
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const Ghost<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i)) continue;
+    if ((other.a == ghost.a && other.b == ghost.b) || (other.a == ghost.b && other.b == ghost.a))
+      return journal_.refuse({Fault::bad_argument, "", "b", "a pair that has no record yet"});
+  }
+  return true;
 }
 
 /// Whether no record of another slot has the same body, and its shape can be cast.
@@ -80,17 +124,34 @@ template <class Record>
 inline constexpr bool kActsOnAll =
     requires(Record record) { record.mask; } || requires(Record record) { record.kind_a; };
 template <class S> inline constexpr bool kActsOnAll<Character<S>> = false;
+/// Whether a record acts on what touches its body.
+template <class Record> inline constexpr bool kActsOnTouching = false;
+template <class S> inline constexpr bool kActsOnTouching<SurfaceVelocity<S>> = true;
+template <class S> inline constexpr bool kActsOnTouching<OneWay<S>> = true;
+/// Whether a record changes nothing that moves.
+template <class Record> inline constexpr bool kOnlyTells = false;
+template <class S> inline constexpr bool kOnlyTells<HitReport<S>> = true;
 }  // namespace detail
+
+/// What touches a body, and what sleeps on it as a step found it.
+template <class S> void CommandExecutor<S>::wake_what_rests_on(BodyId body) {
+  wake_.wake_touching(body.slot);
+  wake_.wake_held_by(body.slot);
+}
 
 /// Wakes what a record acts on: the bodies that it names, or all that it might reach.
 template <class S> template <class Record> void CommandExecutor<S>::wake_for_force(const Record& record) {
   if constexpr (detail::kActsOnAll<Record>) {
     wake_.wake_all();
-  } else {
+  } else if constexpr (!detail::kOnlyTells<Record>) {
     for (const BodyId body : {detail::first_body_of(record), detail::second_body_of(record)}) {
       if (!body) continue;
       wake_.wake(body.slot);
       wake_.reset_clock(body.slot);
+      if constexpr (detail::kActsOnTouching<Record>) wake_what_rests_on(body);
+    }
+    for (const JointId joint : detail::joints_of(record).all) {
+      if (joint) wake_.wake_joint(joint.slot);
     }
   }
 }

@@ -82,7 +82,7 @@ template <class S> bool is_finite_matrix(const Mat3<S>& m) {
   return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
 }
 template <class S> FaultReport fault_of(const AeroSurface<S>& a) {
-  constexpr char kFinite[] = "finite numbers", kControl[] = "-1 to 1";
+  constexpr const char *kFinite = "finite numbers", *kControl = "-1 to 1";
   return Checklist()
       .also(fault_of_place(a.point, "point"))
       .proper(is_unit<S>(a.orientation), "orientation", kUnitLength)
@@ -95,7 +95,7 @@ template <class S> FaultReport fault_of(const AeroSurface<S>& a) {
 }
 
 template <class S> FaultReport fault_of(const Water<S>& w) {
-  constexpr char kPlace[] = "a size up to Limits::position()";
+  constexpr const char* kPlace = "a size up to Limits::position()";
   const S position = Limits<S>::position(), rate = S(kMaxRate);
   const Vec3<Unit<S>>& way = w.wave_direction;
   return Checklist()
@@ -133,7 +133,7 @@ template <class S> FaultReport fault_of(const Water<S>& w) {
       .report();
 }
 template <class S> FaultReport fault_of(const Explosion<S>& e) {
-  constexpr char kSeconds[] = "0 to 1024", kLength[] = "0 to Limits::position()";
+  constexpr const char *kSeconds = "0 to 1024", *kLength = "0 to Limits::position()";
   Checklist list;
   list.also(fault_of_place(e.centre, "centre"));
   const auto length = [&](S x, const char* field) {

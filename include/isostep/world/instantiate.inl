@@ -33,6 +33,7 @@
 #include "isostep/math/instantiate.inl"
 #include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
+#include "isostep/world/acting_records.inl"
 #include "isostep/world/debug_draw.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
@@ -109,6 +110,7 @@
   template class DirectSolver<OwnScalar>;                                                                             \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
   ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                            \
+  ISO_INSTANTIATE_ACTING_RECORDS(OwnScalar)                                                                           \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                               \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                                    \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \

@@ -9,6 +9,7 @@
 
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/belt.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -23,13 +24,13 @@ template <class S> class IslandSleep {
   ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Appends to `fell_asleep`.
-  void update(std::vector<BodyId>& fell_asleep);
+  /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none.
+  void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr);
 
  private:
   std::uint32_t delay() const;
   void update_clocks();
-  void stop_clocks_of_carried();
+  void stop_clocks_of_carried(const Belts<S>* belts);
   void stop_clocks_by_forces();
   bool some_body_is_ready() const;
 
@@ -37,6 +38,7 @@ template <class S> class IslandSleep {
   void find_islands();
   void find_island_clocks();
   template <class Visit> void for_each_wheel_on_ground(const Visit& visit) const;
+  void tie_coupled(const Coupling<S>& coupling);
   bool mark_ready_islands();
 
   SleepingIsland<S>* island_of(std::size_t index);

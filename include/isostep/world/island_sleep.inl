@@ -16,10 +16,10 @@ template <class S> inline constexpr S kSleepFall = S(0.1875);
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
 }  // namespace detail
 
-template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep) {
+template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts) {
   if (!state_.settings.allow_sleep) return;
   update_clocks();
-  stop_clocks_of_carried();
+  stop_clocks_of_carried(belts);
   stop_clocks_by_forces();
   if (!some_body_is_ready()) return;
   find_islands();
@@ -69,7 +69,7 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
   }
 }
 /// What rests on something that moves is not at rest: a drum or a conveyor carries it.
-template <class S> void IslandSleep<S>::stop_clocks_of_carried() {
+template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
   for (const Contact<S>& contact : state_.contacts) {
     const std::uint32_t slots[2] = {contact.key.body_a, contact.key.body_b};
     for (int side = 0; side < 2; ++side) {
@@ -78,8 +78,9 @@ template <class S> void IslandSleep<S>::stop_clocks_of_carried() {
       if (other.set != Location::kAwake) continue;
       const BodyProperties<S>& body = map_.properties_at(at);
       const bool driven = body.type == BodyType::kinematic && map_.state_at(at).sleep_clock == 0;
-      if (driven || !(body.material.surface_velocity == Vec3<S>::zero()))
-        state_.awake.states[other.index].sleep_clock = 0;
+      const bool runs = !(body.material.surface_velocity == Vec3<S>::zero()) ||
+                        (belts != nullptr && belts->find(slots[side]) != nullptr);
+      if (driven || runs) state_.awake.states[other.index].sleep_clock = 0;
     }
   }
 }
@@ -116,6 +117,21 @@ template <class S> void IslandSleep<S>::find_islands() {
     if (spring.a && spring.b) tie(spring.a.slot, spring.b.slot);
   }
   for_each_wheel_on_ground(tie);
+  for (const Coupling<S>& coupling : state_.force_records->couplings.all()) tie_coupled(coupling);
+}
+
+/// The bodies of all joints of a coupling.
+template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling) {
+  std::uint32_t first = kNoBody;
+  for (const JointId id : detail::joints_of(coupling).all) {
+    const JointProperties<S>* joint = map_.properties_of(id);
+    if (joint == nullptr) continue;
+    for (const std::uint32_t body : {joint->body_a, joint->body_b}) {
+      if (body == kNoBody || !is_dynamic(body)) continue;
+      if (first == kNoBody) first = body;
+      islands_.join(map_.location(first).index, map_.location(body).index);
+    }
+  }
 }
 
 /// visit(slot of a wheel's body, slot of the ground)

@@ -8,11 +8,18 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/belt.hpp"
 #include "isostep/dynamics/material_table.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 
 namespace isostep {
+
+/// What records say of a step's contacts.
+template <class S> struct ContactRules {
+  std::span<const std::uint64_t> apart = {};  // pairs of bodies that do not touch, ascending
+  const Belts<S>* belts = nullptr;            // null: none
+};
 
 /// Input:   the state with the last step's contacts, the pairs of the broad phase in ascending order.
 /// Output:  WorldState::contacts, ascending by key, with the impulses of the contacts that they continue; their
@@ -26,7 +33,8 @@ template <class S> class NarrowPhase {
 
   /// Returns how many pairs of compounds lack parts, because the budget is used up. A step with many pairs is shared
   /// among the threads of `tools`.
-  std::uint32_t update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools);
+  std::uint32_t update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools,
+                       const ContactRules<S>& rules = {});
 
   /// Parallel to the contacts.
   ISO_INLINE const std::vector<ContactGeometry<S>>& geometry() const { return geometry_; }
@@ -73,6 +81,7 @@ template <class S> class NarrowPhase {
   PartPairs<S> part_pairs_;
   MaterialTable<S> material_table_;
   std::span<const std::uint64_t> pairs_;  // for one update
+  const Belts<S>* belts_ = nullptr;  // null: none runs
   const PairKernels<S>* kernels_ = nullptr;
   std::vector<std::uint8_t> point_counts_;  // by place in a group
   std::vector<Manifold<S>> manifolds_;      // by place, where the count is not zero

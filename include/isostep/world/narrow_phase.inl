@@ -91,10 +91,12 @@ void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<
 }  // namespace detail
 
 template <class S>
-std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools) {
+std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools,
+                                     const ContactRules<S>& rules) {
   pairs_ = pairs;
+  belts_ = rules.belts == nullptr || rules.belts->empty() ? nullptr : rules.belts;
   kernels_ = tools.pair_kernels;
-  part_pairs_.begin();
+  part_pairs_.begin(rules.apart);
   material_table_.update(state_.force_records->material_pairs);
   old_contacts_.swap(state_.contacts);
   overlaps_.clear();
@@ -223,31 +225,9 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   }
   if (a.surfaces || b.surfaces)
     detail::inherit_across_edges<S>({old_contacts_of(contact.key, old_cursor), b.surfaces}, g, is_new, contact);
+  if (belts_ != nullptr) add_belts(*belts_, contact.key, contact.count, g);
   if (!a.mixes_alone || !b.mixes_alone) settle_friction(parts, contact, g);
 }
-
-namespace detail {
-/// In the middle of a contact's points, or at its first.
-template <class S> struct ContactArms {
-  Vec3<S> a, b;  // [m]
-
-  static ISO_INLINE ContactArms middle_of(const ContactGeometry<S>& g, std::uint32_t count) {
-    constexpr S kShares[kMaxContactPoints] = {S(1), S(0.5), S(1.0 / 3), S(0.25)};
-    ContactArms sum = {g.points[0].arm_a, g.points[0].arm_b};
-    for (std::uint32_t p = 1; p < count; ++p) sum = {sum.a + g.points[p].arm_a, sum.b + g.points[p].arm_b};
-    return {sum.a * kShares[count - 1], sum.b * kShares[count - 1]};
-  }
-};
-/// [m/s] Of a body at the end of an arm. Null: it does not move.
-template <class S> ISO_INLINE Vec3<Velocity<S>> velocity_at(const BodyState<S>* body, Vec3<S> arm) {
-  if (body == nullptr) return Vec3<Velocity<S>>::zero();
-  const Vec3<Velocity<S>> w = body->angular_velocity;
-  const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
-    return round_to<Velocity<S>>(product(w[i], arm[j]) - product(w[j], arm[i]));
-  };
-  return body->velocity + Vec3<Velocity<S>>{part(1, 2), part(2, 0), part(0, 1)};
-}
-}  // namespace detail
 
 /// Of a contact of a material that does not mix alone: by its pair's record, if there is one, and as it slips.
 template <class S>

@@ -22,7 +22,7 @@ struct PartGroup {
 
 /// Input:   the state, the pairs of the broad phase in ascending order.
 /// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Pairs that a
-///          joint keeps from colliding are left out.
+///          joint or a rule keeps from colliding are left out.
 /// Keeps:   nothing from step to step but memory.
 /// Budget:  compounds may compare 64 pairs of parts and collide 2 for each pair of bodies that Settings::most_pairs
 ///          allows: comparing takes a hundredth of what a contact takes. Beyond it every pair of bodies gets the same
@@ -32,14 +32,14 @@ template <class S> class PartPairs {
   ISO_INLINE PartPairs(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
   /// Calls in this order: begin, frame_awake_body for each awake body in any order or at once, gather.
-  void begin();
+  void begin(std::span<const std::uint64_t> apart = {});
   void frame_awake_body(std::size_t index);
   /// Returns how many pairs of compounds lack parts, because the budget is used up.
   std::uint32_t gather(std::span<const std::uint64_t> pairs);
   /// The same, of the last `gather`.
   ISO_INLINE std::uint32_t cut_compounds() const { return cut_compounds_; }
 
-  /// Pairs of bodies that joints keep from colliding, ascending.
+  /// Pairs of bodies that joints and rules keep from colliding, ascending.
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return joined_pairs_; }
   /// Of awake bodies in their order, then of those that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
@@ -71,7 +71,7 @@ template <class S> class PartPairs {
   };
   static constexpr std::uint64_t kLooksPerPair = 64, kPartsPerPair = 2;
 
-  void collect_joined_pairs();
+  void collect_joined_pairs(std::span<const std::uint64_t> apart);
   void make_room_for_frames();
   void frame_body(std::uint32_t slot);
   static std::uint32_t traits_of(const BodyFrame<S>& frame);

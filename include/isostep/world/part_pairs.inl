@@ -9,13 +9,13 @@
 
 namespace isostep {
 
-template <class S> void PartPairs<S>::begin() {
-  collect_joined_pairs();
+template <class S> void PartPairs<S>::begin(std::span<const std::uint64_t> apart) {
+  collect_joined_pairs(apart);
   make_room_for_frames();
 }
 
-template <class S> void PartPairs<S>::collect_joined_pairs() {
-  joined_pairs_.clear();
+template <class S> void PartPairs<S>::collect_joined_pairs(std::span<const std::uint64_t> apart) {
+  joined_pairs_.assign(apart.begin(), apart.end());
   for (const JointProperties<S>& joint : state_.joints.properties) {
     if ((joint.flags & joint_flag::kCollideConnected) != 0 || joint.body_a == kNoBody || joint.body_b == kNoBody)
       continue;

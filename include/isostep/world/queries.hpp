@@ -53,6 +53,7 @@ template <class S> class Queries {
   S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
   S joint_error(JointId joint) const;
+  S joint_position(JointId joint) const;
 
  private:
   /// A shape to ask with, in the world.

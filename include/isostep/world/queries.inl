@@ -4,7 +4,7 @@
 
 #include "isostep/collision/query/closest_point.hpp"
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/joints/joint_coordinate.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/queries.hpp"
 #include "isostep/world/query_batches.inl"
@@ -19,6 +19,9 @@ template <class S> BodyId Queries<S>::id_of(std::uint32_t slot) const {
 
 template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_t slot) const {
   const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+  for (const BodyId unseen : filter.ignore_all) {
+    if (unseen && id_of(slot) == unseen) return false;
+  }
   const bool ignored = (filter.ignore && id_of(slot) == filter.ignore) ||
                        (filter.group != 0 && filter.group == body.filter.group);
   return (body.filter.category & filter.mask) != 0 && !ignored &&
@@ -89,6 +92,15 @@ template <class S> S Queries<S>::joint_error(JointId joint) const {
   return visit_joint_type(properties->type, [&](auto kind) ISO_INLINE_LAMBDA {
     return decltype(kind)::template Of<S>::error(*properties, a, b);
   });
+}
+
+template <class S> S Queries<S>::joint_position(JointId joint) const {
+  const JointProperties<S>* properties = map_.properties_of(joint);
+  if (properties == nullptr) return S(0);
+  const Pose<S> a = compose(map_.centre_pose_at(properties->body_a), properties->frame_a);
+  const Pose<S> b = compose(map_.centre_pose_at(properties->body_b), properties->frame_b);
+  const Vec3<S> none = Vec3<S>::zero();
+  return detail::position_of<S>(properties->type, {none, none, b.position - a.position, a.orientation, b.orientation});
 }
 
 }  // namespace isostep

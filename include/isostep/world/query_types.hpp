@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "isostep/core/id.hpp"
@@ -34,6 +35,7 @@ struct QueryFilter {
   bool back_faces = false;  // rays and casts hit triangles from behind too
   StartInside start_inside = StartInside::report;
   HitPer per = HitPer::body;
+  std::span<const BodyId> ignore_all = {};  // nor any of these: a list that outlives the query
 };
 
 /// Hits are ordered by fraction, of equal fractions by the body's slot, child, triangle.

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/joints/joint_coordinate.hpp"
 #include "isostep/dynamics/record_list.hpp"
 #include "isostep/dynamics/wheel_rows.hpp"
+#include "isostep/scalar/lattice.hpp"
+#include "isostep/world/contact_record_checks.hpp"
 #include "isostep/world/force_checks.hpp"
 
 namespace isostep::detail {
@@ -53,7 +56,7 @@ template <class S> NamedBodies<S> bodies_of(const Breakable<S>& b) {
 
 template <class S> FaultReport fault_of(const Character<S>& c) {
   const S least = Limits<S>::minimum_size() * S(0.0625), speed = Limits<S>::speed() * S(0.5);
-  constexpr char kSlow[] = "up to half of Limits::speed()";
+  constexpr const char* kSlow = "up to half of Limits::speed()";
   return Checklist()
       .finite(c.step_height, "step_height")
       .finite(c.least_up, "least_up")
@@ -109,6 +112,11 @@ template <class S> struct NumberChecks {
         .in_range(x <= kMaxFriction<S>, field, "0 to 16")
         .proper(S(0) <= x, field, "0 to 16");
   }
+  void size_of_slip(S x, const char* field) {
+    list.finite(x, field)
+        .in_range(x <= S(4), field, "2^-10 to 4")
+        .proper(S(0x1p-10) <= x, field, "2^-10 to 4");
+  }
   void direction(const Vec3<Unit<S>>& v, const char* field) {
     list.proper(is_direction<S>(v), field, kDirection);
   }
@@ -152,6 +160,11 @@ template <class S> FaultReport fault_of(const Wheel<S>& w) {
   checks.list.finite(w.inertia, "inertia").proper(S(0) < w.inertia, "inertia", "above 0");
   checks.grip(w.grip_along, "grip_along");
   checks.grip(w.grip_across, "grip_across");
+  checks.size_of_slip(w.peak_slip, "peak_slip");
+  checks.grip(w.peak_grip, "peak_grip");
+  checks.size_of_slip(w.slide_slip, "slide_slip");
+  checks.list.proper(w.peak_slip < w.slide_slip, "slide_slip", "above peak_slip");
+  checks.grip(w.slide_grip, "slide_grip");
   checks.list.finite(w.steer_angle, "steer_angle")
       .in_range(within(w.steer_angle, kMostSteer), "steer_angle", "-pi/2 to pi/2");
   checks.part(w.drive_share, "drive_share");
@@ -159,8 +172,11 @@ template <class S> FaultReport fault_of(const Wheel<S>& w) {
   checks.part(w.handbrake_share, "handbrake_share");
   checks.not_negative(w.anti_roll, "anti_roll");
   checks.list.finite(w.spin, "spin").finite(w.angle, "angle").finite(w.length, "length");
+  checks.list.finite(w.steered, "steered");
+  checks.list.finite(w.slip, "slip").proper(S(0) <= w.slip && w.slip <= S(4), "slip", "0 to 4");
   checks.list.finite(w.contact_point, "contact_point").finite(w.contact_normal, "contact_normal");
   checks.list.in_range(within(w.angle, kMaxAngle<S>), "angle", "-2 pi to 2 pi");
+  checks.list.in_range(within(w.steered, kMaxAngle<S>), "steered", "-2 pi to 2 pi");
   checks.not_negative(w.load, "load");
   checks.list.finite(w.along, "along").finite(w.across, "across");
   return checks.list.report();
@@ -168,6 +184,54 @@ template <class S> FaultReport fault_of(const Wheel<S>& w) {
 template <class S> NamedBodies<S> bodies_of(const Wheel<S>& w) {
   return {{{w.body, "body", false, MustBe::dynamic, w.hard_point, "hard_point"}, {}}, 1};
 }
+template <class S> FaultReport fault_of(const JointLoad<S>& l) {
+  NumberChecks<S> checks;
+  checks.not_negative(l.break_force, "break_force");
+  checks.not_negative(l.break_torque, "break_torque");
+  checks.not_negative(l.force, "force");
+  checks.not_negative(l.torque, "torque");
+  return checks.list.report();
+}
+template <class S> NamedBodies<S> bodies_of(const JointLoad<S>&) { return {{}, 0}; }
+
+template <class S> FaultReport fault_of(const Coupling<S>& c) {
+  const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth);
+  constexpr const char* kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
+  constexpr const char* kRatio = "a size from 1 / 1024 to 1024";
+  Checklist list;
+  for (int i = 0; i < (c.joint_c ? 3 : 2); ++i) {
+    list.finite(ratios[i], kRatios[i]).in_range(within(ratios[i], most), kRatios[i], kRatio);
+    list.proper(S(1) / most <= abs(ratios[i]), kRatios[i], kRatio);
+  }
+  return list.finite(c.ratio_c, "ratio_c")
+      .finite(c.lower, "lower")
+      .finite(c.upper, "upper")
+      .in_range(within(c.lower, Limits<S>::position()), "lower", "up to Limits::position()")
+      .in_range(within(c.upper, Limits<S>::position()), "upper", "up to Limits::position()")
+      .proper(c.lower <= c.upper, "upper", "lower or more")
+      .proper(!(c.joint_a == c.joint_b), "joint_b", "another joint than joint_a")
+      .proper(!c.joint_c || (!(c.joint_a == c.joint_c) && !(c.joint_b == c.joint_c)), "joint_c",
+              "another joint than joint_a and joint_b")
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const Coupling<S>&) { return {{}, 0}; }
+/// Of a coupling with the joints that it names: whether each has a coordinate, and teeth where that is an angle.
+template <class S> FaultReport fault_of_joints(const Coupling<S>& c, const JointProperties<S>* const (&joints)[3]) {
+  const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c};
+  constexpr const char *kJoints[] = {"joint_a", "joint_b", "joint_c"}, *kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
+  Checklist list;
+  bool turns = false;
+  for (int i = 0; i < 3; ++i) {
+    if (joints[i] == nullptr) continue;
+    const bool angle = measure_of(joints[i]->type) == JointMeasure::angle;
+    const bool whole = ratios[i] == S(static_cast<int>(floor_scaled(ratios[i], 0)));
+    list.proper(has_coordinate(joints[i]->type), kJoints[i], "a hinge, slider, cylindrical, planar or distance joint")
+        .proper(!angle || whole, kRatios[i], "a whole number: the joint's position is an angle");
+    turns = turns || angle;
+  }
+  return list.proper(!turns || c.upper - c.lower < S(6.28), "upper", "less than a turn above lower").report();
+}
+
 /// Whether tyre and body are within the range of masses that one row bears.
 template <class S> FaultReport fault_of_inertia(const Wheel<S>& w, const BodyProperties<S>& body) {
   return Checklist()

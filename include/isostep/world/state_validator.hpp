@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/surfaces.hpp"
@@ -34,7 +35,7 @@ template <class S> class StateValidator {
     set_of_body_.assign(state_.body_slots.entries().size(), Location::kNone);
     type_of_body_.assign(set_of_body_.size(), BodyType::static_);
     leaves_of_body_.assign(set_of_body_.size(), 0);
-    joint_met_.assign(state_.joint_slots.entries().size(), 0);
+    joint_at_.assign(state_.joint_slots.entries().size(), {nullptr, 0});
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
       if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
     }
@@ -53,8 +54,8 @@ template <class S> class StateValidator {
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = links(state_.sleeping[i]->contacts, state_.sleeping[i]->joints, i)) return rule;
     }
-    for (std::uint32_t slot = 0; slot < joint_met_.size(); ++slot) {
-      if (state_.joint_slots.is_taken(slot) != (joint_met_[slot] != 0))
+    for (std::uint32_t slot = 0; slot < joint_at_.size(); ++slot) {
+      if (state_.joint_slots.is_taken(slot) != (joint_at_[slot].joint != nullptr))
         return "a joint's slot is taken but has no joint";
     }
     return others();
@@ -230,10 +231,10 @@ template <class S> class StateValidator {
     for (std::size_t i = 0; i < joints.states.size(); ++i) {
       const JointState<S>& state = joints.states[i];
       const JointProperties<S>& joint = joints.properties[i];
-      if (state.slot >= joint_met_.size() || joint_met_[state.slot] != 0)
+      if (state.slot >= joint_at_.size() || joint_at_[state.slot].joint != nullptr)
         return "a joint's slot is unknown or twice used";
       if (i > 0 && !(joints.states[i - 1].slot < state.slot)) return "joints ascend by slot";
-      joint_met_[state.slot] = 1;
+      joint_at_[state.slot] = {&joint, name};
       if (joint.body_a == joint.body_b) return "a joint ties a body to itself";
       for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
         if (body != kNoBody && !is_body(body)) return "a joint names no body";
@@ -280,10 +281,32 @@ template <class S> class StateValidator {
         },
         *state_.force_records);
     if (broken == nullptr) broken = material_pairs();
+    if (broken == nullptr) broken = one_a_joint(state_.force_records->joint_loads, "two loads have the same joint");
     if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
     if (broken == nullptr)
       broken = one_a_body(state_.force_records->characters, "two characters have the same body");
-    return broken != nullptr ? broken : one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
+    if (broken == nullptr) broken = one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
+    return broken != nullptr ? broken : contact_records();
+  }
+  const char* contact_records() const {
+    const ForceRecords<S>& records = *state_.force_records;
+    if (const char* rule = one_a_body(records.surface_velocitys, "two belts have the same body")) return rule;
+    if (const char* rule = one_a_body(records.one_ways, "two one-way records have the same body")) return rule;
+    if (const char* rule = one_a_body(records.hit_reports, "two reports of hits have the same body")) return rule;
+    std::vector<std::uint64_t> pairs;
+    for (std::uint32_t slot = 0; slot < records.ghosts.all().size(); ++slot) {
+      const Ghost<S>& ghost = records.ghosts.all()[slot];
+      if (records.ghosts.is_taken(slot)) pairs.push_back(pair_key(ghost.a.slot, ghost.b.slot));
+    }
+    return has_twins(pairs) ? "two ghosts have the same bodies" : nullptr;
+  }
+  static bool has_twins(std::vector<std::uint64_t>& keys) {
+    std::vector<std::uint64_t> scratch(keys.size());
+    stable_sort(keys.data(), scratch.data(), static_cast<std::uint32_t>(keys.size()), OwnKey{});
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      if (keys[i - 1] == keys[i]) return true;
+    }
+    return false;
   }
   template <class Record, class IdType> const char* force_records(const Registry<Record, IdType>& registry) const {
     const std::vector<Record>& all = registry.all();
@@ -291,7 +314,10 @@ template <class S> class StateValidator {
     if (!lie_in(registry.slots(), state_.settings.id_space)) return "a force's slot is of another id space";
     for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
       if (!registry.is_taken(slot)) {
-        if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot])) return "a free force names a body";
+        if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot]) ||
+            detail::joints_of(all[slot]).all[0]) {
+          return "a free force names a body or a joint";
+        }
         continue;
       }
       if (detail::fault_of(all[slot]) != Fault::none) return "a force record is out of range";
@@ -299,7 +325,7 @@ template <class S> class StateValidator {
       for (int i = 0; i < bodies.count; ++i) {
         if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
       }
-      if (!ties_well(all[slot])) return "a spring ties two islands";
+      if (!ties_well(all[slot])) return "a spring or a coupling ties two islands, or a record names no joint";
     }
     return nullptr;
   }
@@ -314,6 +340,18 @@ template <class S> class StateValidator {
     if (!moves(spring.a) && !moves(spring.b)) return false;
     return !moves(spring.a) || !moves(spring.b) || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
   }
+  bool ties_well(const JointLoad<S>& load) const { return state_.joint_slots.holds(load.joint); }
+  bool ties_well(const Coupling<S>& coupling) const {
+    const detail::NamedJoints named = detail::joints_of(coupling);
+    const JointProperties<S>* joints[3] = {};
+    for (int i = 0; i < 3; ++i) {
+      if (i == 2 && !named.all[i]) continue;
+      if (!state_.joint_slots.holds(named.all[i])) return false;
+      joints[i] = joint_at_[named.all[i].slot].joint;
+      if (joint_at_[named.all[i].slot].set != joint_at_[named.all[0].slot].set) return false;
+    }
+    return detail::fault_of_joints(coupling, joints) == Fault::none;
+  }
   const char* material_pairs() const {
     const auto& pairs = state_.force_records->material_pairs;
     std::vector<std::uint64_t> kinds;
@@ -322,17 +360,21 @@ template <class S> class StateValidator {
       if (pairs.is_taken(slot)) kinds.push_back(key);
       else if (key != 0) return "a free pair of materials names a kind";
     }
-    std::vector<std::uint64_t> scratch(kinds.size());
-    stable_sort(kinds.data(), scratch.data(), static_cast<std::uint32_t>(kinds.size()), OwnKey{});
-    for (std::size_t i = 1; i < kinds.size(); ++i) {
-      if (kinds[i - 1] == kinds[i]) return "two pairs of materials have the same kinds";
-    }
-    return nullptr;
+    return has_twins(kinds) ? "two pairs of materials have the same kinds" : nullptr;
   }
   template <class Records> const char* one_a_body(const Records& all, const char* rule) const {
-    std::vector<std::uint8_t> has(state_.body_slots.entries().size(), 0);
+    return one_a_slot(
+        all, state_.body_slots, [](const auto& record) { return record.body.slot; }, rule);
+  }
+  template <class Records> const char* one_a_joint(const Records& all, const char* rule) const {
+    return one_a_slot(
+        all, state_.joint_slots, [](const auto& record) { return record.joint.slot; }, rule);
+  }
+  template <class Records, class SlotOf>
+  const char* one_a_slot(const Records& all, const SlotMap& slots, const SlotOf& slot_of, const char* rule) const {
+    std::vector<std::uint8_t> has(slots.entries().size(), 0);
     for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
-      if (all.is_taken(slot) && has[all.all()[slot].body.slot]++ != 0) return rule;
+      if (all.is_taken(slot) && has[slot_of(all.all()[slot])]++ != 0) return rule;
     }
     return nullptr;
   }
@@ -368,7 +410,11 @@ template <class S> class StateValidator {
       set_of_body_;  // by slot: Location::kNone, Location::kStatic, Location::kAwake or a sleeping island
   std::vector<BodyType> type_of_body_;                            // by slot
   std::vector<std::uint32_t> leaves_of_shape_, leaves_of_body_;  // by slot; as contacts count them
-  std::vector<std::uint8_t> joint_met_;                           // by slot
+  struct JointAt {
+    const JointProperties<S>* joint;
+    std::uint32_t set;  // as set_of_body_
+  };
+  std::vector<JointAt> joint_at_;                                 // by slot
 };
 
 }  // namespace isostep

@@ -13,7 +13,8 @@ StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Pro
 
 template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
-                                      const StepTools<S>& tools, bool watched) {
+                                      std::span<JointImpulse<S>> joint_impulses, const StepTools<S>& tools,
+                                      bool watched) {
   const auto end_at = [&](std::uint32_t slot) { return JointEnd<S>{map_.row_of(slot), map_.centre_pose_at(slot)}; };
   joint_ends_.resize(state_.joints.properties.size());
   for (std::size_t i = 0; i < joint_ends_.size(); ++i) {
@@ -42,7 +43,8 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           forces_.substeps(),
           cut_,
           state_.settings.projection,
-          convert<Velocity<S>>(state_.settings.restitution_threshold)};
+          convert<Velocity<S>>(state_.settings.restitution_threshold),
+          joint_impulses};
 }
 
 }  // namespace isostep

@@ -15,11 +15,13 @@ template <class S> void WheelForces<S>::begin_step() {
   groups_.clear();
   if (!any()) return;
   list_runs();
+  list_groups();
   for (Group& group : groups_) {
     steer(group);
     join_bars(group);
     for (std::uint32_t i = group.first; i < group.end; ++i) find_ground(runs_[i]);
   }
+  find_who_ends_early();
 }
 
 /// The wheels of awake bodies, sorted by body: counted, then placed.
@@ -33,7 +35,8 @@ template <class S> void WheelForces<S>::list_runs() {
   for (std::uint32_t row = 1; row < first_.size(); ++row) first_[row] += first_[row - 1];
   runs_.resize(first_.back());
   for (std::uint32_t row = 1; row + 1 < first_.size(); ++row) {
-    if (first_[row] < first_[row + 1]) groups_.push_back({row, first_[row], first_[row + 1], kNone});
+    if (first_[row] == first_[row + 1]) continue;
+    groups_.push_back({row, first_[row], first_[row + 1], kNone, false, false, false});
   }
   const Settings<S>& s = state_.settings;
   const S rate = S(integration_rate(s.solver, s.hz, s.substeps));
@@ -48,6 +51,7 @@ template <class S> void WheelForces<S>::list_runs() {
     run.partner = run.vehicle = kNone;
     run.axle = w.axle_direction;
     run.angle = w.angle;
+    run.slip = w.slip;
     const S mass = state_.awake.properties[row - 1].mass;
     run.spin.give = detail::rim_give(mass, w.radius, w.inertia);
     run.spin.rim = saturate_to<V>(product(w.spin, w.radius));
@@ -58,14 +62,46 @@ template <class S> void WheelForces<S>::list_runs() {
     run.push_along = warm(w.along);
     run.push_across = warm(w.across);
   }
+}
+
+/// Whose wheels each group has, and the order in which an iteration takes them.
+template <class S> void WheelForces<S>::list_groups() {
+  for (std::uint32_t g = 0; g < groups_.size(); ++g) {
+    for (std::uint32_t i = groups_[g].first; i < groups_[g].end; ++i) runs_[i].group = g;
+  }
   const std::vector<Vehicle<S>>& vehicles = state_.force_records->vehicles.all();
   for (std::uint32_t slot = 0; slot < vehicles.size(); ++slot) {
     const std::uint32_t row = vehicles[slot].body ? map_.row_of(vehicles[slot].body.slot) : 0;
-    for (Group& group : groups_) {
-      if (row == 0 || group.row != row) continue;
-      group.vehicle = slot;
-      for (std::uint32_t i = group.first; i < group.end; ++i) runs_[i].vehicle = slot;
+    Group* const group = group_of(row);
+    if (group == nullptr) continue;
+    group->vehicle = slot;
+    for (std::uint32_t i = group->first; i < group->end; ++i) runs_[i].vehicle = slot;
+  }
+  order_.clear();
+  for (std::uint32_t wheel = 0; order_.size() < runs_.size(); ++wheel) {
+    for (const Group& group : groups_) {
+      if (group.first + wheel < group.end) order_.push_back(group.first + wheel);
     }
+  }
+}
+/// Null: the body of that row has no wheels. By now first_ tells where its wheels end.
+template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
+  const std::uint32_t end = first_[row];
+  const bool has = row != 0 && end != 0 && runs_[end - 1].row == row;
+  return has ? &groups_[runs_[end - 1].group] : nullptr;
+}
+
+/// Neither those that stand on what moves, nor what they stand on, nor those that a differential's lock changes.
+template <class S> void WheelForces<S>::find_who_ends_early() {
+  for (Group& group : groups_) {
+    const bool locks = group.vehicle != kNone &&
+                       S(0) < state_.force_records->vehicles.all()[group.vehicle].differential_lock;
+    group.ends_early = !locks;
+  }
+  for (const Run& run : runs_) {
+    if (run.ground == 0) continue;
+    groups_[run.group].ends_early = false;
+    if (Group* const below = group_of(run.ground)) below->ends_early = false;
   }
 }
 
@@ -107,6 +143,7 @@ template <class S> void WheelForces<S>::steer(const Group& group) {
     const S before = is_beside ? S(1) : abs(d), beside = is_beside ? S(0) : d < S(0) ? -x : x;
     const S towards = before * a.cos - beside * a.sin, against = before * a.sin;
     runs_[i].axle = normalise(w.axle_direction * towards - forward * against);
+    runs_[i].steered = atan2_to<S>(against, towards);
   }
 }
 
@@ -128,7 +165,9 @@ bool WheelForces<S>::take_ground(Run& run, const Hits& hits, std::size_t count, 
     run.point = hit.point;
     run.ground_arm = hit.point - map_.state_at(at).centre;
     run.normal = hit.normal;
-    run.friction = map_.properties_at(at).material.friction;
+    const S friction = map_.properties_at(at).material.friction;
+    run.mu_along = sqrt(saturate_to<S>(product(wheel(run).grip_along, friction)));
+    run.mu_across = sqrt(saturate_to<S>(product(wheel(run).grip_across, friction)));
     return true;
   }
   return false;

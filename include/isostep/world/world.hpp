@@ -134,6 +134,9 @@ template <class S> class World final {
   const JointProperties<S>* joint(JointId joint) const;
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
+  /// What lower, upper and spring_target count: the twist of frame b against frame a about z, in (-pi, pi] [rad]; of a
+  /// slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale id.
+  S joint_position(JointId joint) const;
 
   // Records: each kind of force that acts from step to step, force_list.hpp, and of record_list.hpp. They act on what
   // is awake; adding one, changing or removing it wakes the bodies that it names, and those of zones, attractors and

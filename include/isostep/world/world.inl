@@ -187,6 +187,10 @@ template <class S> S World<S>::joint_error(JointId joint) const {
   const FloatEnvironment environment;
   return engine_->queries_.joint_error(joint);
 }
+template <class S> S World<S>::joint_position(JointId joint) const {
+  const FloatEnvironment environment;
+  return engine_->queries_.joint_position(joint);
+}
 
 /// Both frames from one frame in the world, as the bodies lie now.
 template <class S>

@@ -15,6 +15,8 @@ void DebugDraw::box(const DrawnBox&) {}
 void DebugDraw::island(const DrawnIsland&) {}
 void DebugDraw::contact(const DrawnContact&) {}
 void DebugDraw::joint(const DrawnJoint&) {}
+void DebugDraw::wheel(const DrawnWheel&) {}
+void DebugDraw::character(const DrawnCharacter&) {}
 void DebugDraw::particle(const DrawnParticle&) {}
 void DebugDraw::spring(const DrawnSpring&) {}
 void DebugDraw::link(const DrawnLink&) {}

@@ -6,7 +6,7 @@
 namespace isostep::scenes {
 namespace {
 
-enum Place { ground, raft, buoy, moon, swing, kite, cube, hammer, crate, sled, walker, cart };
+enum Place { ground, raft, buoy, moon, swing, kite, cube, hammer, crate, sled, walker, cart, shaft, wheel, bob, shelf };
 
 SceneBody of_mass(ScenePart part, Point at, double mass, Point velocity = {0, 0, 0}) {
   SceneBody body = body_of(std::move(part), at);
@@ -26,7 +26,11 @@ void add_bodies(Scene& scene) {
                   of_mass(box_part({0.5, 0.5, 0.5}), {14, 0.5, 0}, 5),
                   of_mass(box_part({0.5, 0.25, 0.5}), {-1, 0.25, 4}, 5, {4, 0, 0}),
                   body_of(capsule_part(0.25, 0.5), {-2, 0.75, -4}),
-                  of_mass(box_part({0.375, 0.125, 0.75}), {18, 0.75, 4}, 100)};
+                  of_mass(box_part({0.375, 0.125, 0.75}), {18, 0.75, 4}, 100),
+                  of_mass(box_part({0.25, 0.25, 0.125}), {18, 3, -4}, 5),
+                  of_mass(box_part({0.5, 0.5, 0.125}), {19.5, 3, -4}, 20),
+                  of_mass(sphere_part(0.25), {22, 5, -4}, 2),
+                  fixed_box({2.25, 2.8125, 0}, {3, 0.0625, 1})};
   scene.bodies[walker].type = BodyType::kinematic;
   scene.bodies[ground].kind = 1;
   scene.bodies[sled].kind = 2;
@@ -83,6 +87,13 @@ void add_blows(Scene& scene) {
                             {"chimney_duration", {0.5}},
                             {"is_shielded", {1}}}});
 }
+/// The crate drives itself like a tank; the kite rises through a shelf, in which the swing hangs from the start.
+void add_rules(Scene& scene) {
+  scene.records.push_back({"surface_velocity", {{"body", {crate}}, {"linear", {0, 0, 1}}, {"angular", {0, 0.125, 0}}}});
+  scene.records.push_back({"one_way", {{"body", {shelf}}, {"least_cosine", {0.75}}}});
+  scene.records.push_back({"ghost", {{"a", {shelf}}, {"b", {swing}}}});
+  scene.records.push_back({"hit_report", {{"body", {hammer}}, {"speed", {2}}}});
+}
 /// Drives round a curve.
 void add_cart(Scene& scene) {
   scene.records.push_back({"vehicle",
@@ -106,6 +117,25 @@ void add_cart(Scene& scene) {
   }
 }
 
+/// A motor turns a wheel by a gear; a bob swings until what it hangs on breaks.
+void add_joints(Scene& scene) {
+  const auto joined = [](JointType type, int body, Point anchor) {
+    SceneJoint joint;
+    joint.type = type;
+    joint.b = body;
+    joint.anchor = joint.anchor_b = vector_of(anchor);
+    return joint;
+  };
+  scene.joints = {joined(JointType::hinge, shaft, {18, 3, -4}), joined(JointType::hinge, wheel, {19.5, 3, -4}),
+                  joined(JointType::ball, bob, {21, 5, -4})};
+  scene.joints[0].flags = joint_flag::kMotor;
+  scene.joints[0].motor_speed = 6;
+  scene.joints[0].motor_torque = 100;
+  scene.records.push_back({"joint_load", {{"joint", {2}}, {"break_force", {45}}}});
+  scene.records.push_back(
+      {"coupling", {{"joint_a", {0}}, {"joint_b", {1}}, {"ratio_a", {1}}, {"ratio_b", {2}}, {"upper", {0.125}}}});
+}
+
 }  // namespace
 
 Scene elements() {
@@ -116,6 +146,8 @@ Scene elements() {
   add_pulls(scene);
   add_blows(scene);
   add_cart(scene);
+  add_joints(scene);
+  add_rules(scene);
   return scene;
 }
 

@@ -21,6 +21,7 @@ std::span<const Trial> spring_trials();
 std::span<const Trial> loop_trials();
 std::span<const Trial> bounce_trials();
 std::span<const Trial> ragdoll_trials();
+std::span<const Trial> mechanism_trials();
 std::span<const Trial> fixed_point_trials();
 
 inline std::vector<std::span<const Trial>> trial_families() {
@@ -36,6 +37,7 @@ inline std::vector<std::span<const Trial>> trial_families() {
           loop_trials(),       //
           bounce_trials(),     //
           ragdoll_trials(),    //
+          mechanism_trials(),  //
           fixed_point_trials()};
 }
 

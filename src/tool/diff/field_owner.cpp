@@ -111,7 +111,7 @@ class Owners {
                    body_of_frame(value(item.text() + ".frame_b")));
     if (name == "broke") return named("body", value(item.text() + ".body.slot"));
     if (name == "overlaps" || name == "new_overlaps") return by_fields("body", item, ".sensor", ".other");
-    if (is_any(name, std::array{"contact_begin", "contact_end", "untold_contact_end"}))
+    if (is_any(name, std::array{"contact_begin", "contact_end", "untold_contact_end", "hits", "ghosts"}))
       return by_fields("body", item, ".a.slot", ".b.slot");
     if (is_any(name, std::array{"sensor_begin", "sensor_end", "untold_sensor_end"}))
       return by_fields("body", item, ".sensor.slot", ".other.slot");

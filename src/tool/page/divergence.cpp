@@ -30,15 +30,17 @@ class Play {
   std::vector<Place> places_;
 };
 
-/// For each actor of `a` its namesake in `b`, or -1.
+/// For each actor of `a` its namesake in `b`, or -1. Wheels have none: they go where their bodies go.
 std::vector<std::int32_t> namesakes(const Recording& a, const Recording& b) {
   std::map<std::uint64_t, std::int32_t> by_id;
   const auto id = [](const Actor& actor) { return std::uint64_t{actor.generation} << 32 | actor.slot; };
-  for (std::size_t i = 0; i < b.actors.size(); ++i) by_id[id(b.actors[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < b.actors.size(); ++i) {
+    if (!b.actors[i].wheel) by_id[id(b.actors[i])] = static_cast<std::int32_t>(i);
+  }
   std::vector<std::int32_t> found;
   for (const Actor& actor : a.actors) {
     const auto at = by_id.find(id(actor));
-    found.push_back(at == by_id.end() ? -1 : at->second);
+    found.push_back(actor.wheel || at == by_id.end() ? -1 : at->second);
   }
   return found;
 }
@@ -64,6 +66,7 @@ Divergence compare(const Recording& a, const Recording& b, double tolerance) {
     double most = 0;
     std::size_t farthest = 0, alone = a.actors.size();
     for (std::size_t i = 0; i < in_b.size(); ++i) {
+      if (a.actors[i].wheel) continue;
       const Play::Place& here = play_a.places()[i];
       const Play::Place there = in_b[i] < 0 ? Play::Place{} : play_b.places()[static_cast<std::size_t>(in_b[i])];
       if (here.is != there.is) alone = std::min(alone, i);

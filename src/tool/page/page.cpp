@@ -46,7 +46,8 @@ Json json_of(const Part& part, const Places& places) {
           {"outward", list(part.outward)}};
 }
 Json json_of(const Actor& actor, const Places& places) {
-  Json json = {{"id", actor.slot}, {"type", kTypeNames[static_cast<std::size_t>(actor.type)]}};
+  const char* const type = actor.wheel ? "wheel" : kTypeNames[static_cast<std::size_t>(actor.type)];
+  Json json = {{"id", actor.slot}, {"type", type}};
   if (actor.generation != 0) json["generation"] = actor.generation;
   if (actor.sensor) json["sensor"] = true;
   if (actor.parts.empty()) json["radius"] = short_of(actor.radius);

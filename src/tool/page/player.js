@@ -30,7 +30,8 @@ class Player {
   // The body that parted is who has its id at that frame; in a run that lacks it, nobody.
   markIn(run) {
     const {frame, id, generation} = this.parted;
-    const actor = run.actors.findIndex((one) => one.id === id && (one.generation || 0) === generation);
+    const actor = run.actors.findIndex(
+        (one) => one.id === id && (one.generation || 0) === generation && one.type !== 'wheel');
     return actor < 0 ? null : {actor, frame};
   }
 
@@ -171,7 +172,8 @@ class Player {
       const head = kHere('heads').children[i], now = run.frames[frame];
       let here = 0, asleep = 0;
       for (let actor = 0; actor < run.actors.length; ++actor) {
-        if (run.state(frame, actor) === kGone || run.actors[actor].type === 'static') continue;
+        const {type} = run.actors[actor];
+        if (run.state(frame, actor) === kGone || type === 'static' || type === 'wheel') continue;
         ++here;
         asleep += run.state(frame, actor) === kAsleep ? 1 : 0;
       }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kSpringKinds[] = {"spring", "bungee", "stiff"};
 constexpr const char* kLinkKinds[] = {"cable", "rod"};
+constexpr float kWheelWidth = 0.3f;  // [1] half of it by the radius: records of wheels have none
 
 std::array<float, 3> array_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
@@ -29,6 +30,11 @@ Pose rounded(const DrawnPose& pose) {
   }
   out.turn = pack_turn(pose.orientation);
   return out;
+}
+
+/// For ContactPoint::force.
+std::uint8_t packed_force(double newtons) {
+  return static_cast<std::uint8_t>(std::min(255.0, std::round(16 * std::log2(1 + std::max(0.0, newtons)))));
 }
 
 }  // namespace
@@ -50,14 +56,14 @@ void Recorder::finish() {
 }
 
 /// Whether it is new.
-bool Recorder::cast(std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor) {
-  if (by_slot_.size() <= slot) by_slot_.resize(slot + 1);
-  Known& known = by_slot_[slot];
+bool Recorder::cast(std::vector<Known>& all, std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor) {
+  if (all.size() <= slot) all.resize(slot + 1);
+  Known& known = all[slot];
   const bool fresh = known.index == kNone || known.generation != generation;
   if (fresh) {
     known = {generation, static_cast<std::uint32_t>(casts_.size())};
     casts_.emplace_back();
-    recording_.actors.push_back({slot, generation, BodyType::dynamic, false, 0, {}});
+    recording_.actors.push_back({slot, generation, BodyType::dynamic, false, 0, {}, false});
   }
   actor = known.index;
   return fresh;
@@ -77,7 +83,7 @@ void Recorder::appear(std::uint32_t actor, const DrawnPose& drawn, Change is) {
 
 void Recorder::body(const DrawnBody& body) {
   std::uint32_t actor = 0;
-  parts_wanted_ = cast(body.body.slot, body.body.generation, actor);
+  parts_wanted_ = cast(by_slot_, body.body.slot, body.body.generation, actor);
   recording_.actors[actor].type = body.type;
   recording_.actors[actor].sensor = body.sensor;
   appear(actor, body.pose, body.awake || body.type == BodyType::static_ ? Change::awake : Change::asleep);
@@ -115,16 +121,49 @@ void Recorder::contact(const DrawnContact& contact) {
     const DrawnContact::Point& point = contact.points[i];
     frame().depth = std::max(frame().depth, -double{point.separation});
     kept.at = array_of(point.position);
-    const double newtons = std::max(0.0, double{point.force});
-    kept.force = static_cast<std::uint8_t>(std::min(255.0, std::round(16 * std::log2(1 + newtons))));
+    kept.force = packed_force(double{point.force});
     frame().points.push_back(kept);
   }
+}
+
+/// A force at a point, drawn as those of contacts are.
+void Recorder::point(const float (&at)[3], const float (&force)[3]) {
+  const Vec3<double> newtons = {double{force[0]}, double{force[1]}, double{force[2]}};
+  const double size = length(newtons);
+  if (!(size > 0)) return;
+  ContactPoint kept = {array_of(at), {}, packed_force(size)};
+  for (int i = 0; i < 3; ++i)
+    kept.normal[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(std::lround(newtons[i] / size * 127));
+  frame().points.push_back(kept);
+}
+
+/// An actor of its own: a disc, and two forces where it meets the ground.
+void Recorder::wheel(const DrawnWheel& wheel) {
+  std::uint32_t index = 0;
+  if (cast(wheels_, wheel.wheel.slot, wheel.wheel.generation, index)) {
+    Actor& actor = recording_.actors[index];
+    actor.wheel = true;
+    const float half = kWheelWidth * wheel.radius;
+    actor.parts.push_back({ShapeType::cylinder, {0, half, 0}, wheel.radius, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0}});
+  }
+  appear(index, wheel.pose, wheel.awake ? Change::awake : Change::asleep);
+  if (!wheel.ground) return;
+  float load[3];
+  for (int i = 0; i < 3; ++i) load[i] = wheel.load * wheel.normal[i];
+  point(wheel.contact, load);
+  point(wheel.contact, wheel.grip);
+}
+/// Its weight along the normal of what it stands on.
+void Recorder::character(const DrawnCharacter& character) {
+  float weight[3];
+  for (int i = 0; i < 3; ++i) weight[i] = character.weight * character.normal[i];
+  point(character.foot, weight);
 }
 
 void Recorder::particle(const DrawnParticle& particle) {
   recording_.particles = true;
   std::uint32_t actor = 0;
-  cast(particle.particle.slot, particle.particle.generation, actor);
+  cast(by_slot_, particle.particle.slot, particle.particle.generation, actor);
   recording_.actors[actor].type = particle.pinned ? BodyType::kinematic : BodyType::dynamic;
   recording_.actors[actor].radius = particle.radius;
   DrawnPose pose = {{}, {0, 0, 0, 1}};

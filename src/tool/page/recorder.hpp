@@ -34,6 +34,8 @@ class Recorder : public DebugDraw {
   void triangle(const DrawnTriangle& triangle) override;
   void contact(const DrawnContact& contact) override;
   void joint(const DrawnJoint& joint) override;
+  void wheel(const DrawnWheel& wheel) override;
+  void character(const DrawnCharacter& character) override;
   void particle(const DrawnParticle& particle) override;
   void spring(const DrawnSpring& spring) override;
   void link(const DrawnLink& link) override;
@@ -60,7 +62,8 @@ class Recorder : public DebugDraw {
   void finish();
   std::uint32_t now() const { return static_cast<std::uint32_t>(recording_.frames.size() - 1); }
   Frame& frame() { return recording_.frames.back(); }
-  bool cast(std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor);
+  bool cast(std::vector<Known>& all, std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor);
+  void point(const float (&at)[3], const float (&force)[3]);
   void appear(std::uint32_t actor, const DrawnPose& pose, Change is);
   std::int32_t actor_of(std::uint32_t slot) const;
   std::array<float, 3> local(std::int32_t actor, const float (&point)[3]) const;
@@ -68,7 +71,7 @@ class Recorder : public DebugDraw {
 
   Recording& recording_;
   std::vector<Cast> casts_;                                                      // by actor
-  std::vector<Known> by_slot_;                                                   // actors
+  std::vector<Known> by_slot_, wheels_;                                          // actors
   std::vector<Known> joints_, springs_, links_;                                  // bonds
   std::map<std::pair<std::string_view, std::uint64_t>, std::uint32_t> effects_;  // by kind and id
   std::uint32_t effect_ = 0;                                                     // told last

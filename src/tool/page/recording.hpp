@@ -27,13 +27,14 @@ struct Part {
   std::uint32_t surface = Surfaces::kNone;  // its place in Recording::surfaces
 };
 
-/// A body or particle for as long as it has its id.
+/// A body, particle or wheel for as long as it has its id.
 struct Actor {
   std::uint32_t slot, generation;
   BodyType type;  // pinned particles are kinematic
   bool sensor;
   float radius;  // [m] of a particle
   std::vector<Part> parts;
+  bool wheel = false;  // then slot and generation are those of the wheel
 };
 
 /// A joint, spring or link: a line between two points.

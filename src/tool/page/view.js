@@ -4,7 +4,7 @@
 const kColours = [0x4f86c6, 0xe0925b, 0x6bab7f, 0xc9697b, 0x8d7cc0, 0xd4b04c, 0x5aa9b0, 0xa9815e];
 const kMostOutlined = 400;  // parts that nothing moves; of more one would see lines and nothing else
 const kStaticColour = 0xdde3ea, kKinematicColour = 0x59697c, kPartedColour = 0xe2361d, kAsleepColour = 0xd9dee4,
-      kOutlineColour = 0x8fa0b3;
+      kOutlineColour = 0x8fa0b3, kWheelColour = 0x4a5160;
 
 // A drawing repeated over a surface.
 function textureOf(width, height, paint) {
@@ -25,6 +25,15 @@ function ballTexture() {
       paint.fillStyle = i % 2 ? '#ffffff' : '#c4ccd6';
       paint.fillRect(i * width / 4, 0, width / 4, height);
     }
+  });
+}
+// A bar across, so that one sees a wheel turn: the texture's middle column is a diameter of both its sides.
+function wheelTexture() {
+  return textureOf(64, 64, (paint, width) => {
+    paint.fillStyle = '#9aa2ae';
+    paint.fillRect(0, 0, width, width);
+    paint.fillStyle = '#ffffff';
+    paint.fillRect(0.44 * width, 0, 0.12 * width, width);
   });
 }
 function gridTexture(field, lines) {
@@ -81,6 +90,7 @@ class View {
       tube: new THREE.CylinderGeometry(1, 1, 1, 20, 1, true),
       cylinder: new THREE.CylinderGeometry(1, 1, 1, many ? 16 : 32),
       cone: new THREE.ConeGeometry(1, 1, many ? 16 : 32),
+      wheel: new THREE.CylinderGeometry(1, 1, 1, many ? 16 : 32),
       ball: new THREE.SphereGeometry(1, many ? 10 : 24, many ? 7 : 16)
     };
     this.meshes = [];
@@ -89,6 +99,7 @@ class View {
       const material = new THREE.MeshStandardMaterial(
           {roughness: 0.72, metalness: 0.02, transparent: clear, opacity: clear ? 0.13 : 1, depthWrite: !clear});
       if (shape === 'ball' && !this.run.about.particles) material.map = ballTexture();
+      if (shape === 'wheel') material.map = wheelTexture();
       if (shape.startsWith('fixed_')) Object.assign(material, {polygonOffset: true, polygonOffsetFactor: 1});
       const mesh = shape in shapes ? new THREE.InstancedMesh(shapes[shape], material, parts.length) :
                                      this.surfaces.mesh(parts, material, shape.startsWith('fixed_'));
@@ -132,7 +143,7 @@ class View {
           add(index, (fixed(actor) ? 'fixed_' : '') + this.surfaces.listOf(surface), at, turn, [1, 1, 1], surface,
               type === 'hull' && this.isWall(index, at, size));
         else if (type === 'cylinder' || type === 'cone')
-          add(index, type, at, turn, [r, 2 * part.half[1], r]);
+          add(index, actor.type === 'wheel' ? 'wheel' : type, at, turn, [r, 2 * part.half[1], r]);
         else if (type !== 'capsule')
           add(index, 'box', at, turn, size, undefined, this.isWall(index, at, size));
         else {
@@ -281,6 +292,7 @@ class View {
         parted                   ? kPartedColour :
             type === 'static'     ? kStaticColour :
             type === 'kinematic' ? kKinematicColour :
+            type === 'wheel'     ? kWheelColour :
                                    kColours[actor % kColours.length]);
     if (look === 2) colour.lerp(new THREE.Color(kAsleepColour), 0.72);
     mesh.setColorAt(i, colour);

@@ -23,7 +23,7 @@ int golden_frames(const std::string& scene) {
   };
   constexpr Row kRows[] = {{"S1s", 240},       {"S3", 30},         {"S5", 60},      {"S8", 120},
                            {"S9", 100},        {"mixed", 300},     {"medley", 180}, {"bridge", 300},
-                           {"ballistic", 240}, {"fireworks", 240}, {"springs", 300}};
+                           {"ballistic", 240}, {"fireworks", 240}, {"springs", 300}, {"S18c", 360}};
   for (const Row& row : kRows) {
     if (scene == row.scene) return row.frames;
   }

@@ -14,7 +14,9 @@ namespace {
 constexpr char kBodies[] = R"({"bodies": [
   {"type": "dynamic", "position": [0, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
   {"type": "dynamic", "position": [3, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
-  {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]}], "records": [)";
+  {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]}], "joints": [
+  {"type": "slider", "a": -1, "b": 0, "anchor": [0, 2, 0]}, {"type": "slider", "a": -1, "b": 1, "anchor": [3, 2, 0]},
+  {"type": "slider", "a": 0, "b": 1, "anchor": [1, 2, 0]}], "records": [)";
 
 std::string scene_of(const std::string& record) { return kBodies + record + "]}"; }
 
@@ -54,10 +56,18 @@ constexpr const char* kRecords[] = {
     R"("handbrake": 0.125, "steer": -0.5})",
     R"({"type": "wheel", "body": 0, "hard_point": [0, 0.25, 0], "suspension": [0, 0, -1], )"
     R"("axle_direction": [0, 1, 0], "free_length": 0.5, "travel": 0.25, "stiffness": 8, "damping": 2, )"
-    R"("radius": 0.25, "inertia": 2, "grip_along": 0.5, "grip_across": 0.75, "steer_angle": 0.5, )"
+    R"("radius": 0.25, "inertia": 2, "grip_along": 0.5, "grip_across": 0.75, "peak_slip": 0.125, "peak_grip": 2, )"
+    R"("slide_slip": 0.5, "slide_grip": 0.75, "steer_angle": 0.5, )"
     R"("drive_share": 0.5, "brake_share": 0.5, "handbrake_share": 1, "axle": 3, "anti_roll": 4, "spin": 2, )"
-    R"("angle": 1, "length": 0.375, "contact_body": 1, "contact_point": [1, 0, 0], "contact_normal": [0, 1, 0], )"
-    R"("load": 3, "along": 1, "across": 2})",
+    R"("angle": 1, "steered": 0.25, "length": 0.375, "slip": 0.5, "contact_body": 1, )"
+    R"("contact_point": [1, 0, 0], "contact_normal": [0, 1, 0], "load": 3, "along": 1, "across": 2})",
+    R"({"type": "joint_load", "joint": 1, "break_force": 8, "break_torque": 4, "force": 2, "torque": 1})",
+    R"({"type": "coupling", "joint_a": 0, "joint_b": 1, "joint_c": 2, "ratio_a": 2, "ratio_b": -0.5, "ratio_c": 1, )"
+    R"("lower": -1, "upper": 1})",
+    R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0]})",
+    R"({"type": "ghost", "a": 0, "b": 1})",
+    R"({"type": "one_way", "body": 0, "axis": [1, 0, 0], "least_cosine": 0.75})",
+    R"({"type": "hit_report", "body": 0, "speed": 2})",
 };
 #define ISO_COUNT(name, Record, Id, S) +1
 constexpr std::size_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, double);

@@ -132,18 +132,28 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
   std::size_t every = 0;
   ForceRecords<S>::members([&](const char*, const auto&) { ++every; }, *world.state().force_records);
   EXPECT_EQ(kinds_of(world).size(), every);
-  EXPECT_LE(world.counts().bodies, 12u);
-  std::size_t broke = 0, most = 0;
+  EXPECT_LE(world.counts().bodies, 16u);
+  std::size_t broke = 0, joints_broken = 0, most = 0, ghosts = 0, hits = 0;
+  double slowest = 0;  // [m/s] of the crate along z
   for (int i = 0; i < scene.frames; ++i) {
     before_step(scene.script, world);
     ASSERT_EQ(world.fault(), Fault::none) << i << ": " << describe(world.fault());
     ASSERT_TRUE(world.step().clean()) << i;
     broke += world.events().broke.size();
+    joints_broken += world.events().joint_broke.size();
+    hits += world.events().hits.size();
+    ghosts = std::max(ghosts, world.state().force_records->ghosts.slots().template ids<GhostId>().size());
+    slowest = std::min(slowest, to_double(world.velocity(bodies[8]).z));
     most = std::max<std::size_t>(most, world.counts().bodies);
   }
   const auto height = [&](int body) { return to_double(world.center_of_mass(bodies[body]).y); };
   EXPECT_EQ(broke, 1u);
-  EXPECT_GE(most, 13u);                                           // the cube's pieces came
+  EXPECT_EQ(joints_broken, 1u);
+  EXPECT_NEAR(to_double(world.angular_velocity(bodies[13]).z), -3, 0.1);  // geared to a motor
+  EXPECT_GE(most, 17u);                                           // the cube's pieces came
+  EXPECT_GE(hits, 1u);                                            // told by the hammer
+  EXPECT_EQ(ghosts, 2u);                                          // swing and kite in the shelf
+  EXPECT_LT(slowest, -0.5);                                       // the crate drives on its belt
   EXPECT_FALSE(world.contains(bodies[6]));                        // in its place
   EXPECT_LT(world.counts().bodies, most);                         // and went
   EXPECT_EQ(kinds_of(world).count("explosions"), 0u);             // ended

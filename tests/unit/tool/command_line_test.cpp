@@ -296,7 +296,7 @@ TEST_F(CommandLine, ChecksItself) {
   EXPECT_EQ(answer.out.rfind("sound: isostep ", 0), 0u) << answer.out;
   EXPECT_EQ(answer.out.find('\n'), answer.out.size() - 1) << answer.out;
   const Answer table = run({"selfcheck", "--verbose"});
-  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nq32\\.32 +scalar +8 of 8 recordings, "))) << table.out;
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nq32\\.32 +scalar +9 of 9 recordings, "))) << table.out;
   EXPECT_NE(table.out.find("\nsound: isostep "), std::string::npos) << table.out;
   const auto json = nlohmann::json::parse(run({"selfcheck", "--json"}).out);
   EXPECT_TRUE(json.at("sound").get<bool>());

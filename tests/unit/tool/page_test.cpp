@@ -119,6 +119,78 @@ TEST(Pages, KeepTurnsToAFewArcMinutes) {
   }
 }
 
+/// A wheel is an actor of its own that turns and steers; the forces where it meets the ground are points of the frame.
+TEST(Pages, RecordWheelsAndWhatTheyBear) {
+  Balls balls({});
+  World<double>& world = balls.world;
+  const BodyId chassis = world.create({.type = BodyType::dynamic,
+                                       .shape = world.add_shape(Box{{0.5, 0.25, 1}}),
+                                       .position = {0, 1, 0},
+                                       .velocity = {0, 0, 4},
+                                       .mass = 100});
+  std::vector<WheelId> wheels;
+  for (const double z : {1.0, -1.0}) {
+    for (const double x : {0.5, -0.5}) {
+      Wheel<double> wheel;
+      wheel.body = chassis;
+      wheel.hard_point = {x, 0, z};
+      wheel.stiffness = 5000;
+      wheel.damping = 400;
+      wheel.spin = 4 / wheel.radius;
+      wheels.push_back(world.add(wheel));
+    }
+  }
+  Recording recording;
+  Recorder recorder(recording);
+  recorder.record(world);
+  for (int i = 0; i < 240; ++i) world.step();
+  recorder.record(world);
+  ASSERT_EQ(recording.actors.size(), 6u);  // ground, chassis, wheels
+  const Actor& wheel = recording.actors[2];
+  EXPECT_TRUE(wheel.wheel);
+  EXPECT_EQ(wheel.slot, wheels[0].slot);
+  EXPECT_EQ(wheel.parts.at(0).type, ShapeType::cylinder);
+  EXPECT_EQ(wheel.parts.at(0).radius, 0.35f);
+  EXPECT_FALSE(recording.actors[1].wheel);
+  const Stage last = stage_of(recording, 1);
+  EXPECT_NEAR(last.at[2][0], 0.5, kMillimetre);
+  EXPECT_NEAR(last.at[2][1], 0.35, 5 * kMillimetre);
+  EXPECT_NEAR(last.at[2][2] - last.at[1][2], 1, 5 * kMillimetre);
+  EXPECT_TRUE(recording.frames[0].points.empty());
+  double newtons = 0;
+  for (const ContactPoint& point : recording.frames[1].points) {
+    EXPECT_NEAR(point.at[1], 0, kMillimetre);
+    if (point.normal[1] == 127) newtons += std::pow(2, point.force / 16.0) - 1;
+  }
+  EXPECT_NEAR(newtons, 1000, 40);
+  EXPECT_EQ(compare(recording, recording, 0).frame, Divergence::kNever);
+  world.remove(wheels[0]);
+  recorder.record(world);
+  EXPECT_EQ(stage_of(recording, 2).state[2], Change::gone);
+}
+
+TEST(Pages, RecordWhatCharactersStandOn) {
+  Balls balls({});
+  World<double>& world = balls.world;
+  Character<double> walker;
+  walker.body = world.create({.type = BodyType::kinematic,
+                              .shape = world.add_shape(Capsule{0.25, 0.5}),
+                              .position = {2, 1, 3}});
+  world.add(walker);
+  Recording recording;
+  Recorder recorder(recording);
+  recorder.record(world);
+  EXPECT_TRUE(recording.frames[0].points.empty());
+  for (int i = 0; i < 30; ++i) world.step();
+  recorder.record(world);
+  ASSERT_EQ(recording.frames[1].points.size(), 1u);
+  const ContactPoint& point = recording.frames[1].points[0];
+  EXPECT_NEAR(point.at[0], 2, kMillimetre);
+  EXPECT_NEAR(point.at[1], 0, kMillimetre);
+  EXPECT_EQ(point.normal[1], 127);
+  EXPECT_NEAR(std::pow(2, point.force / 16.0) - 1, 80 * -world.settings().gravity.y, 25);
+}
+
 TEST(Pages, WriteBase64AsTheStandardDoes) {  // RFC 4648, section 10
   const auto of = [](const std::string& text) { return base64({text.begin(), text.end()}); };
   EXPECT_EQ(of(""), "");

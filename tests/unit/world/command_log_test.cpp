@@ -33,6 +33,14 @@ template <class S> MaterialPair<S> broken(MaterialPair<S> pair) {
   pair.kind_b = 0;
   return pair;
 }
+template <class S> JointLoad<S> broken(JointLoad<S> load) {
+  load.joint = {};
+  return load;
+}
+template <class S> Coupling<S> broken(Coupling<S> coupling) {
+  coupling.ratio_a = S(0);
+  return coupling;
+}
 /// Of what acts on one body: on none.
 template <class Record> Record broken(Record record) {
   record.body = {};
@@ -97,7 +105,7 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
                    [&](auto& w) { return w.set_heights(ground, 0, {1, 1, 1, 1, one}); }));
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one},
                     [&](auto& w) { return w.set_heights(ground, 1, {1, 1, 1, 1, one}); }));
-  static_assert(std::variant_size_v<Command<S>> == 60, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 78, "a command more: test it here");
 
   // Records: of each kind the same three.
   EXPECT_TRUE(both(WakeBody{b}, [&](auto& w) { return w.wake(b); }));
@@ -154,6 +162,29 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   Wheel<S> wheel;
   wheel.body = b;
   each(wheel, WheelId{0, 1});
+  each(SurfaceVelocity<S>{b, vec<S>(1, 0, 0), vec<S>(0, 1, 0)}, SurfaceVelocityId{0, 1});
+  each(OneWay<S>{b}, OneWayId{0, 1});
+  const Ghost<S> ghost = {b, character.body}, of_one = {b, b};  // far apart: a step would end it
+  EXPECT_TRUE(both(AddRecord<Ghost<S>>{ghost}, [&](auto& w) { return w.add(ghost); }));
+  EXPECT_FALSE(both(AddRecord<Ghost<S>>{of_one}, [&](auto& w) { return w.add(of_one); }));
+  EXPECT_TRUE(both(SetForce<Ghost<S>>{{0, 1}, ghost}, [&](auto& w) { return w.set(GhostId{0, 1}, ghost); }));
+  EXPECT_TRUE(both(RemoveRecord<GhostId>{{0, 1}}, [](auto& w) { return w.remove(GhostId{0, 1}); }));
+  EXPECT_TRUE(both(AddRecord<Ghost<S>>{ghost}, [&](auto& w) { return w.add(ghost); }));
+  called.step();
+  told.step();
+  EXPECT_EQ(called.hash(), told.hash());
+  EXPECT_FALSE(both(RemoveRecord<GhostId>{{0, 2}}, [](auto& w) { return w.remove(GhostId{0, 2}); }));
+  each(HitReport<S>{b, S(2)}, HitReportId{0, 1});
+  const auto hinge = [&](double x) {
+    const Pose<S> frame = {vec<S>(x, 0, 0), Quat<Unit<S>>::identity()};
+    const JointProperties<S> made = called.joint_at(JointType::hinge, {}, b, frame);
+    EXPECT_TRUE(both(CreateJoint<S>{made}, [&](auto& world) { return world.create(made); }));
+    return called.joints().back();
+  };
+  JointLoad<S> load;
+  load.joint = hinge(0);
+  each(load, JointLoadId{0, 1});
+  each(gears<S>(load.joint, 1, hinge(0.25), 2), CouplingId{0, 1});
 }
 
 TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {

@@ -26,6 +26,8 @@ struct Told : DebugDraw {
   void island(const DrawnIsland& drawn) override { islands.push_back(drawn); }
   void contact(const DrawnContact& drawn) override { contacts.push_back(drawn); }
   void joint(const DrawnJoint& drawn) override { joints.push_back(drawn); }
+  void wheel(const DrawnWheel& drawn) override { wheels.push_back(drawn); }
+  void character(const DrawnCharacter& drawn) override { characters.push_back(drawn); }
   void particle(const DrawnParticle& drawn) override { particles.push_back(drawn); }
   void spring(const DrawnSpring& drawn) override { springs.push_back(drawn); }
   void link(const DrawnLink& drawn) override { links.push_back(drawn); }
@@ -39,6 +41,8 @@ struct Told : DebugDraw {
   std::vector<DrawnIsland> islands;
   std::vector<DrawnContact> contacts;
   std::vector<DrawnJoint> joints;
+  std::vector<DrawnWheel> wheels;
+  std::vector<DrawnCharacter> characters;
   std::vector<DrawnParticle> particles;
   std::vector<DrawnSpring> springs;
   std::vector<DrawnLink> links;
@@ -287,6 +291,135 @@ TYPED_TEST(DebugDraws, TellsTheAnchorsOfJoints) {
   expect_near(real(all.joints[1].frame_a.position), {3, 4, 0}, 1e-3);
   expect_near(real(all.joints[1].frame_b.position), {3, 0, 0}, 1e-3);
   EXPECT_NEAR(all.joints[1].error, 0.5, 1e-3);  // 4 m apart where 3.5 m are asked
+}
+
+/// A cart of 40 kg with a steered wheel in front, that turns to the left, and two behind.
+template <class S> struct Cart {
+  explicit Cart(double turned = 0) : world(settings<S>()) {
+    add_ground(world, 1);
+    BodyDefinition<S> d = moving<S>(add_box(world, 0.5, 0.125, 1), {3, 0.5, 7});
+    d.orientation = turn<S>({0, 1, 0}, turned);
+    d.mass = S(40);
+    body = world.create(d);
+    Vehicle<S> vehicle;
+    vehicle.body = body;
+    vehicle.brake_torque = S(200);
+    vehicle.brake = S(1);
+    vehicle.steer = S(1);
+    EXPECT_TRUE(world.add(vehicle));
+    const double x[] = {0, 0.5, -0.5}, z[] = {1, -1, -1};
+    for (int i = 0; i < 3; ++i) {
+      Wheel<S> wheel;
+      wheel.body = body;
+      wheel.hard_point = vec<S>(x[i], 0, z[i]);
+      wheel.stiffness = S(i == 0 ? 4000 : 2000);  // half of the weight is in front
+      wheel.damping = S(i == 0 ? 300 : 150);
+      wheel.radius = S(0.25);
+      wheel.inertia = S(0.5);
+      wheel.steer_angle = i == 0 ? num<S>(kSteer) : S(0);
+      wheels[i] = world.add(wheel);
+      EXPECT_TRUE(wheels[i]) << describe(world.fault());
+    }
+  }
+  static constexpr double kSteer = 0.5;
+  World<S> world;
+  BodyId body;
+  WheelId wheels[3];
+};
+D3 axis_of(const DrawnPose& pose, D3 local) {
+  const float* const q = pose.orientation;
+  return to_matrix(normalise(Quat<double>{q[0], q[1], q[2], q[3]})) * local;
+}
+
+TYPED_TEST(DebugDraws, TellsWheelsWhereTheyStandAndWhatTheyBear) {
+  using S = TypeParam;
+  for (const double turned : {0.0, 1.0}) {
+    Cart<S> cart(turned);
+    run(cart.world, 120);
+    const Told all = told(cart.world);
+    ASSERT_EQ(all.wheels.size(), 3u);
+    const double c = std::cos(turned), s = std::sin(turned);
+    double load = 0;
+    for (int i = 0; i < 3; ++i) {
+      const DrawnWheel& wheel = all.wheels[i];
+      const double x = i == 0 ? 0 : i == 1 ? 0.5 : -0.5, z = i == 0 ? 1 : -1;
+      EXPECT_EQ(wheel.wheel, cart.wheels[i]);
+      EXPECT_EQ(wheel.body, cart.body);
+      EXPECT_EQ(wheel.radius, 0.25f);
+      expect_near(real(wheel.pose.position), {3 + c * x + s * z, 0.25, 7 + c * z - s * x}, 5e-3);
+      EXPECT_NEAR(wheel.hard_point[0], wheel.pose.position[0], 5e-3);
+      EXPECT_GT(wheel.hard_point[1], 0.4);
+      const double steered = turned + (i == 0 ? cart.kSteer : 0);
+      expect_near(axis_of(wheel.pose, {0, 1, 0}), {std::cos(steered), 0, -std::sin(steered)}, 5e-3);
+      ASSERT_TRUE(wheel.ground);
+      expect_near(real(wheel.contact), {wheel.pose.position[0], 0, wheel.pose.position[2]}, 5e-3);
+      expect_near(real(wheel.normal), {0, 1, 0}, 1e-4);
+      load += wheel.load;
+    }
+    EXPECT_NEAR(load, 400, 4);
+  }
+}
+
+TYPED_TEST(DebugDraws, TurnsWheelsAsTheyRollAndTellsTheirGrip) {
+  using S = TypeParam;
+  Cart<S> cart;
+  const WheelId id = cart.wheels[1];
+  run(cart.world, 60);
+  Wheel<S> wheel = *cart.world.find(id);
+  wheel.angle = num<S>(kPi / 2);
+  ASSERT_TRUE(cart.world.set(id, wheel));
+  const Told before = told(cart.world);
+  const D3 still = axis_of(before.wheels[2].pose, {0, 0, 1}), turned = axis_of(before.wheels[1].pose, {0, 0, 1});
+  EXPECT_NEAR(still.y, 0, 0.02);
+  EXPECT_NEAR(turned.y, -1, 0.02);  // what was in front goes down
+  cart.world.apply_impulse(cart.body, vec<S>(0, 0, 40));
+  cart.world.step();
+  double grip = 0;
+  for (const DrawnWheel& drawn : told(cart.world).wheels) grip += drawn.grip[2];
+  EXPECT_LT(grip, -100);  // brakes hold it back
+}
+
+TYPED_TEST(DebugDraws, TellsWheelsInTheAirOfNoGround) {
+  using S = TypeParam;
+  Cart<S> cart;
+  cart.world.set_pose(cart.body, {vec<S>(0, 5, 0), Quat<Unit<S>>::identity()});
+  cart.world.step();
+  const Told all = told(cart.world);
+  ASSERT_EQ(all.wheels.size(), 3u);
+  EXPECT_FALSE(all.wheels[0].ground);
+  EXPECT_EQ(all.wheels[0].load, 0);
+  EXPECT_NEAR(all.wheels[0].hard_point[1] - all.wheels[0].pose.position[1], 0.3, 1e-3);  // its free length
+  EXPECT_TRUE(told(cart.world, {.wheels = false}).wheels.empty());
+}
+
+TYPED_TEST(DebugDraws, TellsCharactersAndWhatTheyStandOn) {
+  using S = TypeParam;
+  World<S> world(settings<S>());
+  BodyDefinition<S> floor = still<S>(world.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}));
+  floor.orientation = turn<S>({0, 0, 1}, 0.5);
+  const BodyId ground = world.create(floor);
+  BodyDefinition<S> d = moving<S>(world.add_shape(Capsule<S>{S(0.25), S(0.5)}), {0, 0.875, 0});
+  d.type = BodyType::kinematic;
+  Character<S> walker;
+  walker.body = world.create(d);
+  const CharacterId id = world.add(walker);
+  ASSERT_TRUE(id);
+  Told all = told(world);
+  ASSERT_EQ(all.characters.size(), 1u);
+  EXPECT_EQ(all.characters[0].footing, Footing::airborne);
+  EXPECT_FALSE(all.characters[0].ground);
+  expect_near(real(all.characters[0].foot), {0, 0.875, 0}, 1e-3);
+  run(world, 30);
+  all = told(world);
+  EXPECT_EQ(all.characters[0].character, id);
+  EXPECT_EQ(all.characters[0].body, walker.body);
+  EXPECT_EQ(all.characters[0].footing, Footing::floor);
+  EXPECT_EQ(all.characters[0].ground, ground);
+  expect_near(real(all.characters[0].normal), {-std::sin(0.5), std::cos(0.5), 0}, 5e-3);
+  const D3 foot = real(all.characters[0].foot);
+  EXPECT_NEAR(foot.y * std::cos(0.5) - foot.x * std::sin(0.5), 0, 5e-3);  // on the plane
+  EXPECT_NEAR(all.characters[0].weight, 800, 1);
+  EXPECT_TRUE(told(world, {.characters = false}).characters.empty());
 }
 
 TYPED_TEST(DebugDraws, ChangesNoHash) {

@@ -110,6 +110,13 @@ TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
   this->expect_fault(wheel, "handbrake_share", [](W& r) { r.handbrake_share = S(2); });
   this->expect_fault(wheel, "anti_roll", [](W& r) { r.anti_roll = S(-1); });
   this->expect_fault(wheel, "angle", [](W& r) { r.angle = S(7); });
+  this->expect_fault(wheel, "steered", [](W& r) { r.steered = S(-7); });
+  this->expect_fault(wheel, "slip", [](W& r) { r.slip = S(5); });
+  this->expect_fault(wheel, "peak_slip", [](W& r) { r.peak_slip = S(0); });
+  this->expect_fault(wheel, "peak_grip", [](W& r) { r.peak_grip = S(-1); });
+  this->expect_fault(wheel, "slide_slip", [](W& r) { r.slide_slip = r.peak_slip; });
+  this->expect_fault(wheel, "slide_slip", [](W& r) { r.slide_slip = S(5); });
+  this->expect_fault(wheel, "slide_grip", [](W& r) { r.slide_grip = S(17); });
   this->expect_fault(wheel, "load", [](W& r) { r.load = S(-1); });
   EXPECT_TRUE(this->w.add(wheel));
   if constexpr (std::is_same_v<S, Q16_16>)
@@ -142,6 +149,24 @@ TYPED_TEST(VehicleRecords, go_on_alike_after_a_snapshot_and_from_the_portable_fo
   Reader reader(bytes);
   ASSERT_TRUE(other.read_portable(reader));
   EXPECT_EQ(drive_on(other), first);
+}
+
+/// With all wheels on axles that meet: inner wheels turn by more than the outer.
+TYPED_TEST(VehicleRecords, tell_how_far_their_wheels_are_steered) {
+  add_ground(this->w, 1);
+  this->add_car({0, 0.55, 0});
+  this->control(0, 1, 1);
+  run(this->w, 2);
+  const double base = 2.5, side = 0.8, middle = base / std::tan(0.5);
+  const double expected[] = {std::atan(base / (middle - side)), std::atan(base / (middle + side)), 0, 0};
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(to_double(this->w.find(this->wheels[i])->steered), expected[i], 1e-3) << i;
+  this->control(0, 1, -1);
+  run(this->w, 2);
+  EXPECT_NEAR(to_double(this->w.find(this->wheels[0])->steered), -expected[1], 1e-3);
+  this->control(0, 1, 0);
+  run(this->w, 2);
+  EXPECT_EQ(to_double(this->w.find(this->wheels[0])->steered), 0);
 }
 
 TYPED_TEST(VehicleRecords, stand_by_every_solver) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/shape_core.hpp"
+#include "isostep/collision/query/ball_cast.hpp"
 #include "isostep/collision/query/plane_cast.hpp"
 #include "isostep/collision/query/solid_cast.hpp"
 #include "isostep/collision/query/surface_cast.hpp"
@@ -22,6 +23,12 @@ bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Trans
     if constexpr (std::same_as<Shape, HalfSpace<S>>) {
       return cast_plane(cast.core, cast.start, visited.normal, visited.offset, t, cast.motion, hit);
     } else if constexpr (kIsSolid<Shape>) {
+      if constexpr (std::same_as<Shape, Box<S>>) {
+        if (cast.core.vertices.size() == 1) {
+          const FaceCast by_face = cast_ball(cast.core, cast.start, visited.half_extents, t, cast.motion, hit);
+          if (by_face != FaceCast::undecided) return by_face == FaceCast::hit;
+        }
+      }
       const ShapeCore<S> other(visited, S(0));
       return cast_convex(cast.core, cast.start, other.core(), t, cast.motion, hit);
     } else {

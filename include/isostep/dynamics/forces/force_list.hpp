@@ -18,6 +18,8 @@ namespace isostep {
 
 /// In the first word of a portable form, beside what names the world: there are records in it.
 inline constexpr std::uint32_t kPortableForcesBit = 0x20000000u;
+/// The same of those of ISO_FOR_EACH_NEWER_RECORD: a word of which kinds there are comes before them.
+inline constexpr std::uint32_t kPortableNewerRecordsBit = 0x10000000u;
 
 /// ISO_FOR_EACH_FORCE(R, S) expands R(name, Record, Id, S) for each kind, in the order in which they act. What resists
 /// motion - drag, surfaces, the drag of water - acts after all others, for it asks what they are about to do. Every
@@ -37,7 +39,8 @@ inline constexpr std::uint32_t kPortableForcesBit = 0x20000000u;
 /// All records: those and what is no force, record_list.hpp.
 #define ISO_FOR_EACH_RECORD(R, S) \
   ISO_FOR_EACH_FORCE(R, S)        \
-  ISO_FOR_EACH_OTHER_RECORD(R, S)
+  ISO_FOR_EACH_OTHER_RECORD(R, S) \
+  ISO_FOR_EACH_NEWER_RECORD(R, S)
 
 /// Of all kinds. Only commands change them: copies share them until one does.
 template <class S> struct ForceRecords {
@@ -64,11 +67,41 @@ template <class S> struct ForceRecords {
     ISO_FOR_EACH_FORCE(ISO_VISIT, S)
 #undef ISO_VISIT
   }
-  /// None was ever added.
+  /// The same of all but the newer ones: in hashes and portable forms together, or not at all.
+  template <class Visitor, class Self> static ISO_INLINE void first_members(Visitor&& visit, Self&& self) {
+#define ISO_VISIT(name, Record, Id, S) visit(#name "s", self.name##s);
+    ISO_FOR_EACH_FORCE(ISO_VISIT, S)
+    ISO_FOR_EACH_OTHER_RECORD(ISO_VISIT, S)
+#undef ISO_VISIT
+  }
+  /// Of the newer ones, the kinds whose bits are set: the first kind has the lowest.
+  template <class Visitor, class Self>
+  static ISO_INLINE void newer_members(std::uint32_t kinds, Visitor&& visit, Self&& self) {
+#define ISO_VISIT(name, Record, Id, S)                \
+  if ((kinds & 1u) != 0) visit(#name "s", self.name##s); \
+  kinds >>= 1;
+    ISO_FOR_EACH_NEWER_RECORD(ISO_VISIT, S)
+#undef ISO_VISIT
+  }
+#define ISO_COUNT(name, Record, Id, S) +1
+  static constexpr std::uint32_t kNewerKinds = (1u << (0 ISO_FOR_EACH_NEWER_RECORD(ISO_COUNT, S))) - 1u;
+#undef ISO_COUNT
+  /// Bits of the kinds of which one was ever added.
+  ISO_INLINE std::uint32_t newer_kinds() const {
+    std::uint32_t kinds = 0, bit = 1;
+#define ISO_BIT(name, Record, Id, S)                        \
+  kinds |= name##s.slots().entries().size() == 0 ? 0u : bit; \
+  bit <<= 1;
+    ISO_FOR_EACH_NEWER_RECORD(ISO_BIT, S)
+#undef ISO_BIT
+    return kinds;
+  }
+  /// None of the first was ever added.
   ISO_INLINE bool untouched() const {
     bool none = true;
 #define ISO_NONE(name, Record, Id, S) none = none && name##s.slots().entries().size() == 0;
-    ISO_FOR_EACH_RECORD(ISO_NONE, S)
+    ISO_FOR_EACH_FORCE(ISO_NONE, S)
+    ISO_FOR_EACH_OTHER_RECORD(ISO_NONE, S)
 #undef ISO_NONE
     return none;
   }
@@ -102,6 +135,13 @@ template <class Record> ISO_INLINE BodyId first_body_of(const Record& record) {
 }
 template <class Record> ISO_INLINE BodyId second_body_of(const Record& record) {
   if constexpr (requires { record.b; }) return record.b;
+  else return {};
+}
+/// The joints that a record names; null where it names fewer.
+struct NamedJoints { JointId all[3]; };
+template <class Record> ISO_INLINE NamedJoints joints_of(const Record& record) {
+  if constexpr (requires { record.joint_a; }) return {{record.joint_a, record.joint_b, record.joint_c}};
+  else if constexpr (requires { record.joint; }) return {{record.joint, {}, {}}};
   else return {};
 }
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "isostep/dynamics/contact.hpp"
+#include "isostep/geometry/limits.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -67,6 +68,7 @@ template <class S, int W, int P> struct ContactBlock {
   S restitution[W];  // [1]
   FrictionRow<S, W> tangents[2];
   AngularRow<S, W> twist;  // its radius is inside the Jacobian
+  Velocity<S> spin[W];     // [m/s] of b's surface against a's along the twist: -0, which added changes no bit, for none
   NormalRow<S, W> normals[P];
 };
 
@@ -104,6 +106,19 @@ template <class S> ISO_INLINE void set_surface(unsigned char* words, std::size_t
     const auto along = round_to<Velocity<S>>(dot_sum(Vec3<S>{direction[0], direction[1], direction[2]}, surface));
     std::memcpy(row + width * offsetof(Row, surface), &along, sizeof(along));
   }
+}
+
+/// Its twist follows the surfaces' angular velocity [rad/s] of b against a.
+template <class S> ISO_INLINE void set_spin(unsigned char* words, std::size_t width, Vec3<Velocity<S>> spin) {
+  using Block = ContactBlock<S, 1, kMaxContactPoints>;
+  using Row = AngularRow<S, 1>;
+  unsigned char* const row = words + width * (offsetof(Block, twist) + offsetof(Row, jacobian_b));
+  S jacobian[3];
+  for (std::size_t i = 0; i < 3; ++i) std::memcpy(&jacobian[i], row + width * i * sizeof(S), sizeof(S));
+  const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
+  const auto sum = dot_sum(Vec3<S>{jacobian[0], jacobian[1], jacobian[2]}, spin);
+  const Velocity<S> along = clamp(saturate_to<Velocity<S>>(sum), -most, most);
+  std::memcpy(words + width * offsetof(Block, spin), &along, sizeof(along));
 }
 
 /// Which rows of SolverBodies a block's lanes read, and which of them they may write (one bit a lane).

@@ -124,7 +124,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       turn_by_nothing(c.twist, a, b);
     } else {
       AngularRow<S, W>& row = c.twist;
-      const V speed = round_to<V>(angular_sum(row, a, b));
+      const V speed = round_to<V>(angular_sum(row, a, b)) + V::load(c.spin);
       const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
       turn(row, accumulate(row, wanted, limit), a, b);
     }

@@ -285,6 +285,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const L radius = patch ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();
     const Vec3<L> twist = n * radius;
     make.angular(twist, twist, L::zero(), patch ? impulses.twist : V::zero(), block.twist);
+    V::broadcast(-Velocity<S>(0)).store(block.spin);
     if (run.rolling) {
       prepare_rolling(a, b, first, normal, material.rolling, make, *reinterpret_cast<RollingRows<S, W>*>(memory));
     }

@@ -194,6 +194,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
     for (const Carried<S>& carried : context.carried) {
       Block& block = block_of(context, carried.contact);
       set_surface<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.surface(bodies_.rows()));
+      if (carried.spins()) set_spin<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.spin);
     }
     free_velocity_ = bodies_.rows().velocity;
     for (std::uint32_t i = 0; i < island_count_; ++i) {
@@ -210,6 +211,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
       }
       for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k, Pass::relaxed);
     }
+    joints_.add_impulses(context);
   }
 }
 

@@ -54,7 +54,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
   const V farthest = divide_to<V>(S(64), rate);  // what lies farther away is not met within the sub-step
   const auto ask = [&](std::uint32_t r, V wanted) { island.asked[r] = wanted - speed_of(island, r, free_velocity_); };
   for (std::uint32_t t = 0; t < 2; ++t) ask(patch.first + t, -block.tangents[t].surface[0]);
-  if (patch.points > 1) ask(patch.first + 2, V(0));
+  if (patch.points > 1) ask(patch.first + 2, -block.spin[0]);
   if (patch.rolling != DirectPatch<N>::kNoRolling) {
     for (std::uint32_t r = 0; r < 2; ++r) ask(patch.rolling + r, V(0));
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/dynamics/joints/joint_impulse.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
@@ -22,6 +23,13 @@ template <class S> class PreparedJoints {
   }
   ISO_INLINE void store(const StepContext<S>& context) const {
     for (std::size_t i = 0; i < joints_.size(); ++i) store_joint(joints_[i], context.joint_states[i]);
+  }
+
+  /// After each sub-step, where somebody asks for them.
+  ISO_INLINE void add_impulses(const StepContext<S>& context) const {
+    for (std::size_t i = 0; i < context.joint_impulses.size(); ++i) {
+      if (joints_[i].holds) detail::add_impulses(joints_[i], context.joint_impulses[i]);
+    }
   }
 
   ISO_INLINE std::size_t size() const { return joints_.size(); }

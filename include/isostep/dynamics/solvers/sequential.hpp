@@ -75,6 +75,7 @@ template <class S> class Sequential {
     relax_joints,
     relax,
     store_joints,
+    add_joint_impulses,
     apply_restitution,
     store,
     store_bodies,

@@ -186,8 +186,12 @@ template <class S> void Sequential<S>::find_carried(const StepContext<S>& contex
   }
 }
 template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
-  for (std::size_t i = 0; i < carried_.size(); ++i)
-    set_surface<S>(carried_[i].words, carried_[i].width, context.carried[i].surface(bodies_.rows()));
+  for (std::size_t i = 0; i < carried_.size(); ++i) {
+    const CarriedLane& lane = carried_[i];
+    const Carried<S>& carried = context.carried[i];
+    set_surface<S>(lane.words, lane.width, carried.surface(bodies_.rows()));
+    if (carried.spins()) set_spin<S>(lane.words, lane.width, carried.spin);
+  }
 }
 
 /// Bodies that turn so fast are rare: where there is one, all contacts are looked through.

@@ -53,6 +53,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
     case Work::begin_contacts: solver.carry(job.context); return solver.forget_impulses(job.context);
     case Work::follow: return solver.follow(job.context);
+    case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
     case Work::renew_forces: return solver.bodies_.renew_forces(job.context, solver.schedule_.rate);
     case Work::warm_start_joints:
     case Work::solve_joints:
@@ -122,6 +123,10 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
     add_stage(Work::integrate_positions, body_pieces_);
     if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
     add_stage(Work::relax_joints, joints);
+    if (!context.joint_impulses.empty()) {
+      add_stage(Work::store_joints, joints);
+      add_stage(Work::add_joint_impulses, 1);
+    }
     if (!schedule_.relaxes) continue;
     add_stages(Work::relax, colours_[detail::kShallow]);
     for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax, colours_[detail::kDeep]);

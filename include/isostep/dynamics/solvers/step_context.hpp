@@ -10,6 +10,7 @@
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
+#include "isostep/dynamics/joints/joint_impulse.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
 #include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_body.hpp"
@@ -67,6 +68,7 @@ template <class S> struct StepContext {
   std::span<std::uint8_t> cut = {};  // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
   Projection projection = Projection::nonlinear;  // of worst_first
   Velocity<S> restitution_threshold = Velocity<S>(0.25);  // [m/s] slower approaches do not bounce
+  std::span<JointImpulse<S>> joint_impulses = {};  // per joint, or empty: zeros, to which each sub-step adds
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.

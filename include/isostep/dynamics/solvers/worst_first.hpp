@@ -96,6 +96,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
 
   // worst_first_velocity.inl
   void begin_velocities(const StepContext<S>& context, const JointStep<S>& step);
+  void carry(const StepContext<S>& context);
   void warm_start(const Point& row);
   void hold(JointConstraint<S>& joint);
   void forget_impact(Point& row);

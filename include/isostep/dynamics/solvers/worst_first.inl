@@ -247,6 +247,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
               else project(context, joint(i), step);
             },
             turns);
+    joints_.add_impulses(context);
   }
 }
 

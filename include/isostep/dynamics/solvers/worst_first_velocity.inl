@@ -28,14 +28,7 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
   bodies_.renew_forces(context, rate);
   bodies_.integrate_velocities(context, rate, 0, bodies_.count());
-  std::size_t next = 0;
-  for (Point& row : points_) {
-    while (next < context.carried.size() && context.carried[next].contact < row.contact) ++next;
-    if (next == context.carried.size()) break;
-    if (context.carried[next].contact != row.contact) continue;
-    const Vec3<V> surface = context.carried[next].surface(bodies);
-    for (int k = 0; k < 2; ++k) row.friction.surface[k] = round_to<V>(dot_sum(row.friction.rows[k].linear, surface));
-  }
+  carry(context);
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
   const V widest = divide_to<V>(S(64), step.rate);
   const auto is_followed = [&](std::uint32_t body) { return any_followed_ && bodies_.is_followed(context, body); };
@@ -57,6 +50,26 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
   for (std::size_t i = 0; i < gained_.size(); ++i) {
     gained_[i].linear = bodies.velocity[i].linear - gained_[i].linear;
     gained_[i].angular = bodies.velocity[i].angular - gained_[i].angular;
+  }
+}
+
+/// The points of a contact stand side by side, in its order.
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::carry(const StepContext<S>& context) {
+  std::size_t next = 0, first = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& row = points_[i];
+    if (row.contact != points_[first].contact) first = i;
+    while (next < context.carried.size() && context.carried[next].contact < row.contact) ++next;
+    if (next == context.carried.size()) break;
+    const Carried<S>& carried = context.carried[next];
+    if (carried.contact != row.contact) continue;
+    Vec3<V> surface = carried.surface(bodies_.rows());
+    if (carried.spins()) {
+      const ContactGeometry<S>& g = context.geometry[row.contact];
+      const Vec3<S> middle = detail::ContactArms<S>::middle_of(g, context.contacts[row.contact].count).b;
+      surface += carried.spun(g.points[i - first].arm_b - middle);
+    }
+    for (int k = 0; k < 2; ++k) row.friction.surface[k] = round_to<V>(dot_sum(row.friction.rows[k].linear, surface));
   }
 }
 

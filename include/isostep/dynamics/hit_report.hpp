@@ -1,0 +1,24 @@
+// HitReport: a body whose fast contacts are told.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using HitReportId = Id<struct HitReportTag>;
+
+/// events().hits tells of contacts that begin on the body at a greater speed of approach: for sounds, sparks, dents.
+/// Where both bodies have a record the lower speed counts. One record a body.
+template <class S> struct HitReport {
+  BodyId body = {};
+  S speed = S(1);  // [m/s] along the normal, as the step begins in which they first press on each other
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("speed", self.speed);
+  }
+};
+
+}  // namespace isostep

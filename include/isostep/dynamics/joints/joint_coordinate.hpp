@@ -1,0 +1,33 @@
+// The one coordinate that a joint leaves to motors: where it stands, and the row along which it moves.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_couplings.hpp"
+#include "isostep/dynamics/joints/joint_kinds.hpp"
+
+namespace isostep::detail {
+
+/// Whether a kind of joint has one: a motor may drive it, or it holds two points a length apart. The length of a rod
+/// is none that moves, but settings of a joint may make a rope of it.
+ISO_INLINE constexpr bool has_coordinate(JointType type) {
+  return joins_two_points(type) || visit_joint_type(type, [](auto kind) ISO_INLINE_LAMBDA {
+           return (decltype(kind)::template Of<float>::kFlags & joint_flag::kMotor) != 0;
+         });
+}
+
+/// [rad] in (-pi, pi], the twist about z, or [m].
+template <class S> ISO_INLINE S position_of(JointType type, const JointFrames<S>& f) {
+  if (measure_of(type) == JointMeasure::angle) return twist_angle<S>(relative_rotation(f));
+  return joins_two_points(type) ? length(f.between) : dot(f.between, to_matrix(f.a).column(2));
+}
+
+/// A joint with nothing but a motor at its coordinate: drives[0].row is the row of that.
+template <class S> ISO_INLINE JointProperties<S> with_coordinate(JointProperties<S> p) {
+  p.flags = joins_two_points(p.type) ? joint_flag::kLimit : joint_flag::kMotor;
+  if (!joins_two_points(p.type)) return p;
+  p.lower = S(0);
+  p.upper = Limits<S>::position();
+  return p;
+}
+
+}  // namespace isostep::detail

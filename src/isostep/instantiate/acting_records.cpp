@@ -1,0 +1,9 @@
+// What records do in a step of World<S>, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/acting_records.inl"
+
+namespace isostep {
+
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_ACTING_RECORDS)
+
+}  // namespace isostep

@@ -1,0 +1,268 @@
+// Trials of mechanisms whose motion is known in closed form: cranks, gears, ropes, stops, shafts, beams.
+// SPDX-License-Identifier: MIT
+#include "families.hpp"
+#include "isostep/math/rotations.hpp"
+#include "judges.hpp"
+#include "scene_numbers.hpp"
+#include "scenes/shapes.hpp"
+
+namespace isostep::scenes {
+namespace {
+
+/// [rad] about z, in (-pi, pi].
+double angle_of(const BodySight& body) {
+  const double angle = 2 * std::atan2(body.orientation.z, body.orientation.w);
+  return angle - kTurn * std::round(angle / kTurn);
+}
+SceneBody weighing(SceneBody body, double mass) {
+  body.mass = mass;
+  return body;
+}
+SceneBody apart(SceneBody body) {
+  body.collide = false;
+  return body;
+}
+SceneJoint driven(SceneJoint joint, double speed, double torque) {
+  joint.flags |= joint_flag::kMotor;
+  joint.motor_speed = speed;
+  joint.motor_torque = torque;
+  return joint;
+}
+SceneJoint stopped(SceneJoint joint, double lower, double upper) {
+  joint.flags |= joint_flag::kLimit;
+  joint.lower = lower;
+  joint.upper = upper;
+  return joint;
+}
+
+/// A judge of one error from the second `from` on: the worst.
+class Off : public FromStart {
+ public:
+  explicit Off(double from) : from_(from) {}
+  double figure() const override { return worst_; }
+
+ protected:
+  virtual double error(const Sight& start, const Sight& now) const = 0;
+
+ private:
+  void compare(const Sight& start, const Sight& now) override {
+    for (const BodySight& body : now.bodies) finite_ = worse(finite_, 0 * length_of(body.centre));
+    if (from_ <= now.time) worst_ = worse(worst_, std::abs(error(start, now)) + finite_);
+  }
+  double from_;  // [s]
+  double worst_ = 0, finite_ = 0;
+};
+
+// ---- a crank drives a piston
+
+constexpr double kCrank = 0.5, kRod = 1.5;  // [m]
+
+/// Along x, the crank at the origin; the piston weighs 1 kg. In the plane: the rod's pins are hinges.
+Scene slider_crank() {
+  Scene scene = awake(3600);
+  scene.bodies = {apart(weighing(body_of(box_part({kCrank / 2, 0.05, 0.05}), {kCrank / 2, 0, 0}), 1)),
+                  apart(weighing(body_of(box_part({kRod / 2, 0.05, 0.05}), {kCrank + kRod / 2, 0, 0}), 1)),
+                  apart(weighing(body_of(box_part({0.2, 0.2, 0.2}), {kCrank + kRod, 0, 0}), 1))};
+  SceneJoint slide = joint_of(JointType::slider, -1, 2, {kCrank + kRod, 0, 0});
+  slide.anchor_b = slide.anchor;
+  slide.orientation = {0, kHalfRoot, 0, kHalfRoot};  // z to x
+  scene.joints = {driven(joint_of(JointType::hinge, -1, 0, {0, 0, 0}), kTurn, 200),
+                  joint_of(JointType::hinge, 0, 1, {kCrank, 0, 0}),
+                  joint_of(JointType::hinge, 1, 2, {kCrank + kRod, 0, 0}), slide};
+  return scene;
+}
+/// [mm] Of the piston, from where the crank's angle puts it.
+class CrankError : public Off {
+ public:
+  CrankError() : Off(0) {}
+
+ private:
+  double error(const Sight&, const Sight& now) const override {
+    const double angle = angle_of(now.bodies[0]), across = kCrank * std::sin(angle);
+    return 1000 * (now.bodies[2].centre.x - kCrank * std::cos(angle) - std::sqrt(kRod * kRod - across * across));
+  }
+};
+
+// ---- gears
+
+constexpr double kTeeth[] = {20, 40, 10};
+
+/// Three wheels in a row, as large as their teeth; the first is driven, the last winds up a weight on a slider.
+Scene gear_train() {
+  Scene scene = awake(3600);
+  double x = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double radius = kTeeth[i] / 40;
+    x += i == 0 ? 0 : kTeeth[i - 1] / 40 + radius;
+    scene.bodies.push_back(apart(weighing(body_of(box_part({radius, radius, 0.1}), {x, 0, 0}), kTeeth[i])));
+    scene.joints.push_back(joint_of(JointType::hinge, -1, i, {x, 0, 0}));
+  }
+  scene.joints[0] = driven(scene.joints[0], 1, 2000);
+  const double winch = 0.25;  // [m]
+  scene.bodies.push_back(apart(weighing(body_of(box_part({0.25, 0.25, 0.25}), {x, -2, 0}), 4)));
+  SceneJoint slide = joint_of(JointType::slider, -1, 3, {x, -2, 0});
+  slide.anchor_b = slide.anchor;
+  slide.orientation = {-kHalfRoot, 0, 0, kHalfRoot};  // z to y
+  scene.joints.push_back(slide);
+  const auto couple = [&](double a, double ratio_a, double b, double ratio_b) {
+    scene.records.push_back(
+        {"coupling", {{"joint_a", {a}}, {"joint_b", {b}}, {"ratio_a", {ratio_a}}, {"ratio_b", {ratio_b}}}});
+  };
+  couple(0, kTeeth[0], 1, kTeeth[1]);
+  couple(1, kTeeth[1], 2, kTeeth[2]);
+  couple(2, 1, 3, -1 / winch);
+  return scene;
+}
+/// [teeth] out of mesh, of either pair.
+class MeshError : public Off {
+ public:
+  MeshError() : Off(1) {}
+
+ private:
+  double error(const Sight&, const Sight& now) const override {
+    double worst = 0;
+    for (int i = 0; i < 2; ++i) {
+      const double teeth = (kTeeth[i] * angle_of(now.bodies[static_cast<std::size_t>(i)]) +
+                            kTeeth[i + 1] * angle_of(now.bodies[static_cast<std::size_t>(i) + 1])) /
+                           kTurn;
+      worst = worse(worst, std::abs(teeth - std::round(teeth)));
+    }
+    return worst;
+  }
+};
+
+// ---- a rope over two wheels
+
+/// 1 and 2 kg; the rope between them is 20 m long, and they move for three seconds.
+Scene atwood() {
+  Scene scene = awake(180);
+  const double xs[] = {-1, 1}, depths[] = {18, 2};  // [m] of the weights below their wheels
+  for (int i = 0; i < 2; ++i) {
+    scene.bodies.push_back(apart(weighing(body_of(sphere_part(0.25), {xs[i], -depths[i], 0}), 1 + i)));
+    SceneJoint rope = stopped(joint_of(JointType::distance, -1, i, {xs[i], 0, 0}), 0, 40);
+    rope.anchor_b = vector_of({xs[i], -depths[i], 0});
+    scene.joints.push_back(rope);
+  }
+  scene.records.push_back(
+      {"coupling", {{"joint_a", {0}}, {"joint_b", {1}}, {"ratio_a", {1}}, {"ratio_b", {1}}, {"upper", {20}}}});
+  return scene;
+}
+/// [%] Of their acceleration, a third of gravity's; a millimetre of rope counts as half a per cent.
+class AtwoodError : public Off {
+ public:
+  AtwoodError() : Off(1) {}
+
+ private:
+  double error(const Sight&, const Sight& now) const override {
+    const double speed = now.bodies[0].velocity.y, want = kGravity / 3 * now.time;
+    const double rope = length_of(now.bodies[0].centre - Vec3<double>{-1, 0, 0}) +
+                        length_of(now.bodies[1].centre - Vec3<double>{1, 0, 0});
+    return worse(100 * std::abs(speed / want - 1), 500 * std::abs(rope - 20));
+  }
+};
+
+// ---- stops
+
+/// A rod runs into a stop at 270 degrees, driven at 20 rad/s all the time.
+Scene far_stop() {
+  Scene scene = awake(300);
+  scene.bodies = {apart(weighing(body_of(box_part({0.5, 0.05, 0.05}), {0.5, 0, 0}), 1))};
+  scene.joints = {stopped(driven(joint_of(JointType::hinge, -1, 0, {0, 0, 0}), 20, 50), 0, 0.75 * kTurn)};
+  return scene;
+}
+/// A rod on a motor of 100 N m against a limit, for a minute.
+Scene pressed_stop() {
+  Scene scene = far_stop();
+  scene.frames = 3600;
+  scene.joints = {stopped(driven(joint_of(JointType::hinge, -1, 0, {0, 0, 0}), 10, 100), -kTurn / 12, kTurn / 12)};
+  return scene;
+}
+/// [degrees] From the stop, a second after the start and later.
+template <int kDegrees> class StopError : public Off {
+ public:
+  StopError() : Off(1) {}
+
+ private:
+  double error(const Sight&, const Sight& now) const override {
+    const double off = angle_of(now.bodies[0]) / kTurn - kDegrees / 360.0;
+    return 360 * (off - std::round(off));
+  }
+};
+
+// ---- a lift
+
+/// A platform of a ton on a slider, driven at 2 m/s up to a stop at 10 m, with ten crates of 100 kg.
+Scene loaded_lift() {
+  Scene scene = awake(600);
+  scene.bodies = {weighing(body_of(box_part({2, 0.25, 2}), {0, 0, 0}), 1000)};
+  for (int i = 0; i < 10; ++i) {
+    const Point at = {-1.5 + (i % 5) * 0.75, 0.5, i < 5 ? -0.75 : 0.75};
+    scene.bodies.push_back(weighing(body_of(box_part({0.25, 0.25, 0.25}), at), 100));
+  }
+  SceneJoint slide = joint_of(JointType::slider, -1, 0, {0, 0, 0});
+  slide.anchor_b = slide.anchor;
+  slide.orientation = {-kHalfRoot, 0, 0, kHalfRoot};  // z to y
+  scene.joints = {stopped(driven(slide, 2, 40'000), 0, 10)};
+  return scene;
+}
+/// [mm] Of the platform, from 2 m/s times the time and then from its stop.
+class LiftError : public Off {
+ public:
+  LiftError() : Off(8) {}  // the crates have landed, twice
+
+ private:
+  double error(const Sight&, const Sight& now) const override {
+    double worst = 1000 * std::abs(now.bodies[0].centre.y - 10);
+    for (std::size_t i = 1; i < now.bodies.size(); ++i)
+      worst = worse(worst, now.bodies[i].centre.y < 10 ? 1000.0 : 0.0);  // fell off
+    return worst;
+  }
+};
+
+// ---- a beam of twenty boxes
+
+constexpr int kBoxes = 20;
+
+/// Welded to each other and to the world, level.
+Scene cantilever() {
+  Scene scene = awake(600);
+  for (int i = 0; i < kBoxes; ++i) {
+    scene.bodies.push_back(apart(weighing(body_of(box_part({0.25, 0.25, 0.25}), {0.25 + 0.5 * i, 0, 0}), 1)));
+    scene.joints.push_back(joint_of(JointType::fixed, i - 1, i, {0.5 * i, 0, 0}));
+  }
+  return scene;
+}
+/// [%] Of its length by which the tip sags.
+class Sag : public Off {
+ public:
+  Sag() : Off(0) {}
+
+ private:
+  double error(const Sight& start, const Sight& now) const override {
+    return 100 * length_of(way_of(start, now, kBoxes - 1)) / (0.5 * kBoxes);
+  }
+};
+
+}  // namespace
+
+std::span<const Trial> mechanism_trials() {
+  static const Trial trials[] = {
+      {"slider_crank", "S19", "a crank of 0.5 m drives a piston by a rod of 1.5 m, a turn a second",
+       "the piston, from where the crank puts it", "mm", 0.5, slider_crank, judge_of<CrankError>},
+      {"gear_train", "S19", "wheels of 20, 40 and 10 teeth lift a weight", "teeth out of mesh", "", 0.05, gear_train,
+       judge_of<MeshError>},
+      {"atwood", "S19", "1 and 2 kg on a rope over two wheels", "their acceleration; 2 um of rope count as 0.001", "%",
+       0.5, atwood, judge_of<AtwoodError>},
+      {"loaded_lift", "S19", "a platform with ten crates rises to its stop at 10 m", "the platform, from its stop",
+       "mm", 1, loaded_lift, judge_of<LiftError>},
+      {"far_stop", "27", "a motor of 20 rad/s runs into a stop at 270 degrees", "the rod, from its stop", "degrees",
+       0.5, far_stop, judge_of<StopError<270>>},
+      {"pressed_stop", "28", "a motor presses a rod against its stop for a minute", "the rod, from its stop", "degrees",
+       0.01, pressed_stop, judge_of<StopError<30>>},
+      {"cantilever", "31", "twenty boxes welded to a beam that is held at one end", "sag over length", "%", 1,
+       cantilever, judge_of<Sag>},
+  };
+  return trials;
+}
+
+}  // namespace isostep::scenes
