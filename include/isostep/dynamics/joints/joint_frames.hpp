@@ -15,7 +15,7 @@ template <class S> struct JointFrames {
 
 /// Orientations only where a kind needs them.
 template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<S>& joint, const BodyState<S>* states) {
-  const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) {
+  const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) ISO_INLINE_LAMBDA {
     return row == 0 ? fixed : Pose<S>{states[row - 1].centre, states[row - 1].orientation};
   };
   const Pose<S> a = pose(joint.row_a, joint.pose_a), b = pose(joint.row_b, joint.pose_b);
