@@ -4,6 +4,7 @@
 
 #include "isostep/world/break_events.hpp"
 #include "isostep/world/contact_events.inl"
+#include "isostep/world/contact_pairs.hpp"
 
 namespace isostep {
 
@@ -16,11 +17,10 @@ template <class S> void BreakEvents<S>::emit(const SolvedContacts<S>& contacts, 
     if (records.is_taken(slot) && records.all()[slot].depth > 0) record_of_[records.all()[slot].body.slot] = slot + 1;
   }
   const std::span<const Contact<S>> now = contacts.now;
-  for (std::size_t first = 0, end = 0; first < now.size(); first = end) {
+  detail::for_each_pair(now, [&](std::size_t first, std::size_t end) {
     const ContactKey& key = now[first].key;
-    while (end < now.size() && now[end].key.body_a == key.body_a && now[end].key.body_b == key.body_b) ++end;
     if (record_of_[key.body_a] != 0 || record_of_[key.body_b] != 0) weigh(contacts, first, end);
-  }
+  });
   for (std::uint32_t slot = 0; slot < blows_.size(); ++slot) {
     if (S(0) < blows_[slot].impulse) mark(contacts, slot, events);
   }

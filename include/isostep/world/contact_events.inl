@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/dynamics/reduced_mass.hpp"
 #include "isostep/world/contact_events.hpp"
 #include "isostep/world/event_order.hpp"
 
@@ -22,9 +22,8 @@ ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>&
   auto total = SumOf<S, Velocity<S>>{};
   for (std::size_t i = first; i < end; ++i) {
     const ContactGeometry<S>& g = contacts.geometry[i];
-    const S mass_a = mass_of_row(state, g.row_a), mass_b = mass_of_row(state, g.row_b);
-    const MassShare<S> share = mass_share(mass_a, mass_b);
-    total = total + product(mass_b > S(0) ? share.b * mass_b : mass_a, contacts.impulses[i]);
+    const S mass = reduced_mass(mass_of_row(state, g.row_a), mass_of_row(state, g.row_b));
+    total = total + product(mass, contacts.impulses[i]);
   }
   const auto most = product(highest<S>(), Velocity<S>(1));
   return most < total ? highest<S>() : round_to<S>(total);

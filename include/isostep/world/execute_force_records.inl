@@ -62,24 +62,29 @@ template <class S> bool CommandExecutor<S>::check_alone(const MaterialPair<S>& p
   return true;
 }
 
-/// Whether no record of another slot has the same body.
+namespace detail {
+/// What two records of one kind may not have in common.
+template <class Record> ISO_INLINE auto subject_of(const Record& record) {
+  if constexpr (requires { record.joint; }) return record.joint;
+  else return record.body;
+}
+}  // namespace detail
+
+/// Whether no record of another slot has the same body, or joint.
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_only_one(const Record& record, std::uint32_t slot) {
+  constexpr bool kOfJoint = requires { record.joint; };
   const auto& all = detail::registry_of(*state_.force_records, typename detail::ForceIdOf<Record>::Type{});
   for (std::uint32_t i = 0; i < all.all().size(); ++i) {
-    if (i != slot && all.is_taken(i) && all.all()[i].body == record.body)
-      return journal_.refuse({Fault::bad_argument, "", "body", "a body that has no record yet"});
+    if (i == slot || !all.is_taken(i) || !(detail::subject_of(all.all()[i]) == detail::subject_of(record))) continue;
+    return journal_.refuse({Fault::bad_argument, "", kOfJoint ? "joint" : "body",
+                            kOfJoint ? "a joint that has no record yet" : "a body that has no record yet"});
   }
   return true;
 }
 template <class S> bool CommandExecutor<S>::check_alone(const JointLoad<S>& load, std::uint32_t slot) {
-  const auto& loads = state_.force_records->joint_loads;
-  for (std::uint32_t i = 0; i < loads.all().size(); ++i) {
-    if (i != slot && loads.is_taken(i) && loads.all()[i].joint == load.joint)
-      return journal_.refuse({Fault::bad_argument, "", "joint", "a joint that has no record yet"});
-  }
-  return true;
+  return check_only_one(load, slot);
 }
 template <class S> bool CommandExecutor<S>::check_alone(const Breakable<S>& breakable, std::uint32_t slot) {
   return check_only_one(breakable, slot);

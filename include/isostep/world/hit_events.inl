@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/core/lower_bound.hpp"
+#include "isostep/world/contact_pairs.hpp"
 #include "isostep/world/hit_events.hpp"
 
 namespace isostep {
@@ -42,10 +42,8 @@ typename HitEvents<S>::Approach HitEvents<S>::approach_of(const ContactGeometry<
 }
 
 template <class S> bool HitEvents<S>::touched(std::span<const Contact<S>> old, std::uint32_t a, std::uint32_t b) const {
-  const ContactKey least = {a, b, 0, 0};
-  std::size_t at = lower_bound(old.size(), [&](std::size_t i) { return old[i].key < least; });
-  for (; at < old.size() && old[at].key.body_a == a && old[at].key.body_b == b; ++at) {
-    if ((old[at].flags & contact_flag::kTouching) != 0) return true;
+  for (const Contact<S>& contact : detail::contacts_of(old, a, b)) {
+    if ((contact.flags & contact_flag::kTouching) != 0) return true;
   }
   return false;
 }
@@ -53,15 +51,15 @@ template <class S> bool HitEvents<S>::touched(std::span<const Contact<S>> old, s
 template <class S> void HitEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
   if (approaches_.empty()) return;
   const std::span<const Contact<S>> now = contacts.now;
-  for (std::size_t first = 0, end = 0; first < now.size(); first = end) {
-    const ContactKey& key = now[first].key;
+  detail::for_each_pair(now, [&](std::size_t first, std::size_t end) {
     bool touches = false, asked = false;
-    for (; end < now.size() && now[end].key.body_a == key.body_a && now[end].key.body_b == key.body_b; ++end) {
-      touches = touches || (now[end].flags & contact_flag::kTouching) != 0;
-      asked = asked || S(0) < approaches_[end].speed;
+    for (std::size_t i = first; i < end; ++i) {
+      touches = touches || (now[i].flags & contact_flag::kTouching) != 0;
+      asked = asked || S(0) < approaches_[i].speed;
     }
+    const ContactKey& key = now[first].key;
     if (touches && asked && !touched(contacts.old, key.body_a, key.body_b)) tell(contacts, first, end, events);
-  }
+  });
 }
 
 /// The pair's contacts first..end-1.

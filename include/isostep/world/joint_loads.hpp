@@ -29,7 +29,6 @@ template <class S> class JointLoads {
   void update(Events<S>& events);
 
  private:
-  S reduced_mass(const JointProperties<S>& joint) const;
   bool measure(JointLoad<S>& load) const;
 
   WorldState<S>& state_;

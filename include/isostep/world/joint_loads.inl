@@ -14,20 +14,14 @@ template <class S> std::span<JointImpulse<S>> JointLoads<S>::impulses() {
   return impulses_;
 }
 
-/// [kg] 0: nothing moves.
-template <class S> S JointLoads<S>::reduced_mass(const JointProperties<S>& joint) const {
-  const auto mass_of = [&](std::uint32_t slot) { return detail::mass_of_row(state_, map_.row_of(slot)); };
-  const S a = mass_of(joint.body_a), b = mass_of(joint.body_b);
-  const MassShare<S> share = mass_share(a, b);
-  return b > S(0) ? share.b * b : share.a * a;
-}
-
 /// Writes what it bore. True: that breaks it.
 template <class S> bool JointLoads<S>::measure(JointLoad<S>& load) const {
   const Location at = map_.joint_location(load.joint.slot);
   if (at.is_asleep()) return false;
   const JointImpulse<S>& impulse = impulses_[at.index];
-  const S mass = reduced_mass(state_.joints.properties[at.index]), hz = S(state_.settings.hz);
+  const JointProperties<S>& joint = state_.joints.properties[at.index];
+  const auto mass_of = [&](std::uint32_t slot) { return detail::mass_of_row(state_, map_.row_of(slot)); };
+  const S mass = reduced_mass(mass_of(joint.body_a), mass_of(joint.body_b)), hz = S(state_.settings.hz);
   const auto size_of = [&](Vec3<S> v) { return saturate_to<S>(product(mass, saturate_to<S>(product(length(v), hz)))); };
   load.force = size_of(impulse.linear);
   load.torque = size_of(impulse.angular);

@@ -4,6 +4,7 @@
 
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/world/body_frames.inl"
+#include "isostep/world/contact_pairs.hpp"
 #include "isostep/world/pair_rules.hpp"
 
 namespace isostep {
@@ -91,10 +92,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
   const Location at_a = map_.location(a), at_b = map_.location(b);
   if (at_a.is_asleep() || at_b.is_asleep()) return false;
   if (((map_.properties_at(at_a).flags | map_.properties_at(at_b).flags) & body_flag::kSensor) != 0) return false;
-  const std::vector<Contact<S>>& contacts = state_.contacts;
-  const ContactKey least = {a, b, 0, 0};
-  const std::size_t at = lower_bound(contacts.size(), [&](std::size_t i) { return contacts[i].key < least; });
-  return at == contacts.size() || contacts[at].key.body_a != a || contacts[at].key.body_b != b;
+  return detail::contacts_of<S>(state_.contacts, a, b).empty();
 }
 
 /// One contact in front is enough: what lands on an edge of several parts touches their sides as well.
