@@ -154,6 +154,14 @@ class BulletEngine : public Peer {
     }
     if (from.gravity_scale != 1) made.body->setGravity(bt(gravity() * from.gravity_scale));
   }
+  /// Its axis of twist is x.
+  static std::unique_ptr<btTypedConstraint> shoulder(const PeerJoint& joint, btRigidBody& a, btRigidBody& b,
+                                                     const btTransform& on_a, const btTransform& on_b) {
+    const btTransform x_to_z(btQuaternion(btVector3(0, 1, 0), -SIMD_HALF_PI));
+    auto made = std::make_unique<btConeTwistConstraint>(a, b, on_a * x_to_z, on_b * x_to_z);
+    made->setLimit(bt(joint.cone), bt(joint.cone), bt(joint.upper));
+    return made;
+  }
   std::unique_ptr<btTypedConstraint> constraint(const PeerJoint& joint) {
     btRigidBody& a = joint.a < 0 ? btTypedConstraint::getFixedBody() : *bodies_[static_cast<std::size_t>(joint.a)].body;
     btRigidBody& b = *bodies_[static_cast<std::size_t>(joint.b)].body;
@@ -173,9 +181,11 @@ class BulletEngine : public Peer {
       case JointType::planar:
       case JointType::universal:
       case JointType::constant_velocity:
-      case JointType::angular: throw scenes::SceneError("", "a joint that Bullet is not asked for");
+      case JointType::angular:
+      case JointType::six_axis: throw scenes::SceneError("", "a joint that Bullet is not asked for");
       case JointType::ball: break;
     }
+    if (joint.cone > 0) return shoulder(joint, a, b, on_a, on_b);
     if (joint.a < 0) return std::make_unique<btPoint2PointConstraint>(b, bt(joint.on_b.position));
     return std::make_unique<btPoint2PointConstraint>(a, b, bt(joint.on_a.position), bt(joint.on_b.position));
   }

@@ -206,6 +206,7 @@ class OdeEngine : public Peer {
     dJointID made = nullptr;
     switch (joint.type) {
       case JointType::ball:
+        if (joint.cone > 0) throw scenes::SceneError("", "ODE has no cone");
         made = dJointCreateBall(world_, nullptr);
         dJointAttach(made, body(joint.a), body(joint.b));
         dJointSetBallAnchor(made, on_b.x, on_b.y, on_b.z);
@@ -243,7 +244,8 @@ class OdeEngine : public Peer {
       case JointType::planar:
       case JointType::universal:
       case JointType::constant_velocity:
-      case JointType::angular: throw scenes::SceneError("", "a joint that ODE is not asked for");
+      case JointType::angular:
+      case JointType::six_axis: throw scenes::SceneError("", "a joint that ODE is not asked for");
     }
     if (joint.collide || joint.a < 0 || joint.b < 0) return;
     const auto place = [&](int i) { return &bodies()[static_cast<std::size_t>(i)]; };

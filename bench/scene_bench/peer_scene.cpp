@@ -157,8 +157,12 @@ void require_plain(const scenes::SceneJoint& joint) {
   const std::uint32_t limit = joint_flag::kLimit, spring = joint_flag::kSpring, plain = joint_flag::kCollideConnected;
   const bool hinge = joint.type == JointType::hinge, distance = joint.type == JointType::distance;
   const std::uint32_t known = plain | (hinge || distance ? limit : 0u) | (distance ? spring : 0u);
+  const std::uint32_t both = limit | joint_flag::kCone;
+  const bool shoulder = joint.type == JointType::ball && (joint.flags & both) == both &&
+                        real(joint.lower) == -real(joint.upper) && (joint.flags & ~(plain | both)) == 0;
+  if (shoulder) return;
   if ((joint.flags & ~known) != 0 || (joint.flags & (limit | spring)) == (limit | spring)) {
-    throw SceneError("", "peers are given no motors, cones and limits of twist or of springs");
+    throw SceneError("", "peers are given no motors, and of limits those of hinges and whole shoulders");
   }
 }
 
@@ -210,7 +214,9 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.b = of.b;
   joint.on_a = end(of.a, of.anchor);
   joint.on_b = end(of.b, joins_two_points(of.type) ? of.anchor_b : of.anchor);
-  joint.is_limited = of.type == JointType::hinge && (of.flags & joint_flag::kLimit) != 0;
+  const bool turns = of.type == JointType::hinge || of.type == JointType::ball;
+  joint.is_limited = turns && (of.flags & joint_flag::kLimit) != 0;
+  joint.cone = (of.flags & joint_flag::kCone) != 0 ? real(of.cone) : 0;
   joint.lower = real(of.lower);
   joint.upper = real(of.upper);
   joint.is_spring = (of.flags & joint_flag::kSpring) != 0;

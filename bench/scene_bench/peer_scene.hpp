@@ -39,13 +39,15 @@ struct PeerBody {
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.
 using PeerEnd = Pose<double>;
-/// Hinges may have limits, distance joints may be springs; motors, cones and limits of twist are refused.
+/// Hinges may have limits, balls a cone and a twist that is as far to both sides, distance joints may be springs; motors
+/// are refused.
 struct PeerJoint {
   JointType type;
   int a, b;             // a = -1: the world
   PeerEnd on_a, on_b;   // z is the axis
-  bool is_limited;      // a hinge
+  bool is_limited;      // a hinge, or the twist of a ball
   double lower, upper;  // [rad], 0 at the start; of distance joints [m]
+  double cone;          // [rad] of a ball; 0: none
   bool is_spring;
   double rest, stiffness, damping;  // [m], [N/m], [N s/m]
   bool collide;                     // the two bodies with each other

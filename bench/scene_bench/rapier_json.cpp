@@ -46,6 +46,7 @@ Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"
 /// The names that rapier.mjs knows. A rod is no joint of Rapier's.
 const char* name_of(const PeerJoint& joint) {
   if (JointType::distance < joint.type) throw scenes::SceneError("", "a joint that Rapier is not asked for");
+  if (joint.cone > 0) throw scenes::SceneError("", "Rapier has no cone");
   if (joint.type != JointType::distance) return kJointNames[static_cast<std::size_t>(joint.type)];
   if (!joint.is_spring && joint.lower > 0) throw scenes::SceneError("", "Rapier has no rod");
   return joint.is_spring ? "spring" : "rope";

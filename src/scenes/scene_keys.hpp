@@ -22,7 +22,13 @@ inline constexpr FlagKey kJointFlags[] = {{"collide_connected", joint_flag::kCol
                                           {"limit", joint_flag::kLimit},
                                           {"motor", joint_flag::kMotor},
                                           {"spring", joint_flag::kSpring},
-                                          {"limit_cone", joint_flag::kCone}};
+                                          {"limit_cone", joint_flag::kCone},
+                                          {"lock_x", joint_flag::kLockX},
+                                          {"lock_y", joint_flag::kLockY},
+                                          {"lock_z", joint_flag::kLockZ},
+                                          {"lock_swing_x", joint_flag::kLockSwingX},
+                                          {"lock_swing_y", joint_flag::kLockSwingY},
+                                          {"lock_twist", joint_flag::kLockTwist}};
 
 struct JointNumberKey {
   const char* key;

@@ -16,6 +16,7 @@ constexpr const char* kRecordNames[] = {ISO_FOR_EACH_RECORD(ISO_NAME, double)};
 constexpr const char* kZoneShapes[] = {"everywhere", "sphere", "box"};
 constexpr const char* kBreakPatterns[] = {"eight_boxes", "grain", "radial", "voronoi"};
 constexpr const char* kFootings[] = {"airborne", "floor", "steep"};
+constexpr const char* kAxes[] = {"x", "y", "z", "swing_x", "swing_y", "twist"};
 
 /// visit(Record<S>{}) for the kind of that name. False: there is none.
 template <class S, class Visit> bool visit_kind(const std::string& kind, const Visit& visit) {
@@ -46,6 +47,7 @@ template <class T> constexpr bool is_name = std::is_enum_v<T>;
 std::span<const char* const> words_of(ZoneShape) { return kZoneShapes; }
 std::span<const char* const> words_of(BreakPattern) { return kBreakPatterns; }
 std::span<const char* const> words_of(Footing) { return kFootings; }
+std::span<const char* const> words_of(JointAxis) { return kAxes; }
 
 Number whole(std::int64_t n) { return Number(std::to_string(n)); }
 const SceneField* find(const SceneRecord& record, std::string_view name) {
@@ -111,7 +113,7 @@ class FieldReader {
     if (out.size() != N) throw SceneError(reader_.place_of(name), "expected " + std::to_string(N) + " numbers");
   }
   template <class T>
-    requires is_name<T>
+  requires is_name<T>
   void read(const char* name, T, std::vector<Number>& out) const {
     out = {whole(static_cast<std::int64_t>(reader_.choice(name, words_of(T{}))))};
   }

@@ -133,6 +133,14 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
     case JointType::fixed:
     case JointType::universal:
     case JointType::angular: break;
+    case JointType::six_axis: {
+      Dice own = dice;
+      p.flags |= own.one_in(2) ? kLockPoint : own.below(8) * kLockX;
+      p.flags |= own.below(8) * kLockSwingX;
+      if ((p.flags & kLockPoint) == 0) p.flags |= kLockX;  // something holds
+      if (own.one_in(2)) p.flags |= kCone;
+      break;
+    }
     case JointType::distance: {
       const double apart = angles_of(w, p).apart;
       p.flags |= springs && dice.one_in(2) ? kSpring : kLimit;
@@ -143,6 +151,28 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
       p.spring_target = num<S>(apart * dice.in(0.75, 1.25));
       break;
     }
+  }
+}
+
+/// Of the axes that a six-axis joint leaves: limits about where they are, brakes, springs and servos at rest. None of
+/// them gives energy.
+template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, JointId joint) {
+  for (std::uint32_t i = 0; i < kJointAxes; ++i) {
+    const JointAxis axis = static_cast<JointAxis>(i);
+    if ((w.joint(joint)->flags & lock_of(axis)) != 0 || dice.one_in(3)) continue;
+    AxisDrive<S> d;
+    d.joint = joint;
+    d.axis = axis;
+    d.limited = !dice.one_in(3);
+    d.upper = num<S>(dice.in(0.05, 1.5));
+    d.lower = (w.joint(joint)->flags & joint_flag::kCone) != 0 ? -d.upper : num<S>(-dice.in(0.05, 1.5));
+    d.motor = dice.one_in(3);
+    if (d.motor || dice.one_in(2)) d.force = num<S>(dice.magnitude(0.25, 25));
+    if (drive >= Drive::springs && dice.one_in(2)) {
+      d.spring_frequency = num<S>(dice.magnitude(0.5, 6));
+      d.spring_damping = num<S>(dice.in(0, 1));
+    }
+    w.add(d);
   }
 }
 

@@ -358,7 +358,9 @@ template <class S> class RandomWorld {
     return world.create(d);
   }
   void join(Dice& dice, BodyId a, BodyId b, std::vector<JointId>& joints) {
-    const auto type = static_cast<JointType>(dice.below(kJointTypes));
+    auto type = static_cast<JointType>(dice.below(static_cast<std::uint32_t>(JointType::six_axis)));
+    Dice own = dice;  // what is drawn after it is as it was before there were six axes
+    if (type != JointType::distance && own.one_in(4)) type = JointType::six_axis;
     const D3 end = real(world.center_of_mass(b)),
              start = a ? real(world.center_of_mass(a)) : end + dice.arrow_of(dice.magnitude(0.25, 2));
     JointProperties<S> p =
@@ -371,6 +373,7 @@ template <class S> class RandomWorld {
     }
     ++joints_made;
     joints.push_back(id);
+    if (type == JointType::six_axis) draw_axis_drives(world, own, drive_of(seed_), id);
   }
   /// Between whatever parts: all of the mechanism together is never easier to move.
   void book_spring(const JointProperties<S>& p, const std::vector<BodyId>& bodies) {

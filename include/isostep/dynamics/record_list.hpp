@@ -5,9 +5,10 @@
 #include "isostep/dynamics/breakable.hpp"
 #include "isostep/dynamics/character.hpp"
 #include "isostep/dynamics/coupling.hpp"
-#include "isostep/dynamics/joint_load.hpp"
 #include "isostep/dynamics/ghost.hpp"
 #include "isostep/dynamics/hit_report.hpp"
+#include "isostep/dynamics/joint_load.hpp"
+#include "isostep/dynamics/joints/axis_drive.hpp"
 #include "isostep/dynamics/material_pair.hpp"
 #include "isostep/dynamics/one_way.hpp"
 #include "isostep/dynamics/surface_velocity.hpp"
@@ -30,4 +31,5 @@
   R(one_way, OneWay<S>, OneWayId, S)                            \
   R(hit_report, HitReport<S>, HitReportId, S)                   \
   R(joint_load, JointLoad<S>, JointLoadId, S)                   \
-  R(coupling, Coupling<S>, CouplingId, S)
+  R(coupling, Coupling<S>, CouplingId, S)                       \
+  R(axis_drive, AxisDrive<S>, AxisDriveId, S)

@@ -80,9 +80,7 @@ template <class S> void BodyFinisher<S>::discard_bad_impulses() {
     contact.twist_impulse = V(0);
   }
   for (JointState<S>& joint : state_.joints.states) {
-    const bool finite =
-        is_finite(joint.point) && is_finite(joint.angular) && is_finite(joint.drive) && is_finite(joint.swing);
-    if (finite) continue;
+    if (is_finite(joint.point) && is_finite(joint.angular)) continue;
     JointState<S> fresh = {};
     fresh.slot = joint.slot;
     joint = fresh;

@@ -280,7 +280,10 @@ template <class Record> using SetForce = SetRecord<Record, typename detail::Forc
   X(remove_joint_load, RemoveRecord<JointLoadId>, bool, S)                     \
   X(add_coupling, AddRecord<Coupling<S>>, CouplingId, S)                       \
   X(set_coupling, SetForce<Coupling<S>>, bool, S)                              \
-  X(remove_coupling, RemoveRecord<CouplingId>, bool, S)
+  X(remove_coupling, RemoveRecord<CouplingId>, bool, S)                        \
+  X(add_axis_drive, AddRecord<AxisDrive<S>>, AxisDriveId, S)                   \
+  X(set_axis_drive, SetForce<AxisDrive<S>>, bool, S)                           \
+  X(remove_axis_drive, RemoveRecord<AxisDriveId>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

@@ -60,6 +60,7 @@ template <class S> class CommandExecutor {
   void renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed);
   bool check(const BodyDefinition<S>& definition);
   bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
+  bool check_drives(JointId joint, const JointProperties<S>& next);
   bool check_ends(const JointProperties<S>& joint);
   template <class Record> bool check_force(const Record& record);
   template <class Record> bool check_joints(const Record& record);
@@ -72,6 +73,7 @@ template <class S> class CommandExecutor {
   bool check_alone(const Character<S>& character, std::uint32_t slot);
   bool check_alone(const Vehicle<S>& vehicle, std::uint32_t slot);
   bool check_alone(const JointLoad<S>& load, std::uint32_t slot);
+  bool check_alone(const AxisDrive<S>& drive, std::uint32_t slot);
   bool check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot);
   bool check_alone(const Ghost<S>& ghost, std::uint32_t slot);
   bool check_alone(const OneWay<S>& one_way, std::uint32_t slot);

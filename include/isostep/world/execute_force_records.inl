@@ -27,7 +27,16 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_force(
 }
 template <class S> template <class Record> bool CommandExecutor<S>::check_joints(const Record& record) {
   const detail::NamedJoints named = detail::joints_of(record);
-  if constexpr (requires { record.joint; }) return known(state_.joint_slots, record.joint, "joint");
+  if constexpr (requires {
+                  record.axis;
+                  record.joint;
+                }) {
+    const std::int32_t rate = state_.settings.hz * state_.settings.substeps;
+    return known(state_.joint_slots, record.joint, "joint") &&
+           journal_.accept(detail::fault_of_joint(record, *map_.properties_of(record.joint), rate));
+  } else if constexpr (requires { record.joint; }) {
+    return known(state_.joint_slots, record.joint, "joint");
+  }
   if constexpr (requires { record.joint_a; }) {
     constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
     const JointProperties<S>* joints[3];
@@ -86,6 +95,16 @@ bool CommandExecutor<S>::check_only_one(const Record& record, std::uint32_t slot
 template <class S> bool CommandExecutor<S>::check_alone(const JointLoad<S>& load, std::uint32_t slot) {
   return check_only_one(load, slot);
 }
+/// Whether no record of another slot has the same axis of the same joint.
+template <class S> bool CommandExecutor<S>::check_alone(const AxisDrive<S>& drive, std::uint32_t slot) {
+  const auto& all = state_.force_records->axis_drives;
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const AxisDrive<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i) || !(other.joint == drive.joint) || other.axis != drive.axis) continue;
+    return journal_.refuse({Fault::bad_argument, "", "axis", "an axis that has no record yet"});
+  }
+  return true;
+}
 template <class S> bool CommandExecutor<S>::check_alone(const Breakable<S>& breakable, std::uint32_t slot) {
   return check_only_one(breakable, slot);
 }
@@ -93,8 +112,7 @@ template <class S> bool CommandExecutor<S>::check_alone(const Vehicle<S>& vehicl
   return check_only_one(vehicle, slot);
 }
 
-template <class S>
-bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
+template <class S> bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
   return check_only_one(surface, slot);
 }
 template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way, std::uint32_t slot) {
@@ -125,9 +143,8 @@ template <class S> bool CommandExecutor<S>::check_alone(const Character<S>& char
 
 namespace detail {
 /// Whether a record acts on more than the bodies that it names. A character's mask is of what is in its way.
-template <class Record>
-inline constexpr bool kActsOnAll =
-    requires(Record record) { record.mask; } || requires(Record record) { record.kind_a; };
+template <class Record> inline constexpr bool kActsOnAll = requires(Record record) { record.mask; }
+|| requires(Record record) { record.kind_a; };
 template <class S> inline constexpr bool kActsOnAll<Character<S>> = false;
 /// Whether a record acts on what touches its body.
 template <class Record> inline constexpr bool kActsOnTouching = false;
@@ -186,15 +203,15 @@ template <class S> template <class IdType> bool CommandExecutor<S>::remove_force
   return detail::registry_of(state_.force_records.change(), id).remove(id);
 }
 
-#define ISO_EXECUTE(name, Record, Id, S)                                                         \
-  template <class S> Id CommandExecutor<S>::execute(const AddRecord<Record>& command) {          \
-    return add_force(command.record);                                                            \
-  }                                                                                              \
-  template <class S> bool CommandExecutor<S>::execute(const SetForce<Record>& command) {         \
-    return set_force(command.id, command.record);                                                \
-  }                                                                                              \
-  template <class S> bool CommandExecutor<S>::execute(const RemoveRecord<Id>& command) {         \
-    return remove_force(command.id);                                                             \
+#define ISO_EXECUTE(name, Record, Id, S)                                                 \
+  template <class S> Id CommandExecutor<S>::execute(const AddRecord<Record>& command) {  \
+    return add_force(command.record);                                                    \
+  }                                                                                      \
+  template <class S> bool CommandExecutor<S>::execute(const SetForce<Record>& command) { \
+    return set_force(command.id, command.record);                                        \
+  }                                                                                      \
+  template <class S> bool CommandExecutor<S>::execute(const RemoveRecord<Id>& command) { \
+    return remove_force(command.id);                                                     \
   }
 ISO_FOR_EACH_RECORD(ISO_EXECUTE, S)
 #undef ISO_EXECUTE

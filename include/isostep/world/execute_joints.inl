@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/world/command_executor.hpp"
+#include "isostep/world/record_checks.hpp"
 
 namespace isostep {
 
@@ -48,12 +49,25 @@ template <class S> bool CommandExecutor<S>::execute(const DestroyJoint& command)
   return true;
 }
 
+/// Whether its AxisDrives fit what the joint is to be.
+template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const JointProperties<S>& next) {
+  const std::int32_t rate = state_.settings.hz * state_.settings.substeps;
+  const auto& drives = state_.force_records->axis_drives;
+  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
+    if (!drives.is_taken(slot) || !(drives.all()[slot].joint == joint)) continue;
+    if (detail::fault_of_joint(drives.all()[slot], next, rate) == Fault::none) continue;
+    return journal_.refuse({Fault::bad_argument, "", "flags", "locks and a cone that the joint's AxisDrives allow"});
+  }
+  return true;
+}
+
 template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) {
   if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
   if (!journal_.accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
   if (next.type != map_.properties_of(command.joint)->type)
     return journal_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
+  if (!check_drives(command.joint, next)) return false;
   state_.joints.properties[wake_.wake_joint(command.joint.slot)].take_settings(next);
   return true;
 }

@@ -54,6 +54,7 @@ template <class S> class Queries {
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
   S joint_error(JointId joint) const;
   S joint_position(JointId joint) const;
+  S joint_position(JointId joint, JointAxis axis) const;
 
  private:
   /// A shape to ask with, in the world.

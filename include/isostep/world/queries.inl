@@ -22,8 +22,8 @@ template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_
   for (const BodyId unseen : filter.ignore_all) {
     if (unseen && id_of(slot) == unseen) return false;
   }
-  const bool ignored = (filter.ignore && id_of(slot) == filter.ignore) ||
-                       (filter.group != 0 && filter.group == body.filter.group);
+  const bool ignored =
+      (filter.ignore && id_of(slot) == filter.ignore) || (filter.group != 0 && filter.group == body.filter.group);
   return (body.filter.category & filter.mask) != 0 && !ignored &&
          (filter.sensors || (body.flags & body_flag::kSensor) == 0);
 }
@@ -94,13 +94,23 @@ template <class S> S Queries<S>::joint_error(JointId joint) const {
   });
 }
 
+/// As they lie now; arms are not looked for.
+namespace detail {
+template <class S> ISO_INLINE JointFrames<S> frames_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
+  const Pose<S> a = compose(map.centre_pose_at(joint.body_a), joint.frame_a);
+  const Pose<S> b = compose(map.centre_pose_at(joint.body_b), joint.frame_b);
+  const Vec3<S> none = Vec3<S>::zero();
+  return {none, none, b.position - a.position, a.orientation, b.orientation};
+}
+}  // namespace detail
 template <class S> S Queries<S>::joint_position(JointId joint) const {
   const JointProperties<S>* properties = map_.properties_of(joint);
-  if (properties == nullptr) return S(0);
-  const Pose<S> a = compose(map_.centre_pose_at(properties->body_a), properties->frame_a);
-  const Pose<S> b = compose(map_.centre_pose_at(properties->body_b), properties->frame_b);
-  const Vec3<S> none = Vec3<S>::zero();
-  return detail::position_of<S>(properties->type, {none, none, b.position - a.position, a.orientation, b.orientation});
+  return properties == nullptr ? S(0) : detail::position_of(properties->type, detail::frames_of(map_, *properties));
+}
+template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) const {
+  const JointProperties<S>* properties = map_.properties_of(joint);
+  const bool known = properties != nullptr && properties->type == JointType::six_axis;
+  return known ? detail::position_of(axis, properties->flags, detail::frames_of(map_, *properties)) : S(0);
 }
 
 }  // namespace isostep

@@ -108,18 +108,12 @@ template <class S> struct NumberChecks {
         .proper(Limits<S>::minimum_size() <= x, field, kLeastSize);
   }
   void grip(S x, const char* field) {
-    list.finite(x, field)
-        .in_range(x <= kMaxFriction<S>, field, "0 to 16")
-        .proper(S(0) <= x, field, "0 to 16");
+    list.finite(x, field).in_range(x <= kMaxFriction<S>, field, "0 to 16").proper(S(0) <= x, field, "0 to 16");
   }
   void size_of_slip(S x, const char* field) {
-    list.finite(x, field)
-        .in_range(x <= S(4), field, "2^-10 to 4")
-        .proper(S(0x1p-10) <= x, field, "2^-10 to 4");
+    list.finite(x, field).in_range(x <= S(4), field, "2^-10 to 4").proper(S(0x1p-10) <= x, field, "2^-10 to 4");
   }
-  void direction(const Vec3<Unit<S>>& v, const char* field) {
-    list.proper(is_direction<S>(v), field, kDirection);
-  }
+  void direction(const Vec3<Unit<S>>& v, const char* field) { list.proper(is_direction<S>(v), field, kDirection); }
 };
 
 template <class S> FaultReport fault_of(const Vehicle<S>& v) {
@@ -193,6 +187,57 @@ template <class S> FaultReport fault_of(const JointLoad<S>& l) {
   return checks.list.report();
 }
 template <class S> NamedBodies<S> bodies_of(const JointLoad<S>&) { return {{}, 0}; }
+
+template <class S> FaultReport fault_of(const AxisDrive<S>& d) {
+  if (kJointAxes <= static_cast<std::uint32_t>(d.axis)) return {Fault::bad_argument, "", "axis", "one of JointAxis"};
+  const bool length = is_length(d.axis), sprung = S(0) < d.spring_frequency;
+  const S reach = length ? Limits<S>::position() : kMaxAngle<S> * S(0.5);
+  const char* expected = length ? "lengths up to Limits::position()" : "-pi to pi";
+  NumberChecks<S> checks;
+  checks.not_negative(d.spring_frequency, "spring_frequency");
+  checks.not_negative(d.force, "force");
+  return checks.list.finite(d.lower, "lower")
+      .finite(d.upper, "upper")
+      .finite(d.motor_speed, "motor_speed")
+      .finite(d.spring_target, "spring_target")
+      .finite(d.spring_damping, "spring_damping")
+      .in_range(within(d.lower, reach), "lower", expected)
+      .in_range(within(d.upper, reach), "upper", expected)
+      .in_range(within(d.spring_target, reach), "spring_target", expected)
+      .in_range(within(d.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
+                length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
+      .in_range(d.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
+      .proper(d.lower <= d.upper, "lower", "no more than upper")
+      .proper(!sprung || S(0) <= d.spring_damping, "spring_damping", "0 to 64")
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const AxisDrive<S>&) { return {{}, 0}; }
+/// Of a drive with the joint that it names.
+template <class S>
+FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& joint, std::int32_t substep_rate) {
+  const bool cone = (joint.flags & joint_flag::kCone) != 0 && d.limited &&
+                    (d.axis == JointAxis::swing_x || d.axis == JointAxis::swing_y);
+  return Checklist()
+      .proper(joint.type == JointType::six_axis, "joint", "a six-axis joint")
+      .proper((joint.flags & lock_of(d.axis)) == 0, "axis", "one that the joint does not lock")
+      .proper(!cone || d.lower == -d.upper, "lower", "-upper: the joint's kCone makes an ellipse of them")
+      .in_range(d.spring_frequency <= S(substep_rate) * S(0.5), "spring_frequency", "up to half the sub-step rate")
+      .report();
+}
+/// Of all drives that a joint is to have.
+template <class S>
+FaultReport fault_of_drives(std::span<const AxisDrive<S>> drives, const JointProperties<S>& joint,
+                            std::int32_t substep_rate) {
+  std::uint32_t taken = 0;
+  for (const AxisDrive<S>& drive : drives) {
+    const FaultReport fault = fault_of(drive), of_joint = fault_of_joint(drive, joint, substep_rate);
+    if (fault != Fault::none) return fault;
+    if (of_joint != Fault::none) return of_joint;
+    if ((taken & lock_of(drive.axis)) != 0) return {Fault::bad_argument, "", "axis", "each axis once"};
+    taken |= lock_of(drive.axis);
+  }
+  return {};
+}
 
 template <class S> FaultReport fault_of(const Coupling<S>& c) {
   const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth);

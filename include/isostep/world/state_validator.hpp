@@ -124,8 +124,8 @@ template <class S> class StateValidator {
     std::uint32_t leaves = 0;
     for (const Child<S>& part : parts) {
       const std::uint32_t blob = part.primitive.blob;
-      leaves += leaves_of<S>(
-          {part.primitive, blob == 0 ? nullptr : content_of<S>(*state_.geometry->content(blob - 1))});
+      leaves +=
+          leaves_of<S>({part.primitive, blob == 0 ? nullptr : content_of<S>(*state_.geometry->content(blob - 1))});
     }
     return leaves;
   }
@@ -146,9 +146,8 @@ template <class S> class StateValidator {
     return nullptr;
   }
   const char* properties(const BodyProperties<S>& p, std::uint32_t name) const {
-    constexpr std::uint32_t kKnown =
-        body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide | body_flag::kSpins | body_flag::kBullet |
-        body_flag::kAllLocks;
+    constexpr std::uint32_t kKnown = body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide |
+                                     body_flag::kSpins | body_flag::kBullet | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
     if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == Location::kStatic) ||
         (name < Location::kAwake && !dynamic_body)) {
@@ -242,9 +241,7 @@ template <class S> class StateValidator {
       if (!belongs(joint.body_a, joint.body_b, name)) return "a joint lies in another island than its bodies";
       if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
         return "a joint is out of range";
-      const bool known = (state.pieces & 0xffu) < kDrivePieces && state.pieces >> 8 < kDrivePieces;
-      if (!known || !is_finite(state.point) || !is_finite(state.angular) || !is_finite(state.drive) ||
-          !is_finite(state.swing)) {
+      if (!state.has_known_pieces() || !is_finite(state.point) || !is_finite(state.angular)) {
         return "a joint's impulse is not one";
       }
     }
@@ -283,8 +280,7 @@ template <class S> class StateValidator {
     if (broken == nullptr) broken = material_pairs();
     if (broken == nullptr) broken = one_a_joint(state_.force_records->joint_loads, "two loads have the same joint");
     if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
-    if (broken == nullptr)
-      broken = one_a_body(state_.force_records->characters, "two characters have the same body");
+    if (broken == nullptr) broken = one_a_body(state_.force_records->characters, "two characters have the same body");
     if (broken == nullptr) broken = one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
     return broken != nullptr ? broken : contact_records();
   }
@@ -331,8 +327,7 @@ template <class S> class StateValidator {
   }
   bool names_well(const detail::NamedBody<S>& named) const {
     if (!named.body) return named.may_be_null;
-    return state_.body_slots.holds(named.body) &&
-           detail::is_as_asked(type_of_body_[named.body.slot], named.must_be);
+    return state_.body_slots.holds(named.body) && detail::is_as_asked(type_of_body_[named.body.slot], named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
   bool ties_well(const BodySpring<S>& spring) const {
@@ -341,6 +336,19 @@ template <class S> class StateValidator {
     return !moves(spring.a) || !moves(spring.b) || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
   }
   bool ties_well(const JointLoad<S>& load) const { return state_.joint_slots.holds(load.joint); }
+  bool ties_well(const AxisDrive<S>& drive) const {
+    if (!state_.joint_slots.holds(drive.joint)) return false;
+    const JointProperties<S>& joint = *joint_at_[drive.joint.slot].joint;
+    if (detail::fault_of_joint(drive, joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
+      return false;
+    const auto& all = state_.force_records->axis_drives;
+    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
+      const AxisDrive<S>& other = all.all()[slot];
+      if (&other != &drive && all.is_taken(slot) && other.joint == drive.joint && other.axis == drive.axis)
+        return false;
+    }
+    return true;
+  }
   bool ties_well(const Coupling<S>& coupling) const {
     const detail::NamedJoints named = detail::joints_of(coupling);
     const JointProperties<S>* joints[3] = {};
@@ -408,13 +416,13 @@ template <class S> class StateValidator {
   const WorldState<S>& state_;
   std::vector<std::uint32_t>
       set_of_body_;  // by slot: Location::kNone, Location::kStatic, Location::kAwake or a sleeping island
-  std::vector<BodyType> type_of_body_;                            // by slot
+  std::vector<BodyType> type_of_body_;                           // by slot
   std::vector<std::uint32_t> leaves_of_shape_, leaves_of_body_;  // by slot; as contacts count them
   struct JointAt {
     const JointProperties<S>* joint;
     std::uint32_t set;  // as set_of_body_
   };
-  std::vector<JointAt> joint_at_;                                 // by slot
+  std::vector<JointAt> joint_at_;  // by slot
 };
 
 }  // namespace isostep

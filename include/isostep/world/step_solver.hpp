@@ -50,11 +50,13 @@ template <class S> class StepSolver {
   }
 
  private:
+  void list_axis_drives();
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   Solvers<S> solvers_;
   BodyForces<S> forces_;
   std::vector<JointEnds<S>> joint_ends_;
+  std::vector<JointAxisDrive<S>> axis_drives_, sorted_drives_;
   std::vector<Velocity<S>> impulses_;
   std::vector<std::uint8_t> cut_;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/solvers/solvers.inl"
 #include "isostep/world/step_solver.hpp"
 
@@ -10,6 +11,29 @@ namespace isostep {
 template <class S>
 StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
     : state_(state), map_(map), forces_(state, map, proxies) {}
+
+namespace detail {
+/// By joint, then by axis.
+struct AxisDriveKey {
+  template <class S> ISO_INLINE std::uint64_t operator()(const JointAxisDrive<S>& axis) const {
+    return std::uint64_t{axis.joint} * kJointRows + static_cast<std::uint32_t>(axis.drive->axis);
+  }
+};
+}  // namespace detail
+
+template <class S> void StepSolver<S>::list_axis_drives() {
+  axis_drives_.clear();
+  const auto& records = state_.force_records->axis_drives;
+  for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
+    if (!records.is_taken(slot)) continue;
+    const AxisDrive<S>& drive = records.all()[slot];
+    const Location at = map_.joint_location(drive.joint.slot);
+    if (!at.is_asleep()) axis_drives_.push_back({at.index, &drive});
+  }
+  sorted_drives_.resize(axis_drives_.size());
+  stable_sort(axis_drives_.data(), sorted_drives_.data(), static_cast<std::uint32_t>(axis_drives_.size()),
+              detail::AxisDriveKey{});
+}
 
 template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
@@ -21,6 +45,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
     const JointProperties<S>& joint = state_.joints.properties[i];
     joint_ends_[i] = {end_at(joint.body_a), end_at(joint.body_b)};
   }
+  list_axis_drives();
   impulses_.resize(state_.contacts.size());
   cut_.assign(state_.awake.states.size(), 0);
   return {state_.awake.states,
@@ -44,6 +69,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           cut_,
           state_.settings.projection,
           convert<Velocity<S>>(state_.settings.restitution_threshold),
+          axis_drives_,
           joint_impulses};
 }
 

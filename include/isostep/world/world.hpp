@@ -20,6 +20,7 @@
 #include "isostep/world/command.hpp"
 #include "isostep/world/definitions.hpp"
 #include "isostep/world/events.hpp"
+#include "isostep/world/joint_presets.hpp"
 #include "isostep/world/query_types.hpp"
 #include "isostep/world/settings.hpp"
 #include "isostep/world/stages.hpp"
@@ -128,7 +129,12 @@ template <class S> class World final {
   /// A joint whose frames lie where `frame` (world) is now; a null id is the world. Add limits, motor, spring; then
   /// create.
   JointProperties<S> joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const;
+  /// The same of two frames that lie apart.
+  JointProperties<S> joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
+                                   const Pose<S>& frame_b) const;
   JointId create(const JointProperties<S>& joint);
+  /// One of joint_presets.hpp, with its AxisDrives: all of it or, with a fault, nothing.
+  JointId create(const JointDefinition<S>& joint);
   bool destroy(JointId joint);
   bool set_joint(JointId joint, const JointProperties<S>& properties);
   const JointProperties<S>* joint(JointId joint) const;
@@ -137,14 +143,16 @@ template <class S> class World final {
   /// What lower, upper and spring_target count: the twist of frame b against frame a about z, in (-pi, pi] [rad]; of a
   /// slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale id.
   S joint_position(JointId joint) const;
+  /// The same of one axis of a six-axis joint: where it stands [m], or its angle in (-pi, pi] [rad].
+  S joint_position(JointId joint, JointAxis axis) const;
 
   // Records: each kind of force that acts from step to step, force_list.hpp, and of record_list.hpp. They act on what
   // is awake; adding one, changing or removing it wakes the bodies that it names, and those of zones, attractors and
   // pairs of materials all. They go with the bodies that they name.
-#define ISO_FORCE(name, Record, Id, S)   \
-  Id add(const Record& record);          \
-  bool set(Id id, const Record& record); \
-  bool remove(Id id);                    \
+#define ISO_FORCE(name, Record, Id, S)                       \
+  Id add(const Record& record);                              \
+  bool set(Id id, const Record& record);                     \
+  bool remove(Id id);                                        \
   /* Null for a stale id; until the next command or load. */ \
   const Record* find(Id id) const;
   ISO_FOR_EACH_RECORD(ISO_FORCE, S)

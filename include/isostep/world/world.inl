@@ -10,8 +10,8 @@
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
 #include "isostep/world/execute_bodies.inl"
-#include "isostep/world/execute_forces.inl"
 #include "isostep/world/execute_force_records.inl"
+#include "isostep/world/execute_forces.inl"
 #include "isostep/world/execute_joints.inl"
 #include "isostep/world/execute_shapes.inl"
 #include "isostep/world/state_loader.inl"
@@ -104,12 +104,12 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   }
   return apply(command);
 }
-#define ISO_FORCE(name, Record, Id, S)                                                                              \
-  template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); }            \
+#define ISO_FORCE(name, Record, Id, S)                                                                               \
+  template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); }             \
   template <class S> bool World<S>::set(Id id, const Record& record) { return apply(SetForce<Record>{id, record}); } \
-  template <class S> bool World<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                           \
-  template <class S> const Record* World<S>::find(Id id) const {                                                    \
-    return detail::registry_of(*engine_->state_.force_records, id).find(id);                                        \
+  template <class S> bool World<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                            \
+  template <class S> const Record* World<S>::find(Id id) const {                                                     \
+    return detail::registry_of(*engine_->state_.force_records, id).find(id);                                         \
   }
 ISO_FOR_EACH_RECORD(ISO_FORCE, S)
 #undef ISO_FORCE
@@ -192,13 +192,23 @@ template <class S> S World<S>::joint_position(JointId joint) const {
   return engine_->queries_.joint_position(joint);
 }
 
+template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) const {
+  const FloatEnvironment environment;
+  return engine_->queries_.joint_position(joint, axis);
+}
+
 /// Both frames from one frame in the world, as the bodies lie now.
 template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
+  return joint_between(type, a, frame, b, frame);
+}
+template <class S>
+JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
+                                           const Pose<S>& frame_b) const {
   const FloatEnvironment environment;
   JointProperties<S> joint;
   joint.type = type;
-  const auto local = [&](BodyId body, std::uint32_t& slot, std::uint32_t& generation) {
+  const auto local = [&](BodyId body, const Pose<S>& frame, std::uint32_t& slot, std::uint32_t& generation) {
     if (!body) return frame;
     slot = body.slot;
     generation = body.generation;
@@ -207,9 +217,26 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
     const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
     return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
   };
-  joint.frame_a = local(a, joint.body_a, joint.generation_a);
-  joint.frame_b = local(b, joint.body_b, joint.generation_b);
+  joint.frame_a = local(a, frame_a, joint.body_a, joint.generation_a);
+  joint.frame_b = local(b, frame_b, joint.body_b, joint.generation_b);
   return joint;
+}
+template <class S> JointId World<S>::create(const JointDefinition<S>& definition) {
+  JointProperties<S> joint =
+      joint_between(definition.settings.type, definition.a, definition.frame_a, definition.b, definition.frame_b);
+  joint.take_settings(definition.settings);
+  const std::span<const AxisDrive<S>> drives(definition.drives, min(definition.drive_count, kJointAxes));
+  const FaultReport fault = detail::fault_of_drives(drives, joint, settings().hz * settings().substeps);
+  if (fault != Fault::none) {
+    engine_->journal_.refuse_call("create_joint", fault);
+    return {};
+  }
+  const JointId made = create(joint);
+  for (AxisDrive<S> drive : drives) {
+    drive.joint = made;
+    if (made) add(drive);
+  }
+  return made;
 }
 
 template <class S> const FaultReport& World<S>::fault() const { return engine_->journal_.fault(); }

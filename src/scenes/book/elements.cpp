@@ -6,7 +6,25 @@
 namespace isostep::scenes {
 namespace {
 
-enum Place { ground, raft, buoy, moon, swing, kite, cube, hammer, crate, sled, walker, cart, shaft, wheel, bob, shelf };
+enum Place {
+  ground,
+  raft,
+  buoy,
+  moon,
+  swing,
+  kite,
+  cube,
+  hammer,
+  crate,
+  sled,
+  walker,
+  cart,
+  shaft,
+  wheel,
+  bob,
+  shelf,
+  arm
+};
 
 SceneBody of_mass(ScenePart part, Point at, double mass, Point velocity = {0, 0, 0}) {
   SceneBody body = body_of(std::move(part), at);
@@ -30,7 +48,8 @@ void add_bodies(Scene& scene) {
                   of_mass(box_part({0.25, 0.25, 0.125}), {18, 3, -4}, 5),
                   of_mass(box_part({0.5, 0.5, 0.125}), {19.5, 3, -4}, 20),
                   of_mass(sphere_part(0.25), {22, 5, -4}, 2),
-                  fixed_box({2.25, 2.8125, 0}, {3, 0.0625, 1})};
+                  fixed_box({2.25, 2.8125, 0}, {3, 0.0625, 1}),
+                  of_mass(box_part({0.5, 0.125, 0.125}), {12, 4, -4}, 2)};
   scene.bodies[walker].type = BodyType::kinematic;
   scene.bodies[ground].kind = 1;
   scene.bodies[sled].kind = 2;
@@ -117,7 +136,8 @@ void add_cart(Scene& scene) {
   }
 }
 
-/// A motor turns a wheel by a gear; a bob swings until what it hangs on breaks.
+/// A motor turns a wheel by a gear; a bob swings until what it hangs on breaks; a servo lifts an arm that swings in a
+/// cone.
 void add_joints(Scene& scene) {
   const auto joined = [](JointType type, int body, Point anchor) {
     SceneJoint joint;
@@ -127,10 +147,29 @@ void add_joints(Scene& scene) {
     return joint;
   };
   scene.joints = {joined(JointType::hinge, shaft, {18, 3, -4}), joined(JointType::hinge, wheel, {19.5, 3, -4}),
-                  joined(JointType::ball, bob, {21, 5, -4})};
+                  joined(JointType::ball, bob, {21, 5, -4}), joined(JointType::six_axis, arm, {11.5, 4, -4})};
   scene.joints[0].flags = joint_flag::kMotor;
   scene.joints[0].motor_speed = 6;
   scene.joints[0].motor_torque = 100;
+  scene.joints[3].flags = joint_flag::kLockPoint | joint_flag::kCone;
+  for (const int axis : {3, 4}) {
+    scene.records.push_back({"axis_drive",
+                             {{"joint", {3}},
+                              {"axis", {axis}},
+                              {"limited", {1}},
+                              {"lower", {axis == 3 ? -0.25 : -0.5}},
+                              {"upper", {axis == 3 ? 0.25 : 0.5}}}});
+  }
+  scene.records.push_back({"axis_drive",
+                           {{"joint", {3}},
+                            {"axis", {5}},
+                            {"limited", {1}},
+                            {"lower", {-1}},
+                            {"upper", {0.25}},
+                            {"spring_target", {0.5}},
+                            {"spring_frequency", {2}},
+                            {"spring_damping", {1}},
+                            {"force", {12}}}});
   scene.records.push_back({"joint_load", {{"joint", {2}}, {"break_force", {45}}}});
   scene.records.push_back(
       {"coupling", {{"joint_a", {0}}, {"joint_b", {1}}, {"ratio_a", {1}}, {"ratio_b", {2}}, {"upper", {0.125}}}});

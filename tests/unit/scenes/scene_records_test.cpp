@@ -16,7 +16,8 @@ constexpr char kBodies[] = R"({"bodies": [
   {"type": "dynamic", "position": [3, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
   {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]}], "joints": [
   {"type": "slider", "a": -1, "b": 0, "anchor": [0, 2, 0]}, {"type": "slider", "a": -1, "b": 1, "anchor": [3, 2, 0]},
-  {"type": "slider", "a": 0, "b": 1, "anchor": [1, 2, 0]}], "records": [)";
+  {"type": "slider", "a": 0, "b": 1, "anchor": [1, 2, 0]},
+  {"type": "six_axis", "a": 0, "b": 1, "anchor": [1, 2, 0], "lock_x": true}], "records": [)";
 
 std::string scene_of(const std::string& record) { return kBodies + record + "]}"; }
 
@@ -64,6 +65,8 @@ constexpr const char* kRecords[] = {
     R"({"type": "joint_load", "joint": 1, "break_force": 8, "break_torque": 4, "force": 2, "torque": 1})",
     R"({"type": "coupling", "joint_a": 0, "joint_b": 1, "joint_c": 2, "ratio_a": 2, "ratio_b": -0.5, "ratio_c": 1, )"
     R"("lower": -1, "upper": 1})",
+    R"({"type": "axis_drive", "joint": 3, "axis": "swing_y", "limited": true, "motor": true, "lower": -1, )"
+    R"("upper": 1, "motor_speed": 2, "spring_target": 0.5, "spring_frequency": 4, "spring_damping": 1, "force": 3})",
     R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0]})",
     R"({"type": "ghost", "a": 0, "b": 1})",
     R"({"type": "one_way", "body": 0, "axis": [1, 0, 0], "least_cosine": 0.75})",

@@ -35,15 +35,20 @@ template <class S> struct Sights {
     const WorldState<S>& state = world.state();
     for (const JointProperties<S>& joint : state.joints.properties) joints.insert(joint.type);
     for (const JointState<S>& joint : state.joints.states) {
-      const DrivePiece piece = joint.drive_piece();
-      lower = lower || piece == DrivePiece::lower;
-      upper = upper || piece == DrivePiece::upper;
-      motor = motor || piece >= DrivePiece::driven;
-      swing = swing || joint.swing != Velocity<S>(0);
+      for (std::uint32_t row = 0; row < kJointRows; ++row) {
+        if (!joint.has_drive(row)) continue;
+        lower = lower || joint.piece(row) == DrivePiece::lower;
+        upper = upper || joint.piece(row) == DrivePiece::upper;
+        motor = motor || joint.piece(row) >= DrivePiece::driven;
+        swing = swing || (row == 3 && joint.angular.x != Velocity<S>(0));
+      }
     }
     for (std::size_t i = 0; i < state.joints.states.size(); ++i) {
       const bool sprung = (state.joints.properties[i].flags & joint_flag::kSpring) != 0;
-      spring = spring || (sprung && state.joints.states[i].drive != Velocity<S>(0));
+      const JointState<S>& joint = state.joints.states[i];
+      for (std::uint32_t row = 0; row < kJointRows; ++row)
+        spring = spring || (sprung && joint.has_drive(row) &&
+                            (row < 3 ? joint.point : joint.angular)[static_cast<int>(row % 3)] != Velocity<S>(0));
     }
     for (const Contact<S>& contact : state.contacts) {
       touch(world.view(state.body_slots.template id_of<BodyId>(contact.key.body_a)));
@@ -150,19 +155,19 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
   EXPECT_EQ(broke, 1u);
   EXPECT_EQ(joints_broken, 1u);
   EXPECT_NEAR(to_double(world.angular_velocity(bodies[13]).z), -3, 0.1);  // geared to a motor
-  EXPECT_GE(most, 17u);                                           // the cube's pieces came
-  EXPECT_GE(hits, 1u);                                            // told by the hammer
-  EXPECT_EQ(ghosts, 2u);                                          // swing and kite in the shelf
-  EXPECT_LT(slowest, -0.5);                                       // the crate drives on its belt
-  EXPECT_FALSE(world.contains(bodies[6]));                        // in its place
-  EXPECT_LT(world.counts().bodies, most);                         // and went
-  EXPECT_EQ(kinds_of(world).count("explosions"), 0u);             // ended
-  EXPECT_GT(to_double(world.center_of_mass(bodies[8]).x), 15.0);  // blown away
-  EXPECT_NEAR(height(1), 0.9, 0.3);                               // the raft floats
-  EXPECT_GT(height(2), -0.25);                                    // so does the buoy
-  EXPECT_GT(height(4), 2.0);                                      // hangs on its spring
-  EXPECT_GT(to_double(world.center_of_mass(bodies[5]).z), 2.0);   // flown away
-  EXPECT_GT(to_double(world.center_of_mass(bodies[10]).x), 1.5);  // walked
+  EXPECT_GE(most, 17u);                                                   // the cube's pieces came
+  EXPECT_GE(hits, 1u);                                                    // told by the hammer
+  EXPECT_EQ(ghosts, 2u);                                                  // swing and kite in the shelf
+  EXPECT_LT(slowest, -0.5);                                               // the crate drives on its belt
+  EXPECT_FALSE(world.contains(bodies[6]));                                // in its place
+  EXPECT_LT(world.counts().bodies, most);                                 // and went
+  EXPECT_EQ(kinds_of(world).count("explosions"), 0u);                     // ended
+  EXPECT_GT(to_double(world.center_of_mass(bodies[8]).x), 15.0);          // blown away
+  EXPECT_NEAR(height(1), 0.9, 0.3);                                       // the raft floats
+  EXPECT_GT(height(2), -0.25);                                            // so does the buoy
+  EXPECT_GT(height(4), 2.0);                                              // hangs on its spring
+  EXPECT_GT(to_double(world.center_of_mass(bodies[5]).z), 2.0);           // flown away
+  EXPECT_GT(to_double(world.center_of_mass(bodies[10]).x), 1.5);          // walked
 }
 
 TYPED_TEST(SelfcheckScenes, PatchworkPullsEveryLinkAndTouchesEverything) {

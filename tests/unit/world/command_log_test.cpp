@@ -101,11 +101,13 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   const BlobRef field = height_field_blob(height_field({10, 0, 3, 3, 512}, heights, {}).value());
   const ShapeId ground = called.add_shape(field);
   EXPECT_EQ(told.add_shape(field), ground);
-  EXPECT_TRUE(both(SetHeights{ground, 0, 1, 1, 1, 1, one},
-                   [&](auto& w) { return w.set_heights(ground, 0, {1, 1, 1, 1, one}); }));
-  EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one},
-                    [&](auto& w) { return w.set_heights(ground, 1, {1, 1, 1, 1, one}); }));
-  static_assert(std::variant_size_v<Command<S>> == 78, "a command more: test it here");
+  EXPECT_TRUE(both(SetHeights{ground, 0, 1, 1, 1, 1, one}, [&](auto& w) {
+    return w.set_heights(ground, 0, {1, 1, 1, 1, one});
+  }));
+  EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one}, [&](auto& w) {
+    return w.set_heights(ground, 1, {1, 1, 1, 1, one});
+  }));
+  static_assert(std::variant_size_v<Command<S>> == 81, "a command more: test it here");
 
   // Records: of each kind the same three.
   EXPECT_TRUE(both(WakeBody{b}, [&](auto& w) { return w.wake(b); }));
@@ -175,16 +177,19 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_EQ(called.hash(), told.hash());
   EXPECT_FALSE(both(RemoveRecord<GhostId>{{0, 2}}, [](auto& w) { return w.remove(GhostId{0, 2}); }));
   each(HitReport<S>{b, S(2)}, HitReportId{0, 1});
-  const auto hinge = [&](double x) {
+  const auto joint = [&](JointType type, double x) {
     const Pose<S> frame = {vec<S>(x, 0, 0), Quat<Unit<S>>::identity()};
-    const JointProperties<S> made = called.joint_at(JointType::hinge, {}, b, frame);
+    const JointProperties<S> made = called.joint_at(type, {}, b, frame);
     EXPECT_TRUE(both(CreateJoint<S>{made}, [&](auto& world) { return world.create(made); }));
     return called.joints().back();
   };
   JointLoad<S> load;
-  load.joint = hinge(0);
+  load.joint = joint(JointType::hinge, 0);
   each(load, JointLoadId{0, 1});
-  each(gears<S>(load.joint, 1, hinge(0.25), 2), CouplingId{0, 1});
+  each(gears<S>(load.joint, 1, joint(JointType::hinge, 0.25), 2), CouplingId{0, 1});
+  AxisDrive<S> drive;
+  drive.joint = joint(JointType::six_axis, 0.5);
+  each(drive, AxisDriveId{0, 1});
 }
 
 TYPED_TEST(CommandLogs, a_command_returns_what_it_made) {

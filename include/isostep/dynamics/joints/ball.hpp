@@ -7,19 +7,6 @@
 
 namespace isostep {
 
-namespace detail {
-template <class S>
-ISO_INLINE void linearise_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb,
-                                JointConstraint<S>& joint) {
-  const Twist<S> twist = twist_of<S>(za, zb);
-  JointDrive<S>& drive = joint.drives[0];
-  drive.row = angular_row<S>(twist.axis, drive.radius / twist.cosine);
-  const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
-  drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < twist.cosine;
-  set_angle(drive, joint.properties, twist_angle<S>(relative_rotation(f)));
-}
-}  // namespace detail
-
 /// Origins coincide. kLimit: lower..upper of the twist about z; kCone: of the angle between the z axes.
 template <class S> struct BallJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::ball;
@@ -41,7 +28,8 @@ template <class S> struct BallJoint : detail::PointJoint<S> {
     if (joint.drive_count == 0) return;
     detail::empty_block(joint.blocks[1]);
     const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
-    detail::linearise_twist(f, za, zb, joint);
+    const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
+    detail::set_twist(f, za, zb, limit, joint.properties, joint.drives[0]);
     detail::linearise_swing(za, zb, joint);
   }
 };

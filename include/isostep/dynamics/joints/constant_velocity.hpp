@@ -26,11 +26,8 @@ template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
     detail::point_block(f, h, joint.blocks[0]);
     const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
-    const detail::Twist<S> twist = detail::twist_of<S>(za, zb);
-    JointBlock<S>& block = joint.blocks[1];
-    detail::empty_block(block);
-    block.rows[2] = detail::angular_row<S>(twist.axis, joint.radius / twist.cosine);
-    block.error.z = detail::bounded_error(joint.radius * detail::twist_angle<S>(detail::relative_rotation(f)), h);
+    detail::empty_block(joint.blocks[1]);
+    detail::lock_twist(f, za, zb, h, joint);
     if (joint.drive_count == 0) return;
     joint.drives[0].row = JointRow<S>::zero();
     detail::linearise_swing(za, zb, joint);

@@ -29,13 +29,11 @@ template <class S> struct JointConstraint {
   Vec3<S> arm_a, arm_b;    // [m] from each centre to the joint, world, now
   S radius;                // [m] lever of purely angular rows, so that their coefficients are near one
   S reach;                 // [m] farther out, what slides along a counts as that far
-  S motor_force;           // [m/s^2] most impulse a second
-  S most_motor;            // [m/s] most impulse in a sub-step
   std::uint32_t block_count, drive_count;
-  bool holds;               // something moves at all
-  JointBlock<S> blocks[2];  // where the origins are, angles
-  JointDrive<S> drives[2];  // angle, twist or length; swing
-  Mat3<S> up, down;         // [1] D_1^-1 K_10 and K_01 of a joint solved by itself
+  bool holds;                        // something moves at all
+  JointBlock<S> blocks[2];           // where the origins are, angles
+  Mat3<S> up, down;                  // [1] D_1^-1 K_10 and K_01 of a joint solved by itself
+  JointDrive<S> drives[kJointRows];  // drive_count of them, each in a row of its own; first the one of the properties
 };
 
 /// What the calls of one sub-step know. Row r > 0 of the bodies is states[r - 1].
@@ -65,13 +63,14 @@ template <class S> struct JointRows {
 template <class S> struct JointStart {
   JointMotion<S> motion;
   JointRows<S> impulses;
-  Velocity<S> drives[2];  // [m/s] their impulses
+  Velocity<S> drives[kJointRows];  // [m/s] their impulses
 };
 
-/// Once a step. Masses and rows must be gathered.
+/// Once a step. Masses and rows must be gathered. `axes` are those of the joint, none twice.
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
-                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint);
+                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint,
+                   std::span<const JointAxisDrive<S>> axes = {});
 /// Jacobian and error from the poses of now.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
 /// For velocities, after linearise_joint() and from the angular velocities of `step.bodies` as they are: how joints'
@@ -112,7 +111,8 @@ template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const
 
 #define ISO_JOINTS_OF(KEYWORD, S)                                                                                   \
   KEYWORD template void prepare_joint<S>(const JointProperties<S>&, const JointState<S>&, const JointEnd<S>&,       \
-                                         const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&);          \
+                                         const JointEnd<S>&, const SolverBodies<S>&, JointConstraint<S>&,           \
+                                         std::span<const JointAxisDrive<S>>);                                       \
   KEYWORD template void linearise_joint<S>(JointConstraint<S>&, const JointStep<S>&);                               \
   KEYWORD template void curve_joint<S>(JointConstraint<S>&, const JointStep<S>&);                                   \
   KEYWORD template void weigh_joint<S>(JointConstraint<S>&, const Mat3<S>&, const Mat3<S>&);                        \

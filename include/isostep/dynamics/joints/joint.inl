@@ -74,15 +74,16 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
   visit_joint_type(joint.properties.type, [&](auto kind) ISO_INLINE_LAMBDA {
     decltype(kind)::template Of<S>::linearise(frames, step.h, joint);
   });
-  JointDrive<S>& main = joint.drives[0];
-  main.piece = detail::valid_piece(main, main.piece);
-  if (!main.sprung) return;
-  const JointProperties<S>& p = joint.properties;
-  const S angle = S(6.283185307179586) * (p.spring_frequency * step.h);
-  const S a1 = S(2) * p.spring_damping + angle;
-  main.spring_came = detail::lagging_way(main.row, angle, joint, step);
-  main.spring_root = sqrt(angle) * sqrt(a1);
-  main.spring_rate = a1 > S(0) ? step.rate * (angle / a1) : S(0);
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    drive.piece = detail::valid_piece(drive, drive.piece);
+    if (!drive.sprung) continue;
+    const S angle = S(6.283185307179586) * (drive.frequency * step.h);
+    const S a1 = S(2) * drive.damping + angle;
+    drive.spring_came = detail::lagging_way(drive.row, angle, joint, step);
+    drive.spring_root = sqrt(angle) * sqrt(a1);
+    drive.spring_rate = a1 > S(0) ? step.rate * (angle / a1) : S(0);
+  }
 }
 
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b) {
@@ -90,9 +91,14 @@ template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& ka
     for (JointRow<S>& row : joint.blocks[i].rows) detail::set_turns(row, kappa_a, kappa_b);
   }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) detail::set_turns(joint.drives[i].row, kappa_a, kappa_b);
-  if (joint.drives[0].sprung) {
-    if (joint.block_count > 1) detail::weigh_block(joint.blocks[1 - joint.drives[0].block], joint.share);
-    detail::weigh_spring(joint);
+  bool weighed[2] = {false, false};
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    if (!drive.sprung) continue;
+    const std::uint32_t other = 1 - drive.block;
+    if (joint.block_count > 1 && !weighed[other]) detail::weigh_block(joint.blocks[other], joint.share);
+    weighed[other] = true;
+    detail::weigh_spring(joint, drive);
   }
 }
 
@@ -107,9 +113,9 @@ template <class S> void apply_impulses(JointConstraint<S>& joint, const JointSte
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     if (detail::is_constant(drive, drive.piece)) {
-      drive.impulse = detail::motor_impulse(drive.piece, detail::motor_limit(joint, step.h));
+      drive.impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
     }
-    push.add(drive.row, drive.impulse);
+    push.add(drive, drive.impulse);
   }
   push.apply(joint, *step.bodies);
 }
@@ -122,12 +128,12 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
   const Vec3<V> speed = speed_along(of, motion);
   Vec3<V> right = -speed;
   if (!relax) right -= detail::block_bias(of, step.softness.bias_rate);
-  const V most = detail::motor_limit(joint, step.h);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     if (drive.block != block) continue;
     const int at = static_cast<int>(drive.place);
-    right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax), most);
+    right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax),
+                                         detail::most_impulse(drive, step.h));
   }
   return right;
 }
@@ -149,7 +155,7 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
       const bool fixed = detail::fixes_speed(drive.piece);
       const V full = fixed ? of_drives[at] : round_to<V>(product(drive.spring_row.y, of_drives[at]));
       const V impulse = next(drive.impulse, full);
-      push.add(drive.row, impulse - drive.impulse);
+      push.add(drive, impulse - drive.impulse);
       drive.impulse = impulse;
     }
     of_drives[at] = V(0);
@@ -165,11 +171,11 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
 
 template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax, bool may_hold) {
   const JointMotion<S> m = gather(*step.bodies, joint.row_a, joint.row_b);
-  const Velocity<S> most = detail::motor_limit(joint, step.h);
   bool changes = false;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
-    drive.next = detail::next_piece(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, relax), most);
+    drive.next = detail::next_piece(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, relax),
+                                    detail::most_impulse(drive, step.h));
     const bool lets_go = detail::fixes_speed(drive.piece) && !detail::fixes_speed(drive.next);
     if (!may_hold && !lets_go) drive.next = drive.piece;
     changes = changes || drive.next != drive.piece;
@@ -178,15 +184,17 @@ template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<
 }
 
 template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies) {
-  return {gather(bodies, joint.row_a, joint.row_b),
-          {joint.blocks[0].impulse, joint.blocks[1].impulse},
-          {joint.drives[0].impulse, joint.drives[1].impulse}};
+  JointStart<S> start;
+  start.motion = gather(bodies, joint.row_a, joint.row_b);
+  start.impulses = {joint.blocks[0].impulse, joint.blocks[1].impulse};
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) start.drives[i] = joint.drives[i].impulse;
+  return start;
 }
 template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies) {
   scatter(bodies, joint.row_a, joint.row_b, start.motion);
   joint.blocks[0].impulse = start.impulses.point;
   joint.blocks[1].impulse = start.impulses.angular;
-  for (int i = 0; i < 2; ++i) joint.drives[i].impulse = start.drives[i];
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) joint.drives[i].impulse = start.drives[i];
 }
 
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step) {
@@ -196,8 +204,8 @@ template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep
     drive.piece = drive.next;
     // Of one that let go in an earlier round too: the restart has given it the impulse again with which it held.
     if (!detail::is_constant(drive, drive.piece)) continue;
-    const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::motor_limit(joint, step.h));
-    push.add(drive.row, impulse - drive.impulse);
+    const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
+    push.add(drive, impulse - drive.impulse);
     drive.impulse = impulse;
   }
   push.apply(joint, *step.bodies);
@@ -206,15 +214,14 @@ template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep
 template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state) {
   using V = Velocity<S>;
   const Vec3<V> zero = Vec3<V>::zero();
-  const auto kept = [&](std::uint32_t i) { return i < joint.drive_count ? joint.drives[i].impulse : V(0); };
-  const auto piece = [&](std::uint32_t i) {
-    return i < joint.drive_count ? static_cast<std::uint32_t>(joint.drives[i].piece) : 0u;
-  };
   state.point = joint.block_count > 0 ? joint.blocks[0].impulse : zero;
   state.angular = joint.block_count > 1 ? joint.blocks[1].impulse : zero;
-  state.drive = kept(0);
-  state.swing = kept(1);
-  state.pieces = piece(0) | piece(1) << 8;
+  state.pieces = 0;
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    (drive.block == 0 ? state.point : state.angular)[static_cast<int>(drive.place)] = drive.impulse;
+    state.set_piece(3 * drive.block + drive.place, drive.piece);
+  }
 }
 
 }  // namespace isostep

@@ -15,6 +15,10 @@ template <class S> ISO_INLINE S self_coupling(const JointRow<S>& i, const JointR
   return share.a * coupling(i.linear, i.angular_a, j.linear, j.turn_a) +
          share.b * coupling(i.linear, i.angular_b, j.linear, j.turn_b);
 }
+/// The same of two rows that only turn.
+template <class S> ISO_INLINE S turning_coupling(const JointRow<S>& i, const JointRow<S>& j, MassShare<S> share) {
+  return share.a * round_to<S>(dot_sum(i.angular_a, j.turn_a)) + share.b * round_to<S>(dot_sum(i.angular_b, j.turn_b));
+}
 template <class S> ISO_INLINE void weigh_block(JointBlock<S>& block, MassShare<S> share) {
   if (block.point) {
     const auto& r = block.rows;
@@ -30,7 +34,10 @@ template <class S> ISO_INLINE void weigh_block(JointBlock<S>& block, MassShare<S
                        {xz, yz, one + mix(a.rows[2].z, b.rows[2].z)}}};
     return;
   }
-  const auto k = [&](int i, int j) { return self_coupling(block.rows[i], block.rows[j], share); };
+  const auto k = [&](int i, int j) {
+    const JointRow<S>&row = block.rows[i], &other = block.rows[j];
+    return block.turns ? turning_coupling(row, other, share) : self_coupling(row, other, share);
+  };
   const S xy = k(0, 1), xz = k(0, 2), yz = k(1, 2);
   const Vec3<S> give = block.give;
   block.coupling = {{{k(0, 0) + give.x, xy, xz}, {xy, k(1, 1) + give.y, yz}, {xz, yz, k(2, 2) + give.z}}};
@@ -47,11 +54,13 @@ ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const Joi
     return i_is_a == j_is_a ? p : Mat3<S>{{-p.rows[0], -p.rows[1], -p.rows[2]}};
   }
   Mat3<S> k;
+  const bool turns = i.turns || j.turns;  // linear parts meet nothing
   for (int r = 0; r < 3; ++r) {
     const JointRow<S>& row = i.rows[r];
     const Vec3<S> angular = i_is_a ? row.angular_a : row.angular_b;
     const auto with = [&](const JointRow<S>& other) {
-      const S c = coupling(row.linear, angular, other.linear, j_is_a ? other.turn_a : other.turn_b);
+      const Vec3<S> turn = j_is_a ? other.turn_a : other.turn_b;
+      const S c = turns ? round_to<S>(dot_sum(angular, turn)) : coupling(row.linear, angular, other.linear, turn);
       return i_is_a == j_is_a ? c : -c;
     };
     k.rows[r] = {with(j.rows[0]), with(j.rows[1]), with(j.rows[2])};

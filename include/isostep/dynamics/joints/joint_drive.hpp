@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/dynamics/joints/axis_drive.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 
@@ -12,17 +13,22 @@ namespace isostep {
 /// Source:  the sum of an implicit spring, a motor with a largest force and two stops is a maximal monotone law between
 ///          speed and impulse (Brogliato 2016, Nonsmooth Mechanics, ch. 5): at every speed at most one part of it is
 ///          vertical. So one row is enough, and which piece of the law it is on decides the row: a fixed speed, a
-///          spring, or a constant impulse.
+///          spring, or a constant impulse. A servo is a spring of bounded force: beyond it its pieces are a motor's.
 /// Symbols: v = speed along the row, lambda = impulse as velocity change of the reduced mass. Spring: lambda = -w (w v
 ///          + push), w^2 = (h c + h^2 k) / effective mass. Motor: lambda in [-most, most]. A spring's row is scaled by
 ///          w / sqrt(1 + w^2): its pivot stays near one however weak it is.
 template <class S> struct JointDrive {
+  const AxisDrive<S>* asked;  // null: the joint's properties ask
   JointRow<S> row;
   std::uint32_t block, place;  // which of the joint's rows it is
-  S radius;                // [m] of an angle
-  S position;              // [m] an angle times the radius, or a length
-  S lower, upper, target;  // [m]
+  S radius;                    // [m] of an angle
+  S position;                  // [m] an angle times the radius, or a length
+  S lower, upper, target;      // [m]
   bool bounded_below, bounded_above, sprung, driven;
+  bool servo;                  // sprung, not driven: the spring gives no more than most_impulse()
+  S frequency, damping;        // [Hz], [1] of the spring
+  S half_tangent;              // [1] of a swing's limit: tan(upper / 2)
+  S force, most;               // [m/s^2] most impulse a second of the motor or servo, [m/s] and in a sub-step
   Velocity<S> push_speed;      // [m/s] with which it returns from beyond a limit
   Velocity<S> speed;           // [m/s] of the motor
   S spring_root, spring_rate;  // [1] w of an effective mass of one; [1/s] speed asked for per metre
@@ -84,6 +90,14 @@ template <class S> ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& driv
 ISO_INLINE constexpr bool fixes_speed(DrivePiece piece) {
   return piece == DrivePiece::lower || piece == DrivePiece::upper || piece == DrivePiece::driven;
 }
+/// Whether the spring's force follows the speed on that piece: on others a stop takes it up, or a servo gives its most.
+template <class S> ISO_INLINE bool springs(const JointDrive<S>& drive, DrivePiece piece) {
+  return !fixes_speed(piece) && drive.spring > S(0) && !(drive.servo && piece != DrivePiece::free);
+}
+/// Whether the drive's impulse is the same whatever its speed.
+template <class S> ISO_INLINE bool is_constant(const JointDrive<S>& drive, DrivePiece piece) {
+  return !fixes_speed(piece) && !springs(drive, piece);
+}
 /// What the motor gives on a piece of constant force.
 template <class V> ISO_INLINE V motor_impulse(DrivePiece piece, V most) {
   return piece == DrivePiece::forwards ? most : piece == DrivePiece::backwards ? -most : V(0);
@@ -99,11 +113,41 @@ ISO_INLINE Velocity<S> fixed_speed(const JointDrive<S>& drive, DrivePiece piece,
 
 /// What a piece left over from other properties becomes: a limit that is gone, a motor that is new.
 template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive, DrivePiece piece) {
-  const bool gone = (piece == DrivePiece::lower && !drive.bounded_below) ||
-                    (piece == DrivePiece::upper && !drive.bounded_above) ||
-                    (piece > DrivePiece::upper && !drive.driven);
+  const bool gone =
+      (piece == DrivePiece::lower && !drive.bounded_below) || (piece == DrivePiece::upper && !drive.bounded_above) ||
+      (piece == DrivePiece::driven && !drive.driven) || (piece > DrivePiece::driven && !drive.driven && !drive.servo);
   if (drive.driven) return gone || piece == DrivePiece::free ? DrivePiece::driven : piece;
   return gone ? DrivePiece::free : piece;
+}
+
+/// The piece of a servo's spring at that speed.
+template <class S>
+ISO_INLINE DrivePiece piece_of_servo(const JointDrive<S>& drive, Velocity<S> speed, Velocity<S> most) {
+  const Velocity<S> asked = spring_impulse(drive, speed);
+  return most < asked ? DrivePiece::forwards : asked < -most ? DrivePiece::backwards : DrivePiece::free;
+}
+template <class S>
+ISO_INLINE DrivePiece next_piece_of_servo(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
+                                          Velocity<S> most) {
+  using V = Velocity<S>;
+  const V slack = kPieceTolerance<S>;
+  const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
+    return piece == DrivePiece::free ? spring_impulse(drive, v) : motor_impulse(piece, most);
+  };
+  if (drive.piece == DrivePiece::lower) {
+    const DrivePiece above = piece_of_servo(drive, bounds.low, most);
+    return drive.impulse < law(above, bounds.low) ? above : drive.piece;
+  }
+  if (drive.piece == DrivePiece::upper) {
+    const DrivePiece below = piece_of_servo(drive, bounds.high, most);
+    return law(below, bounds.high) < drive.impulse ? below : drive.piece;
+  }
+  if (speed < bounds.low - slack) return DrivePiece::lower;
+  if (bounds.high + slack < speed) return DrivePiece::upper;
+  const V asked = spring_impulse(drive, speed);
+  if (drive.piece == DrivePiece::forwards) return asked + slack < most ? DrivePiece::free : drive.piece;
+  if (drive.piece == DrivePiece::backwards) return slack - most < asked ? DrivePiece::free : drive.piece;
+  return most + slack < asked ? DrivePiece::forwards : asked < -most - slack ? DrivePiece::backwards : drive.piece;
 }
 
 /// The piece to try next, given what came of this one: its neighbour on the side where the law was left.
@@ -112,8 +156,10 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
                                  Velocity<S> most) {
   using V = Velocity<S>;
   const V slack = kPieceTolerance<S>;
-  const auto law = [&](DrivePiece piece, V v)
-                       ISO_INLINE_LAMBDA { return motor_impulse(piece, most) + spring_impulse(drive, v); };
+  const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
+    return motor_impulse(piece, most) + (springs(drive, piece) ? spring_impulse(drive, v) : V(0));
+  };
+  if (drive.servo) return next_piece_of_servo(drive, speed, bounds, most);
   switch (drive.piece) {
     case DrivePiece::lower: {
       const DrivePiece above = !drive.driven              ? DrivePiece::free
@@ -147,7 +193,8 @@ ISO_INLINE Velocity<S> drive_residual(const JointDrive<S>& drive, Velocity<S> sp
                                       Velocity<S> most) {
   const DrivePiece next = next_piece(drive, speed, bounds, most);
   if (fixes_speed(next)) return abs(speed - fixed_speed(drive, next, bounds));
-  return abs(drive.impulse - motor_impulse(next, most) - spring_impulse(drive, speed));
+  const Velocity<S> spring = springs(drive, next) ? spring_impulse(drive, speed) : Velocity<S>(0);
+  return abs(drive.impulse - motor_impulse(next, most) - spring);
 }
 
 }  // namespace detail

@@ -15,19 +15,18 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
     const JointDrive<S>& drive = joint.drives[i];
     JointBlock<S>& block = joint.blocks[drive.block];
     const int at = static_cast<int>(drive.place);
-    const bool fixed = fixes_speed(drive.piece), springs = !fixed && drive.spring > S(0);
-    block.rows[at] = fixed ? drive.row : springs ? scaled_row(drive.row, drive.spring_row.y) : JointRow<S>::zero();
+    const bool fixed = fixes_speed(drive.piece), yields = springs(drive, drive.piece);
+    block.rows[at] = fixed ? drive.row : yields ? scaled_row(drive.row, drive.spring_row.y) : JointRow<S>::zero();
     const S share = convert<S>(drive.spring_row.x);
-    block.give[at] = springs ? share * share : S(0);
+    block.give[at] = yields ? share * share : S(0);
   }
 }
 
 /// Strength of a spring that has its frequency while the joint's other block holds and the rest of the world is still.
 /// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with e the effective mass and angle = 2 pi frequency h; roots are
 ///          taken apart, for where a spring is weak their product keeps digits that w^2 loses.
-template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
+template <class S> ISO_INLINE void weigh_spring(const JointConstraint<S>& joint, JointDrive<S>& drive) {
   using V = Velocity<S>;
-  JointDrive<S>& drive = joint.drives[0];
   S k = self_coupling(drive.row, drive.row, joint.share);
   if (joint.block_count > 1) {
     const JointBlock<S>& other = joint.blocks[1 - drive.block];
@@ -45,16 +44,13 @@ template <class S> ISO_INLINE void weigh_spring(JointConstraint<S>& joint) {
                                           : saturated<S>(product(drive.spring, drive.spring_speed));
 }
 
-template <class S> ISO_INLINE Velocity<S> motor_limit(const JointConstraint<S>& joint, Step<S> h) {
-  return convert<Velocity<S>>(min(joint.motor_force * h, joint.most_motor));
+/// [m/s] Most that a motor or servo gives in a sub-step.
+template <class S> ISO_INLINE Velocity<S> most_impulse(const JointDrive<S>& drive, Step<S> h) {
+  return convert<Velocity<S>>(min(drive.force * h, drive.most));
 }
 template <class S>
 ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, const JointStep<S>& step, bool relax) {
   return bounds_of(drive, step.rate, step.h, relax ? S(0) : step.softness.bias_rate);
-}
-/// Whether the drive's impulse is the same whatever its speed.
-template <class S> ISO_INLINE bool is_constant(const JointDrive<S>& drive, DrivePiece piece) {
-  return !fixes_speed(piece) && !(drive.spring > S(0));
 }
 
 /// `speed` is that of the row as it stands in its block.
@@ -63,7 +59,7 @@ ISO_INLINE Velocity<S> drive_right_side(const JointDrive<S>& drive, Velocity<S> 
                                         Velocity<S> most) {
   using V = Velocity<S>;
   if (fixes_speed(drive.piece)) return fixed_speed(drive, drive.piece, bounds) - speed;
-  if (!(drive.spring > S(0))) return V(0);
+  if (!springs(drive, drive.piece)) return V(0);
   const S share = convert<S>(drive.spring_row.x);
   const V pushed = drive.impulse - motor_impulse(drive.piece, most);
   return -(speed + scaled(share, drive.spring_push) + saturated<S>(product(share / drive.spring, pushed)));

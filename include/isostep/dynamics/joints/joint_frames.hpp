@@ -81,9 +81,9 @@ template <class S> ISO_INLINE void count_drive(JointConstraint<S>& joint) {
   drive.sprung = (flags & joint_flag::kSpring) != 0;
 }
 
-/// What the properties ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range, so that
-/// beyond a limit it is nearer to that one than to the other.
-template <class S> ISO_INLINE void set_angle(JointDrive<S>& drive, const JointProperties<S>& p, S angle) {
+/// What properties or an AxisDrive ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range,
+/// so that beyond a limit it is nearer to that one than to the other.
+template <class S, class Asked> ISO_INLINE void set_angle(JointDrive<S>& drive, const Asked& p, S angle) {
   const S radius = drive.radius, turn = S(6.283185307179586);
   if (drive.bounded_below) {
     const S from_middle = angle - (p.lower + p.upper) * S(0.5);

@@ -12,6 +12,7 @@
 #include "isostep/dynamics/joints/fixed.hpp"
 #include "isostep/dynamics/joints/hinge.hpp"
 #include "isostep/dynamics/joints/planar.hpp"
+#include "isostep/dynamics/joints/six_axis.hpp"
 #include "isostep/dynamics/joints/slider.hpp"
 #include "isostep/dynamics/joints/universal.hpp"
 

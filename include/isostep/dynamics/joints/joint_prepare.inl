@@ -29,15 +29,22 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   joint.radius = S(0);
   if (joint.block_count + joint.drive_count < 2) return;  // no row turns alone
   joint.radius = radius_of(trace_bound(a, b, joint.share));
-  joint.drives[0].radius = joint.drives[1].radius = joint.radius;
-  if (joint.drive_count == 0 || measure_of(joint.properties.type) == JointMeasure::length) return;
+  bool turns = false;
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    joint.drives[i].radius = joint.radius;
+    turns = turns || joint.drives[i].block == 1;
+  }
+  if (!turns) return;
   const Mat3<Unit<S>> frame = to_matrix(end_a.pose.orientation * joint.properties.frame_a.orientation);
   const auto about = [&](int i) { return turning_about(convert<S>(frame.column(i)), a, b, joint.share); };
   const S arm = joint.share.a * length(joint.properties.frame_a.position) +
                 joint.share.b * length(joint.properties.frame_b.position);
   const auto mean = [&](S own) { return sqrt(own) * sqrt(direction_of(own, arm, S(0)).length); };
-  joint.drives[0].radius = mean(radius_of(about(2)));
-  joint.drives[1].radius = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
+  const S of_twist = mean(radius_of(about(2))), of_swing = mean(radius_of(S(0.5) * about(0) + S(0.5) * about(1)));
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    if (drive.block == 1) drive.radius = drive.place == 2 ? of_twist : of_swing;
+  }
 }
 
 /// How many blocks and drives a joint has, and where its drives stand: an angle in the last row, unless its kind says
@@ -52,40 +59,72 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   main.push_speed = swing.push_speed = kAnglePushSpeed<S>;
   visit_joint_type(joint.properties.type,
                    [&](auto kind) ISO_INLINE_LAMBDA { decltype(kind)::template Of<S>::count_rows(joint); });
+  main.frequency = joint.properties.spring_frequency;
+  main.damping = joint.properties.spring_damping;
+}
+/// [rad] 150 degrees; [1] tan of half of 3 degrees: narrower, an ellipse is a line for what a format resolves.
+template <class S> inline constexpr S kWidestSwing = S(2.617993877991494);
+template <class S> inline constexpr S kLeastHalfTangent = S(0.026186);
+template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointConstraint<S>& joint) {
+  JointDrive<S>& drive = joint.drives[joint.drive_count++];
+  const std::uint32_t row = static_cast<std::uint32_t>(asked.axis);
+  drive = {};
+  drive.asked = &asked;
+  drive.block = row / 3;
+  drive.place = row % 3;
+  drive.push_speed = is_length(asked.axis) ? kJointPushSpeed<S> : kAnglePushSpeed<S>;
+  drive.bounded_below = drive.bounded_above = asked.limited;
+  drive.driven = asked.motor;
+  drive.sprung = S(0) < asked.spring_frequency;
+  drive.servo = drive.sprung && !asked.motor && S(0) < asked.force;
+  drive.frequency = asked.spring_frequency;
+  drive.damping = asked.spring_damping;
+  if (is_length(asked.axis) || asked.axis == JointAxis::twist) return;
+  const SinCos<S> half = sin_cos(min(asked.upper, kWidestSwing<S>) * S(0.5));
+  drive.half_tangent = max(half.sin / half.cos, kLeastHalfTangent<S>);
 }
 
+/// What a row held as an equality before the joint's settings changed is let go where a drive stands now, and what it
+/// held as a drive where none stands.
 template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, JointConstraint<S>& joint) {
   joint.blocks[0].impulse = state.point;
   joint.blocks[1].impulse = state.angular;
-  JointDrive<S>& main = joint.drives[0];
-  JointDrive<S>& swing = joint.drives[1];
-  main.impulse = state.drive;
-  swing.impulse = state.swing;
-  // What a drive's place held as an equality, before the joint's settings changed, is let go.
-  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    joint.blocks[joint.drives[i].block].impulse[static_cast<int>(joint.drives[i].place)] = Velocity<S>(0);
+  for (std::uint32_t row = 0; row < kJointRows; ++row) {
+    if (state.has_drive(row)) joint.blocks[row / 3].impulse[static_cast<int>(row % 3)] = Velocity<S>(0);
   }
-  main.piece = valid_piece(main, state.drive_piece());
-  swing.piece = valid_piece(swing, state.swing_piece());
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    const std::uint32_t row = 3 * drive.block + drive.place;
+    const int place = static_cast<int>(drive.place);
+    const bool was = state.has_drive(row);
+    joint.blocks[drive.block].impulse[place] = Velocity<S>(0);
+    drive.impulse = was ? (drive.block == 0 ? state.point : state.angular)[place] : Velocity<S>(0);
+    drive.piece = valid_piece(drive, was ? state.piece(row) : DrivePiece::free);
+  }
 }
 
+/// [N] or [N m] Most that a drive's motor or servo gives.
+template <class S> ISO_INLINE S force_of(const JointDrive<S>& drive, const JointProperties<S>& p) {
+  return drive.asked == nullptr ? p.motor_torque : drive.asked->force;
+}
 /// force h / reduced mass is the impulse, in its unit, that the motor gives in h; a torque's lever is the radius.
 template <class S>
-ISO_INLINE void set_motor(const SolverMass<S>& a, const SolverMass<S>& b, JointConstraint<S>& joint) {
+ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
+                          JointDrive<S>& drive) {
   const JointProperties<S>& p = joint.properties;
-  const S reduced = a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b;
-  if (measure_of(p.type) == JointMeasure::length) {
-    joint.motor_force = divide_to<S>(p.motor_torque, reduced);
-    joint.most_motor = Limits<S>::speed();
+  const S reduced = a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b, force = force_of(drive, p);
+  if (drive.block == 0) {
+    drive.force = divide_to<S>(force, reduced);
+    drive.most = Limits<S>::speed();
     return;
   }
-  const S radius = joint.drives[0].radius;
+  const S radius = drive.radius;
   if (!(radius > S(0))) return;  // nothing turns
-  joint.motor_force = divide_to<S>(p.motor_torque, reduced * radius);
+  drive.force = divide_to<S>(force, reduced * radius);
   // Alone, without what the point holds, it turns a body no faster than its points may move.
   const S reach = max(S(1), max(max_abs(p.frame_a.position), max_abs(p.frame_b.position)));
   const S turning = max(trace_bound(a, b, joint.share) * radius, S(1));
-  joint.most_motor = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
+  drive.most = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
 }
 
 /// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().
@@ -101,7 +140,8 @@ template <class S> ISO_INLINE S reach_of(const JointConstraint<S>& joint, const 
 
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
-                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint) {
+                   const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint,
+                   std::span<const JointAxisDrive<S>> axes) {
   joint.properties = properties;
   joint.row_a = a.row;
   joint.row_b = b.row;
@@ -112,12 +152,18 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   joint.share = mass_share(mass_a.mass, mass_b.mass);
   joint.holds = a.row != b.row && joint.share.a + joint.share.b > S(0);
   joint.blocks[0].give = joint.blocks[1].give = Vec3<S>::zero();
+  joint.blocks[0].turns = false;
+  joint.blocks[1].turns = true;
   detail::count_rows(joint);
+  for (const JointAxisDrive<S>& axis : axes) detail::add_drive(*axis.drive, joint);
   detail::load_impulses(state, joint);
   detail::set_radii(a, mass_a, mass_b, joint);
   joint.reach = detail::reach_of(joint, mass_a);
-  joint.motor_force = joint.most_motor = S(0);
-  if (joint.drives[0].driven) detail::set_motor(mass_a, mass_b, joint);
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    drive.force = drive.most = S(0);
+    if (drive.driven || drive.servo) detail::set_force(mass_a, mass_b, joint, drive);
+  }
 }
 
 }  // namespace isostep

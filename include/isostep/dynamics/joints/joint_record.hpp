@@ -16,7 +16,16 @@ inline constexpr std::uint32_t kCollideConnected = 1u << 0;  // the two bodies h
 inline constexpr std::uint32_t kLimit = 1u << 1;             // lower..upper holds
 inline constexpr std::uint32_t kMotor = 1u << 2;
 inline constexpr std::uint32_t kSpring = 1u << 3;
-inline constexpr std::uint32_t kCone = 1u << 4;  // cone holds
+inline constexpr std::uint32_t kCone = 1u << 4;   // cone holds
+inline constexpr std::uint32_t kLockX = 1u << 8;  // of a six-axis joint: the axes of JointAxis, in their order
+inline constexpr std::uint32_t kLockY = 1u << 9;
+inline constexpr std::uint32_t kLockZ = 1u << 10;
+inline constexpr std::uint32_t kLockSwingX = 1u << 11;
+inline constexpr std::uint32_t kLockSwingY = 1u << 12;
+inline constexpr std::uint32_t kLockTwist = 1u << 13;
+inline constexpr std::uint32_t kLockPoint = kLockX | kLockY | kLockZ;
+inline constexpr std::uint32_t kLockSwing = kLockSwingX | kLockSwingY;
+inline constexpr std::uint32_t kLockTurns = kLockSwing | kLockTwist;
 }  // namespace joint_flag
 
 inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
@@ -31,26 +40,39 @@ enum class DrivePiece : std::uint32_t {
   backwards  // faster than the motor wants: it brakes with all that it has
 };
 inline constexpr std::uint32_t kDrivePieces = 6;
+inline constexpr std::uint32_t kJointRows = 6;  // two blocks of three
 
-/// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass.
+/// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass, one for each of
+/// its six rows, whether an equality or a drive stands there.
 template <class S> struct JointState {
   std::uint32_t slot;         // of its id
-  std::uint32_t pieces;       // DrivePiece of the drive, and, eight bits up, of the swing
-  Vec3<Velocity<S>> point;    // [m/s] world, on b; distance: x along the joint
-  Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the joint's radius
-  Velocity<S> drive, swing;   // [m/s] of spring, motor and limits together; of the cone
+  std::uint32_t pieces;       // four bits a row: 0 where no drive is, else its DrivePiece and 1
+  Vec3<Velocity<S>> point;    // [m/s] world, on b; of kinds that slide along the axes of a; distance: x along the joint
+  Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the row's radius
 
-  ISO_INLINE constexpr DrivePiece drive_piece() const { return static_cast<DrivePiece>(pieces & 0xffu); }
-  ISO_INLINE constexpr DrivePiece swing_piece() const { return static_cast<DrivePiece>(pieces >> 8); }
+  ISO_INLINE constexpr bool has_drive(std::uint32_t row) const { return role(row) != 0; }
+  /// Of a row that has one.
+  ISO_INLINE constexpr DrivePiece piece(std::uint32_t row) const { return static_cast<DrivePiece>(role(row) - 1); }
+  ISO_INLINE constexpr void set_piece(std::uint32_t row, DrivePiece piece) {
+    pieces |= (static_cast<std::uint32_t>(piece) + 1) << (4 * row);
+  }
+  /// Whether every row's bits are ones of those that set_piece() writes.
+  ISO_INLINE constexpr bool has_known_pieces() const {
+    for (std::uint32_t row = 0; row < kJointRows; ++row) {
+      if (kDrivePieces < role(row)) return false;
+    }
+    return pieces >> (4 * kJointRows) == 0;
+  }
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("slot", self.slot);
     visit("pieces", self.pieces);
     visit("point", self.point);
     visit("angular", self.angular);
-    visit("drive", self.drive);
-    visit("swing", self.swing);
   }
+
+ private:
+  ISO_INLINE constexpr std::uint32_t role(std::uint32_t row) const { return pieces >> (4 * row) & 15u; }
 };
 
 /// The part of a joint that only commands change. Angles: [rad] of frame b against frame a about z, in (-pi, pi].

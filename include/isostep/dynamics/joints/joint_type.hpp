@@ -8,17 +8,18 @@
 #include "isostep/scalar/platform.hpp"
 
 /// ISO_FOR_EACH_JOINT(X) expands X(name, Joint): the name in JointType, in scene files and on pages, and the class.
-#define ISO_FOR_EACH_JOINT(X)                                                              \
-  X(ball, BallJoint)                                                                       \
-  X(hinge, HingeJoint)                                                                     \
-  X(fixed, FixedJoint)                                                                     \
-  X(distance, DistanceJoint)                                                               \
-  X(slider, SliderJoint)                                                                   \
-  X(cylindrical, CylindricalJoint)                                                         \
-  X(planar, PlanarJoint)                                                                   \
-  X(universal, UniversalJoint)                                                             \
-  X(constant_velocity, ConstantVelocityJoint)                                              \
-  X(angular, AngularJoint)
+#define ISO_FOR_EACH_JOINT(X)                 \
+  X(ball, BallJoint)                          \
+  X(hinge, HingeJoint)                        \
+  X(fixed, FixedJoint)                        \
+  X(distance, DistanceJoint)                  \
+  X(slider, SliderJoint)                      \
+  X(cylindrical, CylindricalJoint)            \
+  X(planar, PlanarJoint)                      \
+  X(universal, UniversalJoint)                \
+  X(constant_velocity, ConstantVelocityJoint) \
+  X(angular, AngularJoint)                    \
+  X(six_axis, SixAxisJoint)
 
 namespace isostep {
 

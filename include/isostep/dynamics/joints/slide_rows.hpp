@@ -32,17 +32,20 @@ template <class S> ISO_INLINE void count_slide(JointConstraint<S>& joint) {
   joint.drives[0].block = 0;
   joint.drives[0].push_speed = kJointPushSpeed<S>;
 }
-template <class S>
-ISO_INLINE void linearise_slide(const JointFrames<S>& f, const Mat3<Unit<S>>& a, JointConstraint<S>& joint) {
-  if (joint.drive_count == 0) return;
-  const JointProperties<S>& p = joint.properties;
-  JointDrive<S>& drive = joint.drives[0];
-  drive.row = slide_row(f, a.column(2), joint);
-  drive.position = dot(f.between, a.column(2));
+/// The drive of the way along an axis of a, as properties or an AxisDrive ask for it.
+template <class S, class Asked>
+ISO_INLINE void set_way(const JointFrames<S>& f, Vec3<Unit<S>> axis, const Asked& p, const JointConstraint<S>& joint,
+                        JointDrive<S>& drive) {
+  drive.row = slide_row(f, axis, joint);
+  drive.position = dot(f.between, axis);
   drive.lower = p.lower;
   drive.upper = p.upper;
   drive.target = p.spring_target;
   drive.speed = convert<Velocity<S>>(p.motor_speed);
+}
+template <class S>
+ISO_INLINE void linearise_slide(const JointFrames<S>& f, const Mat3<Unit<S>>& a, JointConstraint<S>& joint) {
+  if (joint.drive_count > 0) set_way(f, a.column(2), joint.properties, joint, joint.drives[0]);
 }
 
 /// [m/s] world, on b: impulses of the first block's equalities.

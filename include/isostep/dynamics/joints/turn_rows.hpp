@@ -57,6 +57,25 @@ template <class S> ISO_INLINE Twist<S> twist_of(Vec3<Unit<S>> za, Vec3<Unit<S>> 
   return {{mean.x, mean.y, mean.z}, max(convert<S>(mean.length), kLeastTwistCosine<S>)};
 }
 
+/// The drive of the twist. Where it means nothing no limit acts.
+template <class S, class Asked>
+ISO_INLINE void set_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb, bool limit, const Asked& asked,
+                          JointDrive<S>& drive) {
+  const Twist<S> twist = twist_of<S>(za, zb);
+  drive.row = angular_row<S>(twist.axis, drive.radius / twist.cosine);
+  drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < twist.cosine;
+  set_angle(drive, asked, twist_angle<S>(relative_rotation(f)));
+}
+/// Nothing twists.
+template <class S>
+ISO_INLINE void lock_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb, Step<S> h,
+                           JointConstraint<S>& joint) {
+  const Twist<S> twist = twist_of<S>(za, zb);
+  JointBlock<S>& block = joint.blocks[1];
+  block.rows[2] = angular_row<S>(twist.axis, joint.radius / twist.cosine);
+  block.error.z = bounded_error(joint.radius * twist_angle<S>(relative_rotation(f)), h);
+}
+
 /// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
 template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
   using U = Unit<S>;

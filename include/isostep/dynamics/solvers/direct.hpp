@@ -125,7 +125,8 @@ template <class S> class DirectSolver {
   void place_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first);
   void ask_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first, Pass pass);
   void guess_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first);
-  V motor_limit(const JointConstraint<S>& joint) const;
+  void soften(Island& island, std::uint32_t r, const JointDrive<S>& drive);
+  V most_impulse(const JointDrive<S>& drive) const;
   void keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const;
 
   // direct_contacts.inl

@@ -111,9 +111,12 @@ template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
   }
   const auto motor = [&](std::size_t k, const auto& act) {
     const JointConstraint<S>& joint = joints_[island.joints[k]];
-    if (joint.drive_count == 0 || !joint.drives[0].driven) return;
-    const std::uint32_t r = 3 * (island.joint_blocks[k] + joint.block_count) + detail::kMotorRow;
-    act(r, answer_of(island, r, motor_limit(joint)));
+    for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+      const JointDrive<S>& drive = joint.drives[i];
+      if (!drive.driven && !drive.servo) continue;
+      const std::uint32_t r = 3 * (island.joint_blocks[k] + joint.block_count + i) + detail::kMotorRow;
+      act(r, answer_of(island, r, most_impulse(drive)));
+    }
   };
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
     motor(k, [&](std::uint32_t r, Value most) { see(most, system.row(r).exponent + 5 * D::kRoom); });

@@ -82,24 +82,26 @@ void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& islan
     const JointDrive<S>& drive = joint.drives[i];
     const std::uint32_t r = 3 * (first + joint.block_count + i);
     const auto bound = [](bool there, DirectBound kind) { return there ? kind : DirectBound::absent; };
-    put(r + detail::kSpringRow, drive.row, bound(drive.spring > S(0), DirectBound::equal));
-    put(r + detail::kMotorRow, drive.row, bound(drive.driven, DirectBound::boxed));
+    const bool spring = drive.spring > S(0), servo = spring && drive.servo;
+    put(r + detail::kSpringRow, drive.row, bound(spring && !servo, DirectBound::equal));
+    put(r + detail::kMotorRow, drive.row, bound(drive.driven || servo, DirectBound::boxed));
     put(r + detail::kLimitRow, drive.row,
         bound(drive.bounded_below || drive.bounded_above,
               detail::is_lower(drive) ? DirectBound::above : DirectBound::below));
     place(island, r + detail::kMotorRow, 2, -512);
-    if (island.system.row(r).bound == DirectBound::absent) {
-      place(island, r, 1, -512);
-      continue;
-    }
-    // An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
-    const Value spring = System::value(drive.spring);
-    const Value give = System::quotient(System::value(S(1)),
-                                        System::product(System::product(spring, spring), island.ends[r / 3].reduced));
-    place(island, r, 1, ((System::exponent(give) + 1) >> 1) + D::kRoom);
-    DirectRow<N>& row = island.system.row(r);
-    row.soft = System::number(give, 2 * row.exponent);
+    if (!servo) place(island, r + detail::kSpringRow, 1, -512);
+    if (spring) soften(island, r + (servo ? detail::kMotorRow : detail::kSpringRow), drive);
   }
+}
+
+/// An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
+template <class S> void DirectSolver<S>::soften(Island& island, std::uint32_t r, const JointDrive<S>& drive) {
+  const Value spring = System::value(drive.spring);
+  const Value give = System::quotient(System::value(S(1)),
+                                      System::product(System::product(spring, spring), island.ends[r / 3].reduced));
+  place(island, r, 1, ((System::exponent(give) + 1) >> 1) + D::kRoom);
+  DirectRow<N>& row = island.system.row(r);
+  row.soft = System::number(give, 2 * row.exponent);
 }
 
 template <class S>
@@ -120,7 +122,7 @@ void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island,
     const std::uint32_t r = 3 * (first + joint.block_count + i);
     const V speed = speed_of(island, r, free_velocity_);
     island.asked[r + detail::kSpringRow] = -(speed + drive.spring_speed);
-    island.asked[r + detail::kMotorRow] = drive.speed - speed;
+    island.asked[r + detail::kMotorRow] = drive.servo ? -(speed + drive.spring_speed) : drive.speed - speed;
     const bool lower = detail::is_lower(drive);
     const S gap = lower ? drive.position - drive.lower : drive.upper - drive.position;
     const V distance = detail::bounded_error(gap, h);
@@ -133,9 +135,9 @@ void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island,
   }
 }
 
-/// [m/s] most that a motor gives in a sub-step.
-template <class S> typename DirectSolver<S>::V DirectSolver<S>::motor_limit(const JointConstraint<S>& joint) const {
-  return detail::motor_limit(joint, divide_to<Step<S>>(S(1), S(rate_)));
+/// [m/s] most that a motor or servo gives in a sub-step.
+template <class S> typename DirectSolver<S>::V DirectSolver<S>::most_impulse(const JointDrive<S>& drive) const {
+  return detail::most_impulse(drive, divide_to<Step<S>>(S(1), S(rate_)));
 }
 
 /// Each drive is taken for being on the same piece of its law again. A limit that pushes leaves the motor no speed to
@@ -150,7 +152,8 @@ void DirectSolver<S>::guess_joint(const JointConstraint<S>& joint, Island& islan
     const bool pushes = drive.piece == (lower ? DrivePiece::lower : DrivePiece::upper);
     limit.state = pushes ? DirectState::free : lower ? DirectState::at_low : DirectState::at_high;
     DirectRow<N>& motor = island.system.row(r + detail::kMotorRow);
-    const bool back = pushes ? drive.speed < V(0) : drive.piece == DrivePiece::backwards;
+    const V asks = drive.servo ? -drive.spring_speed : drive.speed;
+    const bool back = pushes ? asks < V(0) : drive.piece == DrivePiece::backwards;
     const bool forth = pushes ? !back : drive.piece == DrivePiece::forwards;
     motor.state = forth ? DirectState::at_high : back ? DirectState::at_low : DirectState::free;
   }
@@ -166,15 +169,16 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
     JointDrive<S>& drive = joint.drives[i];
     const std::uint32_t r = 3 * (first + joint.block_count + i);
     const V spring = impulse_of(island, r + detail::kSpringRow), motor = impulse_of(island, r + detail::kMotorRow);
-    const V limit = impulse_of(island, r + detail::kLimitRow), most = motor_limit(joint) - resolution<V>();
+    const V limit = impulse_of(island, r + detail::kLimitRow), most = most_impulse(drive) - resolution<V>();
     const V bound = convert<V>(Limits<S>::speed());
     drive.impulse = clamp(spring + motor + limit, -bound, bound);
-    drive.piece = V(0) < limit       ? DrivePiece::lower
-                  : limit < V(0)     ? DrivePiece::upper
-                  : !drive.driven    ? DrivePiece::free
-                  : !(motor < most)  ? DrivePiece::forwards
-                  : !(-most < motor) ? DrivePiece::backwards
-                                     : DrivePiece::driven;
+    drive.piece = V(0) < limit                     ? DrivePiece::lower
+                  : limit < V(0)                   ? DrivePiece::upper
+                  : !(drive.driven || drive.servo) ? DrivePiece::free
+                  : !(motor < most)                ? DrivePiece::forwards
+                  : !(-most < motor)               ? DrivePiece::backwards
+                  : drive.servo                    ? DrivePiece::free
+                                                   : DrivePiece::driven;
   }
 }
 

@@ -16,9 +16,14 @@ template <class S> class PreparedJoints {
  public:
   ISO_INLINE void prepare(const StepContext<S>& context, const SolverBodies<S>& bodies) {
     joints_.resize(context.joint_properties.size());
+    auto axes = context.axis_drives;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const JointEnds<S>& ends = context.joint_ends[i];
-      prepare_joint(context.joint_properties[i], context.joint_states[i], ends.a, ends.b, bodies, joints_[i]);
+      std::size_t own = 0;
+      while (own < axes.size() && axes[own].joint == i) ++own;
+      prepare_joint(context.joint_properties[i], context.joint_states[i], ends.a, ends.b, bodies, joints_[i],
+                    axes.first(own));
+      axes = axes.subspan(own);
     }
   }
   ISO_INLINE void store(const StepContext<S>& context) const {

@@ -46,7 +46,6 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
       of_joint("pose_b", joint.pose_b);
       of_joint("radius", joint.radius);
       of_joint("reach", joint.reach);
-      of_joint("motor_force", joint.motor_force);
       of_joint("block_count", joint.block_count);
       of_joint("drive_count", joint.drive_count);
       of_joint("holds", joint.holds);
@@ -61,6 +60,8 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
         of_drive("bounded_above", drive.bounded_above);
         of_drive("sprung", drive.sprung);
         of_drive("driven", drive.driven);
+        of_drive("servo", drive.servo);
+        of_drive("force", drive.force);
       }
       of_drive("impulse", drive.impulse);
       of_drive("piece", drive.piece);

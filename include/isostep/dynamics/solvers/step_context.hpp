@@ -66,9 +66,10 @@ template <class S> struct StepContext {
   std::span<const Carried<S>> carried = {};  // ascending by contact
   SubstepForces<S> forces = {};
   std::span<std::uint8_t> cut = {};  // per body, or empty: set to 1 where angular_speed_limit cuts its velocity
-  Projection projection = Projection::nonlinear;  // of worst_first
+  Projection projection = Projection::nonlinear;          // of worst_first
   Velocity<S> restitution_threshold = Velocity<S>(0.25);  // [m/s] slower approaches do not bounce
-  std::span<JointImpulse<S>> joint_impulses = {};  // per joint, or empty: zeros, to which each sub-step adds
+  std::span<const JointAxisDrive<S>> axis_drives = {};    // ascending by joint
+  std::span<JointImpulse<S>> joint_impulses = {};         // per joint, or empty: zeros, to which each sub-step adds
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.

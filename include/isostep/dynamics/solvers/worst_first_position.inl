@@ -128,7 +128,7 @@ void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const 
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = held.drives[i];
     const V lacks = detail::shortfall(drive, step.h);
-    drive.sprung = false;
+    drive.sprung = drive.servo = false;
     drive.spring = S(0);
     drive.piece = lacks == V(0) ? DrivePiece::free : DrivePiece::lower;
     (drive.block == 1 ? right.angular : right.point)[static_cast<int>(drive.place)] = lacks;

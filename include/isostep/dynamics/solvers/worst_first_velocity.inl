@@ -143,11 +143,11 @@ Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const JointConstraint<S
     }
     most = max(most, max_abs(speed));
   }
-  const V limit = detail::motor_limit(joint, step.h);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     const DriveBounds<S> bounds = detail::bounds_of(drive, step, true);
-    most = max(most, detail::drive_residual(drive, speed_along(drive.row, m), bounds, limit));
+    most = max(most,
+               detail::drive_residual(drive, speed_along(drive.row, m), bounds, detail::most_impulse(drive, step.h)));
   }
   return detail::motion_tolerance<S>(m.a, m.b) < most ? most : V(0);
 }

@@ -1,0 +1,184 @@
+// The angles of a six-axis joint: their rows as equalities and as drives.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/slide_rows.hpp"
+#include "isostep/dynamics/joints/turn_rows.hpp"
+
+namespace isostep::detail {
+
+/// Where b's z axis points, in frame a, and how fast that changes.
+/// Symbols: d = z_b in a. s = (d_x, d_y) / (1 + d_z), of length tan(swing / 2). The swing about y is 2 atan(s_x), the
+///          one about x is -2 atan(s_y): for a turn about one of the axes they are its angle. Their rates have no
+///          trigonometry: d(2 atan(s_x))/dt = w . (d x g) 2 / (1 + s_x^2), g = gradient of s_x, w = w_b - w_a in a.
+template <class S> struct SwingTwist {
+  Vec3<S> d;
+  S per;          // [1] 1 / (1 + d_z)
+  S x, y;         // [1] s
+  bool is_clear;  // the z axes are less than 150 degrees apart: farther, s grows beyond all bounds
+
+  static ISO_INLINE SwingTwist of(const JointFrames<S>& f, const Mat3<Unit<S>>& a) {
+    SwingTwist t;
+    t.d = convert<S>(transposed_times(a, to_matrix(f.b).column(2)));
+    t.is_clear = S(-0.8660254037844386) < t.d.z;
+    t.per = S(1) / (S(1) + max(t.d.z, S(-0.8660254037844386)));
+    t.x = t.d.x * t.per;
+    t.y = t.d.y * t.per;
+    return t;
+  }
+  /// [1] in a: w . rate is the rate of the swing about y, or of the one about x.
+  ISO_INLINE Vec3<S> rate_about_y() const { return rate({per, S(0), -(x * per)}, x); }
+  ISO_INLINE Vec3<S> rate_about_x() const { return -rate({S(0), per, -(y * per)}, y); }
+
+ private:
+  ISO_INLINE Vec3<S> rate(Vec3<S> gradient, S s) const { return cross(d, gradient) * (S(2) / (S(1) + s * s)); }
+};
+
+/// As angular_row(), of an axis that need not be a direction.
+template <class S> ISO_INLINE JointRow<S> turning_row(Vec3<S> axis, S radius) {
+  const Vec3<S> angular = axis * radius;
+  return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
+}
+
+/// The axis that two locks leave, or -1.
+ISO_INLINE constexpr int only_free_turn(std::uint32_t flags) {
+  const std::uint32_t locks = flags & joint_flag::kLockTurns;
+  return locks == joint_flag::kLockSwing                               ? 2
+         : locks == (joint_flag::kLockSwingX | joint_flag::kLockTwist) ? 1
+         : locks == (joint_flag::kLockSwingY | joint_flag::kLockTwist) ? 0
+                                                                       : -1;
+}
+
+/// [rad] in (-pi, pi], of an axis that is no length.
+template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, const JointFrames<S>& f) {
+  const int place = static_cast<int>(axis) - 3;
+  const Quat<Unit<S>> q = relative_rotation(f);
+  const Unit<S> parts[3] = {q.x, q.y, q.z};
+  if (place == 2 || only_free_turn(flags) == place) return S(2) * atan2_to<S>(parts[place], q.w);
+  const Vec3<Unit<S>> d = transposed_times(to_matrix(f.a), to_matrix(f.b).column(2));
+  const S up = S(1) + convert<S>(d.z);
+  return place == 1 ? S(2) * atan2(convert<S>(d.x), up) : S(-2) * atan2(convert<S>(d.y), up);
+}
+/// [m] or [rad]
+template <class S> ISO_INLINE S position_of(JointAxis axis, std::uint32_t flags, const JointFrames<S>& f) {
+  if (!is_length(axis)) return angle_of(axis, flags, f);
+  return dot(f.between, to_matrix(f.a).column(static_cast<int>(axis)));
+}
+
+template <class S> ISO_INLINE JointDrive<S>* drive_of(JointConstraint<S>& joint, std::uint32_t place) {
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    if (joint.drives[i].block == 1 && joint.drives[i].place == place) return &joint.drives[i];
+  }
+  return nullptr;
+}
+
+/// b's axis of that number coincides with a's, and the turn about it may be driven.
+template <class S>
+ISO_INLINE void linearise_turn_about(int free, const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h,
+                                     JointConstraint<S>& joint) {
+  const int i = (free + 1) % 3, j = (free + 2) % 3;
+  const Vec3<Unit<S>> tilt = transposed_times(a, to_matrix(f.b).column(free));
+  JointBlock<S>& block = joint.blocks[1];
+  block.rows[i] = angular_row<S>(a.column(i), joint.radius);
+  block.rows[j] = angular_row<S>(a.column(j), joint.radius);
+  block.error[i] = bounded_error(-(joint.radius * tilt[j]), h);
+  block.error[j] = bounded_error(joint.radius * tilt[i], h);
+  JointDrive<S>* const drive = drive_of(joint, static_cast<std::uint32_t>(free));
+  if (drive == nullptr) return;
+  drive->row = angular_row<S>(a.column(free), drive->radius);
+  set_angle(*drive, *drive->asked, angle_of(static_cast<JointAxis>(3 + free), joint.properties.flags, f));
+}
+
+/// One swing is locked: b's z axis stays in a plane of a.
+/// Symbols: d(z_b . y_a)/dt = (w_b - w_a) . (z_b x y_a), and the same of x.
+template <class S>
+ISO_INLINE void lock_swing(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
+  const Vec3<Unit<S>> z = to_matrix(f.b).column(2);
+  const bool about_x = (joint.properties.flags & joint_flag::kLockSwingX) != 0;
+  const int place = about_x ? 0 : 1;
+  const Vec3<Unit<S>> across = a.column(1 - place);
+  JointBlock<S>& block = joint.blocks[1];
+  block.rows[place] = angular_row<S>(about_x ? cross(across, z) : cross(z, across), joint.radius);
+  const S off = joint.radius * dot(z, across);
+  block.error[place] = bounded_error(about_x ? -off : off, h);
+}
+
+/// The drives of both swings, each about its axis.
+template <class S>
+ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
+  const auto set = [&](JointDrive<S>* drive, Vec3<S> rate, S angle) ISO_INLINE_LAMBDA {
+    if (drive == nullptr) return;
+    drive->bounded_below = drive->bounded_above = drive->asked->limited && swing.is_clear;
+    drive->row = turning_row<S>(a * rate, drive->radius);
+    set_angle(*drive, *drive->asked, angle);
+  };
+  set(x, swing.rate_about_x(), S(-2) * atan2(swing.y, S(1)));
+  set(y, swing.rate_about_y(), S(2) * atan2(swing.x, S(1)));
+}
+
+/// [1] of the ellipse, beyond which rows turn with the direction of the swing: nearer its middle no limit is near.
+template <class S> inline constexpr S kConeBasis = S(0.5);
+
+/// Both swings within an ellipse: a row along the swing, on which the limit acts, and one across it.
+/// Symbols: e = sqrt((s_x / t_x)^2 + (s_y / t_y)^2), t = tan(half axis / 2). d x gradient of e points along the row's
+///          axis n, and (e - 1) / its length is the angle that is left, to first order: 4 % short at 0.2 rad.
+template <class S>
+ISO_INLINE bool set_cone(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>& x, JointDrive<S>& y) {
+  const S sx = swing.x / y.half_tangent, sy = swing.y / x.half_tangent;  // a swing about y moves the axis along x
+  const S e = direction_of(sx, sy, S(0)).length;
+  if (e < kConeBasis<S> || !swing.is_clear) return false;
+  const S gx = sx / (y.half_tangent * e), gy = sy / (x.half_tangent * e);
+  const Vec3<S> gradient = Vec3<S>{gx, gy, -(gx * swing.x + gy * swing.y)} * swing.per;
+  const Vec3<S> turned = cross(swing.d, gradient);
+  const Direction<S> n = direction_of(turned.x, turned.y, turned.z);
+  const Vec3<Unit<S>> along = {n.x, n.y, n.z};
+  const Vec3<S> across = cross(swing.d, convert<S>(along));
+  const auto part = [&](S of_x, S of_y)
+                        ISO_INLINE_LAMBDA { return convert<S>(along.x) * of_x + convert<S>(along.y) * of_y; };
+  const auto over = [&](S of_x, S of_y) ISO_INLINE_LAMBDA { return across.x * of_x + across.y * of_y; };
+  const AxisDrive<S>&of_x = *x.asked, &of_y = *y.asked;
+  const S off_x = S(-2) * atan2(swing.y, S(1)) - of_x.spring_target,
+          off_y = S(2) * atan2(swing.x, S(1)) - of_y.spring_target;
+  x.row = turning_row<S>(a * convert<S>(along), x.radius);
+  x.position = (e - S(1)) / n.length * x.radius;
+  x.bounded_below = false;
+  x.bounded_above = true;
+  x.upper = S(0);
+  x.target = x.position - part(off_x, off_y) * x.radius;
+  x.speed = round_to<Velocity<S>>(product(part(of_x.motor_speed, of_y.motor_speed), x.radius));
+  y.row = turning_row<S>(a * across, y.radius);
+  y.position = S(0);
+  y.bounded_below = y.bounded_above = false;
+  y.target = -(over(off_x, off_y) * y.radius);
+  y.speed = round_to<Velocity<S>>(product(over(of_x.motor_speed, of_y.motor_speed), y.radius));
+  return true;
+}
+
+template <class S>
+ISO_INLINE void linearise_swings(const JointFrames<S>& f, const Mat3<Unit<S>>& a, JointConstraint<S>& joint) {
+  JointDrive<S>* const x = drive_of(joint, 0);
+  JointDrive<S>* const y = drive_of(joint, 1);
+  if (x == nullptr && y == nullptr) return;
+  const SwingTwist<S> swing = SwingTwist<S>::of(f, a);
+  const bool cone = (joint.properties.flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr &&
+                    x->asked->limited && y->asked->limited;
+  if (cone && set_cone(swing, a, *x, *y)) return;
+  set_swings(swing, a, x, y);
+  if (cone) x->bounded_below = x->bounded_above = y->bounded_below = y->bounded_above = false;
+}
+
+template <class S>
+ISO_INLINE void linearise_turns(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
+  const std::uint32_t flags = joint.properties.flags;
+  if ((flags & joint_flag::kLockTurns) == joint_flag::kLockTurns) return weld_block(f, a, h, joint);
+  empty_block(joint.blocks[1]);
+  if (const int free = only_free_turn(flags); free >= 0) return linearise_turn_about(free, f, a, h, joint);
+  if ((flags & joint_flag::kLockSwing) != 0) lock_swing(f, a, h, joint);
+  linearise_swings(f, a, joint);
+  const Vec3<Unit<S>> za = a.column(2), zb = to_matrix(f.b).column(2);
+  if ((flags & joint_flag::kLockTwist) != 0) return lock_twist(f, za, zb, h, joint);
+  JointDrive<S>* const drive = drive_of(joint, 2);
+  if (drive != nullptr) set_twist(f, za, zb, drive->asked->limited, *drive->asked, *drive);
+}
+
+}  // namespace isostep::detail

@@ -1,0 +1,12 @@
+// add_ragdoll for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/effects/ragdoll.inl"
+
+namespace isostep {
+
+#define ISO_INSTANTIATE(S) \
+  template Ragdoll<S> add_ragdoll<S>(World<S>&, std::span<const RagdollBone<S>>, const RagdollSettings<S>&);
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
+#undef ISO_INSTANTIATE
+
+}  // namespace isostep
