@@ -84,13 +84,13 @@ template <class S> void BodyMap<S>::relabel(const JointSet<S>& joints, std::uint
 }
 
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
-  const bool is_static = body.type == BodyType::static_;
-  BodySet<S>& set = is_static ? state_.static_bodies.change() : state_.awake;
+  const bool fixed = is_fixed(body);
+  BodySet<S>& set = fixed ? state_.static_bodies.change() : state_.awake;
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(set.states, state.slot));
   set.states.insert(set.states.begin() + at, state);
   set.properties.insert(set.properties.begin() + at, body);
   make_room();
-  relabel(set, is_static ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
+  relabel(set, fixed ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
 }
 template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(state_.joints.states, state.slot));
@@ -98,6 +98,15 @@ template <class S> void BodyMap<S>::insert(const JointState<S>& state, const Joi
   state_.joints.properties.insert(state_.joints.properties.begin() + at, joint);
   make_room();
   relabel(state_.joints, Location::kAwake, static_cast<std::size_t>(at));
+}
+template <class S> void BodyMap<S>::erase(std::uint32_t slot) {
+  const Location at = locations_[slot];
+  BodySet<S>& set = at.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
+  const auto index = static_cast<std::ptrdiff_t>(at.index);
+  set.states.erase(set.states.begin() + index);
+  set.properties.erase(set.properties.begin() + index);
+  locations_[slot] = Location{};
+  relabel(set, at.set, at.index);
 }
 template <class S> void BodyMap<S>::erase_joint(std::uint32_t slot) {
   const std::uint32_t index = joint_locations_[slot].index;

@@ -9,7 +9,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/belt.hpp"
-#include "isostep/dynamics/material_table.hpp"
+#include "isostep/dynamics/kind_table.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 

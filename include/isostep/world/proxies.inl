@@ -8,6 +8,10 @@
 namespace isostep {
 
 template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) {
+  if (!is_enabled(body)) {
+    remove(state.slot);
+    return;
+  }
   if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
   Proxy<S>& known = proxies_[state.slot];
   const Proxy<S> next = {state.fat, ProxyTraits::of(body, awake), true};

@@ -117,7 +117,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   detail::set_radii(a, mass_a, mass_b, joint);
   joint.reach = detail::reach_of(joint, mass_a);
   joint.motor_force = joint.most_motor = S(0);
-  if (joint.drives[0].driven) detail::set_motor(mass_a, mass_b, joint);
+  if (joint.holds && joint.drives[0].driven) detail::set_motor(mass_a, mass_b, joint);
 }
 
 }  // namespace isostep
