@@ -83,6 +83,10 @@ class FieldReader {
     out = {whole(set)};
   }
   void read(const char* name, std::uint32_t, std::vector<Number>& out) const { read_whole(name, 0, 0xffffffff, out); }
+  void read(const char* name, std::int32_t, std::vector<Number>& out) const {
+    constexpr std::int64_t kMost = 0x7fffffff;
+    read_whole(name, -kMost - 1, kMost, out);
+  }
   void read(const char* name, std::uint64_t, std::vector<Number>& out) const {
     read_whole(name, 0, 999'999'999'999, out);  // as many digits as files may have
   }
@@ -160,6 +164,7 @@ template <class S> class FieldBuilder {
   template <class T> void set(T& to, const std::vector<Number>& from, const std::string& place) const {
     if constexpr (std::is_same_v<T, bool>) to = from[0].text() != "0";
     else if constexpr (is_name<T>) to = static_cast<T>(std::stoul(from[0].text()));
+    else if constexpr (std::is_same_v<T, std::int32_t>) to = static_cast<T>(std::stol(from[0].text()));
     else if constexpr (std::is_integral_v<T>) to = static_cast<T>(std::stoull(from[0].text()));
     else if constexpr (std::is_same_v<T, BodyId>) {
       to = at(ids_.bodies, from[0]);

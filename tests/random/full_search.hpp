@@ -85,21 +85,24 @@ template <class S> class FullSearch {
     std::vector<OverlapHit> all;
     const ShapeView<S> asked = view_of(shape);
     const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), pose.orientation});
-    visit_parts(f, [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
-      Manifold<S> manifold;
-      if (!is_surface(part.primitive.type)) {
-        collide(asked, here, part, at, S(0), manifold);
-        if (manifold.count != 0) all.push_back({id, child, 0, 0});
-        return;
-      }
-      detail::visit_surface(part, [&](const auto& surface) {
-        for (std::uint32_t triangle = 0; triangle < surface.triangle_count(); ++triangle) {
-          if (!surface.has_triangle(triangle)) continue;
-          collide_with_triangle(asked, here, part, triangle, at, S(0), manifold);
-          if (manifold.count != 0) all.push_back({id, child, triangle, surface.material(triangle)});
-        }
-      });
-    }, pose.position);
+    visit_parts(
+        f,
+        [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
+          Manifold<S> manifold;
+          if (!is_surface(part.primitive.type)) {
+            collide(asked, here, part, at, S(0), manifold);
+            if (manifold.count != 0) all.push_back({id, child, 0, 0});
+            return;
+          }
+          detail::visit_surface(part, [&](const auto& surface) {
+            for (std::uint32_t triangle = 0; triangle < surface.triangle_count(); ++triangle) {
+              if (!surface.has_triangle(triangle)) continue;
+              collide_with_triangle(asked, here, part, triangle, at, S(0), manifold);
+              if (manifold.count != 0) all.push_back({id, child, triangle, surface.material(triangle)});
+            }
+          });
+        },
+        pose.position);
     return first_of_each(all, f.per);
   }
 
@@ -107,8 +110,8 @@ template <class S> class FullSearch {
     std::optional<ClosestBody<S>> best;
     visit_parts(f, [&](BodyId id, std::uint32_t, const ShapeView<S>& part, const Transform<S>& at) {
       const ClosestPoint<S> found = isostep::closest_point(part, at, point);
-      const bool nearer = !best || found.distance < best->distance ||
-                          (found.distance == best->distance && id.slot < best->body.slot);
+      const bool nearer =
+          !best || found.distance < best->distance || (found.distance == best->distance && id.slot < best->body.slot);
       if (found.distance <= most && nearer) best = ClosestBody<S>{id, found.point, found.normal, found.distance};
     });
     return best;
@@ -117,8 +120,9 @@ template <class S> class FullSearch {
  private:
   bool sees(const QueryFilter& f, BodyId id) const {
     const BodyProperties<S>& body = *world_.view(id).properties;
-    return (body.filter.category & f.mask) != 0 && (f.sensors || (body.flags & body_flag::kSensor) == 0) &&
-           !(f.ignore == id) && (f.group == 0 || body.filter.group != f.group);
+    return is_enabled(body) && (body.filter.category & f.mask) != 0 &&
+           (f.sensors || (body.flags & body_flag::kSensor) == 0) && !(f.ignore == id) &&
+           (f.group == 0 || body.filter.group != f.group);
   }
   /// visit(id, child, part, transform) for every part that the filter sees, from an origin.
   template <class Visit> void visit_parts(const QueryFilter& f, const Visit& visit, Vec3<S> origin = {}) const {
@@ -142,8 +146,11 @@ template <class S> class FullSearch {
   std::vector<ShapeCastHit<S>> cast_core(const ConvexCore<S>& core, S touch, const ShapeCast<S>& asked) const {
     std::vector<ShapeCastHit<S>> all;
     const QueryFilter& f = asked.filter;
-    const SolidCast<S> cast = {core, Transform<S>::of(asked.pose), {asked.translation, Unit<S>(1), touch},
-                               f.back_faces, f.start_inside == StartInside::ignore};
+    const SolidCast<S> cast = {core,
+                               Transform<S>::of(asked.pose),
+                               {asked.translation, Unit<S>(1), touch},
+                               f.back_faces,
+                               f.start_inside == StartInside::ignore};
     visit_parts(f, [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
       const auto add = [&](const SolidHit<S>& hit) {
         all.push_back({id, child, hit.triangle, hit.point, hit.normal, hit.fraction, hit.material, hit.inside});

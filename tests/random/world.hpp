@@ -4,6 +4,7 @@
 #pragma once
 
 #include "isostep/effects/fracture/breaking.hpp"
+#include "random/bodies.hpp"
 #include "random/energy_book.hpp"
 #include "random/forces.hpp"
 #include "random/mechanisms.hpp"
@@ -74,6 +75,7 @@ template <class S> class RandomWorld {
     couple_some(w, seed, frame);
     change_pairs(w, seed, frame);
     change_rules(w, seed, frame);
+    change_bodies(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -288,6 +290,12 @@ template <class S> class RandomWorld {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 236887691 + frame * 256203161 + 19);
     if (dice.one_in(8)) RandomRules<S>(w, dice, kMoverSpeed).change();
+  }
+  /// What bodies are, where movers are. Dice of its own.
+  static void change_bodies(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 314606869 + frame * 334214467 + 41);
+    if (dice.one_in(6)) RandomBodies<S>(w, dice, kMoverSpeed).change();
   }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {

@@ -4,13 +4,17 @@
 
 #include "isostep/dynamics/breakable.hpp"
 #include "isostep/dynamics/character.hpp"
+#include "isostep/dynamics/contact_report.hpp"
 #include "isostep/dynamics/coupling.hpp"
 #include "isostep/dynamics/ghost.hpp"
 #include "isostep/dynamics/hit_report.hpp"
 #include "isostep/dynamics/joint_load.hpp"
 #include "isostep/dynamics/joints/axis_drive.hpp"
+#include "isostep/dynamics/kind_ghost.hpp"
 #include "isostep/dynamics/material_pair.hpp"
+#include "isostep/dynamics/move_target.hpp"
 #include "isostep/dynamics/one_way.hpp"
+#include "isostep/dynamics/ranked_zone.hpp"
 #include "isostep/dynamics/surface_velocity.hpp"
 #include "isostep/dynamics/vehicle.hpp"
 
@@ -22,7 +26,8 @@
   R(vehicle, Vehicle<S>, VehicleId, S)                 \
   R(wheel, Wheel<S>, WheelId, S)
 
-/// The same, of newer kinds: what says how bodies touch, and what joints bear and share. The position is the kind's
+/// The same, of newer kinds: what says how bodies touch, what joints bear and share, where kinematic bodies
+/// are to be, and which zones hide others. The position is the kind's
 /// number in hashes and portable forms: append, never reorder. A world to which none of a kind was ever added has the
 /// hash and form of one that does not know it.
 #define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
@@ -32,4 +37,8 @@
   R(hit_report, HitReport<S>, HitReportId, S)                   \
   R(joint_load, JointLoad<S>, JointLoadId, S)                   \
   R(coupling, Coupling<S>, CouplingId, S)                       \
-  R(axis_drive, AxisDrive<S>, AxisDriveId, S)
+  R(axis_drive, AxisDrive<S>, AxisDriveId, S)                   \
+  R(move_target, MoveTarget<S>, MoveTargetId, S)                \
+  R(kind_ghost, KindGhost<S>, KindGhostId, S)                   \
+  R(ranked_zone, RankedZone<S>, RankedZoneId, S)                \
+  R(contact_report, ContactReport<S>, ContactReportId, S)

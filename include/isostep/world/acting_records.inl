@@ -9,6 +9,7 @@
 #include "isostep/world/resisting_forces.inl"
 #include "isostep/world/water_forces.inl"
 #include "isostep/world/wheel_forces.inl"
+#include "isostep/world/zone_forces.inl"
 
 #define ISO_INSTANTIATE_ACTING_RECORDS(S) \
   template class WheelForces<S>;          \

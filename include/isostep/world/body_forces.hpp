@@ -67,10 +67,16 @@ template <class S> class BodyForces {
   static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass, for what resists its motion
 
   ISO_INLINE bool no_records() const {
-    return state_.force_records->no_forces() && !wheels_.any() && !couplings_.any();
+    const ForceRecords<S>& records = *state_.force_records;
+    return records.no_forces() && records.ranked_zones.all().empty() && !wheels_.any() && !couplings_.any();
   }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   void act(const ForceZone<S>& zone);
+  void act(const ForceZone<S>& zone, std::int32_t priority);
+  void act_by_rank();
+  bool replaces_gravity(std::uint32_t category, Vec3<S> point) const;
+  void rank_zones();
+  bool is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
   void act(const Attractor<S>& attractor);
   void act(const BodySpring<S>& spring);
   void act(const Thruster<S>& thruster);
@@ -116,14 +122,15 @@ template <class S> class BodyForces {
   const Proxies<S>& proxies_;
   WheelForces<S> wheels_;
   CouplingForces<S> couplings_;
+  std::vector<std::uint64_t> ranks_, rank_scratch_;              // of RankedZones, ascending by (priority, slot)
   std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
   std::vector<Wet> wet_;
   std::vector<std::uint32_t> resisting_;  // by awake body: how many forces resist its motion
-  Bitset cut_;                                          // awake bodies
+  Bitset cut_;                            // awake bodies
   std::uint32_t cut_count_ = 0;
-  const SolverBodies<S>* bodies_ = nullptr;  // of the sub-step
-  std::int32_t rate_ = 1;                    // [1/s] of sub-steps
-  Step<S> h_ = {};                           // [s] it takes
+  const SolverBodies<S>* bodies_ = nullptr;   // of the sub-step
+  std::int32_t rate_ = 1;                     // [1/s] of sub-steps
+  Step<S> h_ = {};                            // [s] it takes
   std::uint32_t substep_ = 0, substeps_ = 1;  // which of how many in a step
 };
 

@@ -44,14 +44,14 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   rate_ = rate;
   h_ = divide_to<Step<S>>(S(1), S(rate));
   substeps_ = static_cast<std::uint32_t>(rate / state_.settings.hz);
+  if (substep_ == 0) rank_zones();
   accelerations_ = asked_;
   wet_.clear();
   wet_.reserve(state_.force_records->waters.all().size() * accelerations_.size());
   ForceRecords<S>::forces(
-      [&](const char*, const auto& registry) {
-        for_each_taken(registry, [&](const auto& record) { act(record); });
-      },
+      [&](const char*, const auto& registry) { for_each_taken(registry, [&](const auto& record) { act(record); }); },
       *state_.force_records);
+  act_by_rank();
   resist_all();
   if (wheels_.any()) {
     for (const VelocityChange<S>& change : wheels_.solve(bodies, accelerations_, rate)) push(change);
@@ -104,14 +104,12 @@ template <class S> void BodyForces<S>::push(std::uint32_t row, Vec3<S> force, Ve
   if (!bodies_->moves(row)) return;
   const SolverMass<S>& mass = bodies_->mass[row];
   const S most = detail::most_acceleration(rate_, Limits<S>::speed());
-  const S most_turning =
-      detail::most_acceleration(rate_, detail::most_angular_speed(state_.awake.states[row - 1].fat));
+  const S most_turning = detail::most_acceleration(rate_, detail::most_angular_speed(state_.awake.states[row - 1].fat));
   detail::Bounder<S> bounder;
   Acceleration<S>& sum = accelerations_[row - 1];
   sum.linear = bounder.sum(sum.linear, bounder.quotient(force, mass.mass, most), most);
   if (!(arm == Vec3<S>::zero())) {
-    const Vec3<S> turning =
-        bounder.turning(mass.kappa, detail::saturated_cross(arm, force), mass.mass, most_turning);
+    const Vec3<S> turning = bounder.turning(mass.kappa, detail::saturated_cross(arm, force), mass.mass, most_turning);
     sum.angular = bounder.sum(sum.angular, turning, most_turning);
   }
   note_cut(row, bounder.cut);
@@ -132,34 +130,10 @@ template <class S> void BodyForces<S>::push(const VelocityChange<S>& change) {
   note_cut(change.row, bounder.cut);
 }
 
-// ---- zones and attractors: for every awake body
-
-namespace detail {
-template <class S> ISO_INLINE bool is_inside(const ForceZone<S>& zone, Vec3<S> point) {
-  if (zone.shape == ZoneShape::everywhere) return true;
-  const Vec3<S> from_middle = point - zone.pose.position;
-  if (zone.shape == ZoneShape::sphere) return length(from_middle) <= zone.half.x;
-  const Vec3<S> local = transposed_times(to_matrix(zone.pose.orientation), from_middle);
-  return within(local.x, zone.half.x) && within(local.y, zone.half.y) && within(local.z, zone.half.z);
-}
-}  // namespace detail
-
-template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) {
-  if (zone.acceleration == Vec3<S>::zero()) return;
-  for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
-    if (!is_pushed(row, zone.mask) || !detail::is_inside(zone, state_.awake.states[row - 1].centre)) continue;
-    accelerate(row, zone.acceleration);
-  }
-}
-template <class S> Vec3<S> BodyForces<S>::wind_at(Vec3<S> point) const {
-  Vec3<S> wind = Vec3<S>::zero();
-  for_each_taken(state_.force_records->force_zones, [&](const ForceZone<S>& zone) {
-    if (detail::is_inside(zone, point)) wind = saturating_add(wind, zone.wind);
-  });
-  return held_within(wind, Limits<S>::speed());
-}
+// ---- attractors: for every awake body
 
 template <class S> void BodyForces<S>::act(const Attractor<S>& attractor) {
+  if (attractor.body && !map_.is_enabled(attractor.body.slot)) return;
   const End source = attractor.body ? end_at(attractor.body, map_.properties_of(attractor.body)->local_centre)
                                     : end_at({}, attractor.point);
   const S most = detail::most_acceleration(rate_, Limits<S>::speed());
@@ -181,6 +155,9 @@ template <class S> void BodyForces<S>::act(const Attractor<S>& attractor) {
 // ---- springs, thrusters, buoyancy
 
 template <class S> void BodyForces<S>::act(const BodySpring<S>& spring) {
+  for (const BodyId end : {spring.a, spring.b}) {
+    if (end && !map_.is_enabled(end.slot)) return;
+  }
   const End a = end_at(spring.a, spring.anchor_a), b = end_at(spring.b, spring.anchor_b);
   if (!bodies_->moves(a.row) && !bodies_->moves(b.row)) return;
   const Heading<S> way = heading_of(b.at - a.at);

@@ -43,6 +43,15 @@ template <class S> class BodyMap {
   std::uint32_t row_of(std::uint32_t slot) const;
   /// Contacts and joints of sleeping islands that name the body.
   ISO_INLINE std::uint32_t names(std::uint32_t slot) const { return names_[slot]; }
+  /// Whether the body takes part; what is disabled lies among the static ones. kNoBody, the world itself, does.
+  ISO_INLINE bool is_enabled(std::uint32_t slot) const {
+    if (slot == kNoBody || locations_[slot].set != Location::kStatic) return true;
+    return isostep::is_enabled(state_.static_bodies->properties[locations_[slot].index]);
+  }
+  /// Of a joint, whether both of its bodies take part: if not, it holds nothing.
+  ISO_INLINE bool is_enabled(const JointProperties<S>& joint) const {
+    return is_enabled(joint.body_a) && is_enabled(joint.body_b);
+  }
 
   // Records. Those by id are null for an id that names nothing.
   const BodyState<S>& state_at(Location at) const;
@@ -70,6 +79,8 @@ template <class S> class BodyMap {
   /// Puts a body among the static or the awake ones, and a joint among the awake ones.
   void insert(const BodyState<S>& state, const BodyProperties<S>& body);
   void insert(const JointState<S>& state, const JointProperties<S>& joint);
+  /// Of a body that does not sleep.
+  void erase(std::uint32_t slot);
   /// Of an awake joint.
   void erase_joint(std::uint32_t slot);
   /// The records of an array from index `from` on were moved.

@@ -53,8 +53,7 @@ template <class S> std::span<const Child<S>> BodyMap<S>::children_of(std::uint32
   return {state_.children->data() + record.first_child, record.child_count};
 }
 
-template <class S>
-const Child<S>* BodyMap<S>::height_field_of(std::uint32_t shape_slot, std::uint32_t child) const {
+template <class S> const Child<S>* BodyMap<S>::height_field_of(std::uint32_t shape_slot, std::uint32_t child) const {
   const std::span<const Child<S>> children = children_of(shape_slot);
   const bool is_field = child < children.size() && children[child].primitive.type == ShapeType::height_field;
   return is_field ? &children[child] : nullptr;
@@ -84,13 +83,13 @@ template <class S> void BodyMap<S>::relabel(const JointSet<S>& joints, std::uint
 }
 
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
-  const bool is_static = body.type == BodyType::static_;
-  BodySet<S>& set = is_static ? state_.static_bodies.change() : state_.awake;
+  const bool fixed = is_fixed(body);
+  BodySet<S>& set = fixed ? state_.static_bodies.change() : state_.awake;
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(set.states, state.slot));
   set.states.insert(set.states.begin() + at, state);
   set.properties.insert(set.properties.begin() + at, body);
   make_room();
-  relabel(set, is_static ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
+  relabel(set, fixed ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
 }
 template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(state_.joints.states, state.slot));
@@ -98,6 +97,15 @@ template <class S> void BodyMap<S>::insert(const JointState<S>& state, const Joi
   state_.joints.properties.insert(state_.joints.properties.begin() + at, joint);
   make_room();
   relabel(state_.joints, Location::kAwake, static_cast<std::size_t>(at));
+}
+template <class S> void BodyMap<S>::erase(std::uint32_t slot) {
+  const Location at = locations_[slot];
+  BodySet<S>& set = at.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
+  const auto index = static_cast<std::ptrdiff_t>(at.index);
+  set.states.erase(set.states.begin() + index);
+  set.properties.erase(set.properties.begin() + index);
+  locations_[slot] = Location{};
+  relabel(set, at.set, at.index);
 }
 template <class S> void BodyMap<S>::erase_joint(std::uint32_t slot) {
   const std::uint32_t index = joint_locations_[slot].index;

@@ -16,6 +16,7 @@ template <class S> QueryFilter CharacterWalk<S>::filter() const {
   filter.mask = character_.mask;
   filter.ignore = character_.body;
   filter.ignore_all = place_.passed;
+  filter.ignore_kinds = place_.passed_kinds;
   return filter;
 }
 

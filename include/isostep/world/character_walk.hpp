@@ -51,7 +51,8 @@ template <class S> class CharacterWalk {
     Vec3<Unit<S>> up;
     Vec3<S> gravity;
     std::int32_t hz;
-    std::span<const BodyId> passed = {};  // it goes through these
+    std::span<const BodyId> passed = {};               // it goes through these
+    std::span<const std::uint32_t> passed_kinds = {};  // and through bodies of these kinds
   };
   CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
                 NearContacts<S>& near, Character<S>& character);

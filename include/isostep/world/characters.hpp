@@ -56,7 +56,8 @@ template <class S> class Characters {
   std::vector<Move> moves_;
   std::vector<Push> pushes_;
   NearContacts<S> near_;
-  std::vector<BodyId> passed_;  // that one character goes through
+  std::vector<BodyId> passed_;               // that one character goes through
+  std::vector<std::uint32_t> passed_kinds_;  // likewise
 };
 
 #define ISO_EXTERN(S) extern template class Characters<S>;

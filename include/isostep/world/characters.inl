@@ -54,7 +54,7 @@ template <class S> void Characters<S>::update() {
   moves_.clear();
   pushes_.clear();
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
-    if (records.is_taken(slot)) walk(slot);
+    if (records.is_taken(slot) && map_.is_enabled(records.all()[slot].body.slot)) walk(slot);
   }
   if (moves_.empty()) return;
   std::vector<Character<S>>& changed = state_.force_records.change().characters.change_all();
@@ -78,6 +78,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   Place place = {shape, pose, below, up, settings.gravity, settings.hz};
   find_passed(character, place);
   place.passed = passed_;
+  place.passed_kinds = passed_kinds_;
   CharacterWalk<S> walk(queries_, place, walks_, near_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
@@ -87,9 +88,15 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   moves_.push_back({slot, character, walk.way()});
 }
 
-/// Its ghosts, and the one-way bodies that it is not above of.
+/// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
 template <class S> void Characters<S>::find_passed(const Character<S>& character, const Place& place) {
   passed_.clear();
+  passed_kinds_.clear();
+  const std::uint32_t kind = map_.properties_of(character.body)->material.kind;
+  for (const KindGhost<S>& ghost : state_.force_records->kind_ghosts.all()) {
+    if (kind != 0 && ghost.kind_a == kind) passed_kinds_.push_back(ghost.kind_b);
+    if (kind != 0 && ghost.kind_b == kind) passed_kinds_.push_back(ghost.kind_a);
+  }
   for (const Ghost<S>& ghost : state_.force_records->ghosts.all()) {
     if (ghost.a && ghost.a == character.body) passed_.push_back(ghost.b);
     if (ghost.b && ghost.b == character.body) passed_.push_back(ghost.a);
@@ -109,8 +116,8 @@ bool Characters<S>::is_above(const Character<S>& character, const Place& place, 
   const BodyState<S>& state = map_.state_at(map_.location(way.body.slot));
   const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / S(place.hz);
   const S slack = character.skin * S(0.5) + rises;
-  const S lowest = dot(place.pose.position - pose.position, axis) -
-                   queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
+  const S lowest =
+      dot(place.pose.position - pose.position, axis) - queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
   if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
   const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / S(place.hz);
   QueryFilter filter;

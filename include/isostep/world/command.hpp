@@ -196,6 +196,51 @@ struct SetHeights {
   }
 };
 
+/// A disabled body keeps its id, state, joints and records, and takes no part until it is enabled again: see
+/// World::set_enabled.
+struct SetEnabled {
+  BodyId body;
+  std::uint32_t enabled;  // 1, or 0: disabled
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("enabled", self.enabled);
+  }
+};
+template <class S> struct SetType {
+  BodyId body;
+  BodyType type;
+  BodyMass<S> mass = {};  // of a dynamic one
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("type", self.type);
+    visit("mass", self.mass);
+  }
+};
+template <class S> struct SetMass {
+  BodyId body;
+  BodyMass<S> mass;
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("mass", self.mass);
+  }
+};
+/// Its island falls asleep at once.
+struct SleepBody {
+  BodyId body;
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+  }
+};
+/// The next step carries a kinematic body there: MoveTarget.
+template <class S> struct MoveTo {
+  BodyId body;
+  Pose<S> pose;  // of the body's origin
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("pose", self.pose);
+  }
+};
+
 template <class Record> using SetForce = SetRecord<Record, typename detail::ForceIdOf<Record>::Type>;
 
 /// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
@@ -283,7 +328,24 @@ template <class Record> using SetForce = SetRecord<Record, typename detail::Forc
   X(remove_coupling, RemoveRecord<CouplingId>, bool, S)                        \
   X(add_axis_drive, AddRecord<AxisDrive<S>>, AxisDriveId, S)                   \
   X(set_axis_drive, SetForce<AxisDrive<S>>, bool, S)                           \
-  X(remove_axis_drive, RemoveRecord<AxisDriveId>, bool, S)
+  X(remove_axis_drive, RemoveRecord<AxisDriveId>, bool, S)                     \
+  X(set_enabled, SetEnabled, bool, S)                                          \
+  X(set_type, SetType<S>, bool, S)                                             \
+  X(set_mass, SetMass<S>, bool, S)                                             \
+  X(sleep_body, SleepBody, bool, S)                                            \
+  X(move_to, MoveTo<S>, bool, S)                                               \
+  X(add_move_target, AddRecord<MoveTarget<S>>, MoveTargetId, S)                \
+  X(set_move_target, SetForce<MoveTarget<S>>, bool, S)                         \
+  X(remove_move_target, RemoveRecord<MoveTargetId>, bool, S)                   \
+  X(add_kind_ghost, AddRecord<KindGhost<S>>, KindGhostId, S)                   \
+  X(set_kind_ghost, SetForce<KindGhost<S>>, bool, S)                           \
+  X(remove_kind_ghost, RemoveRecord<KindGhostId>, bool, S)                     \
+  X(add_ranked_zone, AddRecord<RankedZone<S>>, RankedZoneId, S)                \
+  X(set_ranked_zone, SetForce<RankedZone<S>>, bool, S)                         \
+  X(remove_ranked_zone, RemoveRecord<RankedZoneId>, bool, S)                   \
+  X(add_contact_report, AddRecord<ContactReport<S>>, ContactReportId, S)       \
+  X(set_contact_report, SetForce<ContactReport<S>>, bool, S)                   \
+  X(remove_contact_report, RemoveRecord<ContactReportId>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

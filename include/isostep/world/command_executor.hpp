@@ -13,7 +13,9 @@
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
 #include "isostep/world/destruction.hpp"
+#include "isostep/world/island_sleep.hpp"
 #include "isostep/world/island_wake.hpp"
+#include "isostep/world/move_targets.hpp"
 #include "isostep/world/render_poses.hpp"
 
 namespace isostep {
@@ -27,12 +29,13 @@ template <class S> class CommandExecutor {
   using Command = isostep::Command<S>;
 
   ISO_INLINE CommandExecutor(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
-                             Destruction<S>& destruction, RenderPoses<S>& render_poses, const AssetSource& assets,
-                             CommandJournal& journal)
+                             IslandSleep<S>& sleep, Destruction<S>& destruction, RenderPoses<S>& render_poses,
+                             const AssetSource& assets, CommandJournal& journal)
       : state_(state),
         map_(map),
         proxies_(proxies),
         wake_(wake),
+        sleep_(sleep),
         destruction_(destruction),
         render_poses_(render_poses),
         assets_(assets),
@@ -51,6 +54,7 @@ template <class S> class CommandExecutor {
     return journal_.accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
   }
   bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
+  bool is_enabled(BodyId body);
   bool may_change(BodyId body);
   bool may_push(BodyId body);
   bool mark_for_destruction(BodyId body);
@@ -59,8 +63,12 @@ template <class S> class CommandExecutor {
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
   void renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed);
   bool check(const BodyDefinition<S>& definition);
-  bool check_mass(const BodyDefinition<S>& definition, const MassProperties<S>& shape);
   bool check_drives(JointId joint, const JointProperties<S>& next);
+  bool check(const BodyMass<S>& mass);
+  bool check_mass(const BodyMass<S>& mass, const MassProperties<S>& shape);
+  bool check_ties(std::uint32_t slot, const BodyProperties<S>& next);
+  bool check_joints_of(std::uint32_t slot, const BodyProperties<S>& next);
+  template <class Record> bool check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next);
   bool check_ends(const JointProperties<S>& joint);
   template <class Record> bool check_force(const Record& record);
   template <class Record> bool check_joints(const Record& record);
@@ -78,6 +86,10 @@ template <class S> class CommandExecutor {
   bool check_alone(const Ghost<S>& ghost, std::uint32_t slot);
   bool check_alone(const OneWay<S>& one_way, std::uint32_t slot);
   bool check_alone(const HitReport<S>& report, std::uint32_t slot);
+  bool check_alone(const ContactReport<S>& report, std::uint32_t slot);
+  bool check_alone(const KindGhost<S>& ghost, std::uint32_t slot);
+  bool check_alone(const MoveTarget<S>& target, std::uint32_t slot);
+  template <class Record> bool check_kinds(const Record& record, std::uint32_t slot);
   template <class Record> bool check_only_one(const Record& record, std::uint32_t slot);
   template <class Record> void wake_for_force(const Record& record);
   void wake_what_rests_on(BodyId body);
@@ -86,7 +98,11 @@ template <class S> class CommandExecutor {
   template <class IdType> bool remove_force(IdType id);
 
   static BodyProperties<S> properties_of(const BodyDefinition<S>& definition);
-  bool set_mass(const BodyDefinition<S>& definition, BodyProperties<S>& body);
+  bool give_mass(const BodyMass<S>& mass, BodyProperties<S>& body);
+  bool give_mass_anew(const BodyMass<S>& mass, BodyProperties<S>& body);
+  void replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next);
+  void wake_coupled(std::uint32_t slot);
+  void remove_target(std::uint32_t slot);
   void halt(std::uint32_t slot);
   PendingForce<S>& pending_force(std::uint32_t slot);
 
@@ -94,6 +110,7 @@ template <class S> class CommandExecutor {
   BodyMap<S>& map_;
   Proxies<S>& proxies_;
   IslandWake<S>& wake_;
+  IslandSleep<S>& sleep_;
   Destruction<S>& destruction_;
   RenderPoses<S>& render_poses_;
   const AssetSource& assets_;

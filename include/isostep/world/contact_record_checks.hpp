@@ -49,4 +49,32 @@ template <class S> NamedBodies<S> bodies_of(const HitReport<S>& h) {
   return {{{h.body, "body", false, MustBe::any, Vec3<S>::zero(), ""}, {}}, 1};
 }
 
+template <class S> FaultReport fault_of(const ContactReport<S>&) { return {}; }
+template <class S> NamedBodies<S> bodies_of(const ContactReport<S>& r) {
+  return {{{r.body, "body", false, MustBe::any, Vec3<S>::zero(), ""}, {}}, 1};
+}
+
+template <class S> FaultReport fault_of(const KindGhost<S>& g) {
+  return Checklist().proper(g.kind_a != 0, "kind_a", "1 or more").proper(g.kind_b != 0, "kind_b", "1 or more").report();
+}
+template <class S> NamedBodies<S> bodies_of(const KindGhost<S>&) { return {{}, 0}; }
+
+template <class S> FaultReport fault_of(const MoveTarget<S>& t) {
+  return Checklist()
+      .also(fault_of_place(t.pose.position, "pose.position"))
+      .proper(is_unit<S>(t.pose.orientation), "pose.orientation", kUnitLength)
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const MoveTarget<S>& t) {
+  return {{{t.body, "body", false, MustBe::kinematic, Vec3<S>::zero(), ""}, {}}, 1};
+}
+
+template <class S> FaultReport fault_of(const RankedZone<S>& z) {
+  return Checklist()
+      .also(fault_of(static_cast<const ForceZone<S>&>(z)))
+      .proper((z.replaces & ~zone_effect::kAll) == 0, "replaces", "bits of zone_effect")
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const RankedZone<S>&) { return {{}, 0}; }
+
 }  // namespace isostep::detail

@@ -51,6 +51,7 @@ template <class S> class CouplingForces {
     V changed;       // [m/s] by which this one has
   };
 
+  bool acts(const Coupling<S>& coupling) const;
   void list_runs(const SolverBodies<S>& bodies);
   void place(Run& run, const JointStep<S>& step) const;
   void weigh(Run& run) const;

@@ -43,13 +43,21 @@ auto CouplingForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<A
   return changes_;
 }
 
-/// Couplings of joints that are awake: all of one are, or none.
+/// Whether all of its joints are awake and hold their bodies.
+template <class S> bool CouplingForces<S>::acts(const Coupling<S>& coupling) const {
+  for (const JointId joint : detail::joints_of(coupling).all) {
+    if (!joint) continue;
+    if (map_.joint_location(joint.slot).is_asleep() || !map_.is_enabled(*map_.properties_of(joint))) return false;
+  }
+  return true;
+}
+
 template <class S> void CouplingForces<S>::list_runs(const SolverBodies<S>& bodies) {
   const auto& couplings = state_.force_records->couplings;
   rows_.clear();
   for (std::uint32_t slot = 0; slot < couplings.all().size(); ++slot) {
     const Coupling<S>& coupling = couplings.all()[slot];
-    if (!couplings.is_taken(slot) || map_.joint_location(coupling.joint_a.slot).is_asleep()) continue;
+    if (!couplings.is_taken(slot) || !acts(coupling)) continue;
     Run& run = runs_.emplace_back();
     run.lower = coupling.lower;
     run.upper = coupling.upper;

@@ -9,6 +9,19 @@
 
 namespace isostep {
 
+/// What a dynamic body weighs.
+template <class S> struct BodyMass {
+  S density = S(1);                      // [kg/m^3] where mass is 0
+  S mass = S(0);                         // [kg] 0: from density
+  Vec3<S> inertia = {S(0), S(0), S(0)};  // [kg m^2] principal, body axes; 0: from the shape
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("density", self.density);
+    visit("mass", self.mass);
+    visit("inertia", self.inertia);
+  }
+};
+
 template <class S> struct BodyDefinition {
   BodyType type = BodyType::static_;
   ShapeId shape = {};

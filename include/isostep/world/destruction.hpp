@@ -27,6 +27,9 @@ template <class S> class Destruction {
   /// One pass over each array, whatever the number of bodies.
   void erase_marked();
   void destroy_joint(std::uint32_t slot);
+  /// Ends the contacts and overlaps of a body, and the forces that were asked for it: the body itself stays. What it
+  /// may have held up is awake, and so is the body.
+  void part(std::uint32_t slot);
 
  private:
   void destroy_joints_of(std::uint32_t slot);

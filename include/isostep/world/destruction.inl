@@ -32,6 +32,16 @@ template <class S> void Destruction<S>::erase_marked() {
   marked_.clear();
 }
 
+template <class S> void Destruction<S>::part(std::uint32_t slot) {
+  wake_.wake(slot);
+  wake_.wake_touching(slot);
+  wake_.wake_held_by(slot);
+  is_marked_.set(slot);
+  tell_ends();
+  erase_what_names_them();
+  is_marked_.reset(slot);
+}
+
 /// The next step reports that what touched the marked bodies, or was inside them, does so no more.
 template <class S> void Destruction<S>::tell_ends() {
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
@@ -114,9 +124,7 @@ template <class S> template <class Names> void Destruction<S>::remove_records(co
       *state_.force_records);
   if (!any) return;
   ForceRecords<S>::members(
-      [&](const char*, auto& registry) {
-        each(registry, [&](std::uint32_t i) { registry.remove_at(i); });
-      },
+      [&](const char*, auto& registry) { each(registry, [&](std::uint32_t i) { registry.remove_at(i); }); },
       state_.force_records.change());
 }
 

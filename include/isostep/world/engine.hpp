@@ -9,16 +9,18 @@
 #include "isostep/state/fields.hpp"
 #include "isostep/world/body_finisher.hpp"
 #include "isostep/world/body_map.hpp"
+#include "isostep/world/break_events.hpp"
 #include "isostep/world/characters.hpp"
 #include "isostep/world/command_executor.hpp"
-#include "isostep/world/break_events.hpp"
 #include "isostep/world/contact_events.hpp"
+#include "isostep/world/contact_points.hpp"
 #include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/destruction.hpp"
 #include "isostep/world/hit_events.hpp"
 #include "isostep/world/island_sleep.hpp"
 #include "isostep/world/island_wake.hpp"
 #include "isostep/world/joint_loads.hpp"
+#include "isostep/world/move_targets.hpp"
 #include "isostep/world/narrow_phase.hpp"
 #include "isostep/world/pair_rules.hpp"
 #include "isostep/world/proxies.hpp"
@@ -53,9 +55,11 @@ namespace isostep {
 ///   BreakEvents     -> BodyMap
 ///   JointLoads      -> BodyMap, Destruction
 ///   HitEvents       -> BodyMap
+///   ContactPoints   -> BodyMap
 ///   RenderPoses     -> no other
 ///   Destruction     -> BodyMap, Proxies, IslandWake
-///   CommandExecutor -> BodyMap, Proxies, IslandWake, Destruction, RenderPoses; the journal, the assets
+///   MoveTargets     -> BodyMap
+///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; the journal, the assets
 ///   Queries         -> BodyMap, Proxies; the journal
 ///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
@@ -93,6 +97,7 @@ template <class S> class WorldEngine {
   Proxies<S> proxies_;
   IslandWake<S> wake_{state_, map_, proxies_};
   IslandSleep<S> sleep_{state_, map_, proxies_};
+  MoveTargets<S> targets_{state_, map_};
   PairRules<S> pair_rules_{state_, map_};
   NarrowPhase<S> narrow_phase_{state_, map_};
   Belts<S> belts_;
@@ -104,10 +109,11 @@ template <class S> class WorldEngine {
   ContactEvents<S> contact_events_{state_};
   BreakEvents<S> break_events_{state_, map_};
   HitEvents<S> hit_events_{state_, map_};
+  ContactPoints<S> contact_points_{state_, map_};
   RenderPoses<S> render_poses_{state_};
   Destruction<S> destruction_{state_, map_, proxies_, wake_};
   JointLoads<S> joint_loads_{state_, map_, destruction_};
-  CommandExecutor<S> commands_{state_, map_, proxies_, wake_, destruction_, render_poses_, assets_, journal_};
+  CommandExecutor<S> commands_{state_, map_, proxies_, wake_, sleep_, destruction_, render_poses_, assets_, journal_};
   Queries<S> queries_{state_, map_, proxies_, journal_};
   Characters<S> characters_{state_, map_, proxies_, wake_, queries_, commands_};
   StateLoader<S> loader_{state_, map_, proxies_};

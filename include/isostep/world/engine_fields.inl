@@ -34,6 +34,7 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
       visit("broke", events_.broke);
       visit("joint_broke", events_.joint_broke);
       if (!events_.hits.empty()) visit("hits", events_.hits);
+      if (!events_.contacts.empty()) visit("contacts", events_.contacts);
       return visit("contact_end", events_.contact_end);
     case Stage::update_sleep:
       visit("fell_asleep", events_.fell_asleep);

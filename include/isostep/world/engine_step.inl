@@ -7,12 +7,14 @@
 #include "isostep/world/body_map.inl"
 #include "isostep/world/break_events.inl"
 #include "isostep/world/contact_events.inl"
+#include "isostep/world/contact_points.inl"
 #include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/hit_events.inl"
 #include "isostep/world/island_sleep.inl"
 #include "isostep/world/island_wake.inl"
 #include "isostep/world/joint_loads.inl"
+#include "isostep/world/move_targets.inl"
 #include "isostep/world/narrow_phase.inl"
 #include "isostep/world/pair_rules.inl"
 #include "isostep/world/proxies.inl"
@@ -29,6 +31,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   };
   journal_.trace(*this);
   report_ = {};
+  targets_.begin_step();
   find_pairs();
   tell_untold();
   after(Stage::find_pairs);
@@ -40,6 +43,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   const bool watched = observer.after != nullptr || journal_.is_tracing();
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
   solver_.report_forces(report_);
+  targets_.arrive();
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
   continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways());
@@ -52,10 +56,12 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   break_events_.emit(solved, events_);
   joint_loads_.update(events_);
   hit_events_.emit(solved, events_);
+  contact_points_.emit(solved, events_);
   after(Stage::emit_events);
   sleep_.update(events_.fell_asleep, &belts_);
   after(Stage::update_sleep);
   characters_.update();
+  targets_.end_step();
   after(Stage::move_characters);
   ++state_.tick;
   return report_;
@@ -130,7 +136,9 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class ContactEvents<S>;                                                                          \
   template class BreakEvents<S>;                                                                            \
   template class JointLoads<S>;                                                                             \
+  template class ContactPoints<S>;                                                                          \
   template class HitEvents<S>;                                                                              \
-  template class PairRules<S>;                                                                            \
+  template class MoveTargets<S>;                                                                            \
+  template class PairRules<S>;                                                                              \
   template class RenderPoses<S>;                                                                            \
   template StepReport WorldEngine<S>::step(const StageObserver&);

@@ -45,9 +45,9 @@ struct SensorEvent {
 /// A contact broke a body: its Breakable record is marked.
 template <class S> struct Broke {
   BodyId body;
-  S impulse;                  // [kg m/s] as ContactBegin has it
-  Vec3<S> point;              // [m]
-  Vec3<Unit<S>> direction;    // [1] of the blow, into the body
+  S impulse;                // [kg m/s] as ContactBegin has it
+  Vec3<S> point;            // [m]
+  Vec3<Unit<S>> direction;  // [1] of the blow, into the body
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
@@ -91,13 +91,35 @@ template <class S> struct ContactHit {
   }
 };
 
+/// A point of a contact of a body with a ContactReport: also one that is only near, with a separation and no impulse.
+template <class S> struct ContactPoint {
+  BodyId a, b;
+  std::uint32_t child_a, child_b;  // parts of their shapes; of what touches a mesh or field, its triangles are counted
+  Vec3<S> point;                   // [m] where b has it as the step ends
+  Vec3<Unit<S>> normal;            // [1] from a to b
+  S separation;                    // [m] as the step began; negative: overlap
+  S impulse;                       // [kg m/s] that it gave over the step along the normal; held at the format's end
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("a", self.a);
+    visit("b", self.b);
+    visit("child_a", self.child_a);
+    visit("child_b", self.child_b);
+    visit("point", self.point);
+    visit("normal", self.normal);
+    visit("separation", self.separation);
+    visit("impulse", self.impulse);
+  }
+};
+
 template <class S> struct Events {
   std::vector<ContactBegin<S>> contact_begin;
   std::vector<ContactEnd> contact_end;
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<Broke<S>> broke;             // ascending by record
   std::vector<JointBroke<S>> joint_broke;  // ascending by record
-  std::vector<ContactHit<S>> hits;  // ascending by slots
+  std::vector<ContactHit<S>> hits;         // ascending by slots
+  std::vector<ContactPoint<S>> contacts;   // ascending by slots, parts, points
   std::vector<BodyId> fell_asleep, woke;
 
   ISO_INLINE void clear() {
@@ -108,6 +130,7 @@ template <class S> struct Events {
     broke.clear();
     joint_broke.clear();
     hits.clear();
+    contacts.clear();
     fell_asleep.clear();
     woke.clear();
   }

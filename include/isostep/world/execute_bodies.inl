@@ -30,8 +30,8 @@ template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
                  .report());
 }
 
-/// Of a dynamic body; `shape` at the definition's density.
-template <class S> bool CommandExecutor<S>::check_mass(const BodyDefinition<S>& d, const MassProperties<S>& shape) {
+/// Of a dynamic body; `shape` at that density.
+template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, const MassProperties<S>& shape) {
   const S zero = S(0);
   const bool positive = zero <= d.inertia.x && zero <= d.inertia.y && zero <= d.inertia.z;
   return journal_.accept(
@@ -44,15 +44,17 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyDefinition<S>& 
           .report());
 }
 
-template <class S> bool CommandExecutor<S>::set_mass(const BodyDefinition<S>& d, BodyProperties<S>& body) {
+/// By its type and shape, as for the first time.
+template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, BodyProperties<S>& body) {
   const S zero = S(0);
-  const std::span<const Child<S>> children = map_.children_of(d.shape.slot);
+  const std::span<const Child<S>> children = map_.children_of(body.shape);
   const MassProperties<S> shape = mass_properties(children, d.density > zero ? d.density : S(1), map_.contents());
   body.local_centre = shape.centre;
   body.principal = shape.principal;
   body.mass = zero;
   body.kappa = Vec3<S>::zero();
-  if (d.type != BodyType::dynamic) return true;
+  body.flags &= ~body_flag::kSpins;
+  if (body.type != BodyType::dynamic) return true;
   if (!check_mass(d, shape)) return false;
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
@@ -85,7 +87,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   const BodyDefinition<S>& d = command.definition;
   if (!check(d)) return {};
   BodyProperties<S> body = properties_of(d);
-  if (!set_mass(d, body)) return {};
+  if (!give_mass({d.density, d.mass, d.inertia}, body)) return {};
 
   BodyState<S> state = {};
   state.orientation = normalise(d.orientation);
@@ -139,9 +141,12 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
   return count;
 }
 
+template <class S> bool CommandExecutor<S>::is_enabled(BodyId body) {
+  return map_.is_enabled(body.slot) || journal_.refuse({Fault::bad_argument, "", "body", "one that is enabled"});
+}
 /// Whether a body's motion is to be changed at all: not that of a static one.
 template <class S> bool CommandExecutor<S>::may_change(BodyId body) {
-  if (!known(body)) return false;
+  if (!known(body) || !is_enabled(body)) return false;
   const bool moves = map_.location(body.slot).set != Location::kStatic;
   return moves || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
 }

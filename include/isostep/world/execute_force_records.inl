@@ -60,15 +60,23 @@ template <class S> bool CommandExecutor<S>::check_spring(const Wheel<S>& wheel) 
 }
 
 /// Whether no record of another slot has the same two kinds.
-template <class S> bool CommandExecutor<S>::check_alone(const MaterialPair<S>& pair, std::uint32_t slot) {
-  const auto& pairs = state_.force_records->material_pairs;
+template <class S>
+template <class Record>
+bool CommandExecutor<S>::check_kinds(const Record& pair, std::uint32_t slot) {
+  const auto& pairs = detail::registry_of(*state_.force_records, typename detail::ForceIdOf<Record>::Type{});
   for (std::uint32_t i = 0; i < pairs.all().size(); ++i) {
-    const MaterialPair<S>& other = pairs.all()[i];
+    const Record& other = pairs.all()[i];
     if (i == slot || !pairs.is_taken(i) || kinds_key(other.kind_a, other.kind_b) != kinds_key(pair.kind_a, pair.kind_b))
       continue;
     return journal_.refuse({Fault::bad_argument, "", "kind_b", "a pair of kinds that has no record yet"});
   }
   return true;
+}
+template <class S> bool CommandExecutor<S>::check_alone(const MaterialPair<S>& pair, std::uint32_t slot) {
+  return check_kinds(pair, slot);
+}
+template <class S> bool CommandExecutor<S>::check_alone(const KindGhost<S>& ghost, std::uint32_t slot) {
+  return check_kinds(ghost, slot);
 }
 
 namespace detail {
@@ -121,6 +129,12 @@ template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way
 template <class S> bool CommandExecutor<S>::check_alone(const HitReport<S>& report, std::uint32_t slot) {
   return check_only_one(report, slot);
 }
+template <class S> bool CommandExecutor<S>::check_alone(const ContactReport<S>& report, std::uint32_t slot) {
+  return check_only_one(report, slot);
+}
+template <class S> bool CommandExecutor<S>::check_alone(const MoveTarget<S>& target, std::uint32_t slot) {
+  return check_only_one(target, slot);
+}
 /// Whether no record of another slot has the same two bodies.
 template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, std::uint32_t slot) {
   const auto& all = state_.force_records->ghosts;
@@ -150,9 +164,11 @@ template <class S> inline constexpr bool kActsOnAll<Character<S>> = false;
 template <class Record> inline constexpr bool kActsOnTouching = false;
 template <class S> inline constexpr bool kActsOnTouching<SurfaceVelocity<S>> = true;
 template <class S> inline constexpr bool kActsOnTouching<OneWay<S>> = true;
+template <class S> inline constexpr bool kActsOnTouching<MoveTarget<S>> = true;
 /// Whether a record changes nothing that moves.
 template <class Record> inline constexpr bool kOnlyTells = false;
 template <class S> inline constexpr bool kOnlyTells<HitReport<S>> = true;
+template <class S> inline constexpr bool kOnlyTells<ContactReport<S>> = true;
 }  // namespace detail
 
 /// What touches a body, and what sleeps on it as a step found it.

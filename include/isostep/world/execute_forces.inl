@@ -10,7 +10,7 @@
 namespace isostep {
 
 template <class S> bool CommandExecutor<S>::may_push(BodyId body) {
-  if (!known(body)) return false;
+  if (!known(body) || !is_enabled(body)) return false;
   const bool pushable = map_.properties_at(map_.location(body.slot)).type == BodyType::dynamic;
   return pushable || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
 }

@@ -27,6 +27,10 @@ template <class S> class IslandSleep {
   /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none.
   void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr);
 
+  /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do. False, and no
+  /// change: one of them may not sleep.
+  bool put_to_sleep(std::uint32_t slot);
+
  private:
   std::uint32_t delay() const;
   void update_clocks();
@@ -41,6 +45,7 @@ template <class S> class IslandSleep {
   void tie_coupled(const Coupling<S>& coupling);
   bool mark_ready_islands();
 
+  void move_marked_islands(std::vector<BodyId>& fell_asleep);
   SleepingIsland<S>* island_of(std::size_t index);
   SleepingIsland<S>* island_of_either(std::uint32_t slot_a, std::uint32_t slot_b);
   void move_contacts();

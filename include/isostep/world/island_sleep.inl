@@ -13,7 +13,7 @@ namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
 /// [s] of fall: what is thrown up is that slow for twice as long, and the delay is longer.
 template <class S> inline constexpr S kSleepFall = S(0.1875);
-inline constexpr std::uint32_t kStepsPerSleepDelay = 2;       // a second over this: half a second of rest
+inline constexpr std::uint32_t kStepsPerSleepDelay = 2;  // a second over this: half a second of rest
 }  // namespace detail
 
 template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts) {
@@ -24,7 +24,27 @@ template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep,
   if (!some_body_is_ready()) return;
   find_islands();
   find_island_clocks();
-  if (!mark_ready_islands()) return;
+  if (mark_ready_islands()) move_marked_islands(fell_asleep);
+}
+
+template <class S> bool IslandSleep<S>::put_to_sleep(std::uint32_t slot) {
+  const std::size_t count = state_.awake.states.size();
+  find_islands();
+  const std::uint32_t root = islands_.find(map_.location(slot).index);
+  clock_.assign(count, 0);
+  clock_[root] = 1;
+  const auto falls_asleep = [&](std::size_t i) { return islands_.find(static_cast<std::uint32_t>(i)) == root; };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (falls_asleep(i) && (state_.awake.properties[i].flags & body_flag::kAllowSleep) == 0) return false;
+  }
+  std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return falls_asleep(map_.location(f.slot).index); });
+  std::vector<BodyId> untold;
+  move_marked_islands(untold);
+  return true;
+}
+
+/// Those whose `clock_` is 1.
+template <class S> void IslandSleep<S>::move_marked_islands(std::vector<BodyId>& fell_asleep) {
   asleep_.resize(state_.awake.states.size());
   move_contacts();
   move_joints();
@@ -135,9 +155,7 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
 }
 
 /// visit(slot of a wheel's body, slot of the ground)
-template <class S>
-template <class Visit>
-void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
+template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
   for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
     if (state_.body_slots.holds(wheel.body) && state_.body_slots.holds(wheel.contact_body))
       visit(wheel.body.slot, wheel.contact_body.slot);

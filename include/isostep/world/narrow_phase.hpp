@@ -9,7 +9,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/belt.hpp"
-#include "isostep/dynamics/material_table.hpp"
+#include "isostep/dynamics/kind_table.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 
@@ -81,7 +81,7 @@ template <class S> class NarrowPhase {
   PartPairs<S> part_pairs_;
   MaterialTable<S> material_table_;
   std::span<const std::uint64_t> pairs_;  // for one update
-  const Belts<S>* belts_ = nullptr;  // null: none runs
+  const Belts<S>* belts_ = nullptr;       // null: none runs
   const PairKernels<S>* kernels_ = nullptr;
   std::vector<std::uint8_t> point_counts_;  // by place in a group
   std::vector<Manifold<S>> manifolds_;      // by place, where the count is not zero

@@ -1,4 +1,4 @@
-// PairRules<S>: which pairs of bodies do not touch in a step, by Ghost and OneWay records.
+// PairRules<S>: which pairs of bodies do not touch in a step, by Ghost, KindGhost and OneWay records.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/kind_table.hpp"
 #include "isostep/dynamics/one_way.hpp"
 #include "isostep/world/body_map.hpp"
 
@@ -41,6 +42,7 @@ template <class S> class PairRules {
   void end_ghosts();
   bool still_meet(BodyId a, BodyId b) const;
   S skin_of(BodyId body) const;
+  void add_kinds(std::span<const std::uint64_t> pairs);
   void judge_pairs(std::span<const std::uint64_t> pairs);
   bool may_judge(std::uint64_t key) const;
   Verdict judge(std::uint64_t key) const;
@@ -51,9 +53,10 @@ template <class S> class PairRules {
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   Ways<S> ways_;
+  GhostTable<S> kinds_;
   std::vector<std::uint64_t> apart_, scratch_;
   std::vector<std::uint32_t> ended_;  // slots of records
-  std::size_t ghosts_ = 0;            // the first so many of apart_ are those of records, ascending
+  std::size_t ghosts_ = 0;            // the first so many of apart_ are ghosts, ascending
 };
 
 #define ISO_EXTERN(S) extern template class PairRules<S>;

@@ -18,6 +18,7 @@ template <class S> inline constexpr S kPassingDepth = S(0x1p-7);
 template <class S> void PairRules<S>::update(std::span<const std::uint64_t> pairs) {
   apart_.clear();
   end_ghosts();
+  add_kinds(pairs);
   sort();
   ghosts_ = apart_.size();
   ways_.update(state_.force_records->one_ways,
@@ -45,6 +46,16 @@ template <class S> void PairRules<S>::end_ghosts() {
   if (ended_.empty()) return;
   auto& changed = state_.force_records.change().ghosts;
   for (const std::uint32_t slot : ended_) changed.remove_at(slot);
+}
+
+/// Pairs of kinds that pass each other.
+template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> pairs) {
+  kinds_.update(state_.force_records->kind_ghosts);
+  if (kinds_.empty()) return;
+  const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
+  for (const std::uint64_t key : pairs) {
+    if (kinds_.find(kind(pair_a(key)), kind(pair_b(key))) != nullptr) apart_.push_back(key);
+  }
 }
 
 /// [m] that a character keeps from what is in its way; 0 of other bodies.

@@ -21,6 +21,7 @@ namespace isostep {
 /// loading a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
+  /// A body that is disabled has no place.
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
   /// `contacts` of the last step: of pairs beyond `budget` they decide which are looked at.

@@ -8,6 +8,10 @@
 namespace isostep {
 
 template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) {
+  if (!is_enabled(body)) {
+    remove(state.slot);
+    return;
+  }
   if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
   Proxy<S>& known = proxies_[state.slot];
   const Proxy<S> next = {state.fat, ProxyTraits::of(body, awake), true};
@@ -40,8 +44,8 @@ template <class S> void Proxies<S>::use(BroadPhaseName name) {
 template <class S> void Proxies<S>::update(std::span<const Contact<S>> contacts, std::size_t budget) {
   boxes_.optimise();
   left_out_ = 0;
-  const bool whole = boxes_.with(
-      [&](const auto& structure) { return pairs_.update(structure, MayCollide{&proxies_}, budget); });
+  const bool whole =
+      boxes_.with([&](const auto& structure) { return pairs_.update(structure, MayCollide{&proxies_}, budget); });
   if (whole) return;
   crowd_.choose(proxies_, contacts, budget);
   pairs_.choose(crowd_.keys(), crowd_.whole());

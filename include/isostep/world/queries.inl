@@ -22,6 +22,9 @@ template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_
   for (const BodyId unseen : filter.ignore_all) {
     if (unseen && id_of(slot) == unseen) return false;
   }
+  for (const std::uint32_t kind : filter.ignore_kinds) {
+    if (kind == body.material.kind) return false;
+  }
   const bool ignored =
       (filter.ignore && id_of(slot) == filter.ignore) || (filter.group != 0 && filter.group == body.filter.group);
   return (body.filter.category & filter.mask) != 0 && !ignored &&

@@ -35,7 +35,8 @@ struct QueryFilter {
   bool back_faces = false;  // rays and casts hit triangles from behind too
   StartInside start_inside = StartInside::report;
   HitPer per = HitPer::body;
-  std::span<const BodyId> ignore_all = {};  // nor any of these: a list that outlives the query
+  std::span<const BodyId> ignore_all = {};           // nor any of these: a list that outlives the query
+  std::span<const std::uint32_t> ignore_kinds = {};  // nor bodies of any of these Material::kinds: likewise
 };
 
 /// Hits are ordered by fraction, of equal fractions by the body's slot, child, triangle.
@@ -90,7 +91,7 @@ template <class S> struct ClosestBody {
 /// A convex shape to ask with: one of the world, of a single part, or a primitive without a blob.
 template <class S> struct QueryShape {
   bool of_world;
-  ShapeId id = {};             // where it is of the world
+  ShapeId id = {};              // where it is of the world
   Primitive<S> primitive = {};  // else
 
   ISO_INLINE QueryShape(ShapeId shape) : of_world(true), id(shape) {}

@@ -147,9 +147,10 @@ template <class S> class StateValidator {
   }
   const char* properties(const BodyProperties<S>& p, std::uint32_t name) const {
     constexpr std::uint32_t kKnown = body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide |
-                                     body_flag::kSpins | body_flag::kBullet | body_flag::kAllLocks;
+                                     body_flag::kSpins | body_flag::kBullet | body_flag::kDisabled |
+                                     body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
-    if (p.type > BodyType::dynamic || (p.type == BodyType::static_) != (name == Location::kStatic) ||
+    if (p.type > BodyType::dynamic || is_fixed(p) != (name == Location::kStatic) ||
         (name < Location::kAwake && !dynamic_body)) {
       return "a body's type does not fit its set";
     }
@@ -193,22 +194,24 @@ template <class S> class StateValidator {
     return nullptr;
   }
 
-  /// A link of set `name` ties no body of another island, and at least one of its own.
+  bool is_disabled(std::uint32_t slot) const {
+    return set_of_body_[slot] == Location::kStatic && type_of_body_[slot] != BodyType::static_;
+  }
+  /// Whether forces move it.
+  bool moves(std::uint32_t slot) const {
+    return slot != kNoBody && type_of_body_[slot] == BodyType::dynamic && set_of_body_[slot] != Location::kStatic;
+  }
+  /// A link of set `name` ties no body of another island.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {
-    bool own = false;
-    for (const std::uint32_t slot : {a, b}) {
-      if (slot == kNoBody) continue;
-      const bool moves = type_of_body_[slot] == BodyType::dynamic;
-      if (moves && set_of_body_[slot] != name) return false;
-      own = own || moves;
-    }
-    return own;
+    return (!moves(a) || set_of_body_[a] == name) && (!moves(b) || set_of_body_[b] == name);
   }
   const char* contact(const Contact<S>& c, std::uint32_t name) const {
     const ContactKey& key = c.key;
     if (!is_body(key.body_a) || !is_body(key.body_b) || !(key.body_a < key.body_b))
       return "a contact names no two bodies";
-    if (!belongs(key.body_a, key.body_b, name)) return "a contact lies in another island than its bodies";
+    if (is_disabled(key.body_a) || is_disabled(key.body_b)) return "a contact names a disabled body";
+    if (!(moves(key.body_a) || moves(key.body_b)) || !belongs(key.body_a, key.body_b, name))
+      return "a contact lies in another island than its bodies";
     if (key.child_a >= leaves_of_body_[key.body_a] || key.child_b >= leaves_of_body_[key.body_b])
       return "a contact names no part of a body";
     if (c.count < 1 || c.count > kMaxContactPoints || c.flags > contact_flag::kTouching)
@@ -238,7 +241,10 @@ template <class S> class StateValidator {
       for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
         if (body != kNoBody && !is_body(body)) return "a joint names no body";
       }
-      if (!belongs(joint.body_a, joint.body_b, name)) return "a joint lies in another island than its bodies";
+      // One that holds nothing is awake.
+      const bool holds = moves(joint.body_a) || moves(joint.body_b);
+      if (!belongs(joint.body_a, joint.body_b, name) || (!holds && name != Location::kAwake))
+        return "a joint lies in another island than its bodies";
       if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
         return "a joint is out of range";
       if (!state.has_known_pieces() || !is_finite(state.point) || !is_finite(state.angular)) {
@@ -277,7 +283,7 @@ template <class S> class StateValidator {
           if (broken == nullptr) broken = force_records(registry);
         },
         *state_.force_records);
-    if (broken == nullptr) broken = material_pairs();
+    if (broken == nullptr) broken = kind_pairs(state_.force_records->material_pairs);
     if (broken == nullptr) broken = one_a_joint(state_.force_records->joint_loads, "two loads have the same joint");
     if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
     if (broken == nullptr) broken = one_a_body(state_.force_records->characters, "two characters have the same body");
@@ -289,6 +295,10 @@ template <class S> class StateValidator {
     if (const char* rule = one_a_body(records.surface_velocitys, "two belts have the same body")) return rule;
     if (const char* rule = one_a_body(records.one_ways, "two one-way records have the same body")) return rule;
     if (const char* rule = one_a_body(records.hit_reports, "two reports of hits have the same body")) return rule;
+    if (const char* rule = one_a_body(records.contact_reports, "two reports of contacts have the same body"))
+      return rule;
+    if (const char* rule = one_a_body(records.move_targets, "two targets have the same body")) return rule;
+    if (const char* rule = kind_pairs(records.kind_ghosts)) return rule;
     std::vector<std::uint64_t> pairs;
     for (std::uint32_t slot = 0; slot < records.ghosts.all().size(); ++slot) {
       const Ghost<S>& ghost = records.ghosts.all()[slot];
@@ -331,9 +341,10 @@ template <class S> class StateValidator {
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
   bool ties_well(const BodySpring<S>& spring) const {
-    const auto moves = [&](BodyId body) { return body && type_of_body_[body.slot] == BodyType::dynamic; };
-    if (!moves(spring.a) && !moves(spring.b)) return false;
-    return !moves(spring.a) || !moves(spring.b) || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
+    const auto is_dynamic = [&](BodyId body) { return body && type_of_body_[body.slot] == BodyType::dynamic; };
+    if (!is_dynamic(spring.a) && !is_dynamic(spring.b)) return false;
+    const bool ties = spring.a && spring.b && moves(spring.a.slot) && moves(spring.b.slot);
+    return !ties || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
   }
   bool ties_well(const JointLoad<S>& load) const { return state_.joint_slots.holds(load.joint); }
   bool ties_well(const AxisDrive<S>& drive) const {
@@ -352,23 +363,26 @@ template <class S> class StateValidator {
   bool ties_well(const Coupling<S>& coupling) const {
     const detail::NamedJoints named = detail::joints_of(coupling);
     const JointProperties<S>* joints[3] = {};
+    std::uint32_t set = Location::kNone;  // of those that hold something
     for (int i = 0; i < 3; ++i) {
       if (i == 2 && !named.all[i]) continue;
       if (!state_.joint_slots.holds(named.all[i])) return false;
-      joints[i] = joint_at_[named.all[i].slot].joint;
-      if (joint_at_[named.all[i].slot].set != joint_at_[named.all[0].slot].set) return false;
+      const JointAt& at = joint_at_[named.all[i].slot];
+      joints[i] = at.joint;
+      if (!moves(at.joint->body_a) && !moves(at.joint->body_b)) continue;
+      if (set != Location::kNone && set != at.set) return false;
+      set = at.set;
     }
     return detail::fault_of_joints(coupling, joints) == Fault::none;
   }
-  const char* material_pairs() const {
-    const auto& pairs = state_.force_records->material_pairs;
+  template <class Pairs> static const char* kind_pairs(const Pairs& pairs) {
     std::vector<std::uint64_t> kinds;
     for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
       const std::uint64_t key = kinds_key(pairs.all()[slot].kind_a, pairs.all()[slot].kind_b);
       if (pairs.is_taken(slot)) kinds.push_back(key);
-      else if (key != 0) return "a free pair of materials names a kind";
+      else if (key != 0) return "a free pair names a kind";
     }
-    return has_twins(kinds) ? "two pairs of materials have the same kinds" : nullptr;
+    return has_twins(kinds) ? "two pairs have the same kinds" : nullptr;
   }
   template <class Records> const char* one_a_body(const Records& all, const char* rule) const {
     return one_a_slot(

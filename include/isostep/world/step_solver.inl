@@ -39,10 +39,14 @@ template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
                                       std::span<JointImpulse<S>> joint_impulses, const StepTools<S>& tools,
                                       bool watched) {
-  const auto end_at = [&](std::uint32_t slot) { return JointEnd<S>{map_.row_of(slot), map_.centre_pose_at(slot)}; };
   joint_ends_.resize(state_.joints.properties.size());
   for (std::size_t i = 0; i < joint_ends_.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
+    // With nothing that moves at either end a joint holds nothing.
+    const bool holds = map_.is_enabled(joint);
+    const auto end_at = [&](std::uint32_t slot) {
+      return JointEnd<S>{holds ? map_.row_of(slot) : 0, map_.centre_pose_at(slot)};
+    };
     joint_ends_[i] = {end_at(joint.body_a), end_at(joint.body_b)};
   }
   list_axis_drives();

@@ -10,6 +10,7 @@
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
 #include "isostep/world/execute_bodies.inl"
+#include "isostep/world/execute_body_changes.inl"
 #include "isostep/world/execute_force_records.inl"
 #include "isostep/world/execute_forces.inl"
 #include "isostep/world/execute_joints.inl"
@@ -158,6 +159,17 @@ bool World<S>::set_motion(BodyId body, S gravity_scale, S linear_damping, S angu
 template <class S> bool World<S>::set_user_data(BodyId body, std::uint64_t user_data) {
   return apply(SetUserData{body, user_data});
 }
+template <class S> bool World<S>::set_enabled(BodyId body, bool enabled) {
+  return apply(SetEnabled{body, enabled ? 1u : 0u});
+}
+template <class S> bool World<S>::set_type(BodyId body, BodyType type, const BodyMass<S>& mass) {
+  return apply(SetType<S>{body, type, mass});
+}
+template <class S> bool World<S>::set_mass(BodyId body, const BodyMass<S>& mass) {
+  return apply(SetMass<S>{body, mass});
+}
+template <class S> bool World<S>::sleep(BodyId body) { return apply(SleepBody{body}); }
+template <class S> bool World<S>::move_to(BodyId body, const Pose<S>& pose) { return apply(MoveTo<S>{body, pose}); }
 template <class S> bool World<S>::set_gravity(Vec3<S> gravity) { return apply(SetGravity<S>{gravity}); }
 template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S> torque) {
   return apply(ApplyForce<S>{body, force, torque});
@@ -255,6 +267,9 @@ template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* lo
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
 template <class S> bool World<S>::contains(ShapeId shape) const { return engine_->state_.shape_slots.holds(shape); }
 template <class S> bool World<S>::contains(JointId joint) const { return engine_->state_.joint_slots.holds(joint); }
+template <class S> bool World<S>::is_enabled(BodyId body) const {
+  return contains(body) && engine_->map_.is_enabled(body.slot);
+}
 template <class S> bool World<S>::is_awake(BodyId body) const {
   return contains(body) && engine_->map_.location(body.slot).set == Location::kAwake;
 }
@@ -332,6 +347,11 @@ template <class S> StepReport World<S>::step(const StageObserver& observer) {
   if (!call.allowed()) return {};
   engine_->journal_.record_step();
   return engine_->step(observer);
+}
+template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const {
+  for (const ContactPoint<S>& point : engine_->events_.contacts) {
+    if (point.a == body || point.b == body) out.push_back(point);
+  }
 }
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
 template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {

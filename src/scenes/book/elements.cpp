@@ -112,6 +112,16 @@ void add_rules(Scene& scene) {
   scene.records.push_back({"one_way", {{"body", {shelf}}, {"least_cosine", {0.75}}}});
   scene.records.push_back({"ghost", {{"a", {shelf}}, {"b", {swing}}}});
   scene.records.push_back({"hit_report", {{"body", {hammer}}, {"speed", {2}}}});
+  scene.records.push_back({"contact_report", {{"body", {crate}}}});
+  scene.records.push_back({"kind_ghost", {{"kind_a", {2}}, {"kind_b", {3}}}});
+  scene.records.push_back({"move_target", {{"body", {walker}}, {"position", {-2, 0.875, -4}}}});
+  scene.records.push_back({"ranked_zone",
+                           {{"shape", {1}},
+                            {"position", {22, 5, -4}},
+                            {"half", {2, 0, 0}},
+                            {"acceleration", {0, -10.5, 0}},
+                            {"priority", {1}},
+                            {"replaces", {5}}}});
 }
 /// Drives round a curve.
 void add_cart(Scene& scene) {

@@ -3,7 +3,7 @@
 #include "isostep/dynamics/contact_friction.hpp"
 
 #include "isostep/dynamics/friction_presets.hpp"
-#include "isostep/dynamics/material_table.hpp"
+#include "isostep/dynamics/kind_table.hpp"
 #include "random/dice.hpp"
 
 namespace isostep::test {

@@ -71,6 +71,12 @@ constexpr const char* kRecords[] = {
     R"({"type": "ghost", "a": 0, "b": 1})",
     R"({"type": "one_way", "body": 0, "axis": [1, 0, 0], "least_cosine": 0.75})",
     R"({"type": "hit_report", "body": 0, "speed": 2})",
+    R"({"type": "contact_report", "body": 1})",
+    R"({"type": "move_target", "body": 2, "position": [6, 1, 0], "orientation": [0, 1, 0, 0]})",
+    R"({"type": "kind_ghost", "kind_a": 1, "kind_b": 4294967295})",
+    R"({"type": "ranked_zone", "shape": "box", "position": [1, 0, 0], "orientation": [0, 1, 0, 0], )"
+    R"("half": [2, 1, 1], "acceleration": [0, 9.5, 0], "wind": [1, 0, 0], "mask": 3, )"
+    R"("priority": -7, "replaces": 5})",
 };
 #define ISO_COUNT(name, Record, Id, S) +1
 constexpr std::size_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, double);

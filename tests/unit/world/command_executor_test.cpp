@@ -26,9 +26,10 @@ template <class S> class Executors : public ::testing::Test {
   Systems<S> systems;
   CommandJournal journal;
   RenderPoses<S> render_poses{systems.state};
+  IslandSleep<S> sleep{systems.state, systems.map, systems.proxies};
   Destruction<S> destruction{systems.state, systems.map, systems.proxies, systems.wake};
   AssetSource assets;
-  CommandExecutor<S> executor{systems.state, systems.map,  systems.proxies, systems.wake,
+  CommandExecutor<S> executor{systems.state, systems.map,  systems.proxies, systems.wake, sleep,
                               destruction,   render_poses, assets,          journal};
   ShapeId shape;
 };
@@ -55,7 +56,7 @@ TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   tie.generation_a = asleep.generation;
   const JointId joint = this->executor.execute(CreateJoint<S>{tie});
   ASSERT_TRUE(joint);
-  IslandSleep<S> sleep(this->systems.state, this->systems.map, this->systems.proxies);
+  IslandSleep<S>& sleep = this->sleep;
   std::vector<BodyId> fell_asleep;
   for (int i = 0; i < 30; ++i) sleep.update(fell_asleep);
   ASSERT_TRUE(this->systems.is_asleep(asleep));

@@ -33,6 +33,14 @@ template <class S> MaterialPair<S> broken(MaterialPair<S> pair) {
   pair.kind_b = 0;
   return pair;
 }
+template <class S> KindGhost<S> broken(KindGhost<S> ghost) {
+  ghost.kind_a = 0;
+  return ghost;
+}
+template <class S> RankedZone<S> broken(RankedZone<S> zone) {
+  zone.replaces = 8;
+  return zone;
+}
 template <class S> JointLoad<S> broken(JointLoad<S> load) {
   load.joint = {};
   return load;
@@ -107,7 +115,17 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one}, [&](auto& w) {
     return w.set_heights(ground, 1, {1, 1, 1, 1, one});
   }));
-  static_assert(std::variant_size_v<Command<S>> == 81, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 98, "a command more: test it here");
+
+  EXPECT_TRUE(both(SleepBody{b}, [&](auto& w) { return w.sleep(b); }));
+  const BodyMass<S> heavy = {S(1), S(4), Vec3<S>::zero()};
+  EXPECT_TRUE(both(SetMass<S>{b, heavy}, [&](auto& w) { return w.set_mass(b, heavy); }));
+  EXPECT_TRUE(both(SetEnabled{b, 0}, [&](auto& w) { return w.set_enabled(b, false); }));
+  EXPECT_TRUE(both(SetEnabled{b, 1}, [&](auto& w) { return w.set_enabled(b, true); }));
+  EXPECT_TRUE(both(SetType<S>{b, kinematic}, [&](auto& w) { return w.set_type(b, kinematic); }));
+  EXPECT_TRUE(both(MoveTo<S>{b, pose}, [&](auto& w) { return w.move_to(b, pose); }));
+  EXPECT_TRUE(both(SetType<S>{b, dynamic, heavy}, [&](auto& w) { return w.set_type(b, dynamic, heavy); }));
+  EXPECT_FALSE(both(MoveTo<S>{b, pose}, [&](auto& w) { return w.move_to(b, pose); }));
 
   // Records: of each kind the same three.
   EXPECT_TRUE(both(WakeBody{b}, [&](auto& w) { return w.wake(b); }));
@@ -147,6 +165,8 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   pair.kind_a = 1;
   pair.kind_b = 2;
   each(pair, MaterialPairId{0, 1});
+  each(KindGhost<S>{1, 2}, KindGhostId{0, 1});
+  each(RankedZone<S>{}, RankedZoneId{0, 1});
   Breakable<S> breakable;
   breakable.body = b;
   each(breakable, BreakableId{0, 1});
@@ -177,6 +197,13 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_EQ(called.hash(), told.hash());
   EXPECT_FALSE(both(RemoveRecord<GhostId>{{0, 2}}, [](auto& w) { return w.remove(GhostId{0, 2}); }));
   each(HitReport<S>{b, S(2)}, HitReportId{0, 1});
+  each(ContactReport<S>{b}, ContactReportId{0, 1});
+  const MoveTarget<S> target = {character.body, pose};
+  const MoveTargetId first = {0, 2};  // of its slot: move_to() above had one
+  EXPECT_TRUE(both(AddRecord<MoveTarget<S>>{target}, [&](auto& w) { return w.add(target); }));
+  EXPECT_FALSE(both(AddRecord<MoveTarget<S>>{target}, [&](auto& w) { return w.add(target); }));
+  EXPECT_TRUE(both(SetForce<MoveTarget<S>>{first, target}, [&](auto& w) { return w.set(first, target); }));
+  EXPECT_TRUE(both(RemoveRecord<MoveTargetId>{first}, [&](auto& w) { return w.remove(first); }));
   const auto joint = [&](JointType type, double x) {
     const Pose<S> frame = {vec<S>(x, 0, 0), Quat<Unit<S>>::identity()};
     const JointProperties<S> made = called.joint_at(type, {}, b, frame);

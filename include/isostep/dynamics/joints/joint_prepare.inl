@@ -162,7 +162,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     drive.force = drive.most = S(0);
-    if (drive.driven || drive.servo) detail::set_force(mass_a, mass_b, joint, drive);
+    if (joint.holds && (drive.driven || drive.servo)) detail::set_force(mass_a, mass_b, joint, drive);
   }
 }
 

@@ -1,4 +1,4 @@
-// MaterialTable<S>: finds the record of two kinds of material.
+// KindTable: finds the record of two kinds of material.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,15 +8,16 @@
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/registry.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/kind_ghost.hpp"
 #include "isostep/dynamics/material_pair.hpp"
 
 namespace isostep {
 
 /// Kinds in ascending order, for one step. Keeps nothing from step to step but memory.
-template <class S> class MaterialTable {
+template <class Record, class IdType> class KindTable {
  public:
   /// The records stay where they are until the next call.
-  ISO_INLINE void update(const Registry<MaterialPair<S>, MaterialPairId>& pairs) {
+  ISO_INLINE void update(const Registry<Record, IdType>& pairs) {
     rows_.clear();
     records_ = pairs.all().data();
     for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
@@ -26,8 +27,9 @@ template <class S> class MaterialTable {
     scratch_.resize(rows_.size());
     stable_sort(rows_.data(), scratch_.data(), static_cast<std::uint32_t>(rows_.size()), Key{});
   }
+  ISO_INLINE bool empty() const { return rows_.empty(); }
   /// Null where there is none, and for kind 0.
-  ISO_INLINE const MaterialPair<S>* find(std::uint32_t kind_a, std::uint32_t kind_b) const {
+  ISO_INLINE const Record* find(std::uint32_t kind_a, std::uint32_t kind_b) const {
     if (rows_.empty() || kind_a == 0 || kind_b == 0) return nullptr;
     const std::uint64_t key = kinds_key(kind_a, kind_b);
     const std::size_t at =
@@ -45,7 +47,10 @@ template <class S> class MaterialTable {
   };
 
   std::vector<Row> rows_, scratch_;
-  const MaterialPair<S>* records_ = nullptr;
+  const Record* records_ = nullptr;
 };
+
+template <class S> using MaterialTable = KindTable<MaterialPair<S>, MaterialPairId>;
+template <class S> using GhostTable = KindTable<KindGhost<S>, KindGhostId>;
 
 }  // namespace isostep

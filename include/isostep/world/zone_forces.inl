@@ -1,0 +1,98 @@
+// Bodies of body_forces.hpp: zones, for every awake body, and what hides them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/stable_sort.hpp"
+#include "isostep/world/body_forces.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> ISO_INLINE bool is_inside(const ForceZone<S>& zone, Vec3<S> point) {
+  if (zone.shape == ZoneShape::everywhere) return true;
+  const Vec3<S> from_middle = point - zone.pose.position;
+  if (zone.shape == ZoneShape::sphere) return length(from_middle) <= zone.half.x;
+  const Vec3<S> local = transposed_times(to_matrix(zone.pose.orientation), from_middle);
+  return within(local.x, zone.half.x) && within(local.y, zone.half.y) && within(local.z, zone.half.z);
+}
+}  // namespace detail
+
+/// Priorities in the order of whole numbers, then slots.
+template <class S> void BodyForces<S>::rank_zones() {
+  ranks_.clear();
+  const auto& zones = state_.force_records->ranked_zones;
+  for (std::uint32_t slot = 0; slot < zones.all().size(); ++slot) {
+    if (!zones.is_taken(slot)) continue;
+    const auto place = static_cast<std::uint32_t>(zones.all()[slot].priority) ^ 0x80000000u;
+    ranks_.push_back(std::uint64_t{place} << 32 | slot);
+  }
+  if (ranks_.empty()) return;
+  rank_scratch_.resize(ranks_.size());
+  stable_sort(ranks_.data(), rank_scratch_.data(), static_cast<std::uint32_t>(ranks_.size()), OwnKey{});
+}
+
+/// Whether a zone of higher priority replaces the effect at a point, for bodies of that category.
+template <class S>
+bool BodyForces<S>::is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category,
+                              Vec3<S> point) const {
+  const auto& zones = state_.force_records->ranked_zones;
+  for (std::size_t i = ranks_.size(); i-- > 0;) {
+    const RankedZone<S>& zone = zones.all()[ranks_[i] & 0xffffffffu];
+    if (zone.priority <= priority) return false;
+    const bool hides = (zone.replaces & effect) != 0 && (category & zone.mask) != 0;
+    if (hides && detail::is_inside(zone, point)) return true;
+  }
+  return false;
+}
+
+template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) { act(zone, 0); }
+template <class S> void BodyForces<S>::act(const ForceZone<S>& zone, std::int32_t priority) {
+  if (zone.acceleration == Vec3<S>::zero()) return;
+  for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
+    const Vec3<S> centre = state_.awake.states[row - 1].centre;
+    if (!is_pushed(row, zone.mask) || !detail::is_inside(zone, centre)) continue;
+    const std::uint32_t category = state_.awake.properties[row - 1].filter.category;
+    if (!is_hidden(zone_effect::kAcceleration, priority, category, centre)) accelerate(row, zone.acceleration);
+  }
+}
+
+/// Ranked zones, and the world's gravity where one replaces it: below all of them.
+template <class S> void BodyForces<S>::act_by_rank() {
+  if (ranks_.empty()) return;
+  const auto& zones = state_.force_records->ranked_zones;
+  for (const std::uint64_t rank : ranks_) {
+    const RankedZone<S>& zone = zones.all()[rank & 0xffffffffu];
+    act(zone, zone.priority);
+  }
+  for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
+    if (!bodies_->moves(row)) continue;
+    const BodyProperties<S>& body = state_.awake.properties[row - 1];
+    const bool hidden = replaces_gravity(body.filter.category, state_.awake.states[row - 1].centre);
+    if (hidden) accelerate(row, -(state_.settings.gravity * body.gravity_scale));
+  }
+}
+template <class S> bool BodyForces<S>::replaces_gravity(std::uint32_t category, Vec3<S> point) const {
+  for (const RankedZone<S>& zone : state_.force_records->ranked_zones.all()) {
+    const bool replaces = (zone.replaces & zone_effect::kGravity) != 0 && (category & zone.mask) != 0;
+    if (replaces && detail::is_inside(zone, point)) return true;
+  }
+  return false;
+}
+
+template <class S> Vec3<S> BodyForces<S>::wind_at(Vec3<S> point) const {
+  constexpr std::uint32_t kAllCategories = 0xffffffffu;
+  Vec3<S> wind = Vec3<S>::zero();
+  const auto blow = [&](const ForceZone<S>& zone, std::int32_t priority) {
+    if (zone.wind == Vec3<S>::zero() || !detail::is_inside(zone, point)) return;
+    if (!is_hidden(zone_effect::kWind, priority, kAllCategories, point)) wind = saturating_add(wind, zone.wind);
+  };
+  for_each_taken(state_.force_records->force_zones, [&](const ForceZone<S>& zone) { blow(zone, 0); });
+  const auto& zones = state_.force_records->ranked_zones;
+  for (const std::uint64_t rank : ranks_) {
+    const RankedZone<S>& zone = zones.all()[rank & 0xffffffffu];
+    blow(zone, zone.priority);
+  }
+  return held_within(wind, Limits<S>::speed());
+}
+
+}  // namespace isostep
