@@ -199,7 +199,7 @@ template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   const bool rests =
       state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (rests && state.centre == goal.position && state.orientation == goal.orientation) return true;
-  return static_cast<bool>(add_force(target));
+  return static_cast<bool>(execute(AddRecord<MoveTarget<S>>{target}));
 }
 
 }  // namespace isostep
