@@ -196,7 +196,7 @@ template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   const Pose<S> goal = detail::centre_at<S>(target, map_.properties_of(command.body)->local_centre);
   const bool rests = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (rests && state.centre == goal.position && state.orientation == goal.orientation) return true;
-  return static_cast<bool>(add_force(target));
+  return static_cast<bool>(execute(AddRecord<MoveTarget<S>>{target}));
 }
 
 }  // namespace isostep
