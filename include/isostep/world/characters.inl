@@ -78,7 +78,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   Place place = {shape, pose, below, up, settings.gravity, settings.hz};
   find_passed(character, place);
   place.passed = passed_;
-  CharacterWalk<S> walk(queries_, place, walks_, near_, character);
+  CharacterWalk<S> walk(queries_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
   character.foot = local_to(character.ground, walk.foot());
@@ -109,16 +109,16 @@ bool Characters<S>::is_above(const Character<S>& character, const Place& place, 
   const BodyState<S>& state = map_.state_at(map_.location(way.body.slot));
   const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / S(place.hz);
   const S slack = character.skin * S(0.5) + rises;
-  const S lowest = dot(place.pose.position - pose.position, axis) -
-                   queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
+  const S lowest =
+      dot(place.pose.position - pose.position, axis) - queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
   if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
   const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / S(place.hz);
   QueryFilter filter;
   filter.mask = character.mask;
   filter.ignore = character.body;
-  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, near_, filter);
+  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, memory_.contacts, filter);
   bool in_front = false;
-  for (const NearContact<S>& contact : near_.all) {
+  for (const NearContact<S>& contact : memory_.contacts.all) {
     if (contact.body != way.body) continue;
     if (contact.separation < -slack) return false;
     in_front = in_front || !(convert<S>(dot(contact.normal, axis)) < way.least_cosine);
