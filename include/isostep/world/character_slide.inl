@@ -23,10 +23,10 @@ template <class S> QueryFilter CharacterWalk<S>::filter() const {
 /// What it overlaps from the start is in its way only where it goes further in.
 template <class S> auto CharacterWalk<S>::cast(Vec3<S> way) const -> std::optional<Hit> {
   ShapeCast<S> asked = {place_.shape, {at_, place_.pose.orientation}, way, filter()};
-  std::optional<Hit> hit = queries_.cast_shape(asked);
+  std::optional<Hit> hit = queries_.cast_shape(asked, &memory_.bodies);
   if (!hit || !hit->inside || dot(way, hit->normal) < S(0)) return hit;
   asked.filter.start_inside = StartInside::ignore;
-  return queries_.cast_shape(asked);
+  return queries_.cast_shape(asked, &memory_.bodies);
 }
 
 /// [m] up to a skin before what it met.
@@ -115,7 +115,7 @@ template <class S> bool CharacterWalk<S>::is_walkable(const Hit& hit) const {
   const S in = S(2) * character_.skin;
   const Vec3<S> lift = convert<S>(up_) * in;
   const Vec3<S> above = hit.point - detail::along<S>(out, in) + lift;
-  const auto face = queries_.cast_ray(above, lift * S(-2), filter());
+  const auto face = queries_.cast_ray(above, lift * S(-2), filter(), &memory_.bodies);
   return face && !face->inside && character_.least_up <= dot(convert<S>(face->normal), up_);
 }
 

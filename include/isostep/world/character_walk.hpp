@@ -40,6 +40,12 @@ template <class S> struct CharacterTouch {
   Vec3<Unit<S>> normal;  // [1] towards the character
 };
 
+/// What walks use again, one after the other.
+template <class S> struct WalkMemory {
+  NearContacts<S> contacts;
+  BodiesNear<S> bodies;
+};
+
 /// Input:   a record, its body's shape and pose, the queries. Output: the record as the step leaves it, way(), what it
 ///          touched on its way.
 template <class S> class CharacterWalk {
@@ -55,7 +61,7 @@ template <class S> class CharacterWalk {
     std::span<const std::uint32_t> passed_kinds = {};  // and through bodies of these kinds
   };
   CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
-                NearContacts<S>& near, Character<S>& character);
+                WalkMemory<S>& memory, Character<S>& character);
 
   /// `carried` [m]: how far the ground under its foot has moved.
   void run(Vec3<S> carried);
@@ -73,6 +79,7 @@ template <class S> class CharacterWalk {
     int count = 0;
   };
   // character_walk.inl
+  void look_around(Vec3<S> carried);
   void leave_overlaps(S most);
   void take_off(Vec3<S> carried);
   void fall();
@@ -100,7 +107,7 @@ template <class S> class CharacterWalk {
   const Queries<S>& queries_;
   Place place_;
   std::span<const std::uint8_t> walks_;  // by body slot: of obstacle
-  NearContacts<S>& near_;
+  WalkMemory<S>& memory_;
   Character<S>& character_;
   Vec3<S> start_, at_;  // [m] of the body's origin
   Vec3<S> foot_;

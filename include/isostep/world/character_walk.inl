@@ -8,11 +8,11 @@ namespace isostep {
 
 template <class S>
 CharacterWalk<S>::CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
-                                NearContacts<S>& near, Character<S>& character)
+                                WalkMemory<S>& memory, Character<S>& character)
     : queries_(queries),
       place_(place),
       walks_(walks),
-      near_(near),
+      memory_(memory),
       character_(character),
       start_(place.pose.position),
       at_(place.pose.position),
@@ -24,6 +24,7 @@ template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   const bool stood = character_.footing == Footing::floor;
   if (stood) at_ += carried;
   floor_ = dot(character_.foot_at + carried, up_);
+  look_around(carried);
   leave_overlaps(detail::kMostWayOut<S> + max_abs(carried));
   const bool jumps = stood && S(0) < character_.jump, walks = stood && !jumps;
   if (jumps) take_off(carried);
@@ -36,6 +37,17 @@ template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   find_ground(walks, carried);
 }
 
+/// Finds the bodies around its way once for all casts of the step. Too little costs time alone: a cast that leaves the
+/// region goes to the broad phase.
+template <class S> void CharacterWalk<S>::look_around(Vec3<S> carried) {
+  const S out = detail::kMostWayOut<S> + max_abs(carried) + S(4) * character_.skin;
+  const bool stood = character_.footing == Footing::floor;
+  const S over = stood ? character_.step_height + character_.skin : S(0);
+  const Vec3<S> way = abs(stood ? character_.move : character_.velocity) * h_;
+  const Vec3<S> reach = way + abs(carried) + convert<S>(abs(up_)) * over + Vec3<S>{out, out, out};
+  queries_.find_bodies_near(place_.shape, place_.pose, reach, filter(), memory_.bodies);
+}
+
 /// The deepest first. Another character gives way too, so half is enough. Where all together leave no room, what is
 /// dynamic waits, for the character's body pushes that out as well; and where others who walk leave none either, at
 /// least what stays where it is remains outside.
@@ -43,9 +55,10 @@ template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   const auto move_out = [&](std::uint8_t least_firm) {
     const Vec3<S> begin = at_;
     for (int round = 0; round < detail::kMostWaysOut; ++round) {
-      queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, near_, filter());
+      queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, memory_.contacts, filter(),
+                             &memory_.bodies);
       const NearContact<S>* deepest = nullptr;
-      for (const NearContact<S>& contact : near_.all) {
+      for (const NearContact<S>& contact : memory_.contacts.all) {
         if (least_firm < walks_[contact.body.slot]) continue;
         if (deepest == nullptr || contact.separation < deepest->separation) deepest = &contact;
       }
@@ -60,11 +73,13 @@ template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
     }
     return false;
   };
+  const Vec3<S> begin = at_;
   if (move_out(detail::obstacle::kDynamic)) {
     character_.stuck = 0;
     return;
   }
   ++character_.stuck;
+  at_ = begin;
   if (!move_out(detail::obstacle::kWalks)) move_out(detail::obstacle::kFixed);
 }
 
@@ -89,10 +104,7 @@ template <class S> void CharacterWalk<S>::fall() {
 template <class S> void CharacterWalk<S>::fly() {
   const Planes planes =
       slide(character_.velocity * h_, dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises);
-  for (int i = 0; i < planes.count; ++i) {
-    const Vec3<Unit<S>> n = planes.normals[i];
-    character_.velocity -= convert<S>(n) * min(dot(character_.velocity, n), S(0));
-  }
+  character_.velocity = clipped(character_.velocity, planes);
 }
 
 /// Along the ground: over the horizontal as fast as is asked for.

@@ -55,7 +55,7 @@ template <class S> class Characters {
   std::vector<std::uint8_t> walks_;  // by body slot: detail::obstacle
   std::vector<Move> moves_;
   std::vector<Push> pushes_;
-  NearContacts<S> near_;
+  WalkMemory<S> memory_;
   std::vector<BodyId> passed_;               // that one character goes through
   std::vector<std::uint32_t> passed_kinds_;  // likewise
 };

@@ -79,7 +79,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   find_passed(character, place);
   place.passed = passed_;
   place.passed_kinds = passed_kinds_;
-  CharacterWalk<S> walk(queries_, place, walks_, near_, character);
+  CharacterWalk<S> walk(queries_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
   character.foot = local_to(character.ground, walk.foot());
@@ -123,9 +123,9 @@ bool Characters<S>::is_above(const Character<S>& character, const Place& place, 
   QueryFilter filter;
   filter.mask = character.mask;
   filter.ignore = character.body;
-  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, near_, filter);
+  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, memory_.contacts, filter);
   bool in_front = false;
-  for (const NearContact<S>& contact : near_.all) {
+  for (const NearContact<S>& contact : memory_.contacts.all) {
     if (contact.body != way.body) continue;
     if (contact.separation < -slack) return false;
     in_front = in_front || !(convert<S>(dot(contact.normal, axis)) < way.least_cosine);

@@ -12,8 +12,7 @@
 
 namespace isostep {
 
-template <class S>
-FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const {
+template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const {
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
   const ShapeFault of_pose = validate(pose);
   const FaultReport bad_pose = {kind(of_pose), "", describe(of_pose), ""};
@@ -41,8 +40,7 @@ template <class S> auto Queries<S>::asked_of(const QueryShape<S>& shape, const P
 
 namespace detail {
 template <class S> ISO_INLINE std::uint8_t material_of(const ShapeView<S>& surface, std::uint32_t triangle) {
-  return visit_surface(surface,
-                       [&](const auto& of) ISO_INLINE_LAMBDA { return of.material(triangle); });
+  return visit_surface(surface, [&](const auto& of) ISO_INLINE_LAMBDA { return of.material(triangle); });
 }
 /// Ascending.
 template <class S>
@@ -64,16 +62,16 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 /// the shape asked with, both relative to the latter's position, as the narrow phase wants them.
 template <class S>
 template <class Visit>
-void Queries<S>::visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, Visit&& visit) const {
-  Pose<S> placed = map_.origin_pose_at(slot);
-  placed.position -= asked.pose.position;
+void Queries<S>::visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
+                                  Visit&& visit) const {
   const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
-                     there = Transform<S>::of(placed);
+                     there = {placed.position - asked.pose.position, placed.rotation};
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
   const std::span<const Child<S>> children = map_.children_of(shape);
   const auto visit_child = [&](std::uint32_t i) {
-    return visit(i, map_.contents().view(children[i].primitive), compose(there, Transform<S>::of(children[i].pose)),
-                 here);
+    const bool is_placed = children[i].pose.is_identity();
+    const Transform<S> at = is_placed ? there : compose(there, Transform<S>::of(children[i].pose));
+    return visit(i, map_.contents().view(children[i].primitive), at, here);
   };
   if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
     for (const std::uint32_t i : detail::children_near(*tree, there, grow(bounds(asked.view(), here), margin))) {
@@ -116,7 +114,7 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
     const std::uint8_t material = is_whole ? std::uint8_t{0} : detail::material_of(part, lowest);
     return (told || visit(OverlapHit{body, i, lowest, material})) && filter.per != HitPer::body;
   };
-  visit_parts_near(asked, S(0), slot, visit_child);
+  visit_parts_near(asked, S(0), slot, placed_at(slot), visit_child);
 }
 
 namespace detail {
@@ -194,7 +192,7 @@ std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, 
 }
 
 template <class S>
-void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t slot,
+void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
                                   std::vector<NearContact<S>>& out) const {
   Manifold<S> manifold;
   const auto tell = [&] {
@@ -215,29 +213,63 @@ void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t sl
       return tell();
     });
   };
-  visit_parts_near(asked, margin, slot, visit_child);
+  visit_parts_near(asked, margin, slot, placed, visit_child);
 }
 
 template <class S>
 void Queries<S>::near_contacts(const QueryShape<S>& shape, const Pose<S>& pose, S margin, NearContacts<S>& out,
-                               const QueryFilter& filter) const {
+                               const QueryFilter& filter, const BodiesNear<S>* near) const {
   out.all.clear();
   out.slots.clear();
   if (!journal_.accept_call("near_contacts", fault_of_shape(shape, pose))) return;
   const Asked asked = asked_of(shape, pose);
-  proxies_.boxes().query(grow(bounds(asked.view(), Transform<S>::of(asked.pose)), margin), [&](std::uint32_t slot) {
-    if (sees(filter, slot)) out.slots.push_back(slot);
+  const Aabb<S> box = grow(bounds(asked.view(), Transform<S>::of(asked.pose)), margin);
+  if (near != nullptr && near->holds(box)) {
+    near->query(box, [&](const typename BodiesNear<S>::Body& body) ISO_INLINE_LAMBDA {
+      const bool parted = body.parting.holds(asked.pose.position, Vec3<S>::zero(), margin + detail::kClearlyParted<S>);
+      if (parted) return;
+      near_contacts_of(asked, margin, body.slot, body.placed, out.all);
+    });
+    return;
+  }
+  find_slots_near(box, filter, out.slots, out.scratch);
+  for (const std::uint32_t slot : out.slots) near_contacts_of(asked, margin, slot, placed_at(slot), out.all);
+}
+
+/// Ascending.
+template <class S>
+void Queries<S>::find_slots_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& slots,
+                                 std::vector<std::uint32_t>& scratch) const {
+  slots.clear();
+  proxies_.boxes().query(box, [&](std::uint32_t slot) {
+    if (sees(filter, slot)) slots.push_back(slot);
     return true;
   });
-  const auto count = static_cast<std::uint32_t>(out.slots.size());
-  out.scratch.resize(out.slots.size());
-  stable_sort(out.slots.data(), out.scratch.data(), count, OwnKey{});
-  for (const std::uint32_t slot : out.slots) near_contacts_of(asked, margin, slot, out.all);
+  scratch.resize(slots.size());
+  stable_sort(slots.data(), scratch.data(), static_cast<std::uint32_t>(slots.size()), OwnKey{});
+}
+
+/// Of bodies of one part with the box around that: their fat ones hold more.
+template <class S>
+void Queries<S>::find_bodies_near(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> reach,
+                                  const QueryFilter& filter, BodiesNear<S>& out) const {
+  const Asked asked = asked_of(shape, pose);
+  const Aabb<S> box = bounds(asked.view(), Transform<S>::of(asked.pose));
+  const S edge = Limits<S>::position() * S(2);
+  out.begin(
+      {held_within(saturating_subtract(box.low, reach), edge), held_within(saturating_add(box.high, reach), edge)});
+  find_slots_near(out.region(), filter, out.slots, out.scratch);
+  for (const std::uint32_t slot : out.slots) {
+    const Transform<S> placed = placed_at(slot);
+    const std::span<const Child<S>> children = map_.children_of(map_.properties_at(map_.location(slot)).shape);
+    const bool is_one = children.size() == 1;
+    const Aabb<S> tight = is_one ? bounds(children, placed, map_.contents()) : proxies_.boxes().box(slot);
+    out.add({slot, tight, placed, is_one && !is_surface(children[0].primitive.type), {}});
+  }
 }
 
 /// By the box of the shape in a frame whose y is that direction.
-template <class S>
-S Queries<S>::reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const {
+template <class S> S Queries<S>::reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const {
   const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
   const Quat<Unit<S>> turned = rotation_between(along, y) * orientation;
   return bounds(asked_of(shape, {Vec3<S>::zero(), turned}).view(), Transform<S>::of({Vec3<S>::zero(), turned})).high.y;

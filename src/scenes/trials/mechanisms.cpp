@@ -243,6 +243,107 @@ class Sag : public Off {
   }
 };
 
+// ---- a parallelogram through its change points
+
+constexpr double kSide = 3;  // [m] of ground and coupler; crank and rocker are 1 m
+constexpr int kChangePoints = 1000;
+
+/// The crank is turned twice a second: every half turn all four lie on one line, where it might go on as a crossed
+/// one.
+Scene parallelogram() {
+  Scene scene = awake(15 * kChangePoints + 60);
+  const auto rod = [&](Point middle, double half) {
+    scene.bodies.push_back(apart(weighing(body_of(box_part({half, 0.05, 0.05}), middle), 1)));
+  };
+  rod({0.5, 0, 0}, 0.5);
+  rod({1 + kSide / 2, 0, 0}, kSide / 2);
+  rod({kSide + 0.5, 0, 0}, 0.5);
+  scene.joints = {driven(joint_of(JointType::hinge, -1, 0, {0, 0, 0}), 2 * kTurn, 200),
+                  joint_of(JointType::hinge, 0, 1, {1, 0, 0}), joint_of(JointType::hinge, 1, 2, {kSide + 1, 0, 0}),
+                  joint_of(JointType::hinge, -1, 2, {kSide, 0, 0})};
+  return scene;
+}
+/// [mm] Out of the plane, of any rod; a rocker that is not parallel to the crank any more counts as a metre. No number,
+/// where the crank has not passed as many.
+class Flip : public Judge {
+ public:
+  void see(const Sight& now) override {
+    for (const BodySight& body : now.bodies) worst_ = worse(worst_, 1000 * std::abs(body.centre.z));
+    const double angle = angle_of(now.bodies[0]);
+    const double apart = std::remainder(angle - angle_of(now.bodies[2]), kTurn);
+    worst_ = worse(worst_, std::abs(apart) > 0.25 ? 1000.0 : 0.0);
+    passed_ += std::signbit(angle) != std::signbit(angle_);
+    angle_ = angle;
+  }
+  double figure() const override { return passed_ < kChangePoints ? std::nan("") : worst_; }
+
+ private:
+  double worst_ = 0, angle_ = 0;
+  int passed_ = 0;
+};
+
+// ---- an arm of servos
+
+constexpr int kLinks = 3;  // of a metre
+
+/// Level, with 100 kg at its end.
+Scene loaded_arm(std::uint32_t drive) {
+  Scene scene = awake(600);
+  for (int i = 0; i < kLinks; ++i) {
+    scene.bodies.push_back(apart(weighing(body_of(box_part({0.5, 0.1, 0.1}), {i + 0.5, 0, 0}), 1)));
+    SceneJoint servo = driven(joint_of(JointType::hinge, i - 1, i, {double(i), 0, 0}), 0, 20'000);
+    servo.flags = drive;
+    servo.spring_frequency = 240;  // as stiff as a spring may be
+    servo.spring_damping = 1;
+    scene.joints.push_back(servo);
+  }
+  scene.bodies.push_back(apart(weighing(body_of(box_part({0.25, 0.25, 0.25}), {double(kLinks), 0, 0}), 100)));
+  scene.joints.push_back(joint_of(JointType::fixed, kLinks - 1, kLinks, {double(kLinks), 0, 0}));
+  return scene;
+}
+Scene arm_of_springs() { return loaded_arm(joint_flag::kSpring); }
+Scene arm_of_motors() { return loaded_arm(joint_flag::kMotor); }
+/// [%] Of its length: by how much the load hangs lower from the third second on, or how far it still swings.
+class ArmSag : public FromStart {
+ public:
+  double figure() const override { return 100 * worse(sag_, highest_ - lowest_) / kLinks; }
+
+ private:
+  void compare(const Sight& start, const Sight& now) override {
+    const Vec3<double> way = way_of(start, now, kLinks);
+    if (now.time < 3) return;
+    sag_ = worse(sag_, length_of(way));
+    highest_ = worse(highest_, way.y);
+    lowest_ = -worse(-lowest_, -way.y);
+  }
+  double sag_ = 0, highest_ = -1000, lowest_ = 1000;  // [m]
+};
+
+// ---- a twist far past its limit
+
+/// A lever of a metre to either side, held in its middle by a ball joint whose twist must be a sixth of a turn more.
+Scene twisted_lever() {
+  Scene scene = weightless(600);
+  scene.bodies = {apart(weighing(body_of(box_part({1, 0.1, 0.1}), {0, 0, 0}), 1))};
+  scene.joints = {stopped(joint_of(JointType::ball, -1, 0, {0, 0, 0}), kTurn / 6, kTurn / 4)};
+  return scene;
+}
+/// [m/s] Of its ends, by their way in a frame: a correction of poses has no velocity. No number, where it is not back
+/// at its limit in the end.
+class ReturnSpeed : public Judge {
+ public:
+  void see(const Sight& sight) override {
+    const double angle = angle_of(sight.bodies[0]), passed = sight.time - time_;
+    if (passed > 0) fastest_ = worse(fastest_, std::abs(std::remainder(angle - angle_, kTurn)) / passed);
+    angle_ = angle;
+    time_ = sight.time;
+  }
+  double figure() const override { return angle_ < kTurn / 6 - 0.02 ? std::nan("") : fastest_; }
+
+ private:
+  double fastest_ = 0, angle_ = 0, time_ = 0;
+};
+
 }  // namespace
 
 std::span<const Trial> mechanism_trials() {
@@ -259,6 +360,14 @@ std::span<const Trial> mechanism_trials() {
        0.5, far_stop, judge_of<StopError<270>>},
       {"pressed_stop", "28", "a motor presses a rod against its stop for a minute", "the rod, from its stop", "degrees",
        0.01, pressed_stop, judge_of<StopError<30>>},
+      {"parallelogram", "29", "a crank of 1 m, a coupler of 3 m and a rocker of 1 m pass a thousand change points",
+       "out of the plane; a metre where it flips", "mm", 1, parallelogram, judge_of<Flip>},
+      {"arm_of_springs", "30", "three hinges with springs hold an arm of 3 m with 100 kg at its end",
+       "sag or swing over length", "%", 1, arm_of_springs, judge_of<ArmSag>},
+      {"arm_of_motors", "30", "the same by motors that stand still", "sag or swing over length", "%", 1, arm_of_motors,
+       judge_of<ArmSag>},
+      {"twisted_lever", "35", "a lever of a metre, twisted 60 degrees past its limit, returns", "speed of its ends",
+       "m/s", 4, twisted_lever, judge_of<ReturnSpeed>},
       {"cantilever", "31", "twenty boxes welded to a beam that is held at one end", "sag over length", "%", 1,
        cantilever, judge_of<Sag>},
   };

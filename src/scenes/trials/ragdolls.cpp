@@ -1,10 +1,13 @@
 // Trials of ragdolls whose joints have limits: they fall, and gain nothing.
 // SPDX-License-Identifier: MIT
+#include "scenes/ragdolls.hpp"
+
 #include "families.hpp"
 #include "judges.hpp"
 #include "scene_numbers.hpp"
 #include "scenes/limits.hpp"
 #include "scenes/named.hpp"
+#include "scenes/shapes.hpp"
 
 namespace isostep::scenes {
 namespace {
@@ -74,6 +77,41 @@ class RagdollEnergy : public Judge {
   double rise_ = 0;
 };
 
+// ---- into a corner
+
+constexpr double kCorner = 3, kThrown = 60;  // [m] of the walls' faces, [m/s]
+
+/// A ragdoll with limits is thrown into the corner of two walls and a floor.
+Scene thrown_ragdoll() {
+  Scene scene;
+  scene.allow_sleep = false;
+  scene.frames = 300;
+  add_floor(scene);
+  scene.bodies.push_back(fixed_box({kCorner + 0.5, 20, 0}, {0.5, 20, 20}));
+  scene.bodies.push_back(fixed_box({0, 20, kCorner + 0.5}, {20, 20, 0.5}));
+  const std::size_t first = scene.bodies.size();
+  add_ragdoll(scene, {-1, 2, -1}, 0, true);
+  const double speed = kThrown * kHalfRoot;
+  for (std::size_t i = first; i < scene.bodies.size(); ++i) scene.bodies[i].velocity = vector_of({speed, 0, speed});
+  return scene;
+}
+/// [%] Of the bar it is nearest to, of joints over the run and after a second; 1000 for what is through.
+class CornerOfRagdoll : public Judge {
+ public:
+  void see(const Sight& sight) override {
+    constexpr double kOver = 0.05, kAfter = 0.001;  // [m]
+    worst_ = worse(worst_, sight.joint_error / (sight.time < 1 ? kOver : kAfter));
+    for (const BodySight& body : sight.bodies) {
+      const bool through = body.centre.x > kCorner || body.centre.z > kCorner || body.centre.y < 0;
+      if (body.dynamic && through) worst_ = worse(worst_, 10);
+    }
+  }
+  double figure() const override { return 100 * worst_; }
+
+ private:
+  double worst_ = 0;  // [1]
+};
+
 }  // namespace
 
 std::span<const Trial> ragdoll_trials() {
@@ -84,6 +122,9 @@ std::span<const Trial> ragdoll_trials() {
        "%", 100, limited_ragdolls, judge_of<LimitedRagdolls>},
       {"ragdoll_from_every_tilt", "26", "a ragdoll with limits falls 2 m, at a hundred tilts",
        "energy that any of them gained", "J/kg", kRise, tilted_ragdolls, judge_of<RagdollEnergy>},
+      {"ragdoll_into_corner", "34", "a ragdoll with limits at 60 m/s into the corner of two walls",
+       "joints of 50 mm, 1 mm after a second: the worst, of its bar; 1000 for a part that is through", "%", 100,
+       thrown_ragdoll, judge_of<CornerOfRagdoll>},
   };
   return trials;
 }

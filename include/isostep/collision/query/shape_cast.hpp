@@ -7,6 +7,19 @@
 
 namespace isostep {
 
+/// A plane that parts two solids which do not turn, wherever the first of them goes: a proof that outlives one cast.
+template <class S> struct Parting {
+  Vec3<Unit<S>> normal = Vec3<Unit<S>>::zero();  // [1] towards the first, world frame
+  Vec3<S> at = Vec3<S>::zero();                  // [m] its position when the plane was found
+  S gap = S(0);                                  // [m] between the two then
+
+  /// Whether more than `clear` [m] is left between the two all along a way.
+  ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const {
+    const S gap_there = gap + dot(from - at, normal) + min(dot(way, normal), S(0));
+    return clear < gap_there;
+  }
+};
+
 /// The way of a core that is cast.
 template <class S> struct CastMotion {
   Vec3<S> translation;   // [m] world frame
@@ -14,6 +27,7 @@ template <class S> struct CastMotion {
   S touch;               // [m] cores that overlap by no more than this at the start touch; deeper is inside
   /// [1] A hit after this is of no interest: it may be missed, and changes no other.
   Unit<S> latest = Unit<S>(1);
+  Parting<S>* parting = nullptr;  // the plane that a miss was proved by
 };
 
 template <class S> struct CastHit {

@@ -5,6 +5,7 @@
 #include "isostep/collision/narrowphase/shape_core.hpp"
 #include "isostep/collision/query/ball_cast.hpp"
 #include "isostep/collision/query/plane_cast.hpp"
+#include "isostep/collision/query/round_cast.inl"
 #include "isostep/collision/query/solid_cast.hpp"
 #include "isostep/collision/query/surface_cast.hpp"
 
@@ -30,6 +31,12 @@ bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Trans
         }
       }
       const ShapeCore<S> other(visited, S(0));
+      const Vec3<S>* half = nullptr;
+      if constexpr (std::same_as<Shape, Box<S>>) half = &visited.half_extents;
+      if (cast.core.vertices.size() <= 2 && (half != nullptr || other.core().vertices.size() <= 2)) {
+        const RoundCast by_segments = cast_round(cast.core, cast.start, other.core(), t, half, cast.motion, hit);
+        if (by_segments != RoundCast::undecided) return by_segments == RoundCast::hit;
+      }
       return cast_convex(cast.core, cast.start, other.core(), t, cast.motion, hit);
     } else {
       return false;

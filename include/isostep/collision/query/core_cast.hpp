@@ -1,0 +1,135 @@
+// Conservative advancement of one convex core towards another, whatever finds where they are nearest.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "isostep/collision/narrowphase/gjk.hpp"
+#include "isostep/collision/query/shape_cast.hpp"
+#include "isostep/geometry/closest.hpp"
+
+namespace isostep::detail {
+
+/// As CastHit, in the frame of the cast; the normal points from a to b.
+template <class F> struct CoreHit {
+  bool hit, inside;
+  Unit<F> fraction;
+  Vec3<Unit<F>> normal;
+  Vec3<F> on_b;          // [m] of its core at the start
+  F gap = F(0);          // [m] of a miss: what is at least left at the start, along the normal
+  bool is_open = false;  // the search does not tell: the cores are so near at the start that they may overlap
+};
+/// [m] The shortest way out of an overlap of cores.
+template <class F> struct CoreWayOut {
+  F depth;
+  Vec3<Unit<F>> normal;
+  Vec3<F> on_b;
+};
+
+/// The frame of a cast has a's position at the start for its origin, and any rotation. In it a stands still and b moves
+/// the other way.
+template <class S> struct CoreCast {
+  using F = Finer<S>;
+  using U = Unit<F>;
+  const Mat3<U>& turn;  // from there to the world
+  Vec3<S> origin;       // [m] a's position, world
+  F radii, radius_b;    // [m] of both together
+  F extent;             // [m] of both together
+  Vec3<F> from, way;    // [m] b's position at the start, and its way for a fraction of 1
+  U end, latest;        // [1] see CastMotion; latest by no less
+  F touch, resolution;  // [m]
+  Parting<S>* parting;
+
+  ISO_INLINE CoreCast(const FineCore<S>& a, Vec3<S> at_a, const FineCore<S>& b, Vec3<S> at_b, const Mat3<U>& frame,
+                      const CastMotion<S>& motion)
+      : turn(frame),
+        origin(at_a),
+        radii(a.radius + b.radius),
+        radius_b(b.radius),
+        extent(a.extent + b.extent),
+        from(transposed_times(frame, finer_of<F>(at_b - at_a))),
+        way(-transposed_times(frame, finer_of<F>(motion.translation))),
+        end(finer<U>(motion.max_fraction)),
+        // A fraction is rounded down to a step of S: what gives the latest one is found whatever the rounding.
+        latest(min(finer<U>(motion.latest), U(1)) + finer<U>(isostep::resolution<Unit<S>>()) + U(0x1p-20)),
+        touch(finer<F>(motion.touch)),
+        resolution(finer<F>(isostep::resolution<S>())),
+        parting(motion.parting) {}
+
+  /// The search knows both cores:
+  ///   nearest(at, enough)  with b at a position, as GjkDistance; it may end early where enough(separation, distance)
+  ///   way_out(size)        of cores of that size, where `nearest` was asked last; nothing: it cannot tell
+  template <class Search> ISO_INLINE CoreHit<F> run(Search& search) const {
+    constexpr int kMostRounds = 32;
+    constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found
+    U t = U(0);
+    CoreHit<F> last = {};
+    for (int round = 0; round < kMostRounds; ++round) {
+      const Vec3<F> at = from + way * t;
+      const F noise = gap_noise(extent + max_abs(at)), near = noise * F(2) + resolution;
+      const F far = radii + near * F(16);
+      const GjkDistance<F> found = search.nearest(at, [=, this](F separation, F distance) ISO_INLINE_LAMBDA {
+        return separation > far && separation - radii >= (distance - radii) * kEnough;
+      });
+      const F gap = found.separation - radii - noise;
+      if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(search, found, near);
+      const F closing = -dot(way, found.normal);
+      if (found.distance != F(0)) {
+        if (!(closing > F(0)) || gap >= closing * (end - t)) return missed(found.normal, gap + closing * t);
+        // Within `near` they touch, at t: how far the plane would let them go on is not asked.
+        const bool ends_later = gap > near && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
+        if (latest < end && ends_later) return missed(found.normal, gap + closing * t);
+        last.hit = true;
+        if (round == 0 || is_clear(found, noise)) last.normal = found.normal, last.on_b = found.on_b - way * t;
+      }
+      if (gap <= near) return last;
+      const U step = divide_to<U>(gap, closing) - isostep::resolution<U>();
+      if (!(step > U(0))) return last;
+      t = last.fraction = t + step;
+    }
+    return last;
+  }
+  ISO_INLINE bool tell(const CoreHit<F>& found, CastHit<S>& hit) const {
+    if (!found.hit) {
+      if (parting != nullptr) *parting = {coarser_of<Unit<S>>(turn * -found.normal), origin, coarser<S>(found.gap)};
+      return false;
+    }
+    hit.fraction = coarser_down<Unit<S>>(found.fraction);
+    const Vec3<U> normal = turn * -found.normal;
+    const Vec3<F> on_b = turn * found.on_b + normal * radius_b;
+    hit.normal = coarser_of<Unit<S>>(normal);
+    hit.point = origin + coarser_of<S>(on_b);
+    hit.inside = found.inside;
+    return true;
+  }
+
+ private:
+  static ISO_INLINE CoreHit<F> missed(Vec3<U> normal, F gap) {
+    CoreHit<F> miss = {false, false, U(0), normal, Vec3<F>::zero()};
+    miss.gap = gap;
+    return miss;
+  }
+  /// Whether the gap has a direction. Else that of the step before is right: its plane has just been reached.
+  static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
+
+  /// What a plane that they do not sink through decides for the whole way, as both are convex.
+  template <class Search> ISO_INLINE CoreHit<F> from_touch(Search& search, const GjkDistance<F>& found, F near) const {
+    CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};
+    F depth = radii - found.separation;
+    if (!is_clear(found, gap_noise(extent + max_abs(from)))) {
+      const std::optional<CoreWayOut<F>> out = search.way_out(extent + max_abs(from));
+      start.is_open = !out;
+      if (!out) return start;
+      depth = out->depth + radii;
+      start.normal = out->normal;
+      start.on_b = out->on_b;
+    }
+    start.gap = -depth;
+    const F sinks = -dot(way, start.normal) * end;
+    start.inside = depth > max(touch, near);
+    start.hit = start.inside || sinks > max(min(touch, length(way) * end * F(0.00390625)), near);
+    return start;
+  }
+};
+
+}  // namespace isostep::detail
