@@ -93,7 +93,8 @@ template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
     surfaces.push_back(blob != nullptr && !is_hull ? solid_surface(*blob) : nullptr);
   }
   each_body(state, [&](const BodyState<S>& body, const BodyProperties<S>& properties) {
-    if (!is_enabled(properties) || (properties.flags & body_flag::kCollide) == 0 || (properties.flags & body_flag::kSensor) != 0) return;
+    constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kDisabled;
+    if ((properties.flags & (kNone | body_flag::kCollide)) != body_flag::kCollide) return;
     const Mat3<double> axes = to_matrix(unit_in_double(body.orientation));
     const Vec3<double> origin = in_double(body.centre) - axes * in_double(properties.local_centre);
     const ShapeRecord& shape = (*state.shapes)[properties.shape];

@@ -314,7 +314,8 @@ TYPED_TEST(BodyChanges, all_of_it_is_state) {
   add_ground(this->w);
   const BodyId lift = this->mover({0, 2, 0});
   const BodyId a = this->box({0, 3, 0}, {0.25, 0.25, 0.25}), b = this->box({0.5, 4, 0}, {0.25, 0.25, 0.25});
-  ASSERT_TRUE(this->w.create(this->w.joint_at(JointType::ball, a, b, {vec<S>(0.25, 3.5, 0), Quat<Unit<S>>::identity()})));
+  const Pose<S> frame = {vec<S>(0.25, 3.5, 0), Quat<Unit<S>>::identity()};
+  ASSERT_TRUE(this->w.create(this->w.joint_at(JointType::ball, a, b, frame)));
   expect_exact_rollback(this->w, 120, [&](World<S>& w, int i) {
     w.move_to(lift, {vec<S>(i / 256.0, 2 + i / 512.0, 0), Quat<Unit<S>>::identity()});
     if (i % 10 == 3) w.set_enabled(a, i % 20 == 13);

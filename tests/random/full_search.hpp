@@ -117,7 +117,8 @@ template <class S> class FullSearch {
  private:
   bool sees(const QueryFilter& f, BodyId id) const {
     const BodyProperties<S>& body = *world_.view(id).properties;
-    return is_enabled(body) && (body.filter.category & f.mask) != 0 && (f.sensors || (body.flags & body_flag::kSensor) == 0) &&
+    return is_enabled(body) && (body.filter.category & f.mask) != 0 &&
+           (f.sensors || (body.flags & body_flag::kSensor) == 0) &&
            !(f.ignore == id) && (f.group == 0 || body.filter.group != f.group);
   }
   /// visit(id, child, part, transform) for every part that the filter sees, from an origin.

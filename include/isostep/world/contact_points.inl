@@ -38,8 +38,8 @@ void ContactPoints<S>::tell(const SolvedContacts<S>& contacts, std::size_t at, E
   for (std::uint32_t p = 0; p < contact.count; ++p) weights += weight(p);
   for (std::uint32_t p = 0; p < contact.count; ++p) {
     const S share = divide_to<S>(weight(p), weights);
-    events.contacts.push_back({id(contact.key.body_a), id(contact.key.body_b), contact.key.child_a,
-                               contact.key.child_b, centre_b + g.points[p].arm_b, g.normal, g.points[p].separation,
+    events.contacts.push_back({id(contact.key.body_a), id(contact.key.body_b), contact.key.child_a, contact.key.child_b,
+                               centre_b + g.points[p].arm_b, g.normal, g.points[p].separation,
                                saturate_to<S>(product(total, share))});
   }
 }

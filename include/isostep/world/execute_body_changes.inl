@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/world/command_executor.hpp"
 #include "isostep/world/fat_box.hpp"
 #include "isostep/world/record_checks.hpp"
@@ -39,9 +41,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
     if (detail::overreaches(next.kappa, next.principal, named.point - next.local_centre))
       return journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
   }
-  const auto as_next = [&](BodyId body) {
-    return body && body.slot == slot ? &next : map_.properties_of(body);
-  };
+  const auto as_next = [&](BodyId body) { return body && body.slot == slot ? &next : map_.properties_of(body); };
   if constexpr (std::is_same_v<Record, BodySpring<S>>) {
     const BodyProperties<S>*a = as_next(record.a), *b = as_next(record.b);
     const auto moves = [](const BodyProperties<S>* body) { return body != nullptr && body->type == BodyType::dynamic; };
@@ -196,8 +196,7 @@ template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   }
   const BodyState<S>& state = *map_.state_of(command.body);
   const Pose<S> goal = detail::centre_at<S>(target, map_.properties_of(command.body)->local_centre);
-  const bool rests =
-      state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
+  const bool rests = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (rests && state.centre == goal.position && state.orientation == goal.orientation) return true;
   return static_cast<bool>(execute(AddRecord<MoveTarget<S>>{target}));
 }
