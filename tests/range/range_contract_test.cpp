@@ -211,6 +211,37 @@ TYPED_TEST(RangeContract, JointsOfEveryKindCarryLoad) {
   EXPECT_LT(this->world.center_of_mass(last).y, S(9));
 }
 
+TYPED_TEST(RangeContract, DrivesOfEveryAxisCarryLoad) {
+  using S = typename TypeParam::Scalar;
+  const ShapeId link = this->world.add_shape(Capsule{0.125, 0.25}), weight = this->world.add_shape(Sphere{0.5});
+  BodyId last = {};
+  for (int i = 0; i < 12; ++i) {
+    const BodyId body = this->add(i < 11 ? link : weight, {S(i), S(10), 0}, i < 11 ? S(1) : S(20));
+    SixAxisDefinition<S> joint;
+    joint.a = last;
+    joint.b = body;
+    joint.frame.position = {S(i) - S(0.5), S(10), 0};
+    joint.locks = (i % 3 == 0 ? joint_flag::kLockPoint : joint_flag::kLockX) | (i % 2 == 0 ? joint_flag::kCone : 0u);
+    for (const JointAxis axis :
+         {JointAxis::y, JointAxis::z, JointAxis::swing_x, JointAxis::swing_y, JointAxis::twist}) {
+      if ((joint.locks & lock_of(axis)) != 0) continue;
+      AxisDrive<S>& drive = joint.drives[joint.drive_count++];
+      drive.axis = axis;
+      drive.limited = true;
+      drive.upper = S(0.0625) * S(1 + i % 5);
+      drive.lower = -drive.upper;
+      drive.motor = i % 4 == 1;
+      drive.motor_speed = S(20);
+      drive.spring_frequency = i % 4 > 1 ? S(30) : S(0);
+      drive.force = S(i % 4 == 2 ? 0 : 20000);
+    }
+    EXPECT_TRUE(this->world.create(six_axis(joint))) << describe(this->world.fault());
+    last = body;
+  }
+  for (int i = 0; i < 120; ++i) this->world.step();
+  EXPECT_LT(this->world.center_of_mass(last).y, S(9.9));
+}
+
 TYPED_TEST(RangeContract, ChainsOfBallJointsCarryLoad) {
   using S = typename TypeParam::Scalar;
   const ShapeId link = this->world.add_shape(Capsule{0.125, 0.25}), weight = this->world.add_shape(Sphere{0.5}),

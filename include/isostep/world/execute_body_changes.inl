@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "isostep/world/command_executor.hpp"
 #include "isostep/world/fat_box.hpp"
 #include "isostep/world/record_checks.hpp"

@@ -119,20 +119,22 @@ template <class S> class World final {
   bool set_filter(BodyId body, const Filter& filter);
   bool set_motion(BodyId body, S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks);
   bool set_user_data(BodyId body, std::uint64_t user_data);
-  /// Takes a body out, or brings it back. A disabled body keeps its id, pose, velocity, joints and records, but does not
-  /// move, touches nothing, is found by no query and seen by no sensor; its joints, couplings and springs hold nothing, its
-  /// other records do nothing. What it touched ends at once and wakes. Pose, mass, type, material and filter may be set
-  /// meanwhile; what moves it is refused. It comes back as it was, awake. To be what it is already changes nothing.
+  /// Takes a body out, or brings it back. A disabled body keeps its id, pose, velocity, joints and records, but does
+  /// not move, touches nothing, is found by no query and seen by no sensor; its joints, couplings and springs hold
+  /// nothing, its other records do nothing. What it touched ends at once and wakes. Pose, mass, type, material and
+  /// filter may be set meanwhile; what moves it is refused. It comes back as it was, awake. To be what it is already
+  /// changes nothing.
   bool set_enabled(BodyId body, bool enabled);
-  /// Another type, with id, shape, joints and records. `mass` is that of a body that becomes dynamic. Velocity stays, but
-  /// of what becomes static; contacts end and begin anew. A joint without a dynamic body holds nothing. Refused: a dynamic
-  /// body of a shape without a volume, a type that a record of the body may not name, a mass too light for its joints.
+  /// Another type, with id, shape, joints and records. `mass` is that of a body that becomes dynamic. Velocity stays,
+  /// but of what becomes static; contacts end and begin anew. A joint without a dynamic body holds nothing. Refused: a
+  /// dynamic body of a shape without a volume, a type that a record of the body may not name, a body too light for its
+  /// joints.
   bool set_type(BodyId body, BodyType type, const BodyMass<S>& mass = {});
   /// Mass and inertia of a dynamic body, as if it had been made with them. Velocity stays.
   bool set_mass(BodyId body, const BodyMass<S>& mass);
-  /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked of
-  /// them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings forbid
-  /// it. What moves and touches them wakes them, in the next step if it does so now.
+  /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked
+  /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings
+  /// forbid it. What moves and touches them wakes them, in the next step if it does so now.
   bool sleep(BodyId body);
   /// The next step carries a kinematic body to that pose, and leaves it there at rest: MoveTarget. Once more before the
   /// step is another target in place of the first.
@@ -263,8 +265,8 @@ template <class S> class World final {
   // Time.
   StepReport step(const StageObserver& observer = {});
   const Events<S>& events() const;
-  /// Of Events::contacts those of one body, in their order, appended to `out`: of a body with a ContactReport, or of what
-  /// touches one.
+  /// Of Events::contacts those of one body, in their order, appended to `out`: of a body with a ContactReport, or of
+  /// what touches one.
   void contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const;
   /// Poses of all moving bodies between the last step and the one before it, alpha in 0..1.
   const std::vector<RenderPose>& poses_float(float alpha);
