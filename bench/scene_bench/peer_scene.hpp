@@ -39,7 +39,7 @@ struct PeerBody {
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.
 using PeerEnd = Pose<double>;
-/// Hinges may have limits, balls a cone and a twist that is as far to both sides, distance joints may be springs; motors
+/// Hinges may have limits, balls a cone and a twist as far to both sides, distance joints may be springs; motors
 /// are refused.
 struct PeerJoint {
   JointType type;

@@ -314,8 +314,8 @@ TYPED_TEST(BodyChanges, all_of_it_is_state) {
   add_ground(this->w);
   const BodyId lift = this->mover({0, 2, 0});
   const BodyId a = this->box({0, 3, 0}, {0.25, 0.25, 0.25}), b = this->box({0.5, 4, 0}, {0.25, 0.25, 0.25});
-  ASSERT_TRUE(
-      this->w.create(this->w.joint_at(JointType::ball, a, b, {vec<S>(0.25, 3.5, 0), Quat<Unit<S>>::identity()})));
+  const Pose<S> frame = {vec<S>(0.25, 3.5, 0), Quat<Unit<S>>::identity()};
+  ASSERT_TRUE(this->w.create(this->w.joint_at(JointType::ball, a, b, frame)));
   expect_exact_rollback(this->w, 120, [&](World<S>& w, int i) {
     w.move_to(lift, {vec<S>(i / 256.0, 2 + i / 512.0, 0), Quat<Unit<S>>::identity()});
     if (i % 10 == 3) w.set_enabled(a, i % 20 == 13);
@@ -323,6 +323,48 @@ TYPED_TEST(BodyChanges, all_of_it_is_state) {
     if (i % 7 == 1) w.set_mass(b, {S(1), S(1 + i % 3), Vec3<S>::zero()});
     if (i % 40 == 39) w.sleep(a);
   });
+}
+
+/// Two wheels geared to each other and a bob on a spring, each of which comes and goes while the others sleep or not.
+TYPED_TEST(BodyChanges, couplings_and_springs_of_disabled_bodies_hold_nothing_and_are_state) {
+  using S = TypeParam;
+  BodyId wheels[2];
+  JointId hinges[2];
+  for (int i = 0; i < 2; ++i) {
+    const double x = 2.0 * i;
+    wheels[i] = this->box({x, 4, 0}, {0.5, 0.5, 0.125});
+    const Pose<S> axle = {vec<S>(x, 4, 0), Quat<Unit<S>>::identity()};
+    hinges[i] = this->w.create(this->w.joint_at(JointType::hinge, {}, wheels[i], axle));
+  }
+  Coupling<S> gear;
+  gear.joint_a = hinges[0];
+  gear.joint_b = hinges[1];
+  gear.ratio_a = S(1);
+  gear.ratio_b = S(2);
+  ASSERT_TRUE(this->w.add(gear)) << describe(this->w.fault());
+  const BodyId bob = this->box({-4, 2, 0}, {0.25, 0.25, 0.25});
+  BodySpring<S> spring;
+  spring.a = bob;
+  spring.b = wheels[0];
+  spring.rest_length = S(4);
+  spring.stiffness = S(1);
+  ASSERT_TRUE(this->w.add(spring)) << describe(this->w.fault());
+  ASSERT_TRUE(this->w.set_enabled(wheels[1], false));
+  this->w.apply_impulse(wheels[0], Vec3<S>::zero(), vec<S>(0, 0, 0.25));
+  run(this->w, 10);
+  EXPECT_GT(to_double(this->w.angular_velocity(wheels[0]).z), 0.5) << "nothing gears it";
+  EXPECT_EQ(this->w.pose(wheels[1]).orientation, Quat<Unit<S>>::identity());
+  expect_exact_rollback(this->w, 160, [&](World<S>& w, int i) {
+    if (i % 20 == 5) w.set_enabled(wheels[1], i % 40 == 5);
+    if (i % 30 == 12) w.sleep(wheels[0]);
+    if (i % 50 == 9) w.set_enabled(bob, i % 100 == 59);
+    if (i % 70 == 30) w.set_enabled(wheels[0], false);
+    if (i % 70 == 45) w.set_enabled(wheels[0], true);
+    if (i == 100) w.set_type(wheels[0], BodyType::static_);
+  });
+  EXPECT_EQ(this->w.type(wheels[0]), BodyType::static_);
+  EXPECT_FALSE(this->w.set_type(bob, BodyType::static_)) << "its spring would tie nothing that moves";
+  EXPECT_STREQ(this->w.fault().field, "type");
 }
 
 }  // namespace
