@@ -68,11 +68,11 @@ Scene street() {
   Scene scene = town_level().scene;
   scene.frames = 600;
   scene.script = Script::street;
-  constexpr Point kCars[] = {{1.25, 0.6, 12}, {-1.25, 0.6, -14}, {14, 0.6, -1.25}, {-15, 0.6, 1.25}};
+  constexpr Point kCarPlaces[] = {{1.25, 0.6, 12}, {-1.25, 0.6, -14}, {14, 0.6, -1.25}, {-15, 0.6, 1.25}};
   constexpr double kYaws[] = {kTurn / 2, 0, -kTurn / 4, kTurn / 4};  // towards the middle
-  for (int i = 0; i < kStreetPlayers; ++i) add_car(scene, kCars[i], kYaws[i]);
-  constexpr Point kWalkers[] = {{-3, 1, -6}, {3.5, 1, -8}, {-6, 1, 3.5}, {8, 1, -3.5}};
-  for (const Point at : kWalkers) add_walker(scene, at);
+  for (int i = 0; i < kStreetPlayers; ++i) add_car(scene, kCarPlaces[i], kYaws[i]);
+  constexpr Point kWalkerPlaces[] = {{-3, 1, -6}, {3.5, 1, -8}, {-6, 1, 3.5}, {8, 1, -3.5}};
+  for (const Point at : kWalkerPlaces) add_walker(scene, at);
   for (int i = 0; i < 12; ++i) {
     scene.bodies.push_back(body_of(box_part({0.25, 0.25, 0.25}), {20.0 + 0.55 * (i % 3), 0.3 + 0.5 * (i / 3), 1.5}));
     scene.bodies.back().mass = 10;

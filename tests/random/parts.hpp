@@ -159,11 +159,12 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
 template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, JointId joint) {
   for (std::uint32_t i = 0; i < kJointAxes; ++i) {
     const JointAxis axis = static_cast<JointAxis>(i);
-    if ((w.joint(joint)->flags & lock_of(axis)) != 0 || dice.one_in(3)) continue;
+    const bool way = is_length(axis);  // always limited: what slides metres away is on a lever of its own
+    if ((w.joint(joint)->flags & lock_of(axis)) != 0 || (dice.one_in(3) && !way)) continue;
     AxisDrive<S> d;
     d.joint = joint;
     d.axis = axis;
-    d.limited = !dice.one_in(3);
+    d.limited = !dice.one_in(3) || way;
     d.upper = num<S>(dice.in(0.05, 1.5));
     d.lower = (w.joint(joint)->flags & joint_flag::kCone) != 0 ? -d.upper : num<S>(-dice.in(0.05, 1.5));
     d.motor = dice.one_in(3);

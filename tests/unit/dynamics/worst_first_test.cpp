@@ -348,6 +348,7 @@ TYPED_TEST(WorstFirstBodies, a_chain_of_joints_holds_a_weight) {
       const BodyId id = w.create(this->body(end ? weight : link, {0, y, 0}, {end ? 1.0 : 0, 0, 0}, end ? 10 : 1));
       JointProperties<S> j = w.joint_at(type, last, id, {vec<S>(0, y + 0.25, 0), Quat<Unit<S>>::identity()});
       if (type == JointType::distance) j.upper = num<S>(0.125);
+      if (type == JointType::six_axis) j.flags = joint_flag::kLockPoint;
       joints.push_back(w.create(j));
       ASSERT_TRUE(joints.back()) << describe(w.fault());
       last = id;

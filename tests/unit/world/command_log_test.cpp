@@ -204,18 +204,18 @@ TYPED_TEST(CommandLogs, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(AddRecord<MoveTarget<S>>{target}, [&](auto& w) { return w.add(target); }));
   EXPECT_TRUE(both(SetForce<MoveTarget<S>>{first, target}, [&](auto& w) { return w.set(first, target); }));
   EXPECT_TRUE(both(RemoveRecord<MoveTargetId>{first}, [&](auto& w) { return w.remove(first); }));
-  const auto joint = [&](JointType type, double x) {
+  const auto joined = [&](JointType type, double x) {
     const Pose<S> frame = {vec<S>(x, 0, 0), Quat<Unit<S>>::identity()};
     const JointProperties<S> made = called.joint_at(type, {}, b, frame);
     EXPECT_TRUE(both(CreateJoint<S>{made}, [&](auto& world) { return world.create(made); }));
     return called.joints().back();
   };
   JointLoad<S> load;
-  load.joint = joint(JointType::hinge, 0);
+  load.joint = joined(JointType::hinge, 0);
   each(load, JointLoadId{0, 1});
-  each(gears<S>(load.joint, 1, joint(JointType::hinge, 0.25), 2), CouplingId{0, 1});
+  each(gears<S>(load.joint, 1, joined(JointType::hinge, 0.25), 2), CouplingId{0, 1});
   AxisDrive<S> drive;
-  drive.joint = joint(JointType::six_axis, 0.5);
+  drive.joint = joined(JointType::six_axis, 0.5);
   each(drive, AxisDriveId{0, 1});
 }
 
