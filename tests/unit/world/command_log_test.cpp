@@ -45,6 +45,10 @@ template <class S> JointLoad<S> broken(JointLoad<S> load) {
   load.joint = {};
   return load;
 }
+template <class S> AxisDrive<S> broken(AxisDrive<S> drive) {
+  drive.joint = {};
+  return drive;
+}
 template <class S> Coupling<S> broken(Coupling<S> coupling) {
   coupling.ratio_a = S(0);
   return coupling;
