@@ -11,8 +11,6 @@
 
 using namespace isostep;
 
-float isostep::atan2(float y, float x) { return detail::atan2_float(y, x); }  // the library's: it is not linked
-
 int main() {
   JointProperties<float> joint;
   joint.type = JointType::probe;

@@ -10,8 +10,8 @@ namespace {
 class JointList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/dynamics/joints/joint_type.hpp", "X(angular, AngularJoint)",
-         "X(angular, AngularJoint) X(probe, ProbeJoint)");
+    edit("include/isostep/dynamics/joints/joint_type.hpp", "X(six_axis, SixAxisJoint)",
+         "X(six_axis, SixAxisJoint) X(probe, ProbeJoint)");
   }
   void add_file() {
     copy("tests/lists/probe_joint.hpp", "include/isostep/dynamics/joints/probe.hpp");

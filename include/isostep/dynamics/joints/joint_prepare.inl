@@ -62,8 +62,8 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   main.frequency = joint.properties.spring_frequency;
   main.damping = joint.properties.spring_damping;
 }
-/// [rad] 150 degrees; [1] tan of half of 3 degrees: narrower, an ellipse is a line for what a format resolves.
-template <class S> inline constexpr S kWidestSwing = S(2.617993877991494);
+/// [rad] 120 degrees; [1] tan of half of 3 degrees: narrower, an ellipse is a line for what a format resolves.
+template <class S> inline constexpr S kWidestSwing = S(2.0943951023931953);
 template <class S> inline constexpr S kLeastHalfTangent = S(0.026186);
 template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointConstraint<S>& joint) {
   JointDrive<S>& drive = joint.drives[joint.drive_count++];

@@ -62,7 +62,7 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>&
     return m.b.linear - m.a.linear + turning + block.curve;
   }
   if (block.turns) {
-    const auto turning = [&](const JointRow<S>& row) {
+    const auto turning = [&](const JointRow<S>& row) ISO_INLINE_LAMBDA {
       return round_to<Velocity<S>>(dot_sum(row.angular_b, m.b.angular) - dot_sum(row.angular_a, m.a.angular));
     };
     return {turning(block.rows[0]), turning(block.rows[1]), turning(block.rows[2])};

@@ -7,7 +7,7 @@
 namespace isostep {
 
 /// Lengths: b's origin along the axes of a. Angles: with two of them locked the third is a turn about that axis, as a
-/// hinge's; else swings and a twist, see SwingTwist, whose limits hold while the z axes are less than 150 degrees
+/// hinge's; else swings and a twist, see SwingTwist, whose limits hold while the z axes are less than 120 degrees
 /// apart. kLock...: holds that axis. kCone: of two swings with limits, `upper` are the half axes of an ellipse in which
 /// b's z axis stays. Their springs and motors are to be alike: beyond half of the ellipse those of x act along the
 /// swing, and those of y across it.

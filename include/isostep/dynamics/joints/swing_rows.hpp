@@ -15,13 +15,13 @@ template <class S> struct SwingTwist {
   Vec3<S> d;
   S per;          // [1] 1 / (1 + d_z)
   S x, y;         // [1] s
-  bool is_clear;  // the z axes are less than 150 degrees apart: farther, s grows beyond all bounds
+  bool is_clear;  // the z axes are less than 120 degrees apart: farther, rates grow beyond what formats hold
 
   static ISO_INLINE SwingTwist of(const JointFrames<S>& f, const Mat3<Unit<S>>& a) {
     SwingTwist t;
     t.d = convert<S>(transposed_times(a, to_matrix(f.b).column(2)));
-    t.is_clear = S(-0.8660254037844386) < t.d.z;
-    t.per = S(1) / (S(1) + max(t.d.z, S(-0.8660254037844386)));
+    t.is_clear = S(-0.5) < t.d.z;
+    t.per = S(1) / (S(1) + max(t.d.z, S(-0.5)));
     t.x = t.d.x * t.per;
     t.y = t.d.y * t.per;
     return t;
