@@ -44,9 +44,11 @@ template <class S> struct JointBlock {
 /// Velocities of the two bodies, worked on together; written back only where mass is.
 template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
+/// Held at the format's end: a pass whose drives were on wrong pieces leaves speeds that are far from any right ones.
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
-  return round_to<Velocity<S>>(dot_sum(row.linear, m.b.linear - m.a.linear) + dot_sum(row.angular_b, m.b.angular) -
-                               dot_sum(row.angular_a, m.a.angular));
+  const Vec3<Velocity<S>> between = saturating_subtract(m.b.linear, m.a.linear);
+  return saturate_to<Velocity<S>>(dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) -
+                                  dot_sum(row.angular_a, m.a.angular));
 }
 template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>& block, const JointMotion<S>& m) {
   if (block.point) {
