@@ -14,7 +14,7 @@ using AxisDriveId = Id<struct AxisDriveTag>;
 /// The axes of a six-axis joint, in the order of its rows: b's origin along x, y and z of frame a; the swing of b's z
 /// axis about x and y of a, and the twist about z.
 enum class JointAxis : std::uint32_t { x, y, z, swing_x, swing_y, twist };
-inline constexpr std::uint32_t kJointAxes = 6;
+inline constexpr std::uint32_t kJointAxes = kJointRows;
 
 ISO_INLINE constexpr bool is_length(JointAxis axis) { return axis < JointAxis::swing_x; }
 ISO_INLINE constexpr std::uint32_t lock_of(JointAxis axis) {

@@ -115,7 +115,7 @@ template <class S> void apply_impulses(JointConstraint<S>& joint, const JointSte
     if (detail::is_constant(drive, drive.piece)) {
       drive.impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
     }
-    push.add(drive, drive.impulse);
+    push.add(drive.row, drive.impulse);
   }
   push.apply(joint, *step.bodies);
 }
@@ -155,7 +155,7 @@ void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<
       const bool fixed = detail::fixes_speed(drive.piece);
       const V full = fixed ? of_drives[at] : round_to<V>(product(drive.spring_row.y, of_drives[at]));
       const V impulse = next(drive.impulse, full);
-      push.add(drive, impulse - drive.impulse);
+      push.add(drive.row, impulse - drive.impulse);
       drive.impulse = impulse;
     }
     of_drives[at] = V(0);
@@ -205,7 +205,7 @@ template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep
     // Of one that let go in an earlier round too: the restart has given it the impulse again with which it held.
     if (!detail::is_constant(drive, drive.piece)) continue;
     const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
-    push.add(drive, impulse - drive.impulse);
+    push.add(drive.row, impulse - drive.impulse);
     drive.impulse = impulse;
   }
   push.apply(joint, *step.bodies);

@@ -120,34 +120,16 @@ template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive,
   return gone ? DrivePiece::free : piece;
 }
 
-/// The piece of a servo's spring at that speed.
+/// The piece of a drive at a speed that no limit stops; `tie` where the motor wants just that speed.
 template <class S>
-ISO_INLINE DrivePiece piece_of_servo(const JointDrive<S>& drive, Velocity<S> speed, Velocity<S> most) {
-  const Velocity<S> asked = spring_impulse(drive, speed);
-  return most < asked ? DrivePiece::forwards : asked < -most ? DrivePiece::backwards : DrivePiece::free;
-}
-template <class S>
-ISO_INLINE DrivePiece next_piece_of_servo(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
-                                          Velocity<S> most) {
-  using V = Velocity<S>;
-  const V slack = kPieceTolerance<S>;
-  const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
-    return piece == DrivePiece::free ? spring_impulse(drive, v) : motor_impulse(piece, most);
-  };
-  if (drive.piece == DrivePiece::lower) {
-    const DrivePiece above = piece_of_servo(drive, bounds.low, most);
-    return drive.impulse < law(above, bounds.low) ? above : drive.piece;
+ISO_INLINE DrivePiece piece_between_limits(const JointDrive<S>& drive, Velocity<S> speed, Velocity<S> most,
+                                           DrivePiece tie) {
+  if (drive.servo) {
+    const Velocity<S> asked = spring_impulse(drive, speed);
+    return most < asked ? DrivePiece::forwards : asked < -most ? DrivePiece::backwards : DrivePiece::free;
   }
-  if (drive.piece == DrivePiece::upper) {
-    const DrivePiece below = piece_of_servo(drive, bounds.high, most);
-    return law(below, bounds.high) < drive.impulse ? below : drive.piece;
-  }
-  if (speed < bounds.low - slack) return DrivePiece::lower;
-  if (bounds.high + slack < speed) return DrivePiece::upper;
-  const V asked = spring_impulse(drive, speed);
-  if (drive.piece == DrivePiece::forwards) return asked + slack < most ? DrivePiece::free : drive.piece;
-  if (drive.piece == DrivePiece::backwards) return slack - most < asked ? DrivePiece::free : drive.piece;
-  return most + slack < asked ? DrivePiece::forwards : asked < -most - slack ? DrivePiece::backwards : drive.piece;
+  if (!drive.driven) return DrivePiece::free;
+  return speed < drive.speed ? DrivePiece::forwards : drive.speed < speed ? DrivePiece::backwards : tie;
 }
 
 /// The piece to try next, given what came of this one: its neighbour on the side where the law was left.
@@ -159,18 +141,13 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
   const auto law = [&](DrivePiece piece, V v) ISO_INLINE_LAMBDA {
     return motor_impulse(piece, most) + (springs(drive, piece) ? spring_impulse(drive, v) : V(0));
   };
-  if (drive.servo) return next_piece_of_servo(drive, speed, bounds, most);
   switch (drive.piece) {
     case DrivePiece::lower: {
-      const DrivePiece above = !drive.driven              ? DrivePiece::free
-                               : bounds.low < drive.speed ? DrivePiece::forwards
-                                                          : DrivePiece::backwards;
+      const DrivePiece above = piece_between_limits(drive, bounds.low, most, DrivePiece::backwards);
       return drive.impulse < law(above, bounds.low) ? above : drive.piece;
     }
     case DrivePiece::upper: {
-      const DrivePiece below = !drive.driven               ? DrivePiece::free
-                               : drive.speed < bounds.high ? DrivePiece::backwards
-                                                           : DrivePiece::forwards;
+      const DrivePiece below = piece_between_limits(drive, bounds.high, most, DrivePiece::forwards);
       return law(below, bounds.high) < drive.impulse ? below : drive.piece;
     }
     case DrivePiece::driven:
@@ -182,6 +159,12 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
   }
   if (speed < bounds.low - slack) return DrivePiece::lower;
   if (bounds.high + slack < speed) return DrivePiece::upper;
+  if (drive.servo) {
+    const V asked = spring_impulse(drive, speed);
+    if (drive.piece == DrivePiece::forwards) return asked + slack < most ? DrivePiece::free : drive.piece;
+    if (drive.piece == DrivePiece::backwards) return slack - most < asked ? DrivePiece::free : drive.piece;
+    return most + slack < asked ? DrivePiece::forwards : asked < -most - slack ? DrivePiece::backwards : drive.piece;
+  }
   if (drive.piece == DrivePiece::forwards && drive.speed + slack < speed) return DrivePiece::driven;
   if (drive.piece == DrivePiece::backwards && speed < drive.speed - slack) return DrivePiece::driven;
   return drive.piece;

@@ -12,17 +12,14 @@ template <class S> class JointPush {
  public:
   using V = Velocity<S>;
 
-  /// `turns`: the row has no linear part.
-  ISO_INLINE void add(const JointRow<S>& row, V change, bool turns) {
+  ISO_INLINE void add(const JointRow<S>& row, V change) {
     if (change == V(0)) return;
     rows_[count_] = &row;
-    turns_[count_] = turns;
     changes_[count_++] = change;
   }
   ISO_INLINE void add(const JointBlock<S>& block, Vec3<V> change) {
-    for (int r = 0; r < 3; ++r) add(block.rows[r], change[r], block.turns);
+    for (int r = 0; r < 3; ++r) add(block.rows[r], change[r]);
   }
-  ISO_INLINE void add(const JointDrive<S>& drive, V change) { add(drive.row, change, drive.block == 1); }
   ISO_INLINE void apply(const JointConstraint<S>& joint, SolverBodies<S>& bodies) const {
     if (bodies.moves(joint.row_a)) {
       const MotionRow<V> change = total(joint.share.a, [](const JointRow<S>& row) { return row.turn_a; });
@@ -45,9 +42,10 @@ template <class S> class JointPush {
     for (std::uint32_t i = 0; i < count_; ++i) {
       const V change = scaled(share, changes_[i]);
       const Vec3<S> along = rows_[i]->linear, about = turn(*rows_[i]);
-      for (int k = 0; k < 3; ++k) angular[k] = angular[k] + product(about[k], change);
-      if (turns_[i]) continue;
-      for (int k = 0; k < 3; ++k) linear[k] = linear[k] + product(along[k], change);
+      for (int k = 0; k < 3; ++k) {
+        linear[k] = linear[k] + product(along[k], change);
+        angular[k] = angular[k] + product(about[k], change);
+      }
     }
     // A sum of all rows beyond half of the format is held there: a larger one does not fit with a velocity.
     const auto held = [](auto sum) {
@@ -61,7 +59,6 @@ template <class S> class JointPush {
   static constexpr std::uint32_t kMost = 2 * kJointRows;  // of blocks and of drives
   const JointRow<S>* rows_[kMost];
   V changes_[kMost];
-  bool turns_[kMost];
   std::uint32_t count_ = 0;
 };
 

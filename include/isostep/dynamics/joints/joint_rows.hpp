@@ -63,12 +63,6 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>&
         round_to<V>(product(za, wa.y) + product(xa.z, wa.x) - product(zb, wb.y) - product(xb.z, wb.x))};
     return m.b.linear - m.a.linear + turning + block.curve;
   }
-  if (block.turns) {
-    const auto turning = [&](const JointRow<S>& row) ISO_INLINE_LAMBDA {
-      return round_to<Velocity<S>>(dot_sum(row.angular_b, m.b.angular) - dot_sum(row.angular_a, m.a.angular));
-    };
-    return {turning(block.rows[0]), turning(block.rows[1]), turning(block.rows[2])};
-  }
   return {speed_along(block.rows[0], m), speed_along(block.rows[1], m), speed_along(block.rows[2], m)};
 }
 
@@ -132,9 +126,9 @@ ISO_INLINE void push(const JointBlock<S>& block, MassShare<S> share, Vec3<Veloci
   const auto& r = block.rows;
   const Vec3<Velocity<S>> to_a = {scaled(share.a, impulse.x), scaled(share.a, impulse.y), scaled(share.a, impulse.z)};
   const Vec3<Velocity<S>> to_b = {scaled(share.b, impulse.x), scaled(share.b, impulse.y), scaled(share.b, impulse.z)};
-  if (!block.turns) m.a.linear -= block.point ? to_a : combine(r[0].linear, r[1].linear, r[2].linear, to_a);
+  m.a.linear -= block.point ? to_a : combine(r[0].linear, r[1].linear, r[2].linear, to_a);
   m.a.angular -= combine(r[0].turn_a, r[1].turn_a, r[2].turn_a, to_a);
-  if (!block.turns) m.b.linear += block.point ? to_b : combine(r[0].linear, r[1].linear, r[2].linear, to_b);
+  m.b.linear += block.point ? to_b : combine(r[0].linear, r[1].linear, r[2].linear, to_b);
   m.b.angular += combine(r[0].turn_b, r[1].turn_b, r[2].turn_b, to_b);
 }
 

@@ -29,6 +29,9 @@ template <class S> struct SwingTwist {
   /// [1] in a: w . rate is the rate of the swing about y, or of the one about x.
   ISO_INLINE Vec3<S> rate_about_y() const { return rate({per, S(0), -(x * per)}, x); }
   ISO_INLINE Vec3<S> rate_about_x() const { return -rate({S(0), per, -(y * per)}, y); }
+  /// [rad] The swings themselves.
+  ISO_INLINE S angle_about_y() const { return S(2) * atan2(x, S(1)); }
+  ISO_INLINE S angle_about_x() const { return S(-2) * atan2(y, S(1)); }
 
  private:
   ISO_INLINE Vec3<S> rate(Vec3<S> gradient, S s) const { return cross(d, gradient) * (S(2) / (S(1) + s * s)); }
@@ -112,8 +115,8 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
     drive->row = turning_row<S>(a * rate, drive->radius);
     set_angle(*drive, *drive->asked, angle);
   };
-  set(x, swing.rate_about_x(), S(-2) * atan2(swing.y, S(1)));
-  set(y, swing.rate_about_y(), S(2) * atan2(swing.x, S(1)));
+  set(x, swing.rate_about_x(), swing.angle_about_x());
+  set(y, swing.rate_about_y(), swing.angle_about_y());
 }
 
 /// [1] of the ellipse, beyond which rows turn with the direction of the swing: nearer its middle no limit is near.
@@ -137,8 +140,7 @@ ISO_INLINE bool set_cone(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Joi
                         ISO_INLINE_LAMBDA { return convert<S>(along.x) * of_x + convert<S>(along.y) * of_y; };
   const auto over = [&](S of_x, S of_y) ISO_INLINE_LAMBDA { return across.x * of_x + across.y * of_y; };
   const AxisDrive<S>&of_x = *x.asked, &of_y = *y.asked;
-  const S off_x = S(-2) * atan2(swing.y, S(1)) - of_x.spring_target,
-          off_y = S(2) * atan2(swing.x, S(1)) - of_y.spring_target;
+  const S off_x = swing.angle_about_x() - of_x.spring_target, off_y = swing.angle_about_y() - of_y.spring_target;
   x.row = turning_row<S>(a * convert<S>(along), x.radius);
   x.position = (e - S(1)) / n.length * x.radius;
   x.bounded_below = false;
