@@ -31,9 +31,9 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_joints
                   record.axis;
                   record.joint;
                 }) {
-    const std::int32_t rate = state_.settings.hz * state_.settings.substeps;
     return known(state_.joint_slots, record.joint, "joint") &&
-           journal_.accept(detail::fault_of_joint(record, *map_.properties_of(record.joint), rate));
+           journal_.accept(
+               detail::fault_of_joint(record, *map_.properties_of(record.joint), substep_rate(state_.settings)));
   } else if constexpr (requires { record.joint; }) {
     return known(state_.joint_slots, record.joint, "joint");
   }

@@ -24,7 +24,7 @@ template <class S> class StateValidator {
 
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
-    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
+    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || substep_rate(s) > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
         static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces ||
         s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs ||
@@ -245,7 +245,7 @@ template <class S> class StateValidator {
       const bool holds = moves(joint.body_a) || moves(joint.body_b);
       if (!belongs(joint.body_a, joint.body_b, name) || (!holds && name != Location::kAwake))
         return "a joint lies in another island than its bodies";
-      if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
+      if (detail::fault_of(joint, substep_rate(state_.settings)) != Fault::none)
         return "a joint is out of range";
       if (!state.has_known_pieces() || !is_finite(state.point) || !is_finite(state.angular)) {
         return "a joint's impulse is not one";
@@ -350,7 +350,7 @@ template <class S> class StateValidator {
   bool ties_well(const AxisDrive<S>& drive) const {
     if (!state_.joint_slots.holds(drive.joint)) return false;
     const JointProperties<S>& joint = *joint_at_[drive.joint.slot].joint;
-    if (detail::fault_of_joint(drive, joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
+    if (detail::fault_of_joint(drive, joint, substep_rate(state_.settings)) != Fault::none)
       return false;
     const auto& all = state_.force_records->axis_drives;
     for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {

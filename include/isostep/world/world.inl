@@ -238,7 +238,7 @@ template <class S> JointId World<S>::create(const JointDefinition<S>& definition
       joint_between(definition.settings.type, definition.a, definition.frame_a, definition.b, definition.frame_b);
   joint.take_settings(definition.settings);
   const std::span<const AxisDrive<S>> drives(definition.drives, min(definition.drive_count, kJointAxes));
-  const FaultReport fault = detail::fault_of_drives(drives, joint, settings().hz * settings().substeps);
+  const FaultReport fault = detail::fault_of_drives(drives, joint, substep_rate(settings()));
   if (fault != Fault::none) {
     engine_->journal_.refuse_call("create_joint", fault);
     return {};
