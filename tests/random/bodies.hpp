@@ -96,7 +96,9 @@ template <class S> class RandomBodies {
   RankedZone<S> drawn(RankedZone<S> zone) {
     draw_zone(dice_, zone);
     zone.priority = static_cast<std::int32_t>(dice_.below(5)) - 2;
-    zone.replaces = dice_.below(zone_effect::kAll + 1);
+    zone.replaces = dice_.below(zone_effect::kWater);
+    Dice own = dice_;  // what is drawn after it is as it was before zones kept water out
+    if (own.one_in(2)) zone.replaces |= zone_effect::kWater;
     return zone;
   }
 

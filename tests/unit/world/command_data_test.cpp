@@ -36,7 +36,7 @@ template <class S> KindGhost<S> broken(KindGhost<S> ghost) {
   return ghost;
 }
 template <class S> RankedZone<S> broken(RankedZone<S> zone) {
-  zone.replaces = 8;
+  zone.replaces = zone_effect::kAll + 1;
   return zone;
 }
 template <class S> JointLoad<S> broken(JointLoad<S> load) {
