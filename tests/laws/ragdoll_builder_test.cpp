@@ -162,5 +162,39 @@ TYPED_TEST(Ragdolls, leave_no_part_where_one_is_refused) {
   EXPECT_STREQ(w.first_fault().field, "lower") << describe(w.first_fault());
 }
 
+TYPED_TEST(Ragdolls, say_by_name_what_makes_no_figure_and_leave_the_world_as_it_was) {
+  using S = TypeParam;
+  World<S> w(this->with(SolverName::soft_step));
+  const std::vector<RagdollBone<S>> bones = this->skeleton(w, {0, 2, 0}, Quat<Unit<S>>::identity());
+  const std::uint64_t before = w.hash();
+  const auto refused = [&](const char* field, auto&& change, int line = __builtin_LINE()) {
+    SCOPED_TRACE(line);
+    std::vector<RagdollBone<S>> parts = bones;
+    RagdollSettings<S> how;
+    change(parts, how);
+    const Ragdoll<S> figure = add_ragdoll<S>(w, parts, how);
+    EXPECT_TRUE(figure.bodies.empty() && figure.joints.empty());
+    EXPECT_EQ(w.hash(), before);
+    EXPECT_EQ(w.fault(), Fault::bad_argument);
+    EXPECT_STREQ(w.fault().command, "add_ragdoll");
+    EXPECT_STREQ(w.fault().field, field);
+  };
+  refused("parent", [](auto& parts, auto&) { parts[0].parent = 0; });
+  refused("parent", [](auto& parts, auto&) { parts[3].parent = 4; });
+  refused("parent", [](auto& parts, auto&) { parts[3].parent = 100; });
+  refused("parent", [](auto& parts, auto&) { parts[3].parent = -2; });
+  refused("friction", [](auto&, auto& how) { how.friction = S(-1); });
+  refused("friction", [](auto&, auto& how) {
+    how.friction = num<S>(0.1);
+    how.pose.force = S(30);
+  });
+  refused("pose.force", [](auto&, auto& how) { how.pose.force = S(-1); });
+  refused("pose.target", [](auto&, auto& how) {
+    how.pose.force = S(30);
+    how.pose.target = num<S>(0.25);
+  });
+  EXPECT_EQ(add_ragdoll<S>(w, bones).bodies.size(), bones.size());
+}
+
 }  // namespace
 }  // namespace isostep::test

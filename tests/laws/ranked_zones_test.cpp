@@ -105,7 +105,7 @@ TYPED_TEST(RankedZones, a_zone_that_changes_wakes_what_it_may_reach) {
   EXPECT_TRUE(this->w.is_awake(body));
   run(this->w, 30);
   EXPECT_GT(to_double(this->w.center_of_mass(body).y), 0.4);
-  EXPECT_FALSE(this->w.set(id, zone<S>({0, 12, 0}, 0, 8)));
+  EXPECT_FALSE(this->w.set(id, zone<S>({0, 12, 0}, 0, zone_effect::kAll + 1)));
   EXPECT_STREQ(this->w.fault().field, "replaces");
 }
 

@@ -5,6 +5,7 @@
 
 #include "random/dice.hpp"
 #include "random/parts.hpp"
+#include "random/zones.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -93,15 +94,11 @@ template <class S> class RandomBodies {
     return ghost;
   }
   RankedZone<S> drawn(RankedZone<S> zone) {
-    zone.shape = static_cast<ZoneShape>(dice_.below(3));
-    zone.pose.position = vec<S>(dice_.point(3));
-    zone.pose.orientation = dice_.template orientation<S>();
-    const double x = dice_.in(0.5, 2), y = dice_.in(0.5, 2);
-    zone.half = vec<S>(x, y, dice_.in(0.5, 2));
-    zone.acceleration = vec<S>(dice_.arrow(0, 3));
-    zone.wind = vec<S>(dice_.arrow(0, 3));
+    draw_zone(dice_, zone);
     zone.priority = static_cast<std::int32_t>(dice_.below(5)) - 2;
-    zone.replaces = dice_.below(zone_effect::kAll + 1);
+    zone.replaces = dice_.below(zone_effect::kWater);
+    Dice own = dice_;  // what is drawn after it is as it was before zones kept water out
+    if (own.one_in(2)) zone.replaces |= zone_effect::kWater;
     return zone;
   }
 

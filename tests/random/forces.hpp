@@ -3,6 +3,7 @@
 #pragma once
 
 #include "random/dice.hpp"
+#include "random/zones.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -53,13 +54,7 @@ template <class S> class RandomForces {
 
   // What the records say from now on. False: there is no body for it.
   bool draw(ForceZone<S>& zone) {
-    zone.shape = static_cast<ZoneShape>(dice_.below(3));
-    zone.pose.position = vec<S>(dice_.point(3));
-    zone.pose.orientation = dice_.template orientation<S>();
-    const double x = dice_.in(0.5, 2), y = dice_.in(0.5, 2);
-    zone.half = vec<S>(x, y, dice_.in(0.5, 2));
-    zone.acceleration = vec<S>(dice_.arrow(0, 3));
-    zone.wind = vec<S>(dice_.arrow(0, 3));
+    draw_zone(dice_, zone);
     return true;
   }
   bool draw(Attractor<S>& attractor) {

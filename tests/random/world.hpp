@@ -3,19 +3,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/effects/fracture/breaking.hpp"
-#include "random/bodies.hpp"
+#include "random/changes.hpp"
 #include "random/energy_book.hpp"
-#include "random/forces.hpp"
-#include "random/mechanisms.hpp"
 #include "random/parts.hpp"
-#include "random/rules.hpp"
+#include "random/placing.hpp"
 #include "random/terrain.hpp"
-#include "random/vehicles.hpp"
 
 namespace isostep::test {
-
-inline Drive drive_of(std::uint64_t seed) { return static_cast<Drive>(seed % kDrives); }
 
 template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName solver) {
   Dice dice(seed * 31 + 5);
@@ -34,10 +28,10 @@ template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName so
 
 template <class S> class RandomWorld {
  public:
-  static constexpr double kMoverSpeed = 2;  // [m/s] most of a point of a mover or belt
+  static constexpr double kMoverSpeed = RandomChanges<S>::kMoverSpeed;
   static constexpr double kThrow = 4;       // [m/s] most that a command adds to a body's speed
   static constexpr double kFastThrow = 40;  // [m/s] in one world of eight: what is thrown moves by more than its size
-  static constexpr double kTop = 8;         // [m] most that a body is put at
+  static constexpr double kTop = kPlaceTop;
 
   RandomWorld(std::uint64_t seed, SolverName solver) : world(random_settings<S>(seed, solver)), seed_(seed) {
     Dice dice(seed * 1000003 + 71);
@@ -67,15 +61,7 @@ template <class S> class RandomWorld {
   /// For worlds that are saved and loaded, where no book is kept: of the state, the seed and the frame alone.
   static void command(World<S>& w, std::uint64_t seed, std::uint64_t frame,
                       std::vector<AppliedForce>* forces = nullptr) {
-    dig(w, seed, frame);
-    change_forces(w, seed, frame);
-    break_some(w, seed, frame);
-    walk_some(w, seed, frame);
-    drive_some(w, seed, frame);
-    couple_some(w, seed, frame);
-    change_pairs(w, seed, frame);
-    change_rules(w, seed, frame);
-    change_bodies(w, seed, frame);
+    RandomChanges<S>::change(w, seed, frame);
     Dice dice(seed * 7919 + frame * 1000003 + 17);
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
@@ -162,141 +148,6 @@ template <class S> class RandomWorld {
     d.user_data = kLift;
     world.create(d);
   }
-  /// Now and then the height field, if there is one, is lower somewhere, or has a hole: never higher, which would lift
-  /// what lies on it. Dice of its own: what is drawn after it is as it was before there was this.
-  static void dig(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    Dice dice(seed * 104729 + frame * 7907 + 3);
-    if (!dice.one_in(12)) return;
-    const BakedHeightField* field = nullptr;
-    ShapeId shape;
-    for (const BodyId id : w.bodies()) {
-      const std::uint32_t slot = w.view(id).properties->shape;
-      shape = w.state().shape_slots.template id_of<ShapeId>(slot);
-      if ((field = w.height_field(shape)) != nullptr) break;
-    }
-    if (field == nullptr) return;
-    const HeightGrid grid = field->grid();
-    const std::uint32_t wide = 1 + dice.below(3), deep = 1 + dice.below(3);
-    HeightPatch patch = {dice.below(grid.columns - wide + 1), dice.below(grid.rows - deep + 1), wide, deep, {}, {}};
-    std::vector<std::int16_t> heights;
-    const std::int32_t lower = static_cast<std::int32_t>(dice.below(1u << (grid.exponent - grid.height_shift)) / 8);
-    const std::int32_t least = -(1 << (grid.exponent - grid.height_shift));  // [units] 1 m: where the plane below is
-    for (std::uint32_t n = 0; n < wide * deep; ++n) {
-      const std::size_t at = (patch.row + n / wide) * std::size_t{grid.columns} + patch.column + n % wide;
-      heights.push_back(static_cast<std::int16_t>(std::max(field->heights()[at] - lower, least)));
-    }
-    const std::vector<std::uint8_t> holes((wide - 1) * (deep - 1), BakedHeightField::kHole);
-    patch.heights = heights;
-    if (dice.one_in(4)) patch.materials = holes;
-    w.set_heights(shape, 0, patch);
-  }
-  /// In worlds whose energy no law bounds. Dice of its own.
-  static void change_forces(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 15485863 + frame * 32452843 + 29);
-    if (dice.one_in(6)) RandomForces<S>(w, dice).change();
-  }
-  /// Bodies that may break, in the same worlds, and pieces of those that did. Dice of its own.
-  static void break_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    break_bodies(w);
-    Dice dice(seed * 86028121 + frame * 122949823 + 17);
-    if (!dice.one_in(12) || w.bodies().size() > kMostWhileBreaking) return;
-    Breakable<S> breakable;
-    breakable.body = RandomForces<S>(w, dice).body();
-    if (!breakable.body) return;
-    breakable.impulse = num<S>(dice.in(0.5, 8) * to_double(w.mass(breakable.body)));
-    breakable.pattern = static_cast<BreakPattern>(dice.below(4));
-    breakable.most_pieces = 8 + dice.below(5);
-    breakable.depth = 1 + dice.below(2);
-    breakable.seed = seed;
-    breakable.small_mass = num<S>(dice.in(0, 1));
-    breakable.lifetime = dice.below(60);
-    for (const Breakable<S>& other : w.state().force_records->breakables.all())
-      if (other.body == breakable.body) return;
-    w.add(breakable);
-  }
-  static constexpr std::size_t kMostWhileBreaking = 60;  // [1] bodies
-  /// Up to three characters who wander and jump, in the same worlds. Dice of its own.
-  static void walk_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 141650939 + frame * 160481183 + 23);
-    if (!dice.one_in(12)) return;
-    const std::vector<CharacterId> ids = w.state().force_records->characters.slots().template ids<CharacterId>();
-    if (ids.size() < 3 && dice.one_in(2)) return add_character(w, dice);
-    if (ids.empty()) return;
-    const CharacterId id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
-    if (dice.one_in(12)) {
-      w.remove(id);
-      return;
-    }
-    Character<S> character = *w.find(id);
-    character.move = vec<S>(dice.arrow(0, 4));
-    character.jump = num<S>(dice.one_in(3) ? dice.in(1, 4) : 0);
-    w.set(id, character);
-  }
-  static void add_character(World<S>& w, Dice& dice) {
-    BodyDefinition<S> d = still<S>(w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}));
-    d.type = BodyType::kinematic;
-    d.allow_sleep = dice.one_in(2);
-    Character<S> character;
-    character.body = place(w, dice, d, 0.75, {-4, 1, -4}, {4, 3, 4}, 0);
-    character.push_force = num<S>(dice.in(0, 200));
-    character.mass = num<S>(dice.in(0, 20));
-    if (character.body) w.add(character);
-  }
-  /// Vehicles, in the same worlds. Dice of its own.
-  static void drive_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 198491317 + frame * 217645177 + 31);
-    if (!dice.one_in(12)) return;
-    RandomVehicles<S> vehicles(w, dice);
-    BodyId chassis;
-    if (vehicles.has_room() && dice.one_in(2)) {
-      BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.25, 1), {0, 0, 0});
-      d.mass = num<S>(dice.in(2, 40));
-      chassis = place(w, dice, d, 1.25, {-4, 1, -4}, {4, 3, 4}, 0);
-    }
-    vehicles.change(chassis);
-  }
-  /// Couplings, and joints that may break. Dice of its own.
-  static void couple_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    Dice dice(seed * 275604541 + frame * 295075147 + 37);
-    if (seed % 2 == 0 && dice.one_in(12)) RandomMechanisms<S>(w, dice).change();
-  }
-  /// A record of two kinds more, or other, or none: whatever they say, contacts take energy. Dice of its own.
-  static void change_pairs(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    Dice dice(seed * 49979687 + frame * 67867967 + 11);
-    if (!dice.one_in(8)) return;
-    MaterialPair<S> pair;
-    pair.kind_a = 1 + dice.below(kMaterialKinds);
-    pair.kind_b = 1 + dice.below(kMaterialKinds);
-    pair.friction = num<S>(dice.in(0, 1.25));
-    pair.static_friction = num<S>(dice.in(0, 2));
-    if (dice.one_in(3)) pair.restitution = num<S>(dice.in(0, 1));
-    if (dice.one_in(3)) pair.rolling_resistance = num<S>(dice.in(0, 0.0625));
-    const auto& pairs = w.state().force_records->material_pairs;
-    const std::vector<MaterialPairId> ids = pairs.slots().template ids<MaterialPairId>();
-    for (const MaterialPairId id : ids) {
-      if (kinds_key(w.find(id)->kind_a, w.find(id)->kind_b) != kinds_key(pair.kind_a, pair.kind_b)) continue;
-      if (dice.one_in(2)) w.remove(id);
-      else w.set(id, pair);
-      return;
-    }
-    w.add(pair);
-  }
-  /// Belts, ghosts, one-way bodies and reports of hits, where movers are. Dice of its own.
-  static void change_rules(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 236887691 + frame * 256203161 + 19);
-    if (dice.one_in(8)) RandomRules<S>(w, dice, kMoverSpeed).change();
-  }
-  /// What bodies are, where movers are. Dice of its own.
-  static void change_bodies(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 314606869 + frame * 334214467 + 41);
-    if (dice.one_in(6)) RandomBodies<S>(w, dice, kMoverSpeed).change();
-  }
   /// The lift goes up and down between 2 and 4 m: what is below it has room.
   static void turn_movers(World<S>& w, Dice& dice) {
     for (const BodyId id : w.bodies()) {
@@ -306,32 +157,6 @@ template <class S> class RandomWorld {
       const double next = (y < 3 ? 1 : -1) * dice.in(0.25, 1);
       w.set_velocity(id, vec<S>(0, next, 0), Vec3<S>::zero());
     }
-  }
-  /// Where nothing is, so that nothing is pushed out of anything: a null id where no place was found.
-  static BodyId place(World<S>& w, Dice& dice, BodyDefinition<S> d, double reach, D3 low, D3 high,
-                      std::uint32_t group) {
-    const Primitive<S> around = primitive_of(Sphere<S>{num<S>(reach + 0.05)});
-    for (int tries = 0; tries < 8; ++tries) {
-      const D3 at = {dice.in(low.x, high.x), dice.in(low.y, high.y), dice.in(low.z, high.z)};
-      std::vector<BodyId> there;
-      w.overlap_shape(around, {vec<S>(at), Quat<Unit<S>>::identity()}, there);
-      const bool free = std::all_of(there.begin(), there.end(), [&](BodyId other) {
-        return group != 0 && w.view(other).properties->filter.group == group;
-      });
-      if (!free) continue;
-      d.position = vec<S>(at);
-      d.filter.group = group;
-      return w.create(d);
-    }
-    return {};
-  }
-  static BodyId add_loose(World<S>& w, Dice& dice, double most) {
-    const DrawnShape shape = draw_shape(w, dice);
-    BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
-    d.velocity = vec<S>(dice.arrow(0, most));
-    d.angular_velocity = vec<S>(dice.arrow(0, 6));
-    d.sensor = dice.one_in(24);
-    return place(w, dice, d, shape.reach, {-4, 0.5, -4}, {4, kTop, 4}, 0);
   }
 
   /// A tree of bodies, at times with a loop; hung from the world or from a body, or loose. Its bodies pass each other.
@@ -348,7 +173,7 @@ template <class S> class RandomWorld {
       BodyId to;
       if (!bodies.empty()) to = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
       const D3 from = to ? real(world.center_of_mass(to)) : at, step = dice.arrow_of(dice.magnitude(0.25, 2));
-      const BodyId b = place(world, dice, d, shape.reach, from + step, from + step, group);
+      const BodyId b = place_freely(world, dice, d, shape.reach, from + step, from + step, group);
       if (!b) continue;
       bodies.push_back(b);
       if (to || hold != 0) join(dice, to, b, joints);

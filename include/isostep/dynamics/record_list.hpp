@@ -26,10 +26,9 @@
   R(vehicle, Vehicle<S>, VehicleId, S)                 \
   R(wheel, Wheel<S>, WheelId, S)
 
-/// The same, of newer kinds: what says how bodies touch, what joints bear and share, where kinematic bodies
-/// are to be, and which zones hide others. The position is the kind's
-/// number in hashes and portable forms: append, never reorder. A world to which none of a kind was ever added has the
-/// hash and form of one that does not know it.
+/// The same, of newer kinds: what says how bodies touch, what joints bear and share, where kinematic bodies are to be,
+/// and which zones hide others. The position is the kind's number in hashes and portable forms: append, never reorder.
+/// A world to which none of a kind was ever added has the hash and form of one that does not know it.
 #define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
   R(surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
   R(ghost, Ghost<S>, GhostId, S)                                \

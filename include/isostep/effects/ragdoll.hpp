@@ -14,7 +14,7 @@ template <class S> struct RagdollBone {
   int parent = -1;                      // index of an earlier bone; -1: the root
   ShapeId shape = {};                   // of the world
   Pose<S> pose = Pose<S>::identity();   // of the body's origin, world, at rest
-  S mass = S(0);                        // [kg] 0: by the shape's size, at Material's density
+  S mass = S(0);                        // [kg] 0: by the shape's size, at 1 kg/m^3
   Pose<S> joint = Pose<S>::identity();  // to the parent, world; z: the bone's length, or a hinge's axis
   bool hinge = false;                   // turns about z alone: knees, elbows
   S swing_x = S(0), swing_y = S(0);     // [rad] half axes of the ellipse in which z stays; of no hinge
@@ -23,8 +23,8 @@ template <class S> struct RagdollBone {
 
 /// What is alike for all of its joints.
 template <class S> struct RagdollSettings {
-  S friction = S(0);        // [N m] each axis resists; not beside a servo
-  JointServo<S> pose = {};  // holds the rest pose where its `force` [N m] is above 0
+  S friction = S(0);        // [N m] each axis resists; 0 where servos hold the pose
+  JointServo<S> pose = {};  // holds the rest pose where its `force` [N m] is above 0; its target is 0
   Filter filter = {};       // of all bodies. Bones that a joint ties have no contacts with each other, and bones that
                             // overlap at rest none until they are apart
   Material<S> material = {};
@@ -35,7 +35,8 @@ template <class S> struct Ragdoll {
   std::vector<JointId> joints;  // one a bone; null for roots
 };
 
-/// Adds it to the world. Empty where a bone is refused: then nothing of it is left, and World::first_fault says why.
+/// Adds it to the world. Empty where a setting or a bone is refused: then nothing of it is left, and World::first_fault
+/// says why.
 /// Method: balls and hinges with limits; where joints have friction or servos, six-axis joints whose axes have them.
 /// Limits: a servo is as stiff as its frequency and damping say while its force suffices; see AxisDrive.
 template <class S>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/effects/ragdoll.hpp"
+#include "isostep/world/checks.hpp"
 
 namespace isostep {
 
@@ -13,8 +14,10 @@ template <class S> class RagdollBuilder {
   RagdollBuilder(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings)
       : world_(world), bones_(bones), settings_(settings) {}
 
-  /// False: a bone was refused.
+  /// False: a setting or a bone was refused.
   bool build() {
+    const FaultReport fault = fault_of_plan();
+    if (fault != Fault::none) return world_.refuse("add_ragdoll", fault);
     for (const RagdollBone<S>& bone : bones_) {
       if (!add_body(bone) || !add_joint(bone)) return false;
     }
@@ -28,6 +31,23 @@ template <class S> class RagdollBuilder {
   }
 
  private:
+  /// Of what the world is not asked.
+  FaultReport fault_of_plan() const {
+    const S friction = settings_.friction, force = settings_.pose.force;
+    Checklist list;
+    list.finite(friction, "friction")
+        .finite(force, "pose.force")
+        .proper(S(0) <= friction, "friction", "0 or more")
+        .proper(S(0) <= force, "pose.force", "0 or more")
+        .proper(friction == S(0) || force == S(0), "friction", "0 where servos hold the pose")
+        .proper(settings_.pose.target == S(0), "pose.target", "0: that of every axis at rest");
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      const int parent = bones_[i].parent;
+      list.proper(parent == -1 || (0 <= parent && static_cast<std::size_t>(parent) < i), "parent",
+                  "-1, or the index of an earlier bone");
+    }
+    return list.report();
+  }
   bool add_body(const RagdollBone<S>& bone) {
     BodyDefinition<S> body;
     body.type = BodyType::dynamic;
@@ -42,8 +62,7 @@ template <class S> class RagdollBuilder {
     return static_cast<bool>(id);
   }
   bool add_joint(const RagdollBone<S>& bone) {
-    const std::size_t parents = made_.bodies.size() - 1;
-    if (bone.parent < 0 || parents <= static_cast<std::size_t>(bone.parent)) {
+    if (bone.parent < 0) {
       made_.joints.push_back({});
       return true;
     }
@@ -79,7 +98,6 @@ template <class S> class RagdollBuilder {
       drive.force = settings_.pose.force;
       drive.spring_frequency = settings_.pose.frequency;
       drive.spring_damping = settings_.pose.damping;
-      drive.spring_target = settings_.pose.target;
     } else {
       drive.motor = S(0) < settings_.friction;
     }

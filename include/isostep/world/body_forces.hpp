@@ -115,7 +115,8 @@ template <class S> class BodyForces {
   Surface surface_at(const Water<S>& water, Vec3<S> at) const;
   Wet wet_part(std::uint32_t row, S density, const Surface& surface) const;
   void resist(const Wet& wet);
-  bool is_under_water(Vec3<S> point, Vec3<S>& velocity) const;
+  bool is_dry(std::uint32_t row, Vec3<S> point) const;
+  bool is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const;
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;

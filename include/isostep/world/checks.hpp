@@ -135,6 +135,24 @@ template <class S> ISO_INLINE JointRules<S> rules_of(const JointProperties<S>& j
   });
 }
 
+/// Of what joints and AxisDrives have in common: where a limit and a spring's target are, up to `reach` [m] or [rad],
+/// and how fast a motor turns or slides.
+template <class S, class Drive> FaultReport fault_of_drive(const Drive& d, bool length, S reach, const char* expected) {
+  return Checklist()
+      .finite(d.lower, "lower")
+      .finite(d.upper, "upper")
+      .finite(d.motor_speed, "motor_speed")
+      .finite(d.spring_target, "spring_target")
+      .finite(d.spring_damping, "spring_damping")
+      .in_range(within(d.lower, reach), "lower", expected)
+      .in_range(within(d.upper, reach), "upper", expected)
+      .in_range(within(d.spring_target, reach), "spring_target", expected)
+      .in_range(within(d.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
+                length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
+      .in_range(d.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
+      .report();
+}
+
 /// `substep_rate` [1/s].
 template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
   if (static_cast<std::uint32_t>(j.type) >= kJointTypes) return {Fault::bad_argument, "", "type", "one of JointType"};
@@ -143,27 +161,17 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
   const S reach = length ? Limits<S>::position() : kMaxAngle<S>;
   const char* expected = length ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
   return Checklist()
-      .finite(j.lower, "lower")
-      .finite(j.upper, "upper")
       .finite(j.cone, "cone")
-      .finite(j.motor_speed, "motor_speed")
       .finite(j.motor_torque, "motor_torque")
-      .finite(j.spring_target, "spring_target")
       .finite(j.spring_frequency, "spring_frequency")
-      .finite(j.spring_damping, "spring_damping")
       .finite(j.frame_a.position, "frame_a.position")
       .finite(j.frame_b.position, "frame_b.position")
       .in_range(within(j.frame_a.position, Limits<S>::position()), "frame_a.position", kWithinPosition)
       .in_range(within(j.frame_b.position, Limits<S>::position()), "frame_b.position", kWithinPosition)
       .proper(is_unit<S>(j.frame_a.orientation), "frame_a.orientation", kUnitLength)
       .proper(is_unit<S>(j.frame_b.orientation), "frame_b.orientation", kUnitLength)
-      .in_range(within(j.lower, reach), "lower", expected)
-      .in_range(within(j.upper, reach), "upper", expected)
+      .also(fault_of_drive(j, length, reach, expected))
       .in_range(within(j.cone, kMaxAngle<S>), "cone", "0 to 2 pi")
-      .in_range(within(j.spring_target, reach), "spring_target", expected)
-      .in_range(within(j.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
-                length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
-      .in_range(j.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
       .also(rules.own)

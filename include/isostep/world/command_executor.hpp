@@ -74,6 +74,8 @@ template <class S> class CommandExecutor {
   template <class Record> bool check_joints(const Record& record);
   template <class Record> ISO_INLINE bool check_spring(const Record&) { return true; }
   bool check_spring(const BodySpring<S>& spring);
+  bool check_spring(const BodySpring<S>& spring, const BodyProperties<S>* a, const BodyProperties<S>* b,
+                    const FaultReport& none_moves);
   bool check_spring(const Wheel<S>& wheel);
   template <class Record> ISO_INLINE bool check_alone(const Record&, std::uint32_t) { return true; }
   bool check_alone(const MaterialPair<S>& pair, std::uint32_t slot);
@@ -102,6 +104,7 @@ template <class S> class CommandExecutor {
   bool give_mass_anew(const BodyMass<S>& mass, BodyProperties<S>& body);
   void replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next);
   void wake_coupled(std::uint32_t slot);
+  MoveTargetId target_of(std::uint32_t slot) const;
   void remove_target(std::uint32_t slot);
   void halt(std::uint32_t slot);
   PendingForce<S>& pending_force(std::uint32_t slot);

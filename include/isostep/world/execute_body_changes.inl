@@ -43,12 +43,8 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
   }
   const auto as_next = [&](BodyId body) { return body && body.slot == slot ? &next : map_.properties_of(body); };
   if constexpr (std::is_same_v<Record, BodySpring<S>>) {
-    const BodyProperties<S>*a = as_next(record.a), *b = as_next(record.b);
-    const auto moves = [](const BodyProperties<S>* body) { return body != nullptr && body->type == BodyType::dynamic; };
-    if (!moves(a) && !moves(b))
-      return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
-    const Settings<S>& s = state_.settings;
-    return journal_.accept(detail::fault_of_rate(record, a, b, S(integration_rate(s.solver, s.hz, s.substeps))));
+    return check_spring(record, as_next(record.a), as_next(record.b),
+                        {Fault::bad_argument, "", "type", "one that the body's springs may tie"});
   } else if constexpr (std::is_same_v<Record, Wheel<S>>) {
     return journal_.accept(detail::fault_of_inertia(record, next));
   }
@@ -175,13 +171,18 @@ template <class S> bool CommandExecutor<S>::execute(const SleepBody& command) {
 
 // ---- targets of kinematic bodies
 
-template <class S> void CommandExecutor<S>::remove_target(std::uint32_t slot) {
+/// Of a body; null where it has none.
+template <class S> MoveTargetId CommandExecutor<S>::target_of(std::uint32_t slot) const {
   const auto& targets = state_.force_records->move_targets;
   for (std::uint32_t i = 0; i < targets.all().size(); ++i) {
-    if (!targets.is_taken(i) || targets.all()[i].body.slot != slot) continue;
-    state_.force_records.change().move_targets.remove_at(i);
-    return;
+    if (targets.is_taken(i) && targets.all()[i].body.slot == slot)
+      return targets.slots().template id_of<MoveTargetId>(i);
   }
+  return {};
+}
+template <class S> void CommandExecutor<S>::remove_target(std::uint32_t slot) {
+  const MoveTargetId target = target_of(slot);
+  if (target) state_.force_records.change().move_targets.remove_at(target.slot);
 }
 
 /// In place of the target that the body has. What rests where it is told to be goes on resting, so that a game may say
@@ -189,11 +190,8 @@ template <class S> void CommandExecutor<S>::remove_target(std::uint32_t slot) {
 template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   const MoveTarget<S> target = {command.body, command.pose};
   if (!check_force(target)) return false;
-  const auto& targets = state_.force_records->move_targets;
-  for (std::uint32_t i = 0; i < targets.all().size(); ++i) {
-    if (!targets.is_taken(i) || !(targets.all()[i].body == command.body)) continue;
-    return set_force(targets.slots().template id_of<MoveTargetId>(i), target);
-  }
+  const MoveTargetId earlier = target_of(command.body.slot);
+  if (earlier) return set_force(earlier, target);
   const BodyState<S>& state = *map_.state_of(command.body);
   const Pose<S> goal = detail::centre_at<S>(target, map_.properties_of(command.body)->local_centre);
   const bool rests = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();

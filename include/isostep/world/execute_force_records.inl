@@ -31,9 +31,9 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_joints
                   record.axis;
                   record.joint;
                 }) {
-    const std::int32_t rate = state_.settings.hz * state_.settings.substeps;
     return known(state_.joint_slots, record.joint, "joint") &&
-           journal_.accept(detail::fault_of_joint(record, *map_.properties_of(record.joint), rate));
+           journal_.accept(
+               detail::fault_of_joint(record, *map_.properties_of(record.joint), substep_rate(state_.settings)));
   } else if constexpr (requires { record.joint; }) {
     return known(state_.joint_slots, record.joint, "joint");
   }
@@ -49,9 +49,15 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_joints
   return true;
 }
 template <class S> bool CommandExecutor<S>::check_spring(const BodySpring<S>& spring) {
-  const BodyProperties<S>*a = map_.properties_of(spring.a), *b = map_.properties_of(spring.b);
+  return check_spring(spring, map_.properties_of(spring.a), map_.properties_of(spring.b),
+                      {Fault::not_dynamic, "", "a, b", "a dynamic one"});
+}
+/// Whether a spring may tie bodies that are like that; a null one does not move.
+template <class S>
+bool CommandExecutor<S>::check_spring(const BodySpring<S>& spring, const BodyProperties<S>* a,
+                                      const BodyProperties<S>* b, const FaultReport& none_moves) {
   const auto moves = [](const BodyProperties<S>* body) { return body != nullptr && body->type == BodyType::dynamic; };
-  if (!moves(a) && !moves(b)) return journal_.refuse({Fault::not_dynamic, "", "a, b", "a dynamic one"});
+  if (!moves(a) && !moves(b)) return journal_.refuse(none_moves);
   const Settings<S>& s = state_.settings;
   return journal_.accept(detail::fault_of_rate(spring, a, b, S(integration_rate(s.solver, s.hz, s.substeps))));
 }

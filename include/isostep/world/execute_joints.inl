@@ -28,7 +28,7 @@ template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>&
 
 template <class S> JointId CommandExecutor<S>::execute(const CreateJoint<S>& command) {
   JointProperties<S> joint = command.joint;
-  if (!journal_.accept(detail::fault_of(joint, state_.settings.hz * state_.settings.substeps))) return {};
+  if (!journal_.accept(detail::fault_of(joint, substep_rate(state_.settings)))) return {};
   if (!check_ends(joint)) return {};
   for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
     if (slot != kNoBody) wake_.wake(slot);
@@ -51,7 +51,7 @@ template <class S> bool CommandExecutor<S>::execute(const DestroyJoint& command)
 
 /// Whether its AxisDrives fit what the joint is to be.
 template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const JointProperties<S>& next) {
-  const std::int32_t rate = state_.settings.hz * state_.settings.substeps;
+  const std::int32_t rate = substep_rate(state_.settings);
   const auto& drives = state_.force_records->axis_drives;
   for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
     if (!drives.is_taken(slot) || !(drives.all()[slot].joint == joint)) continue;
@@ -64,7 +64,7 @@ template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const Jo
 template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) {
   if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
-  if (!journal_.accept(detail::fault_of(next, state_.settings.hz * state_.settings.substeps))) return false;
+  if (!journal_.accept(detail::fault_of(next, substep_rate(state_.settings)))) return false;
   if (next.type != map_.properties_of(command.joint)->type)
     return journal_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
   if (!check_drives(command.joint, next)) return false;

@@ -18,7 +18,7 @@ template <class S> struct JointDefinition {
   Pose<S> frame_b = Pose<S>::identity();
   JointProperties<S> settings;      // kind, flags and numbers; its bodies and frames are not looked at
   AxisDrive<S> drives[kJointAxes];  // of a six-axis joint; their `joint` is not looked at
-  std::uint32_t drive_count = 0;
+  std::uint32_t drive_count = 0;    // of them, from the first; the others are not looked at
 };
 
 template <class S> struct JointRange { S lower, upper; };  // [m] or [rad]
@@ -231,7 +231,7 @@ template <class S> ISO_INLINE JointDefinition<S> motor(const MotorJoint<S>& of) 
 }
 template <class S> ISO_INLINE JointDefinition<S> six_axis(const SixAxisDefinition<S>& of) {
   JointDefinition<S> made = detail::definition_of<S>(JointType::six_axis, of, of.locks);
-  for (std::uint32_t i = 0; i < of.drive_count; ++i) made.drives[i] = of.drives[i];
+  for (std::uint32_t i = 0; i < kJointAxes; ++i) made.drives[i] = of.drives[i];
   made.drive_count = of.drive_count;
   return made;
 }

@@ -97,8 +97,8 @@ template <class S> S Queries<S>::joint_error(JointId joint) const {
   });
 }
 
-/// As they lie now; arms are not looked for.
 namespace detail {
+/// As they lie now; arms are not looked for.
 template <class S> ISO_INLINE JointFrames<S> frames_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
   const Pose<S> a = compose(map.centre_pose_at(joint.body_a), joint.frame_a);
   const Pose<S> b = compose(map.centre_pose_at(joint.body_b), joint.frame_b);

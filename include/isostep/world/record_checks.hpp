@@ -196,17 +196,7 @@ template <class S> FaultReport fault_of(const AxisDrive<S>& d) {
   NumberChecks<S> checks;
   checks.not_negative(d.spring_frequency, "spring_frequency");
   checks.not_negative(d.force, "force");
-  return checks.list.finite(d.lower, "lower")
-      .finite(d.upper, "upper")
-      .finite(d.motor_speed, "motor_speed")
-      .finite(d.spring_target, "spring_target")
-      .finite(d.spring_damping, "spring_damping")
-      .in_range(within(d.lower, reach), "lower", expected)
-      .in_range(within(d.upper, reach), "upper", expected)
-      .in_range(within(d.spring_target, reach), "spring_target", expected)
-      .in_range(within(d.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
-                length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
-      .in_range(d.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
+  return checks.list.also(fault_of_drive(d, length, reach, expected))
       .proper(d.lower <= d.upper, "lower", "no more than upper")
       .proper(!sprung || S(0) <= d.spring_damping, "spring_damping", "0 to 64")
       .report();

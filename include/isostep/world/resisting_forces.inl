@@ -133,7 +133,7 @@ template <class S> void BodyForces<S>::resist(const AeroSurface<S>& surface) {
   const Mat3<U> axes = to_matrix(normalise(body * surface.orientation));
   Vec3<S> flow;
   if (!surface.is_under_water) flow = wind_at(end.at);
-  else if (!is_under_water(end.at, flow)) return;
+  else if (!is_under_water(end.row, end.at, flow)) return;
   const Vec3<S> next = next_velocity(end.row) + cross(next_angular_velocity(end.row), end.arm);
   const Vec3<S> through = next - flow;
   // The speed of now, which in balance is that of next: what the others lead to is more.

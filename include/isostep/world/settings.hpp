@@ -49,4 +49,9 @@ template <class S> struct Settings {
   }
 };
 
+/// [1/s] Sub-steps, or passes of pgs: what the frequencies of springs are measured by.
+template <class S> ISO_INLINE constexpr std::int32_t substep_rate(const Settings<S>& settings) {
+  return settings.hz * settings.substeps;
+}
+
 }  // namespace isostep

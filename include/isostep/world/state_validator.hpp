@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/collision/broadphase/pairs.hpp"
-#include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/command.hpp"
-#include "isostep/world/record_checks.hpp"
+#include "isostep/world/record_validator.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -24,7 +22,7 @@ template <class S> class StateValidator {
 
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
-    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || s.hz * s.substeps > kMaxRate ||
+    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || substep_rate(s) > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
         static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces ||
         s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs ||
@@ -32,12 +30,12 @@ template <class S> class StateValidator {
         s.restitution_threshold < S(0) || Limits<S>::speed() < s.restitution_threshold) {
       return "settings out of range";
     }
-    set_of_body_.assign(state_.body_slots.entries().size(), Location::kNone);
-    type_of_body_.assign(set_of_body_.size(), BodyType::static_);
-    leaves_of_body_.assign(set_of_body_.size(), 0);
-    joint_at_.assign(state_.joint_slots.entries().size(), {nullptr, 0});
+    seen_.set_of_body.assign(state_.body_slots.entries().size(), Location::kNone);
+    seen_.type_of_body.assign(seen_.set_of_body.size(), BodyType::static_);
+    leaves_of_body_.assign(seen_.set_of_body.size(), 0);
+    seen_.joint_at.assign(state_.joint_slots.entries().size(), {nullptr, 0});
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
-      if (!lie_in(*slots, s.id_space)) return "a slot is of another id space";
+      if (!detail::lie_in(*slots, s.id_space)) return "a slot is of another id space";
     }
     if (const char* rule = shapes()) return rule;
     if (const char* rule = bodies(*state_.static_bodies, Location::kStatic)) return rule;
@@ -46,30 +44,22 @@ template <class S> class StateValidator {
       if (const char* rule = bodies(state_.sleeping[i]->bodies, i)) return rule;
       if (state_.sleeping[i]->bodies.states.empty()) return "a sleeping island has no bodies";
     }
-    for (std::uint32_t slot = 0; slot < set_of_body_.size(); ++slot) {
-      if (state_.body_slots.is_taken(slot) != (set_of_body_[slot] != Location::kNone))
+    for (std::uint32_t slot = 0; slot < seen_.set_of_body.size(); ++slot) {
+      if (state_.body_slots.is_taken(slot) != (seen_.set_of_body[slot] != Location::kNone))
         return "a body's slot is taken but has no body";
     }
     if (const char* rule = links(state_.contacts, state_.joints, Location::kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = links(state_.sleeping[i]->contacts, state_.sleeping[i]->joints, i)) return rule;
     }
-    for (std::uint32_t slot = 0; slot < joint_at_.size(); ++slot) {
-      if (state_.joint_slots.is_taken(slot) != (joint_at_[slot].joint != nullptr))
+    for (std::uint32_t slot = 0; slot < seen_.joint_at.size(); ++slot) {
+      if (state_.joint_slots.is_taken(slot) != (seen_.joint_at[slot].joint != nullptr))
         return "a joint's slot is taken but has no joint";
     }
     return others();
   }
 
  private:
-  static bool lie_in(const SlotMap& slots, std::uint32_t space) {
-    bool all = true;
-    for (std::uint32_t i = 0; i < slots.entries().size(); ++i)
-      all = all && SlotMap::space_of(slots.id_of<BodyId>(i)) == space;
-    return all;
-  }
-  bool is_body(std::uint32_t slot) const { return slot < set_of_body_.size() && set_of_body_[slot] != Location::kNone; }
-
   /// The taken shapes' parts fill the pool without gap or overlap.
   const char* shapes() {
     if (state_.shapes->size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
@@ -134,11 +124,11 @@ template <class S> class StateValidator {
     if (set.states.size() != set.properties.size()) return "as many bodies as properties";
     for (std::size_t i = 0; i < set.states.size(); ++i) {
       const BodyState<S>& b = set.states[i];
-      if (b.slot >= set_of_body_.size() || set_of_body_[b.slot] != Location::kNone)
+      if (b.slot >= seen_.set_of_body.size() || seen_.set_of_body[b.slot] != Location::kNone)
         return "a body's slot is unknown or twice used";
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
-      set_of_body_[b.slot] = name;
-      type_of_body_[b.slot] = set.properties[i].type;
+      seen_.set_of_body[b.slot] = name;
+      seen_.type_of_body[b.slot] = set.properties[i].type;
       if (const char* rule = properties(set.properties[i], name)) return rule;
       leaves_of_body_[b.slot] = leaves_of_shape_[set.properties[i].shape];
       if (const char* rule = motion(b)) return rule;
@@ -194,23 +184,16 @@ template <class S> class StateValidator {
     return nullptr;
   }
 
-  bool is_disabled(std::uint32_t slot) const {
-    return set_of_body_[slot] == Location::kStatic && type_of_body_[slot] != BodyType::static_;
-  }
-  /// Whether forces move it.
-  bool moves(std::uint32_t slot) const {
-    return slot != kNoBody && type_of_body_[slot] == BodyType::dynamic && set_of_body_[slot] != Location::kStatic;
-  }
   /// A link of set `name` ties no body of another island.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {
-    return (!moves(a) || set_of_body_[a] == name) && (!moves(b) || set_of_body_[b] == name);
+    return (!seen_.moves(a) || seen_.set_of_body[a] == name) && (!seen_.moves(b) || seen_.set_of_body[b] == name);
   }
   const char* contact(const Contact<S>& c, std::uint32_t name) const {
     const ContactKey& key = c.key;
-    if (!is_body(key.body_a) || !is_body(key.body_b) || !(key.body_a < key.body_b))
+    if (!seen_.is_body(key.body_a) || !seen_.is_body(key.body_b) || !(key.body_a < key.body_b))
       return "a contact names no two bodies";
-    if (is_disabled(key.body_a) || is_disabled(key.body_b)) return "a contact names a disabled body";
-    if (!(moves(key.body_a) || moves(key.body_b)) || !belongs(key.body_a, key.body_b, name))
+    if (seen_.is_disabled(key.body_a) || seen_.is_disabled(key.body_b)) return "a contact names a disabled body";
+    if (!(seen_.moves(key.body_a) || seen_.moves(key.body_b)) || !belongs(key.body_a, key.body_b, name))
       return "a contact lies in another island than its bodies";
     if (key.child_a >= leaves_of_body_[key.body_a] || key.child_b >= leaves_of_body_[key.body_b])
       return "a contact names no part of a body";
@@ -233,20 +216,19 @@ template <class S> class StateValidator {
     for (std::size_t i = 0; i < joints.states.size(); ++i) {
       const JointState<S>& state = joints.states[i];
       const JointProperties<S>& joint = joints.properties[i];
-      if (state.slot >= joint_at_.size() || joint_at_[state.slot].joint != nullptr)
+      if (state.slot >= seen_.joint_at.size() || seen_.joint_at[state.slot].joint != nullptr)
         return "a joint's slot is unknown or twice used";
       if (i > 0 && !(joints.states[i - 1].slot < state.slot)) return "joints ascend by slot";
-      joint_at_[state.slot] = {&joint, name};
+      seen_.joint_at[state.slot] = {&joint, name};
       if (joint.body_a == joint.body_b) return "a joint ties a body to itself";
       for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
-        if (body != kNoBody && !is_body(body)) return "a joint names no body";
+        if (body != kNoBody && !seen_.is_body(body)) return "a joint names no body";
       }
       // One that holds nothing is awake.
-      const bool holds = moves(joint.body_a) || moves(joint.body_b);
+      const bool holds = seen_.moves(joint.body_a) || seen_.moves(joint.body_b);
       if (!belongs(joint.body_a, joint.body_b, name) || (!holds && name != Location::kAwake))
         return "a joint lies in another island than its bodies";
-      if (detail::fault_of(joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
-        return "a joint is out of range";
+      if (detail::fault_of(joint, substep_rate(state_.settings)) != Fault::none) return "a joint is out of range";
       if (!state.has_known_pieces() || !is_finite(state.point) || !is_finite(state.angular)) {
         return "a joint's impulse is not one";
       }
@@ -257,7 +239,8 @@ template <class S> class StateValidator {
     const std::vector<PendingForce<S>>& forces = state_.forces;
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const std::uint32_t slot = forces[i].slot;
-      if (!is_body(slot) || set_of_body_[slot] != Location::kAwake || type_of_body_[slot] != BodyType::dynamic) {
+      if (!seen_.is_body(slot) || seen_.set_of_body[slot] != Location::kAwake ||
+          seen_.type_of_body[slot] != BodyType::dynamic) {
         return "a force acts on no dynamic body that is awake";
       }
       const std::int32_t hz = state_.settings.hz;
@@ -269,136 +252,12 @@ template <class S> class StateValidator {
       if (i > 0 && !(forces[i - 1].slot < slot)) return "forces ascend by slot";
     }
     for (std::size_t i = 0; i < state_.overlaps.size(); ++i) {
-      if (!is_body(state_.overlaps[i].sensor) || !is_body(state_.overlaps[i].other))
+      if (!seen_.is_body(state_.overlaps[i].sensor) || !seen_.is_body(state_.overlaps[i].other))
         return "an overlap names no two bodies";
       if (i > 0 && !(state_.overlaps[i - 1] < state_.overlaps[i])) return "overlaps ascend";
     }
-    if (const char* rule = force_records()) return rule;
+    if (const char* rule = RecordValidator<S>(state_, seen_).broken_rule()) return rule;
     return untold();
-  }
-  const char* force_records() const {
-    const char* broken = nullptr;
-    ForceRecords<S>::members(
-        [&](const char*, const auto& registry) {
-          if (broken == nullptr) broken = force_records(registry);
-        },
-        *state_.force_records);
-    if (broken == nullptr) broken = kind_pairs(state_.force_records->material_pairs);
-    if (broken == nullptr) broken = one_a_joint(state_.force_records->joint_loads, "two loads have the same joint");
-    if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
-    if (broken == nullptr) broken = one_a_body(state_.force_records->characters, "two characters have the same body");
-    if (broken == nullptr) broken = one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
-    return broken != nullptr ? broken : contact_records();
-  }
-  const char* contact_records() const {
-    const ForceRecords<S>& records = *state_.force_records;
-    if (const char* rule = one_a_body(records.surface_velocitys, "two belts have the same body")) return rule;
-    if (const char* rule = one_a_body(records.one_ways, "two one-way records have the same body")) return rule;
-    if (const char* rule = one_a_body(records.hit_reports, "two reports of hits have the same body")) return rule;
-    if (const char* rule = one_a_body(records.contact_reports, "two reports of contacts have the same body"))
-      return rule;
-    if (const char* rule = one_a_body(records.move_targets, "two targets have the same body")) return rule;
-    if (const char* rule = kind_pairs(records.kind_ghosts)) return rule;
-    std::vector<std::uint64_t> pairs;
-    for (std::uint32_t slot = 0; slot < records.ghosts.all().size(); ++slot) {
-      const Ghost<S>& ghost = records.ghosts.all()[slot];
-      if (records.ghosts.is_taken(slot)) pairs.push_back(pair_key(ghost.a.slot, ghost.b.slot));
-    }
-    return has_twins(pairs) ? "two ghosts have the same bodies" : nullptr;
-  }
-  static bool has_twins(std::vector<std::uint64_t>& keys) {
-    std::vector<std::uint64_t> scratch(keys.size());
-    stable_sort(keys.data(), scratch.data(), static_cast<std::uint32_t>(keys.size()), OwnKey{});
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-      if (keys[i - 1] == keys[i]) return true;
-    }
-    return false;
-  }
-  template <class Record, class IdType> const char* force_records(const Registry<Record, IdType>& registry) const {
-    const std::vector<Record>& all = registry.all();
-    if (all.size() != registry.slots().entries().size()) return "force records are not one a slot";
-    if (!lie_in(registry.slots(), state_.settings.id_space)) return "a force's slot is of another id space";
-    for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
-      if (!registry.is_taken(slot)) {
-        if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot]) ||
-            detail::joints_of(all[slot]).all[0]) {
-          return "a free force names a body or a joint";
-        }
-        continue;
-      }
-      if (detail::fault_of(all[slot]) != Fault::none) return "a force record is out of range";
-      const detail::NamedBodies<S> bodies = detail::bodies_of(all[slot]);
-      for (int i = 0; i < bodies.count; ++i) {
-        if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
-      }
-      if (!ties_well(all[slot])) return "a spring or a coupling ties two islands, or a record names no joint";
-    }
-    return nullptr;
-  }
-  bool names_well(const detail::NamedBody<S>& named) const {
-    if (!named.body) return named.may_be_null;
-    return state_.body_slots.holds(named.body) && detail::is_as_asked(type_of_body_[named.body.slot], named.must_be);
-  }
-  template <class Record> bool ties_well(const Record&) const { return true; }
-  bool ties_well(const BodySpring<S>& spring) const {
-    const auto is_dynamic = [&](BodyId body) { return body && type_of_body_[body.slot] == BodyType::dynamic; };
-    if (!is_dynamic(spring.a) && !is_dynamic(spring.b)) return false;
-    const bool ties = spring.a && spring.b && moves(spring.a.slot) && moves(spring.b.slot);
-    return !ties || set_of_body_[spring.a.slot] == set_of_body_[spring.b.slot];
-  }
-  bool ties_well(const JointLoad<S>& load) const { return state_.joint_slots.holds(load.joint); }
-  bool ties_well(const AxisDrive<S>& drive) const {
-    if (!state_.joint_slots.holds(drive.joint)) return false;
-    const JointProperties<S>& joint = *joint_at_[drive.joint.slot].joint;
-    if (detail::fault_of_joint(drive, joint, state_.settings.hz * state_.settings.substeps) != Fault::none)
-      return false;
-    const auto& all = state_.force_records->axis_drives;
-    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
-      const AxisDrive<S>& other = all.all()[slot];
-      if (&other != &drive && all.is_taken(slot) && other.joint == drive.joint && other.axis == drive.axis)
-        return false;
-    }
-    return true;
-  }
-  bool ties_well(const Coupling<S>& coupling) const {
-    const detail::NamedJoints named = detail::joints_of(coupling);
-    const JointProperties<S>* joints[3] = {};
-    std::uint32_t set = Location::kNone;  // of those that hold something
-    for (int i = 0; i < 3; ++i) {
-      if (i == 2 && !named.all[i]) continue;
-      if (!state_.joint_slots.holds(named.all[i])) return false;
-      const JointAt& at = joint_at_[named.all[i].slot];
-      joints[i] = at.joint;
-      if (!moves(at.joint->body_a) && !moves(at.joint->body_b)) continue;
-      if (set != Location::kNone && set != at.set) return false;
-      set = at.set;
-    }
-    return detail::fault_of_joints(coupling, joints) == Fault::none;
-  }
-  template <class Pairs> static const char* kind_pairs(const Pairs& pairs) {
-    std::vector<std::uint64_t> kinds;
-    for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
-      const std::uint64_t key = kinds_key(pairs.all()[slot].kind_a, pairs.all()[slot].kind_b);
-      if (pairs.is_taken(slot)) kinds.push_back(key);
-      else if (key != 0) return "a free pair names a kind";
-    }
-    return has_twins(kinds) ? "two pairs have the same kinds" : nullptr;
-  }
-  template <class Records> const char* one_a_body(const Records& all, const char* rule) const {
-    return one_a_slot(
-        all, state_.body_slots, [](const auto& record) { return record.body.slot; }, rule);
-  }
-  template <class Records> const char* one_a_joint(const Records& all, const char* rule) const {
-    return one_a_slot(
-        all, state_.joint_slots, [](const auto& record) { return record.joint.slot; }, rule);
-  }
-  template <class Records, class SlotOf>
-  const char* one_a_slot(const Records& all, const SlotMap& slots, const SlotOf& slot_of, const char* rule) const {
-    std::vector<std::uint8_t> has(slots.entries().size(), 0);
-    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
-      if (all.is_taken(slot) && has[slot_of(all.all()[slot])]++ != 0) return rule;
-    }
-    return nullptr;
   }
   const char* untold() const {
     const std::vector<ContactEnd>& contacts = state_.untold.contact_end;
@@ -421,22 +280,15 @@ template <class S> class StateValidator {
   }
   /// Of a slot that was given: the body may be gone.
   bool was_body(BodyId body) const {
-    return body && body.slot < set_of_body_.size() && SlotMap::space_of(body) == state_.settings.id_space;
+    return body && body.slot < seen_.set_of_body.size() && SlotMap::space_of(body) == state_.settings.id_space;
   }
   static bool ascend(BodyId a, BodyId b, BodyId next_a, BodyId next_b) {
     return a.slot != next_a.slot ? a.slot < next_a.slot : b.slot < next_b.slot;
   }
 
   const WorldState<S>& state_;
-  std::vector<std::uint32_t>
-      set_of_body_;  // by slot: Location::kNone, Location::kStatic, Location::kAwake or a sleeping island
-  std::vector<BodyType> type_of_body_;                           // by slot
+  SlotTables<S> seen_;
   std::vector<std::uint32_t> leaves_of_shape_, leaves_of_body_;  // by slot; as contacts count them
-  struct JointAt {
-    const JointProperties<S>* joint;
-    std::uint32_t set;  // as set_of_body_
-  };
-  std::vector<JointAt> joint_at_;  // by slot
 };
 
 }  // namespace isostep

@@ -65,7 +65,7 @@ template <class S> void BodyForces<S>::act(const Water<S>& water) {
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     if (!is_pushed(row, water.mask)) continue;
     const BodyState<S>& state = state_.awake.states[row - 1];
-    if (!in_region(water, state.fat)) continue;
+    if (!in_region(water, state.fat) || is_dry(row, state.centre)) continue;
     const Surface surface = surface_at(water, state.centre);
     // The box is where the step began, with its margin: what of it is dry stays so for a sub-step's motion.
     const Vec3<S> reach = max(abs(state.fat.high - state.centre), abs(state.fat.low - state.centre));
@@ -95,11 +95,15 @@ template <class S> void BodyForces<S>::resist(const Wet& wet) {
   slow_turning(wet.row, next_angular_velocity(wet.row), water.angular_drag * share);
 }
 
-/// Whether a point is under water, and how that flows.
-template <class S> bool BodyForces<S>::is_under_water(Vec3<S> point, Vec3<S>& velocity) const {
+/// Whether a zone keeps the water away from a point of a body.
+template <class S> bool BodyForces<S>::is_dry(std::uint32_t row, Vec3<S> point) const {
+  return is_hidden(zone_effect::kWater, 0, state_.awake.properties[row - 1].filter.category, point);
+}
+/// Whether a point of a body is under water, and how that flows.
+template <class S> bool BodyForces<S>::is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const {
   bool under = false;
   velocity = Vec3<S>::zero();
-  if (state_.settings.gravity == Vec3<S>::zero()) return false;
+  if (state_.settings.gravity == Vec3<S>::zero() || is_dry(row, point)) return false;
   for_each_taken(state_.force_records->waters, [&](const Water<S>& water) {
     if (!in_region(water, Aabb<S>{point, point})) return;
     const Surface surface = surface_at(water, point);

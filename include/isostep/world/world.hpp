@@ -191,6 +191,9 @@ template <class S> class World final {
   /// was refused has no id.
   const FaultReport& first_fault() const;
   void forget_faults();
+  /// A refusal by what makes things by several calls, as add_ragdoll does: kept and told as one of the world's own.
+  /// Returns false.
+  bool refuse(const char* call, const FaultReport& report);
   /// A callback for every refused call from now on; one without a function ends that.
   void set_fault_handler(const FaultHandler& handler);
   /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it

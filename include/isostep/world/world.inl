@@ -16,6 +16,7 @@
 #include "isostep/world/execute_joints.inl"
 #include "isostep/world/execute_shapes.inl"
 #include "isostep/world/state_loader.inl"
+#include "isostep/world/world_joints.inl"
 #include "isostep/world/world_queries.inl"
 
 namespace isostep {
@@ -187,69 +188,6 @@ template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse,
   if (!engine_->journal_.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
   return apply_impulse(body, impulse, detail::saturated_cross(point - center_of_mass(body), impulse));
 }
-template <class S> JointId World<S>::create(const JointProperties<S>& joint) { return apply(CreateJoint<S>{joint}); }
-template <class S> bool World<S>::destroy(JointId joint) { return apply(DestroyJoint{joint}); }
-template <class S> bool World<S>::set_joint(JointId joint, const JointProperties<S>& properties) {
-  return apply(SetJoint<S>{joint, properties});
-}
-template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const {
-  return engine_->map_.properties_of(joint);
-}
-template <class S> S World<S>::joint_error(JointId joint) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.joint_error(joint);
-}
-template <class S> S World<S>::joint_position(JointId joint) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.joint_position(joint);
-}
-
-template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) const {
-  const FloatEnvironment environment;
-  return engine_->queries_.joint_position(joint, axis);
-}
-
-/// Both frames from one frame in the world, as the bodies lie now.
-template <class S>
-JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
-  return joint_between(type, a, frame, b, frame);
-}
-template <class S>
-JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
-                                           const Pose<S>& frame_b) const {
-  const FloatEnvironment environment;
-  JointProperties<S> joint;
-  joint.type = type;
-  const auto local = [&](BodyId body, const Pose<S>& frame, std::uint32_t& slot, std::uint32_t& generation) {
-    if (!body) return frame;
-    slot = body.slot;
-    generation = body.generation;
-    if (!contains(body)) return frame;
-    const Pose<S> centre = engine_->map_.centre_pose_at(body.slot);
-    const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
-    return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
-  };
-  joint.frame_a = local(a, frame_a, joint.body_a, joint.generation_a);
-  joint.frame_b = local(b, frame_b, joint.body_b, joint.generation_b);
-  return joint;
-}
-template <class S> JointId World<S>::create(const JointDefinition<S>& definition) {
-  JointProperties<S> joint =
-      joint_between(definition.settings.type, definition.a, definition.frame_a, definition.b, definition.frame_b);
-  joint.take_settings(definition.settings);
-  const std::span<const AxisDrive<S>> drives(definition.drives, min(definition.drive_count, kJointAxes));
-  const FaultReport fault = detail::fault_of_drives(drives, joint, settings().hz * settings().substeps);
-  if (fault != Fault::none) {
-    engine_->journal_.refuse_call("create_joint", fault);
-    return {};
-  }
-  const JointId made = create(joint);
-  for (AxisDrive<S> drive : drives) {
-    drive.joint = made;
-    if (made) add(drive);
-  }
-  return made;
-}
 
 template <class S> const FaultReport& World<S>::fault() const { return engine_->journal_.fault(); }
 template <class S> const FaultReport& World<S>::first_fault() const { return engine_->journal_.first_fault(); }
@@ -257,6 +195,9 @@ template <class S> void World<S>::set_fault_handler(const FaultHandler& handler)
   engine_->journal_.set_fault_handler(handler);
 }
 template <class S> void World<S>::forget_faults() { engine_->journal_.forget_faults(); }
+template <class S> bool World<S>::refuse(const char* call, const FaultReport& report) {
+  return engine_->journal_.refuse_call(call, report);
+}
 template <class S> void World<S>::record_to(std::vector<std::uint8_t>* log) { engine_->journal_.record_to(log); }
 template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->journal_.trace_to(hashes); }
 template <class S> std::uint64_t World<S>::loads() const { return engine_->journal_.loads(); }

@@ -1,5 +1,6 @@
 // The commands about joints: what an accepted one does, and that a refused one names its fault and changes nothing.
 // SPDX-License-Identifier: MIT
+#include "isostep/world/state_validator.hpp"
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
@@ -57,6 +58,38 @@ TYPED_TEST(JointCommands, a_joint_set_anew_keeps_its_bodies_and_frames) {
   EXPECT_EQ(w.joint(this->joint)->frame_b.position, old.frame_b.position);
   EXPECT_EQ(w.joint(this->joint)->upper, S(3));
   EXPECT_EQ(w.joint(this->joint)->user_data, 7u);
+}
+
+TYPED_TEST(JointCommands, more_drives_than_axes_are_refused) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  SixAxisDefinition<S> six;
+  six.b = this->flier;
+  for (std::uint32_t i = 0; i < kJointAxes; ++i) six.drives[i].axis = static_cast<JointAxis>(i);
+  for (const std::uint32_t count : {kJointAxes + 1, 0xffffffffu}) {
+    six.drive_count = count;
+    this->expect_refused(Fault::bad_argument, [&] { return w.create(six_axis(six)); });
+    EXPECT_STREQ(w.fault().command, "create_joint");
+    EXPECT_STREQ(w.fault().field, "drive_count");
+  }
+  six.drive_count = kJointAxes;
+  EXPECT_TRUE(w.create(six_axis(six)));
+  EXPECT_EQ(w.state().force_records->axis_drives.slots().template ids<AxisDriveId>().size(), kJointAxes);
+}
+
+TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  SixAxisDefinition<S> six;
+  six.b = this->flier;
+  six.drives[0].axis = JointAxis::y;
+  six.drives[1].axis = JointAxis::twist;
+  six.drive_count = 2;
+  ASSERT_TRUE(w.create(six_axis(six)));
+  WorldState<S> state = w.state();
+  EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
+  state.force_records.change().axis_drives.change_all()[0].axis = JointAxis::twist;
+  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two drives have the same axis of a joint");
 }
 
 }  // namespace

@@ -196,6 +196,65 @@ TYPED_TEST(Waters, keels_feel_the_water_alone) {
   EXPECT_NEAR(this->velocity(dry).z, 1, 1e-3);
 }
 
+TYPED_TEST(Waters, a_zone_of_higher_rank_keeps_it_out) {
+  using S = TypeParam;
+  const ShapeId box = add_box(this->world_, 0.5, 0.25, 0.5);
+  const BodyId inside = this->body(box, {0, -8, 0}, 25), outside = this->body(box, {8, -8, 0}, 25),
+               other = this->body(box, {0, -8, 1.5}, 25);
+  ASSERT_TRUE(this->world_.set_filter(other, {2, 0xffffffffu, 0}));
+  this->fill(this->pond());
+  RankedZone<S> cabin;
+  cabin.shape = ZoneShape::box;
+  cabin.pose.position = vec<S>(0, -8, 0);
+  cabin.half = vec<S>(2, 2, 2);
+  cabin.mask = ~2u;
+  cabin.replaces = zone_effect::kWater;
+  const RankedZoneId id = this->world_.add(cabin);
+  ASSERT_TRUE(id) << describe(this->world_.fault());
+  const auto rise_in_a_step = [&](BodyId body) {
+    this->world_.set_velocity(body, Vec3<S>::zero(), Vec3<S>::zero());
+    this->world_.step();
+    return this->velocity(body).y * 60;  // [m/s^2]
+  };
+  EXPECT_GT(rise_in_a_step(inside), 5) << "of the rank that water has";
+  cabin.priority = 1;
+  ASSERT_TRUE(this->world_.set(id, cabin));
+  EXPECT_NEAR(rise_in_a_step(inside), -10, 0.02);
+  EXPECT_GT(rise_in_a_step(outside), 5);
+  EXPECT_GT(rise_in_a_step(other), 5) << "of a category that the zone leaves alone";
+  cabin.replaces = zone_effect::kAcceleration | zone_effect::kWind;
+  ASSERT_TRUE(this->world_.set(id, cabin));
+  EXPECT_GT(rise_in_a_step(inside), 5);
+}
+
+TYPED_TEST(Waters, keels_in_a_dry_zone_feel_nothing) {
+  using S = TypeParam;
+  const BodyId boat = this->body(add_box(this->world_, 0.5, 0.25, 0.5), {0, 0, 0}, 25);
+  this->fill(this->pond(0));
+  AeroSurface<S> keel;
+  keel.body = boat;
+  keel.point = vec<S>(0, -0.5, 0);
+  keel.tensor = Mat3<S>::diagonal(vec<S>(0, 0, -400));
+  keel.is_under_water = true;
+  ASSERT_TRUE(this->world_.add(keel));
+  RankedZone<S> dock;  // around the keel alone: the hull above it floats
+  dock.shape = ZoneShape::box;
+  dock.pose.position = vec<S>(0, -2.25, 0);
+  dock.half = vec<S>(4, 2, 4);
+  dock.priority = 1;
+  dock.replaces = zone_effect::kWater;
+  const RankedZoneId id = this->world_.add(dock);
+  ASSERT_TRUE(id) << describe(this->world_.fault());
+  const auto push = [&] { this->world_.set_velocity(boat, vec<S>(0, 0, 1), Vec3<S>::zero()); };
+  push();
+  this->world_.step();
+  EXPECT_NEAR(this->velocity(boat).z, 1, 1e-3);
+  ASSERT_TRUE(this->world_.remove(id));
+  push();
+  this->world_.step();
+  EXPECT_LT(this->velocity(boat).z, 0.9);
+}
+
 TYPED_TEST(Waters, bad_numbers_are_named) {
   using S = TypeParam;
   const auto refused = [&](const char* field, const auto& change, Fault fault = Fault::bad_argument) {
