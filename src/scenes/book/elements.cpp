@@ -139,9 +139,9 @@ void add_cart(Scene& scene) {
                               {"stiffness", {4000}},
                               {"damping", {250}},
                               {"radius", {0.25}},
-                              {"steer_angle", {front ? 1 : 0}},
-                              {"drive_share", {front ? 0 : 1}},
-                              {"axle", {front ? 1 : 2}},
+                              {"steer_angle", {front ? 1.0 : 0.0}},
+                              {"drive_share", {front ? 0.0 : 1.0}},
+                              {"axle", {front ? 1.0 : 2.0}},
                               {"anti_roll", {500}}}});
   }
 }
@@ -165,7 +165,7 @@ void add_joints(Scene& scene) {
   for (const int axis : {3, 4}) {
     scene.records.push_back({"axis_drive",
                              {{"joint", {3}},
-                              {"axis", {axis}},
+                              {"axis", {static_cast<double>(axis)}},
                               {"limited", {1}},
                               {"lower", {axis == 3 ? -0.25 : -0.5}},
                               {"upper", {axis == 3 ? 0.25 : 0.5}}}});
