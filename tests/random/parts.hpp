@@ -1,6 +1,6 @@
 // What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
 // What is new joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a
-// property of bodies in draw_body. A command joins random/world.hpp, energy that is held or given
+// property of bodies in draw_body. A command joins random/changes.hpp, energy that is held or given
 // random/energy_book.hpp, a query random/questions.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
