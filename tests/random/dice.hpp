@@ -20,6 +20,8 @@ class Dice {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
+  /// Dice of their own, which leave these as they are: what joins a world later does not change what was in it.
+  Dice apart() const { return Dice(~state_); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
   bool one_in(std::uint32_t n) { return below(n) == 0; }
   /// In whole thousandths.

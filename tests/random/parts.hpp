@@ -173,6 +173,12 @@ template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, J
       d.spring_frequency = num<S>(dice.magnitude(0.5, 6));
       d.spring_damping = num<S>(dice.in(0, 1));
     }
+    Dice yields = dice.apart();
+    if (yields.one_in(4)) {
+      d.limit_frequency = num<S>(yields.magnitude(2, 60));
+      d.limit_damping = num<S>(yields.in(0, 2));
+    }
+    if (yields.one_in(3)) d.spring_mass = num<S>(yields.magnitude(0.0625, 64));
     w.add(d);
   }
 }

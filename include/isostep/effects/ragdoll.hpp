@@ -23,10 +23,12 @@ template <class S> struct RagdollBone {
 
 /// What is alike for all of its joints.
 template <class S> struct RagdollSettings {
-  S friction = S(0);        // [N m] each axis resists; 0 where servos hold the pose
-  JointServo<S> pose = {};  // holds the rest pose where its `force` [N m] is above 0; its target is 0
-  Filter filter = {};       // of all bodies. Bones that a joint ties have no contacts with each other, and bones that
-                            // overlap at rest none until they are apart
+  S friction = S(0);         // [N m] each axis resists; 0 where servos hold the pose
+  JointServo<S> pose = {};   // holds the rest pose where its `force` [N m] is above 0; its target is 0
+  S limit_frequency = S(0);  // [Hz] of limits that yield, as in AxisDrive; 0: hard ones
+  S limit_damping = S(1);    // [1] ratio, 1 = critical
+  Filter filter = {};        // of all bodies. Bones that a joint ties have no contacts with each other, and bones that
+                             // overlap at rest none until they are apart
   Material<S> material = {};
 };
 
@@ -37,8 +39,10 @@ template <class S> struct Ragdoll {
 
 /// Adds it to the world. Empty where a setting or a bone is refused: then nothing of it is left, and World::first_fault
 /// says why.
-/// Method: balls and hinges with limits; where joints have friction or servos, six-axis joints whose axes have them.
-/// Limits: a servo is as stiff as its frequency and damping say while its force suffices; see AxisDrive.
+/// Method: balls and hinges with limits; where joints have friction, servos or soft limits, six-axis joints whose axes
+///         have them.
+/// Limits: servos and soft limits are made for what hangs on their joint at rest, as if the rest of the body stood
+///         still; a servo holds while its force suffices; see AxisDrive.
 template <class S>
 Ragdoll<S> add_ragdoll(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings = {});
 

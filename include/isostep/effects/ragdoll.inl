@@ -19,7 +19,10 @@ template <class S> class RagdollBuilder {
     const FaultReport fault = fault_of_plan();
     if (fault != Fault::none) return world_.refuse("add_ragdoll", fault);
     for (const RagdollBone<S>& bone : bones_) {
-      if (!add_body(bone) || !add_joint(bone)) return false;
+      if (!add_body(bone)) return false;
+    }
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      if (!add_joint(i)) return false;
     }
     part_overlaps();
     return true;
@@ -61,20 +64,42 @@ template <class S> class RagdollBuilder {
     if (id) made_.bodies.push_back(id);
     return static_cast<bool>(id);
   }
-  bool add_joint(const RagdollBone<S>& bone) {
+  bool add_joint(std::size_t index) {
+    const RagdollBone<S>& bone = bones_[index];
     if (bone.parent < 0) {
       made_.joints.push_back({});
       return true;
     }
     JointDefinition<S> joint = definition_of(bone);
     joint.a = made_.bodies[static_cast<std::size_t>(bone.parent)];
-    joint.b = made_.bodies.back();
+    joint.b = made_.bodies[index];
+    for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+      AxisDrive<S>& drive = joint.drives[i];
+      const int axis = static_cast<int>(drive.axis) - static_cast<int>(JointAxis::swing_x);
+      drive.spring_mass = inertia_behind(index, to_matrix(bone.joint.orientation).column(axis));
+    }
     joint.frame_a = joint.frame_b = bone.joint;
     made_.joints.push_back(world_.create(joint));
     return static_cast<bool>(made_.joints.back());
   }
+  /// [kg m^2] Of the bone and all that hangs on it, about an axis through its joint. Where the format does not hold it,
+  /// its highest.
+  S inertia_behind(std::size_t index, Vec3<Unit<S>> axis) const {
+    S sum = S(0);
+    std::vector<bool> behind(bones_.size(), false);
+    for (std::size_t i = index; i < bones_.size(); ++i) {
+      const int parent = bones_[i].parent;
+      behind[i] = i == index || (parent >= 0 && behind[static_cast<std::size_t>(parent)]);
+      if (!behind[i]) continue;
+      const BodyId body = made_.bodies[i];
+      const Vec3<S> lever = cross(world_.center_of_mass(body) - bones_[index].joint.position, convert<S>(axis));
+      const S about_joint = saturate_to<S>(product(world_.mass(body), dot(lever, lever)));
+      sum = saturating_add(sum, saturating_add(world_.inertia(body, axis), about_joint));
+    }
+    return min(sum, Limits<S>::mass());
+  }
   JointDefinition<S> definition_of(const RagdollBone<S>& bone) const {
-    const bool acts = S(0) < settings_.friction || S(0) < settings_.pose.force;
+    const bool acts = S(0) < settings_.friction || S(0) < settings_.pose.force || S(0) < settings_.limit_frequency;
     const bool round = bone.swing_x == bone.swing_y;
     if (!acts && bone.hinge) return hinge<S>({.limit = JointRange<S>{bone.lower, bone.upper}});
     if (!acts && round) return ball<S>({.cone = bone.swing_x, .twist = JointRange<S>{bone.lower, bone.upper}});
@@ -94,6 +119,8 @@ template <class S> class RagdollBuilder {
     drive.lower = lower;
     drive.upper = upper;
     drive.force = settings_.friction;
+    drive.limit_frequency = settings_.limit_frequency;
+    drive.limit_damping = settings_.limit_damping;
     if (S(0) < settings_.pose.force) {
       drive.force = settings_.pose.force;
       drive.spring_frequency = settings_.pose.frequency;

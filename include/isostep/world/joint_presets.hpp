@@ -36,6 +36,7 @@ template <class S> struct JointServo {
   S damping = S(1);    // [1] 1 = critical
   S target = S(0);     // [m] or [rad]
   S force = S(0);      // [N] or [N m] at most; 0: any
+  S mass = S(0);       // [kg] or [kg m^2] that it is made for: AxisDrive::spring_mass
 };
 
 /// Fixed, universal and angular joints.
@@ -160,6 +161,7 @@ template <class S> ISO_INLINE void add_servo(JointDefinition<S>& to, JointAxis a
   drive.spring_damping = servo.damping;
   drive.spring_target = servo.target;
   drive.force = servo.force;
+  drive.spring_mass = servo.mass;
 }
 }  // namespace detail
 

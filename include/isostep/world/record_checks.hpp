@@ -196,9 +196,14 @@ template <class S> FaultReport fault_of(const AxisDrive<S>& d) {
   NumberChecks<S> checks;
   checks.not_negative(d.spring_frequency, "spring_frequency");
   checks.not_negative(d.force, "force");
+  checks.not_negative(d.spring_mass, "spring_mass");
+  checks.not_negative(d.limit_frequency, "limit_frequency");
   return checks.list.also(fault_of_drive(d, length, reach, expected))
       .proper(d.lower <= d.upper, "lower", "no more than upper")
       .proper(!sprung || S(0) <= d.spring_damping, "spring_damping", "0 to 64")
+      .in_range(d.spring_mass <= Limits<S>::mass(), "spring_mass", "0 to Limits::mass()")
+      .finite(d.limit_damping, "limit_damping")
+      .proper(S(0) <= d.limit_damping && d.limit_damping <= kMaxDampingRatio<S>, "limit_damping", "0 to 64")
       .report();
 }
 template <class S> NamedBodies<S> bodies_of(const AxisDrive<S>&) { return {{}, 0}; }
@@ -212,6 +217,7 @@ FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& join
       .proper((joint.flags & lock_of(d.axis)) == 0, "axis", "one that the joint does not lock")
       .proper(!cone || d.lower == -d.upper, "lower", "-upper: the joint's kCone makes an ellipse of them")
       .in_range(d.spring_frequency <= S(substep_rate) * S(0.5), "spring_frequency", "up to half the sub-step rate")
+      .in_range(d.limit_frequency <= S(substep_rate) * S(0.5), "limit_frequency", "up to half the sub-step rate")
       .report();
 }
 /// Of all drives that a joint is to have.

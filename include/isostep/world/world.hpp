@@ -221,6 +221,8 @@ template <class S> class World final {
   /// [m/s] of a point [m] that moves with the body, both world.
   Vec3<S> velocity_at(BodyId body, Vec3<S> point) const;
   S mass(BodyId body) const;
+  /// [kg m^2] about an axis [1] through its centre of mass, world. 0 of what is not dynamic, and of a locked axis.
+  S inertia(BodyId body, Vec3<Unit<S>> axis) const;
   std::uint64_t user_data(BodyId body) const;
   std::vector<BodyId> bodies() const;
   std::vector<JointId> joints() const;

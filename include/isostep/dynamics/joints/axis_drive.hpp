@@ -24,6 +24,10 @@ ISO_INLINE constexpr std::uint32_t lock_of(JointAxis axis) {
 /// Acts along one axis of a six-axis joint, which does not lock it. An axis has one of these at most; one without is
 /// free. It ends with its joint.
 /// Servo: a spring with a largest force and no motor beside it: it goes to its target as far as it is strong enough.
+/// Stiffness: spring_mass (2 pi frequency)^2, at most as of 4096 times what its two bodies weigh. With spring_mass 0 a
+/// spring has its frequency between those two alone, and gives under the weight of what else hangs on them.
+/// Soft limits: beyond them a spring of `limit_frequency` and `limit_damping` pulls back, beside the spring and the
+/// motor; a servo rests there. Those of a kCone are swing_x's.
 template <class S> struct AxisDrive {
   JointId joint = {};
   JointAxis axis = JointAxis::x;
@@ -36,6 +40,9 @@ template <class S> struct AxisDrive {
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; 0: no spring
   S spring_damping = S(0);    // [1] ratio, 1 = critical
   S force = S(0);             // [N] or [N m] most that the motor gives; without a motor the spring, 0: any
+  S spring_mass = S(0);       // [kg] or [kg m^2] that springs and soft limits are made for; 0: what they feel
+  S limit_frequency = S(0);   // [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones
+  S limit_damping = S(0);     // [1] ratio, 1 = critical
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("joint", self.joint);
@@ -49,6 +56,9 @@ template <class S> struct AxisDrive {
     visit("spring_frequency", self.spring_frequency);
     visit("spring_damping", self.spring_damping);
     visit("force", self.force);
+    visit("spring_mass", self.spring_mass);
+    visit("limit_frequency", self.limit_frequency);
+    visit("limit_damping", self.limit_damping);
   }
 };
 

@@ -71,16 +71,21 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
   const detail::JointFrames<S> frames = detail::joint_frames(joint, step.states);
   joint.arm_a = frames.arm_a;
   joint.arm_b = frames.arm_b;
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    JointDrive<S>& drive = joint.drives[i];
+    if (drive.soft) drive.bounded_below = drive.bounded_above = true;
+  }
   visit_joint_type(joint.properties.type, [&](auto kind) ISO_INLINE_LAMBDA {
     decltype(kind)::template Of<S>::linearise(frames, step.h, joint);
   });
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
+    if (drive.soft) detail::yield_limit(drive);
     drive.piece = detail::valid_piece(drive, drive.piece);
     if (!drive.sprung) continue;
     const S angle = S(6.283185307179586) * (drive.frequency * step.h);
     const S a1 = S(2) * drive.damping + angle;
-    drive.spring_came = detail::lagging_way(drive.row, angle, joint, step);
+    drive.spring_came = drive.yields ? Velocity<S>(0) : detail::lagging_way(drive.row, angle, joint, step);
     drive.spring_root = sqrt(angle) * sqrt(a1);
     drive.spring_rate = a1 > S(0) ? step.rate * (angle / a1) : S(0);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/joints/soft_limit.hpp"
 
 namespace isostep {
 
@@ -75,10 +76,8 @@ template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointCon
   drive.push_speed = is_length(asked.axis) ? kJointPushSpeed<S> : kAnglePushSpeed<S>;
   drive.bounded_below = drive.bounded_above = asked.limited;
   drive.driven = asked.motor;
-  drive.sprung = S(0) < asked.spring_frequency;
-  drive.servo = drive.sprung && !asked.motor && S(0) < asked.force;
-  drive.frequency = asked.spring_frequency;
-  drive.damping = asked.spring_damping;
+  drive.soft = is_soft(asked);
+  set_spring(asked, drive);
   if (is_length(asked.axis) || asked.axis == JointAxis::twist) return;
   const SinCos<S> half = sin_cos(min(asked.upper, kWidestSwing<S>) * S(0.5));
   drive.half_tangent = max(half.sin / half.cos, kLeastHalfTangent<S>);
@@ -107,12 +106,17 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
 template <class S> ISO_INLINE S force_of(const JointDrive<S>& drive, const JointProperties<S>& p) {
   return drive.asked == nullptr ? p.motor_torque : drive.asked->force;
 }
+/// [kg] That impulses of the joint are counted for.
+template <class S>
+ISO_INLINE S impulse_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint) {
+  return a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b;
+}
 /// force h / reduced mass is the impulse, in its unit, that the motor gives in h; a torque's lever is the radius.
 template <class S>
 ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
                           JointDrive<S>& drive) {
   const JointProperties<S>& p = joint.properties;
-  const S reduced = a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b, force = force_of(drive, p);
+  const S reduced = impulse_mass(a, b, joint), force = force_of(drive, p);
   if (drive.block == 0) {
     drive.force = divide_to<S>(force, reduced);
     drive.most = Limits<S>::speed();
@@ -125,6 +129,20 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
   const S reach = max(S(1), max(max_abs(p.frame_a.position), max_abs(p.frame_b.position)));
   const S turning = max(trace_bound(a, b, joint.share) * radius, S(1));
   drive.most = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
+}
+
+/// [1] A spring acts as if made for no more than 4096 times the mass between its bodies: what Q16.16 resolves of it.
+template <class S> inline constexpr S kLeastSpringInverse = S(0x1p-12);
+/// Of a spring whose mass is given: along a row of unit length, or at the radius of a turn.
+template <class S>
+ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
+                                JointDrive<S>& drive) {
+  drive.spring_inverse = S(0);
+  if (drive.asked == nullptr || !(S(0) < drive.asked->spring_mass)) return;
+  const S radius = drive.block == 0 ? S(1) : drive.radius;
+  const S at_radius = saturate_to<S>(product(impulse_mass(a, b, joint), radius));
+  const S inverse = saturate_to<S>(product(divide_to<S>(at_radius, drive.asked->spring_mass), radius));
+  drive.spring_inverse = max(inverse, kLeastSpringInverse<S>);
 }
 
 /// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().
@@ -163,6 +181,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
     JointDrive<S>& drive = joint.drives[i];
     drive.force = drive.most = S(0);
     if (joint.holds && (drive.driven || drive.servo)) detail::set_force(mass_a, mass_b, joint, drive);
+    if (joint.holds) detail::set_spring_mass(mass_a, mass_b, joint, drive);
   }
 }
 

@@ -1,0 +1,46 @@
+// Soft limits of an AxisDrive: which spring acts along a drive in a sub-step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_drive.hpp"
+
+namespace isostep::detail {
+
+template <class S> ISO_INLINE bool is_soft(const AxisDrive<S>& asked) {
+  return asked.limited && S(0) < asked.limit_frequency;
+}
+/// The spring of its own.
+template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDrive<S>& drive) {
+  drive.sprung = S(0) < asked.spring_frequency;
+  drive.servo = drive.sprung && !asked.motor && S(0) < asked.force;
+  drive.frequency = asked.spring_frequency;
+  drive.damping = asked.spring_damping;
+}
+
+/// Where a sub-step begins beyond a soft limit, the limit is a spring toward it beside the drive's own: stiffness and
+/// damping add up, w^2 = w1^2 + w2^2, d w = d1 w1 + d2 w2. There it takes up all of a servo, whose force has a bound
+/// that one spring of both would not know. The drive stands where `linearise` placed it.
+/// Source:  PxJointLimitParameters of PhysX: a limit with stiffness acts where it is violated.
+/// Limits:  a body is beyond it by up to its speed times the sub-step before the limit begins. So the spring is taken
+///          implicitly, without what `lagging_way` gives back: it loses at least the energy that it did not take on
+///          that way, and a bounce gives none.
+template <class S> ISO_INLINE void yield_limit(JointDrive<S>& drive) {
+  const AxisDrive<S>& asked = *drive.asked;
+  const bool below = drive.bounded_below && drive.position < drive.lower;
+  const bool above = drive.bounded_above && drive.upper < drive.position;
+  drive.bounded_below = drive.bounded_above = false;
+  drive.yields = below || above;
+  set_spring(asked, drive);
+  if (!drive.yields) return;
+  const S limit = below ? drive.lower : drive.upper;
+  const S own = drive.servo ? S(0) : asked.spring_frequency;
+  const Direction<S> both = direction_of(asked.limit_frequency, own, S(0));
+  const S of_limit = convert<S>(both.x), of_own = convert<S>(both.y);
+  drive.sprung = true;
+  drive.servo = false;
+  drive.frequency = both.length;
+  drive.damping = of_limit * asked.limit_damping + of_own * asked.spring_damping;
+  drive.target = limit + of_own * of_own * (drive.target - limit);
+}
+
+}  // namespace isostep::detail
