@@ -24,8 +24,9 @@ ISO_INLINE constexpr std::uint32_t lock_of(JointAxis axis) {
 /// Acts along one axis of a six-axis joint, which does not lock it. An axis has one of these at most; one without is
 /// free. It ends with its joint.
 /// Servo: a spring with a largest force and no motor beside it: it goes to its target as far as it is strong enough.
-/// Stiffness: spring_mass (2 pi frequency)^2, at most as of 4096 times what its two bodies weigh. With spring_mass 0 a
-/// spring has its frequency between those two alone, and gives under the weight of what else hangs on them.
+/// Stiffness: spring_mass (2 pi frequency)^2, at most as of 2^20 times what its two bodies weigh, 2^14 in Q16.16. With
+/// spring_mass 0 a spring has its frequency between those two alone, and gives under the weight of what else hangs on
+/// them.
 /// Soft limits: beyond them a spring of `limit_frequency` and `limit_damping` pulls back, beside the spring and the
 /// motor; a servo rests there. Those of a kCone are swing_x's.
 template <class S> struct AxisDrive {

@@ -131,8 +131,9 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
   drive.most = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
 }
 
-/// [1] A spring acts as if made for no more than 4096 times the mass between its bodies: what Q16.16 resolves of it.
-template <class S> inline constexpr S kLeastSpringInverse = S(0x1p-12);
+/// [1] A spring acts as if made for no more than a million times the mass between its bodies, of which Q16.16 resolves
+/// 16384.
+template <class S> inline constexpr S kLeastSpringInverse = max(S(0x1p-20), S(4) * resolution<S>());
 /// Of a spring whose mass is given: along a row of unit length, or at the radius of a turn.
 template <class S>
 ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
