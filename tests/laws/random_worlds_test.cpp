@@ -37,7 +37,7 @@ struct WorldFindings {
 template <class S> double apart(const World<S>& w, JointId id) {
   const JointProperties<S>& p = *w.joint(id);
   const double error = to_double(w.joint_error(id));
-  if (holds_point(p.type) || joins_two_points(p.type)) return error;
+  if (holds_point(p) || joins_two_points(p.type)) return error;
   return error / std::max(1.0, angles_of(w, p).apart / kFarOut);
 }
 

@@ -12,11 +12,11 @@ template <class S> struct ProbeJoint {
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;
   static constexpr const char* kFlagNames = "of a probe kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::length;
-  static constexpr bool kPoint = false;
   static constexpr bool kTwoPoints = false;
-  static constexpr bool kDrivesAlone = false;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+  static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }
+  static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;

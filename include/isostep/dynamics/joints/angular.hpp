@@ -14,6 +14,7 @@ template <class S> struct AngularJoint : detail::SlidingJoint<S> {
   static constexpr const char* kFlagNames = "of an angular joint kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
 
+  static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t block) { return block == 0; }
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;
     joint.drive_count = 0;

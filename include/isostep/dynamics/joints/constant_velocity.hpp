@@ -14,7 +14,6 @@ template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kCone;
   static constexpr const char* kFlagNames = "of a constant velocity joint kCone, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
-  static constexpr bool kDrivesAlone = false;
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     const bool cone = (joint.properties.flags & joint_flag::kCone) != 0;

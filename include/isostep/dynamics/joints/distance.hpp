@@ -12,19 +12,19 @@ template <class S> struct DistanceJoint {
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kSpring;
   static constexpr const char* kFlagNames = "of a distance joint kLimit, kSpring, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::length;
-  static constexpr bool kPoint = false;
   static constexpr bool kTwoPoints = true;
-  static constexpr bool kDrivesAlone = true;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>& p) {
     if (p.lower < S(0)) return {Fault::bad_argument, "", "lower", "a length of 0 or more"};
     return {};
   }
 
+  static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }
+  static ISO_INLINE bool is_free(const JointProperties<S>& p, std::uint32_t) { return !is_rod(p); }
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     const JointProperties<S>& p = joint.properties;
     const bool spring = (p.flags & joint_flag::kSpring) != 0;
-    const bool rod = is_bounded(p) && !(p.lower < p.upper);
+    const bool rod = is_rod(p);
     JointDrive<S>& drive = joint.drives[0];
     joint.block_count = 1;
     joint.drive_count = rod ? 0 : 1;
@@ -66,6 +66,9 @@ template <class S> struct DistanceJoint {
  private:
   static ISO_INLINE constexpr bool is_bounded(const JointProperties<S>& p) {
     return (p.flags & joint_flag::kLimit) != 0 || (p.flags & joint_flag::kSpring) == 0;
+  }
+  static ISO_INLINE constexpr bool is_rod(const JointProperties<S>& p) {
+    return is_bounded(p) && !(p.lower < p.upper);
   }
 };
 

@@ -179,11 +179,7 @@ template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<
   bool changes = false;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
-    drive.next = detail::next_piece(drive, speed_along(drive.row, m), detail::bounds_of(drive, step, relax),
-                                    detail::most_impulse(drive, step.h));
-    const bool lets_go = detail::fixes_speed(drive.piece) && !detail::fixes_speed(drive.next);
-    if (!may_hold && !lets_go) drive.next = drive.piece;
-    changes = changes || drive.next != drive.piece;
+    changes = detail::judge_drive(drive, speed_along(drive.row, m), step, relax, may_hold) || changes;
   }
   return changes;
 }

@@ -31,7 +31,7 @@ template <class S> ISO_INLINE void add_row(JointImpulse<S>& sum, const JointRow<
 
 /// Adds those of a sub-step. Kernels leave joints that are a point and nothing else without rows: theirs are the axes.
 template <class S> ISO_INLINE void add_impulses(const JointConstraint<S>& joint, JointImpulse<S>& sum) {
-  if (holds_point(joint.properties.type) && joint.block_count == 1 && joint.drive_count == 0) {
+  if (holds_point(joint.properties) && joint.block_count == 1 && joint.drive_count == 0) {
     for (int k = 0; k < 3; ++k) sum.linear[k] = saturating_add(sum.linear[k], convert<S>(joint.blocks[0].impulse[k]));
     return;
   }

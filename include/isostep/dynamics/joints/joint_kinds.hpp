@@ -26,9 +26,9 @@ concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> so
   { Joint<S>::kFlags } -> std::convertible_to<std::uint32_t>;       // those it knows
   { Joint<S>::kFlagNames } -> std::convertible_to<const char*>;     // to whom sets another: "of a hinge kLimit, ..."
   { Joint<S>::kMeasure } -> std::convertible_to<JointMeasure>;      // of its position
-  { Joint<S>::kPoint } -> std::convertible_to<bool>;                // origins coincide, and the first block is they
   { Joint<S>::kTwoPoints } -> std::convertible_to<bool>;            // origins are apart from the start
-  { Joint<S>::kDrivesAlone } -> std::convertible_to<bool>;          // no equality is in the block that drives are in
+  { Joint<S>::is_point(p) } -> std::same_as<bool>;                  // origins coincide, and the first block is they
+  { Joint<S>::is_free(p, 0u) } -> std::same_as<bool>;               // no equality is in that block
   { Joint<S>::fault(p) } -> std::same_as<FaultReport>;              // of finite numbers that every kind would take
   { Joint<S>::count_rows(joint) } -> std::same_as<void>;            // once a step: blocks, drives and what acts on them
   { Joint<S>::linearise(frames, h, joint) } -> std::same_as<void>;  // each sub-step: rows and errors
@@ -63,8 +63,14 @@ ISO_INLINE constexpr bool joins_two_points(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kTwoPoints; });
 }
-ISO_INLINE constexpr bool holds_point(JointType type) {
-  return visit_joint_type(type, [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kPoint; });
+template <class S> ISO_INLINE bool holds_point(const JointProperties<S>& p) {
+  return visit_joint_type(p.type,
+                          [&](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::is_point(p); });
+}
+/// Whether all rows of a block are drives or none.
+template <class S> ISO_INLINE bool is_free(const JointProperties<S>& p, std::uint32_t block) {
+  return visit_joint_type(
+      p.type, [&](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::is_free(p, block); });
 }
 
 }  // namespace isostep

@@ -30,19 +30,20 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 ///          than the format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may
 ///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
-/// Drives:  rows of their joint's last block. While one is off its piece of the law (joint_drive.hpp) the pass begins
-///          again with a new factorisation, see kMostPieceChanges. A ball with limits counts two blocks.
+/// Drives:  rows of their joint's blocks. While one is off its piece of the law (joint_drive.hpp) the pass begins
+///          again with a new factorisation, see kMostPieceChanges. A block of drives alone, none of which acts, asks
+///          for nothing and is left out.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
-/// Batches: trees of ball joints without limits are solved by a TreeKernels, as many of one shape at once as it is
-///          wide; all other joints, and trees that share a body with them, are one batch more. Batches write no body in
-///          common: each may be warm-started and solved by a thread of its own, and in any order.
+/// Batches: trees are solved by TreeKernels, as many of one shape at once as they are wide. Joints solved one after
+///          another, and trees that share a body with them, are one batch more. Batches write no body in common: each
+///          may be warm-started and solved by a thread of its own, and in any order.
 template <class S> class JointTrees {
  public:
-  /// Once a step, after its joints are prepared. Null for no joint to be solved by kernels.
-  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
+  /// Once a step, after its joints are prepared.
+  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide,
             JointOrder order = JointOrder::trees);
   ISO_INLINE std::uint32_t batch_count() const {
-    return static_cast<std::uint32_t>(batches_.size()) + (rest_.empty() ? 0u : 1u);
+    return static_cast<std::uint32_t>(batches_.size()) + (loose_.empty() ? 0u : 1u);
   }
   /// Each sub-step: the state of the joints now, then last impulses; biased; and, after positions moved, relaxed.
   void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
@@ -59,80 +60,83 @@ template <class S> class JointTrees {
   struct Node {
     std::uint32_t joint, block;
     std::uint32_t first_link, link_count;
-    bool closes_loop;  // through the world
-    bool idle;         // asks for nothing in this pass
   };
-  /// The nodes of one tree, in order of elimination, and those of its joints that have drives.
-  struct Elimination {
-    std::uint32_t first_node, node_count, first_driven, driven_count;
-  };
-  struct Link {
-    std::uint32_t to;  // node
-    Mat3<S> down;      // K_ji, i = this node, j = to
-    Mat3<S> up;        // K_ij, then D_i^-1 K_ij
-  };
-
-  /// A tree whose joints are solved by a kernel, as a list that next_ links.
+  /// As a list that next_ links.
   struct Tree {
-    std::uint64_t hash;  // of its joints' ends
+    std::uint64_t hash;    // of its joints' ends
+    std::uint32_t active;  // of its nodes that may idle, the first 32: those with a drive that acts
+    bool odd;              // shares a body with joints that are solved one by one
     std::uint32_t first, last, joint_count, body_count;
   };
-  /// A joint's ends as its tree numbers bodies: equal lists of them are equal shapes.
+  /// A joint's ends as its tree numbers bodies, and its rows: equal lists of them are equal shapes.
   struct Ends {
     std::uint32_t a, b;
+    std::uint32_t layout;
     bool a_moves, b_moves, closes_loop;
   };
   struct HashOfTree {
     ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.hash; }
   };
+  struct ActiveOfTree {
+    ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.active; }
+  };
   /// Where a shape's lists begin.
   struct Shape {
-    std::uint32_t first_joint, joint_count, first_link, link_count, first_body, body_count;
+    std::uint32_t first_joint, joint_count, first_node, node_count, first_link, link_count, first_drive, drive_count,
+        first_body, body_count, row_blocks;
+    bool written;  // joints write rows: it has more than points
   };
   struct Batch {
     const TreeKernels<S>* kernels;
     std::uint32_t shape;
-    std::uint32_t first_joint, first_row;  // in lane_joints_ and lane_rows_
+    std::uint32_t first_joint, first_row, first_idle;  // in lane_joints_, lane_rows_ and idle_
     std::uint32_t lanes;
     std::size_t offset;  // [bytes] in memory_
   };
+
+  // joint_tree_plan.inl
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);
-  void eliminate_rest(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some);
   void add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent);
 
-  void mark_odd_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
-  void find_plain_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  // joint_tree_batches.inl
+  void gather_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void add_to_tree(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j, Tree& tree);
   bool same_shape(const Tree& a, const Tree& b) const;
   void make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
   void add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree);
+  void add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape);
   void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees,
-                 const TreeKernels<S>& kernels);
+                 const TreeKernels<S>& kernels, std::size_t offset);
   TreeShape shape_of(const Shape& shape) const;
   TreeRun<S> run_of(const Batch& batch, SolverBodies<S>* bodies);
 
-  void couple(const Node& node, Link& link, std::span<const JointConstraint<S>> joints,
-              const SolverBodies<S>& bodies) const;
-  bool is_idle(const JointConstraint<S>& joint, std::uint32_t block) const;
-  void factor(const Elimination& tree, std::span<JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  // joint_tree_drives.inl
+  void write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                  const JointStep<S>& step);
+  template <class Act> void each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const;
+  void set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                  const JointStep<S>& step);
+  void ask_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                  const JointStep<S>& step, bool relax) const;
+  bool judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                    const JointStep<S>& step, bool relax, bool may_hold) const;
+  void solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+
+  // joint_tree.inl
+  void warm_start(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
+  void solve(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void store(const Batch& batch, std::span<JointConstraint<S>> joints);
+  void begin_loose(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
   void find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
   void stiffen(const SolverBodies<S>& bodies);
-  void warm_start_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
-  void solve_rest(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
-  void solve_tree(const Elimination& tree, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
-  void substitute(const Elimination& tree, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies);
-  void find_right_sides(const Elimination& tree, std::span<const JointConstraint<S>> joints, const JointStep<S>& step,
-                        bool relax);
-  Link& link_between(std::uint32_t i, std::uint32_t j);
 
   DisjointSets sets_;
   std::vector<std::uint32_t> loose_;    // joints solved on their own
   std::vector<std::uint8_t> role_;      // of each joint
-  std::vector<std::uint8_t> closing_;   // of each joint: closes a loop through the world
   std::vector<std::uint8_t> anchored_;  // of each set of bodies: hangs on the world already
   std::vector<S> set_mass_;             // [kg] of each set of bodies, up to the limit
   std::vector<S> set_lightest_;         // [kg] least reduced mass of its joints
@@ -142,18 +146,13 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> at_body_;  // tree joints of each row
   std::vector<std::uint32_t> queue_;
   std::vector<std::uint32_t> node_of_;  // of joint * 2 + block
-  std::vector<Mat3<S>> kappa_;          // [1/m^2] of each row, as the joints see it
+  std::vector<Mat3<S>> kappa_;          // [1/m^2] of each row, as the loose joints see it
   std::vector<Mat3<S>> tension_;        // [m^2] of each row: geometric stiffness h^2 / mass
   std::vector<std::uint32_t> taut_;     // rows whose tension is worth a look
-  std::vector<Node> nodes_;
-  std::vector<Link> links_;
-  std::vector<Elimination> eliminations_;  // of the trees that no kernel solves
-  std::vector<std::uint32_t> driven_;      // their joints that have drives
-  std::vector<Vec3<Velocity<S>>> right_;   // right-hand sides, then solutions
-  std::vector<JointStart<S>> starts_;      // of a pass, by the node of a joint's point
+  std::vector<Node> nodes_;             // of one tree, in order of elimination
+  std::vector<std::uint32_t> links_;    // nodes that they lead to
 
-  std::vector<std::uint32_t> rest_;         // joints that no kernel solves
-  std::vector<std::uint8_t> odd_;           // of each set of bodies: no kernel solves its tree
+  std::vector<std::uint8_t> odd_;           // of each set of bodies: loose joints touch it
   std::vector<std::uint32_t> tree_of_set_;  // in trees_
   std::vector<std::uint32_t> local_;        // of each row: its number in its tree
   std::vector<std::uint32_t> next_;         // of each joint: the next of its tree
@@ -162,11 +161,14 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> listed_;  // joints of one tree
   std::vector<Shape> shapes_;
   std::vector<TreeJoint> shape_joints_;
+  std::vector<TreeNode> shape_nodes_;
   std::vector<TreeLink> shape_links_;
+  std::vector<TreeDrive> shape_drives_;
   std::vector<TreeBody> shape_bodies_;
   std::vector<std::uint32_t> shape_given_;
-  std::vector<Batch> batches_;
+  std::vector<Batch> batches_, odd_batches_;
   std::vector<std::uint32_t> lane_joints_, lane_rows_;
+  std::vector<std::uint32_t> idle_;  // of each batch's nodes
   AlignedBytes memory_;
 };
 

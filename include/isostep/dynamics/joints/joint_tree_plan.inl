@@ -12,25 +12,17 @@ enum JointRole : std::uint8_t { kIdle, kBatched, kLoose, kTree, kClosing, kQueue
 }  // namespace detail
 
 template <class S>
-void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
+void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide,
                          JointOrder order) {
-  nodes_.clear();
-  links_.clear();
   loose_.clear();
-  rest_.clear();
   batches_.clear();
+  odd_batches_.clear();
   if (joints.empty()) return;
   find_trees(joints, bodies, order);
-  if (wide != nullptr) find_plain_trees(joints, bodies);
+  gather_trees(joints, bodies);
   list_joints_of_bodies(joints);
-  if (wide != nullptr) make_batches(joints, bodies, *wide);
-  for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    if (role_[j] != detail::kIdle && role_[j] != detail::kBatched) rest_.push_back(j);
-  }
-  if (rest_.empty()) return;
-  eliminate_rest(joints, bodies);
-  right_.resize(nodes_.size());
-  starts_.resize(driven_.empty() ? 0 : nodes_.size());
+  make_batches(joints, bodies, wide);
+  if (loose_.empty()) return;
   kappa_.resize(bodies.mass.size());
   tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
 }
@@ -103,7 +95,6 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
 
 template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const JointConstraint<S>> joints) {
   node_of_.assign(joints.size() * 2, 0);
-  closing_.resize(joints.size());
   first_.assign(degree_.size() + 1, 0);
   for (std::size_t row = 0; row < degree_.size(); ++row) first_[row + 1] = first_[row] + degree_[row];
   at_body_.resize(first_.back());
@@ -119,50 +110,14 @@ template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const Joi
   }
 }
 
-/// Tree by tree, in the order of their first joints.
-template <class S>
-void JointTrees<S>::eliminate_rest(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
-  nodes_.clear();
-  links_.clear();
-  eliminations_.clear();
-  driven_.clear();
-  tree_of_set_.assign(degree_.size(), detail::kNone);
-  next_.resize(joints.size());
-  trees_.clear();
-  for (const std::uint32_t j : rest_) {
-    if (role_[j] < detail::kTree) continue;
-    const std::uint32_t set = sets_.find(bodies.moves(joints[j].row_a) ? joints[j].row_a : joints[j].row_b);
-    std::uint32_t& tree = tree_of_set_[set];
-    if (tree == detail::kNone) {
-      tree = static_cast<std::uint32_t>(trees_.size());
-      trees_.push_back({0, j, j, 0, 0});
-    }
-    next_[trees_[tree].last] = j;
-    next_[j] = detail::kNone;
-    trees_[tree].last = j;
-  }
-  for (const Tree& tree : trees_) {
-    Elimination made = {static_cast<std::uint32_t>(nodes_.size()), 0, static_cast<std::uint32_t>(driven_.size()), 0};
-    listed_.clear();
-    for (std::uint32_t j = tree.first; j != detail::kNone; j = next_[j]) {
-      listed_.push_back(j);
-      if (joints[j].drive_count > 0) driven_.push_back(j);
-    }
-    eliminate(joints, listed_);
-    made.node_count = static_cast<std::uint32_t>(nodes_.size()) - made.first_node;
-    made.driven_count = static_cast<std::uint32_t>(driven_.size()) - made.first_driven;
-    eliminations_.push_back(made);
-  }
-}
-
 /// Leaves first: a joint's turn comes when one of its bodies has no other joint left. What does not move has degree 0.
-/// `some` is a whole tree; its nodes and links follow those that are there.
+/// `some` is a whole tree.
 template <class S>
 void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some) {
-  const std::size_t links = links_.size();
+  nodes_.clear();
+  links_.clear();
   queue_.clear();
   for (const std::uint32_t j : some) {
-    closing_[j] = role_[j] == detail::kClosing;
     if (degree_[joints[j].row_a] <= 1 || degree_[joints[j].row_b] <= 1) {
       queue_.push_back(j);
       role_[j] = detail::kQueued;
@@ -186,14 +141,14 @@ void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::s
       role_[other] = detail::kQueued;
     }
   }
-  for (std::size_t l = links; l < links_.size(); ++l) links_[l].to = node_of_[links_[l].to];
+  for (std::uint32_t& to : links_) to = node_of_[to];
 }
 
 template <class S>
 void JointTrees<S>::add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent) {
-  const auto link_to = [&](std::uint32_t joint, std::uint32_t block) { links_.push_back({joint * 2 + block, {}, {}}); };
+  const auto link_to = [&](std::uint32_t joint, std::uint32_t block) { links_.push_back(joint * 2 + block); };
   for (std::uint32_t block = joints[j].block_count; block-- > 0;) {  // angles first: small blocks stay small
-    Node node = {j, block, static_cast<std::uint32_t>(links_.size()), 0, closing_[j] != 0, false};
+    Node node = {j, block, static_cast<std::uint32_t>(links_.size()), 0};
     node_of_[j * 2 + block] = static_cast<std::uint32_t>(nodes_.size());
     if (block == 1) link_to(j, 0);
     for (std::uint32_t i = first_[parent]; i < first_[parent + 1]; ++i) {

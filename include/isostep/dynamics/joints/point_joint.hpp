@@ -8,11 +8,12 @@ namespace isostep::detail {
 
 /// The base of such a kind, which has the other members of `JointOf` (joint_kinds.hpp).
 template <class S> struct PointJoint {
-  static constexpr bool kPoint = true;
   static constexpr bool kTwoPoints = false;
 
   /// Any setting is valid that is valid for all kinds.
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+  static ISO_INLINE bool is_point(const JointProperties<S>&) { return true; }
+  static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }
 
   static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return joint.blocks[0].impulse; }
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {

@@ -18,6 +18,12 @@ template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {
   static constexpr const char* kFlagNames = "of a six-axis joint kLock..., kCone, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
 
+  static ISO_INLINE bool is_point(const JointProperties<S>& p) {
+    return (p.flags & joint_flag::kLockPoint) == joint_flag::kLockPoint;
+  }
+  static ISO_INLINE bool is_free(const JointProperties<S>& p, std::uint32_t block) {
+    return (p.flags & (block == 0 ? joint_flag::kLockPoint : joint_flag::kLockTurns)) == 0;
+  }
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;
     joint.drive_count = 0;  // AxisDrives follow
@@ -41,7 +47,7 @@ template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {
                                           JointConstraint<S>& joint) {
     const std::uint32_t flags = joint.properties.flags;
     JointBlock<S>& block = joint.blocks[0];
-    if ((flags & joint_flag::kLockPoint) == joint_flag::kLockPoint) return detail::point_block(f, h, block);
+    if (is_point(joint.properties)) return detail::point_block(f, h, block);
     detail::empty_block(block);
     for (int i = 0; i < 3; ++i) {
       if ((flags & joint_flag::kLockX << i) == 0) continue;

@@ -56,11 +56,11 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> pull_of_rows(const JointConstrai
 
 /// The base of joints whose origins move against each other, as PointJoint is that of others.
 template <class S> struct SlidingJoint {
-  static constexpr bool kPoint = false;
   static constexpr bool kTwoPoints = false;
-  static constexpr bool kDrivesAlone = false;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
+  static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }
+  static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }
   static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return pull_of_rows(joint); }
   /// Off a's z axis.
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {

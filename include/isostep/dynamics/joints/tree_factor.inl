@@ -3,18 +3,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/tree_gather.inl"
+#include "isostep/dynamics/joints/tree_couplings.inl"
 #include "isostep/scalar/lanes_bounded.hpp"
 #include "isostep/scalar/lanes_reciprocal.hpp"
 
 namespace isostep {
 namespace {
 
-/// Symbols: r = arm from a body's centre to the joint, kappa = mass times inverse inertia. An impulse p at r turns the
-///          body by C p, row i of C = kappa_i x r; that moves the end of another arm q of the body by (C p) x q. With
-///          D, K, lambda as in joint_tree.hpp.
-template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, Isa> {
-  using Base = TreeGatherer<S, W, Isa>;
+/// Symbols: D, K, lambda as in joint_tree.hpp.
+template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, Isa> {
+  using Base = TreeCoupler<S, W, Isa>;
   using Base::load;
   using Base::number;
   using Base::store;
@@ -24,19 +22,51 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
   using typename Base::Link;
   using typename Base::Mask;
   using typename Base::Memory;
+  using typename Base::Node;
+  using typename Base::Rows;
   using typename Base::U;
   using typename Base::V;
 
+  /// Of where bodies are now and what their joints ask.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
     place_bodies(run, m, joints, step.states);
+    Base::gather_rows(run, m, joints);
     const bool rapid = follow_masses(run, m, step.rapid);
-    const std::size_t count = run.shape.joints.size();
-    for (std::size_t j = 0; j < count; ++j) linearise(run.shape.joints[j], m, m.joints[j], step, rapid);
+    for (std::size_t j = 0; j < run.shape.joints.size(); ++j) linearise(run.shape, j, m, step, rapid);
     stiffen(run.shape, m);
-    for (std::size_t j = 0; j < count; ++j) weigh(run.shape.joints[j], m, m.joints[j]);
-    for (std::size_t j = 0; j < count; ++j) couple(run.shape, j, m);
-    for (std::size_t j = 0; j < count; ++j) eliminate(run.shape, j, m);
+    for (const TreeNode& node : run.shape.nodes) Base::set_turns(run.shape, node, m);
+    factorise(run, m);
+  }
+  /// Of rows that turn bodies as before, with drives on the pieces where they are now.
+  static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m) {
+    const TreeShape& shape = run.shape;
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      if (idles(run, n)) continue;
+      const TreeNode& node = shape.nodes[n];
+      Mat3<L> k = Base::self_coupling(node, m);
+      if (node.drive_count > 0) Base::scale_self(shape, node, m, k);
+      store(k, m.nodes[n].inverse);
+      for (std::uint32_t l = node.first_link; l < node.first_link + node.link_count; ++l) {
+        if (idles(run, shape.links[l].to)) continue;
+        Mat3<L> up, down;
+        Base::couple(shape, node, shape.links[l], m, up, down);
+        store(up, m.links[l].up);
+        store(down, m.links[l].down);
+      }
+    }
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      if (!idles(run, n)) eliminate(run, n, m);
+    }
+  }
+  /// Whether a node asks for nothing in any lane.
+  static ISO_INLINE bool idles(const TreeRun<S>& run, std::size_t node) {
+    constexpr std::uint32_t kAll = 0xffffffffu >> (32 - W);
+    return run.shape.nodes[node].may_idle && (run.idle[node] & kAll) == kAll;
+  }
+  /// The lanes in which it does.
+  static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) {
+    return Mask::from_bits(run.idle[node]);
   }
 
   template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
@@ -108,22 +138,28 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     return {part(bent.x), part(bent.y), part(bent.z)};
   }
 
-  /// The arms, how far apart their ends are, and how hard the last impulse pulls at each: linearise_joint(), pull_on().
-  static ISO_INLINE void linearise(const TreeJoint& of, Memory m, Joint& joint, const JointStep<S>& step, bool rapid) {
-    const Step<S> h = step.h;
+  /// The arms, how far apart the ends of points are, and how hard the last impulse pulls at each: linearise_joint(),
+  /// pull_on().
+  static ISO_INLINE void linearise(const TreeShape& shape, std::size_t j, Memory m, const JointStep<S>& step,
+                                   bool rapid) {
+    const TreeJoint& of = shape.joints[j];
+    const TreeNode& node = shape.nodes[of.node];
+    Joint& joint = m.joints[j];
     Body& a = m.bodies[of.body_a];
     Body& b = m.bodies[of.body_b];
     const Vec3<L> arm_a = load(a.rotation) * load(joint.frame_a), arm_b = load(b.rotation) * load(joint.frame_b);
-    const Vec3<L> between = (load(b.centre) - load(a.centre)) + (arm_b - arm_a);
-    const L most = number(S(32) * h);
-    const auto bound = [most](L e) ISO_INLINE_LAMBDA { return convert<V>(clamp(e, -most, most)); };
     store(arm_a, joint.arm_a);
     store(arm_b, joint.arm_b);
-    store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, joint.error);
-    const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-    store(rapid ? curve(b, arm_b, step) - curve(a, arm_a, step) : none, joint.curve);
-    const Vec3<V> impulse = load(joint.impulse);
-    const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(h);
+    if (node.is_point()) {
+      const Vec3<L> between = (load(b.centre) - load(a.centre)) + (arm_b - arm_a);
+      const L most = number(S(32) * step.h);
+      const auto bound = [most](L e) ISO_INLINE_LAMBDA { return convert<V>(clamp(e, -most, most)); };
+      store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, m.nodes[of.node].error);
+      const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
+      store(rapid ? curve(b, arm_b, step) - curve(a, arm_a, step) : none, joint.curve);
+    }
+    const Vec3<V> impulse = pull_of(node, m, m.nodes[of.node]);
+    const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(step.h);
     const auto pull = [&](Vec3<L> arm, L share, Body& body, S(&field)[W]) ISO_INLINE_LAMBDA {
       const L along = share * round_to<L>(dot_sum(arm, impulse));
       const L size = max(along, L::zero()) * length;
@@ -132,6 +168,19 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
     };
     if (of.a_moves) pull(arm_a, -L::load(joint.share_a), a, joint.pull_a);
     if (of.b_moves) pull(arm_b, L::load(joint.share_b), b, joint.pull_b);
+  }
+  /// [m/s] world, on b.
+  static ISO_INLINE Vec3<V> pull_of(const TreeNode& node, Memory m, const Node& block) {
+    const Vec3<V> impulse = load(block.impulse);
+    if (node.is_point()) return impulse;
+    const Mat3<L> linear = load(m.rows[node.rows].linear);
+    const auto along = [&](L x, L y, L z) ISO_INLINE_LAMBDA {
+      return round_within<V>(product(x, impulse.x) + product(y, impulse.y) + product(z, impulse.z),
+                             most_joint_impulse<S>());
+    };
+    return {along(linear.rows[0].x, linear.rows[1].x, linear.rows[2].x),
+            along(linear.rows[0].y, linear.rows[1].y, linear.rows[2].y),
+            along(linear.rows[0].z, linear.rows[1].z, linear.rows[2].z)};
   }
 
   // ---- tension, as JointTrees::find_taut() and stiffen() have it
@@ -194,89 +243,73 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeGatherer<S, W, 
 
   // ---- K
 
-  /// Column j: where a unit impulse along axis j at another joint of the body, whose turns are `turn`, moves `arm`.
-  static ISO_INLINE Mat3<L> moved(const Mat3<L>& turn, Vec3<L> arm) {
-    return transpose(Mat3<L>{{cross(turn.column(0), arm), cross(turn.column(1), arm), cross(turn.column(2), arm)}});
-  }
-  static ISO_INLINE void weigh(const TreeJoint& of, Memory m, Joint& joint) {
-    const auto turns = [](const Mat3<L>& kappa, Vec3<L> arm) ISO_INLINE_LAMBDA {
-      return Mat3<L>{{cross(kappa.rows[0], arm), cross(kappa.rows[1], arm), cross(kappa.rows[2], arm)}};
-    };
-    const Vec3<L> arm_a = load(joint.arm_a), arm_b = load(joint.arm_b);
-    const Mat3<L> turn_a = turns(load(m.bodies[of.body_a].felt), arm_a);
-    const Mat3<L> turn_b = turns(load(m.bodies[of.body_b].felt), arm_b);
-    store(turn_a, joint.turn_a);
-    store(turn_b, joint.turn_b);
-    const L share_a = L::load(joint.share_a), share_b = L::load(joint.share_b), one = share_a + share_b;
-    const Mat3<L> a = moved(turn_a, arm_a), b = moved(turn_b, arm_b);
-    const auto mix = [&](L of_a, L of_b)
-                         ISO_INLINE_LAMBDA { return round_to<L>(product(share_a, of_a) + product(share_b, of_b)); };
-    (one + mix(a.rows[0].x, b.rows[0].x)).store(joint.inverse[0]);
-    mix(a.rows[0].y, b.rows[0].y).store(joint.inverse[1]);
-    mix(a.rows[0].z, b.rows[0].z).store(joint.inverse[2]);
-    (one + mix(a.rows[1].y, b.rows[1].y)).store(joint.inverse[3]);
-    mix(a.rows[1].z, b.rows[1].z).store(joint.inverse[4]);
-    (one + mix(a.rows[2].z, b.rows[2].z)).store(joint.inverse[5]);
-  }
-  static ISO_INLINE void couple(const TreeShape& shape, std::size_t i, Memory m) {
-    const TreeJoint& of = shape.joints[i];
-    const Joint& from = m.joints[i];
-    const L one = number(S(1));
-    for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
-      const TreeLink& link = shape.links[l];
-      const Joint& to = m.joints[link.to];
-      Mat3<L> k = moved(load(link.to_is_a ? to.turn_a : to.turn_b), load(link.from_is_a ? from.arm_a : from.arm_b));
-      k.rows[0].x += one;
-      k.rows[1].y += one;
-      k.rows[2].z += one;
-      if (link.from_is_a != link.to_is_a) k = {{-k.rows[0], -k.rows[1], -k.rows[2]}};
-      store(scaled_by(k, L::load(link.to_is_a ? to.share_a : to.share_b)), m.links[l].up);
-      store(scaled_by(transpose(k), L::load(link.from_is_a ? from.share_a : from.share_b)), m.links[l].down);
-    }
-  }
   static ISO_INLINE std::uint32_t link_between(const TreeShape& shape, std::uint32_t i, std::uint32_t j) {
-    std::uint32_t l = shape.joints[i].first_link;
+    std::uint32_t l = shape.nodes[i].first_link;
     while (shape.links[l].to != j) ++l;
     return l;
   }
-  static ISO_INLINE void subtract(S (&field)[9][W], const Mat3<L>& p) {
-    Mat3<L> whole = load(field);
-    isostep::subtract(whole, p);
-    store(whole, field);
+  static ISO_INLINE Mat3<L> inverse_of(const TreeShape& shape, const TreeNode& node, const Mat3<L>& k) {
+    const S softness =
+        shape.joints[node.joint].closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
+    return node.is_point() ? invert_symmetric(k, number(softness)) : invert_rows(k, number(softness), detail::drops_rows(softness));
   }
-  static ISO_INLINE void eliminate(const TreeShape& shape, std::size_t i, Memory m) {
-    const TreeJoint& of = shape.joints[i];
-    const S softness = of.closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
-    const Mat3<L> inverse = invert_symmetric(load(m.joints[i].inverse), number(softness));
-    store(inverse, m.joints[i].inverse);
-    const std::uint32_t end = of.first_link + of.link_count;
-    for (std::uint32_t l = of.first_link; l < end; ++l) store(inverse * load(m.links[l].up), m.links[l].up);
-    for (std::uint32_t j = of.first_link; j < end; ++j) {
-      const Mat3<L> down = load(m.links[j].down);
+  /// K = L D L^T by blocks: what node i's elimination leaves among the nodes it is linked to.
+  static ISO_INLINE void eliminate(const TreeRun<S>& run, std::size_t i, Memory m) {
+    const TreeShape& shape = run.shape;
+    const TreeNode& node = shape.nodes[i];
+    const Mat3<L> inverse = inverse_of(shape, node, load(m.nodes[i].inverse));
+    store(inverse, m.nodes[i].inverse);
+    const std::uint32_t end = node.first_link + node.link_count;
+    for (std::uint32_t l = node.first_link; l < end; ++l) {
+      if (!idles(run, shape.links[l].to)) store(inverse * load(m.links[l].up), m.links[l].up);
+    }
+    const Left left = {idle_lanes(run, i), node.may_idle && run.idle[i] != 0};
+    for (std::uint32_t j = node.first_link; j < end; ++j) {
       const std::uint32_t to_j = shape.links[j].to;
-      for (std::uint32_t k = of.first_link; k < end; ++k) {
-        const Mat3<L> up = load(m.links[k].up);
+      if (idles(run, to_j)) continue;
+      const Mat3<L> down = load(m.links[j].down);
+      for (std::uint32_t k = node.first_link; k < end; ++k) {
         const std::uint32_t to_k = shape.links[k].to;
+        if (idles(run, to_k)) continue;
+        const Mat3<L> up = load(m.links[k].up);
         if (to_j == to_k) {
-          subtract_symmetric(m.joints[to_j].inverse, down, up);
+          left.subtract_symmetric(m.nodes[to_j].inverse, down, up);
         } else if (to_j < to_k) {
-          subtract(m.links[link_between(shape, to_j, to_k)].up, down * up);
+          left.subtract(m.links[link_between(shape, to_j, to_k)].up, down * up);
         } else {
-          subtract(m.links[link_between(shape, to_k, to_j)].down, down * up);
+          left.subtract(m.links[link_between(shape, to_k, to_j)].down, down * up);
         }
       }
     }
   }
-  /// The upper triangle of a product that is symmetric.
-  static ISO_INLINE void subtract_symmetric(S (&field)[6][W], const Mat3<L>& p, const Mat3<L>& q) {
-    const Vec3<L> x = q.column(0), y = q.column(1), z = q.column(2);
-    (L::load(field[0]) - dot(p.rows[0], x)).store(field[0]);
-    (L::load(field[1]) - dot(p.rows[0], y)).store(field[1]);
-    (L::load(field[2]) - dot(p.rows[0], z)).store(field[2]);
-    (L::load(field[3]) - dot(p.rows[1], y)).store(field[3]);
-    (L::load(field[4]) - dot(p.rows[1], z)).store(field[4]);
-    (L::load(field[5]) - dot(p.rows[2], z)).store(field[5]);
-  }
+  /// Subtracts what an elimination leaves, but in lanes in which its node idles: to subtract zero there could change a
+  /// zero's sign, and where all lanes idle nothing is subtracted.
+  struct Left {
+    Mask idle;
+    bool some;
+
+    ISO_INLINE void subtract(S (&field)[W], L p) const {
+      if (some) p = select(idle, L::zero(), p);
+      (L::load(field) - p).store(field);
+    }
+    ISO_INLINE void subtract(S (&field)[9][W], const Mat3<L>& p) const {
+      for (int i = 0; i < 3; ++i) {
+        subtract(field[3 * i], p.rows[i].x);
+        subtract(field[3 * i + 1], p.rows[i].y);
+        subtract(field[3 * i + 2], p.rows[i].z);
+      }
+    }
+    /// The upper triangle of a product that is symmetric.
+    ISO_INLINE void subtract_symmetric(S (&field)[6][W], const Mat3<L>& p, const Mat3<L>& q) const {
+      const Vec3<L> x = q.column(0), y = q.column(1), z = q.column(2);
+      subtract(field[0], dot(p.rows[0], x));
+      subtract(field[1], dot(p.rows[0], y));
+      subtract(field[2], dot(p.rows[0], z));
+      subtract(field[3], dot(p.rows[1], y));
+      subtract(field[4], dot(p.rows[1], z));
+      subtract(field[5], dot(p.rows[2], z));
+    }
+  };
 };
 
 }  // namespace

@@ -20,12 +20,19 @@ template <class S, int W, class Isa> struct TreeGatherer {
   using Mask = typename L::Mask;
   using Body = TreeBodyLanes<S, W>;
   using Joint = TreeJointLanes<S, W>;
+  using Node = TreeNodeLanes<S, W>;
+  using Rows = TreeRowLanes<S, W>;
   using Link = TreeLinkLanes<S, W>;
+  using Drive = TreeDriveLanes<S, W>;
   using Memory = TreeMemory<S, W>;
 
-  static_assert(sizeof(Body) == W * sizeof(TreeBodyLanes<S, 1>) && sizeof(Joint) == W * sizeof(TreeJointLanes<S, 1>) &&
-                    sizeof(Link) == W * sizeof(TreeLinkLanes<S, 1>),
-                "lanes and nothing between");
+  template <class Wide, class One> static constexpr bool kLanesAndNothingBetween = sizeof(Wide) == W * sizeof(One);
+  static_assert(kLanesAndNothingBetween<Body, TreeBodyLanes<S, 1>> &&
+                kLanesAndNothingBetween<Joint, TreeJointLanes<S, 1>> &&
+                kLanesAndNothingBetween<Node, TreeNodeLanes<S, 1>> &&
+                kLanesAndNothingBetween<Rows, TreeRowLanes<S, 1>> &&
+                kLanesAndNothingBetween<Link, TreeLinkLanes<S, 1>> &&
+                kLanesAndNothingBetween<Drive, TreeDriveLanes<S, 1>>);
   static_assert(sizeof(SolverMass<S>) == 10 * sizeof(S) && sizeof(Pose<S>) == 7 * sizeof(S));
   static_assert(offsetof(BodyState<S>, orientation) == offsetof(BodyState<S>, centre) + 3 * sizeof(S));
 
@@ -132,43 +139,98 @@ template <class S, int W, class Isa> struct TreeGatherer {
     const Mask all = less(L::zero(), number(S(1)));
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) gather_mass(&run.rows[b * W], run.mass, m.bodies[b], all);
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) prepare_joint(&run.joints[j * W], joints, m.joints[j]);
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
+      const TreeNode& node = run.shape.nodes[n];
+      const Velocity<S>* impulse[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) impulse[i] = &block_of(run, node, joints, i).error.z;
+      V p[4];  // a word earlier, so that four end with the impulse
+      load_transposed<4>(impulse, p);
+      store({p[1], p[2], p[3]}, m.nodes[n].impulse);
+    }
   }
   static void store_impulses(const TreeRun<S>& run, JointConstraint<S>* joints) {
     const Memory m = Memory::of(run.memory, run.shape);
-    for (std::size_t j = 0; j < run.shape.joints.size(); ++j) {
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
+      const TreeNode& node = run.shape.nodes[n];
+      const auto& impulse = m.nodes[n].impulse;
       for (int i = 0; i < W; ++i) {
         if (((run.lanes >> i) & 1u) == 0) continue;
-        const auto& impulse = m.joints[j].impulse;
-        joints[run.joints[j * W + static_cast<std::size_t>(i)]].blocks[0].impulse = {impulse[0][i], impulse[1][i],
-                                                                                     impulse[2][i]};
+        joints[lane_joint(run, node.joint, i)].blocks[node.of_angles ? 1 : 0].impulse = {impulse[0][i], impulse[1][i],
+                                                                                         impulse[2][i]};
       }
     }
   }
 
+  // ---- once a sub-step
+
+  /// Rows and errors as their joints have written them.
+  static ISO_INLINE void gather_rows(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints) {
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
+      const TreeNode& node = run.shape.nodes[n];
+      if (node.is_point()) continue;
+      Rows& rows = m.rows[node.rows];
+      for (std::uint32_t r = 0; r < 3; ++r) gather_row(run, node, r, joints, rows);
+      const Velocity<S>* errors[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) errors[i] = &block_of(run, node, joints, i).error.x;
+      V e[4];  // the last is no error
+      load_transposed<4>(errors, e);
+      store({e[0], e[1], e[2]}, m.nodes[n].error);
+    }
+  }
+  static ISO_INLINE std::uint32_t lane_joint(const TreeRun<S>& run, std::uint32_t joint, int lane) {
+    return run.joints[joint * W + static_cast<std::size_t>(lane)];
+  }
+
  private:
+  static ISO_INLINE const JointBlock<S>& block_of(const TreeRun<S>& run, const TreeNode& node,
+                                                  const JointConstraint<S>* joints, int lane) {
+    return joints[lane_joint(run, node.joint, lane)].blocks[node.of_angles ? 1 : 0];
+  }
+  static ISO_INLINE void store_row(const L (&v)[4], S (&field)[9][W], std::uint32_t row) {
+    ISO_UNROLL for (int k = 0; k < 3; ++k) v[k].store(field[3 * row + static_cast<std::uint32_t>(k)]);
+  }
+  /// A drive's row is its own, whatever stands in the block.
+  static ISO_INLINE void gather_row(const TreeRun<S>& run, const TreeNode& node, std::uint32_t r,
+                                    const JointConstraint<S>* joints, Rows& rows) {
+    const TreeDrive* drive = nullptr;
+    for (std::uint32_t d = node.first_drive; d < node.first_drive + node.drive_count; ++d) {
+      if (run.shape.drives[d].place == r) drive = &run.shape.drives[d];
+    }
+    const S* from[W];
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      const JointRow<S>& row = drive != nullptr ? joints[lane_joint(run, node.joint, i)].drives[drive->index].row
+                                                : block_of(run, node, joints, i).rows[r];
+      from[i] = &row.linear.x;
+    }
+    const auto part = [&](std::size_t offset, S(&field)[9][W]) ISO_INLINE_LAMBDA {
+      const S* words[W];
+      ISO_UNROLL for (int i = 0; i < W; ++i) words[i] = from[i] + offset / sizeof(S);
+      L v[4];  // the last is the part's that follows
+      load_transposed<4>(words, v);
+      store_row(v, field, r);
+    };
+    if (!node.of_angles) part(offsetof(JointRow<S>, linear), rows.linear);
+    part(offsetof(JointRow<S>, angular_a), rows.angular_a);
+    part(offsetof(JointRow<S>, angular_b), rows.angular_b);
+  }
   static ISO_INLINE void prepare_joint(const std::uint32_t* lanes, const JointConstraint<S>* joints, Joint& joint) {
     const S* frame_a[W];
     const S* frame_b[W];
     const S* share[W];
-    const Velocity<S>* impulse[W];
     ISO_UNROLL for (int i = 0; i < W; ++i) {
       const JointConstraint<S>& j = joints[lanes[i]];
       frame_a[i] = &j.properties.frame_a.position.x;
       frame_b[i] = &j.properties.frame_b.position.x;
       share[i] = &j.share.a;
-      impulse[i] = &j.blocks[0].error.z;  // a word earlier, so that four end with the impulse
     }
     L a[4], b[4], s[4];
-    V p[4];
     load_transposed<4>(frame_a, a);
     load_transposed<4>(frame_b, b);
     load_transposed<4>(share, s);
-    load_transposed<4>(impulse, p);
     store({a[0], a[1], a[2]}, joint.frame_a);
     store({b[0], b[1], b[2]}, joint.frame_b);
     s[0].store(joint.share_a);
     s[1].store(joint.share_b);
-    store({p[1], p[2], p[3]}, joint.impulse);
   }
   static_assert(offsetof(JointBlock<S>, impulse) == offsetof(JointBlock<S>, error) + 3 * sizeof(S));
   static_assert(sizeof(MassShare<S>) == 2 * sizeof(S) &&

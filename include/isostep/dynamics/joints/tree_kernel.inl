@@ -1,52 +1,105 @@
-// The kernel of joint trees: W trees of ball joints side by side, written once for every scalar and instruction set.
+// The kernel of joint trees: W trees of joints side by side, written once for every scalar and instruction set.
 // Included by one file per instruction set; everything here is inline or has internal linkage, so that no copy compiled
 // for one instruction set can serve another.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/dynamics/joints/tree_factor.inl"
-#include "isostep/scalar/lanes_bounded.hpp"
+#include "isostep/dynamics/joints/tree_push.inl"
 
 namespace isostep {
 namespace {
 
-/// What JointTrees does for joints of any kind, for those that hold a point and nothing else. All trees of a run have
-/// one shape, so that what differs between lanes are numbers; lanes never meet.
-template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Isa> {
-  using Base = TreeFactoriser<S, W, Isa>;
+/// All trees of a run have one shape, so that what differs between lanes are numbers; lanes never meet.
+template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
+  using Base = TreePusher<S, W, Isa>;
+  using Base::bounded;
+  using Base::idle_lanes;
+  using Base::idles;
   using Base::load;
   using Base::number;
   using Base::store;
   using Base::times;
-  using typename Base::Body;
+  using typename Base::Drive;
   using typename Base::Joint;
   using typename Base::L;
+  using typename Base::Mask;
   using typename Base::Memory;
+  using typename Base::Node;
   using typename Base::V;
 
   static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::gather_velocities(run, m);
     Base::factorise(run, m, joints, step);
-    for (const std::uint32_t j : run.shape.given) push(run.shape.joints[j], m, m.joints[j], load(m.joints[j].impulse));
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      V::load(m.drives[d].impulse).store(m.nodes[drive.node].impulse[drive.place]);
+    }
+    for (const std::uint32_t j : run.shape.given) Base::push_all(run.shape, j, m);
     Base::scatter_velocities(run, m);
   }
 
   template <bool Relax> static void solve(const TreeRun<S>& run, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
-    const std::size_t count = run.shape.joints.size();
     Base::gather_velocities(run, m);
-    for (std::size_t j = 0; j < count; ++j) find_right_side<Relax>(run.shape.joints[j], m, m.joints[j], step);
-    for (std::size_t j = 0; j < count; ++j) substitute_up(run.shape, j, m);
-    for (std::size_t j = count; j-- > 0;) substitute_down(run.shape, j, m);
+    find_right_sides<Relax>(run.shape, m, step);
+    substitute(run, m);
     Base::scatter_velocities(run, m);
   }
 
- private:
-  static ISO_INLINE Vec3<V> times(L a, Vec3<V> v) { return {times(a, v.x), times(a, v.y), times(a, v.z)}; }
-  static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
-    return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
+  // ---- a pass over trees with drives
+
+  static void begin(const TreeRun<S>& run) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    Base::gather_velocities(run, m);
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      store(load(m.bodies[b].linear), m.bodies[b].start_linear);
+      store(load(m.bodies[b].angular), m.bodies[b].start_angular);
+    }
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].impulse), m.nodes[n].start);
   }
+  template <bool Relax> static void find_right_sides_of(const TreeRun<S>& run, const JointStep<S>& step) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    find_right_sides<Relax>(run.shape, m, step);
+  }
+  static void substitute_all(const TreeRun<S>& run) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      V::load(m.drives[d].right).store(m.nodes[drive.node].right[drive.place]);
+    }
+    substitute(run, m);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) tell_drive(run.shape, run.shape.drives[d], m, m.drives[d]);
+  }
+  static void restore(const TreeRun<S>& run) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      store(load(m.bodies[b].start_linear), m.bodies[b].linear);
+      store(load(m.bodies[b].start_angular), m.bodies[b].angular);
+    }
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].start), m.nodes[n].impulse);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      V::load(m.nodes[drive.node].impulse[drive.place]).store(m.drives[d].impulse);
+    }
+  }
+  static void resume(const TreeRun<S>& run) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      auto& field = m.nodes[drive.node].impulse[drive.place];
+      const V old = V::load(field), now = V::load(m.drives[d].impulse);
+      now.store(field);
+      Base::push_row(run.shape, drive, m, now - old);
+    }
+    Base::factorise(run, m);
+  }
+  static void end(const TreeRun<S>& run) {
+    Base::scatter_velocities(run, Memory::of(run.memory, run.shape));
+  }
+
+ private:
   /// As the functions of these names in joint_rows.hpp.
   static ISO_INLINE Vec3<V> impulses(const Mat3<L>& a, Vec3<V> v) {
     const Velocity<S> most = most_joint_impulse<S>();
@@ -58,70 +111,75 @@ template <class S, int W, class Isa> struct TreeKernel : TreeFactoriser<S, W, Is
             with_headroom(right.y - round_with_headroom<V>(dot_sum(a.rows[1], v))),
             with_headroom(right.z - round_with_headroom<V>(dot_sum(a.rows[2], v)))};
   }
-  static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
-    const V high = V::broadcast(most), low = -high;
-    return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
+  static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
   }
 
-  static ISO_INLINE void push(const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> impulse) {
-    if (of.a_moves) {
-      Body& body = m.bodies[of.body_a];
-      const Vec3<V> p = times(L::load(joint.share_a), impulse);
-      store(load(body.linear) - p, body.linear);
-      store(load(body.angular) - times(load(joint.turn_a), p), body.angular);
-    }
-    if (of.b_moves) {
-      Body& body = m.bodies[of.body_b];
-      const Vec3<V> p = times(L::load(joint.share_b), impulse);
-      store(load(body.linear) + p, body.linear);
-      store(load(body.angular) + times(load(joint.turn_b), p), body.angular);
-    }
-  }
-  /// speed_along() of joint_rows.hpp: v + w x r of b less that of a.
-  static ISO_INLINE Vec3<V> speed(const TreeJoint& of, Memory m, const Joint& joint) {
-    const Body& a = m.bodies[of.body_a];
-    const Body& b = m.bodies[of.body_b];
-    const Vec3<L> ra = load(joint.arm_a), rb = load(joint.arm_b);
-    const Vec3<V> wa = load(a.angular), wb = load(b.angular);
-    const Vec3<V> turning = {
-        round_to<V>(product(rb.z, wb.y) - product(rb.y, wb.z) - product(ra.z, wa.y) + product(ra.y, wa.z)),
-        round_to<V>(product(rb.x, wb.z) - product(rb.z, wb.x) - product(ra.x, wa.z) + product(ra.z, wa.x)),
-        round_to<V>(product(ra.x, wa.y) - product(ra.y, wa.x) - product(rb.x, wb.y) + product(rb.y, wb.x))};
-    return load(b.linear) - load(a.linear) + turning;
-  }
+  // ---- right-hand sides
 
+  template <bool Relax> static ISO_INLINE void find_right_sides(const TreeShape& shape, Memory m, const JointStep<S>& step) {
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) find_right_side<Relax>(shape, n, m, step);
+    for (std::size_t d = 0; d < shape.drives.size(); ++d) tell_drive(shape, shape.drives[d], m, m.drives[d]);
+  }
   /// Of K lambda = -(speed + bias), for velocities as they are before anything of this pass is applied.
   template <bool Relax>
-  static ISO_INLINE void find_right_side(const TreeJoint& of, Memory m, Joint& joint, const JointStep<S>& step) {
-    Vec3<V> right = -(speed(of, m, joint) + load(joint.curve));
+  static ISO_INLINE void find_right_side(const TreeShape& shape, std::size_t n, Memory m, const JointStep<S>& step) {
+    const TreeNode& of = shape.nodes[n];
+    Node& node = m.nodes[n];
+    Vec3<V> speed = Base::speed(shape, of, m);
+    if (of.is_point()) speed = speed + load(m.joints[of.joint].curve);
+    Vec3<V> right = -speed;
     if constexpr (!Relax) {
-      right -= bounded(times(number(step.softness.bias_rate), load(joint.error)), detail::kJointPushSpeed<S>);
-      if (of.closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(joint.impulse));
+      right -= bounded(times(number(step.softness.bias_rate), load(node.error)), detail::kJointPushSpeed<S>);
+      if (shape.joints[of.joint].closes_loop)
+        right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
     }
-    store(right, joint.right);
+    store(right, node.right);
   }
-  static ISO_INLINE void substitute_up(const TreeShape& shape, std::size_t j, Memory m) {
-    const TreeJoint& of = shape.joints[j];
-    Joint& joint = m.joints[j];
-    const Vec3<V> right = impulses(load(joint.inverse), load(joint.right));
-    store(right, joint.right);
-    for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
-      Joint& to = m.joints[shape.links[l].to];
-      store(less_moved(load(to.right), load(m.links[l].down), right), to.right);
+  static ISO_INLINE void tell_drive(const TreeShape& shape, const TreeDrive& drive, Memory m, Drive& told) {
+    Base::speed_along(shape, drive, m).store(told.speed);
+    V::load(m.nodes[drive.node].impulse[drive.place]).store(told.impulse);
+  }
+
+  // ---- substitution
+
+  static ISO_INLINE void substitute(const TreeRun<S>& run, Memory m) {
+    const std::size_t count = run.shape.nodes.size();
+    for (std::size_t n = 0; n < count; ++n) substitute_up(run, n, m);
+    for (std::size_t n = count; n-- > 0;) {
+      substitute_down(run, n, m);
+      const TreeNode& node = run.shape.nodes[n];
+      if (node.of_angles || !run.shape.joints[node.joint].turns) Base::push_changes(run.shape, node.joint, m);
     }
   }
-  static ISO_INLINE void substitute_down(const TreeShape& shape, std::size_t j, Memory m) {
-    const TreeJoint& of = shape.joints[j];
-    Joint& joint = m.joints[j];
-    Vec3<V> change = load(joint.right);
+  static ISO_INLINE void substitute_up(const TreeRun<S>& run, std::size_t n, Memory m) {
+    const TreeNode& of = run.shape.nodes[n];
+    Node& node = m.nodes[n];
+    const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
+    if (idles(run, n)) return store(none, node.right);
+    const Mask idle = idle_lanes(run, n);
+    Vec3<V> right = impulses(load(node.inverse), load(node.right));
+    if (of.may_idle) right = choose(idle, none, right);
+    store(right, node.right);
     for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
-      change = less_moved(change, load(m.links[l].up), load(m.joints[shape.links[l].to].right));
+      const std::uint32_t to = run.shape.links[l].to;
+      if (idles(run, to)) continue;
+      const Vec3<V> old = load(m.nodes[to].right), next = less_moved(old, load(m.links[l].down), right);
+      store(of.may_idle ? choose(idle, old, next) : next, m.nodes[to].right);
     }
-    store(change, joint.right);
-    const Vec3<V> old = load(joint.impulse);
-    const Vec3<V> impulse = bounded(old + change, most_joint_impulse<S>());
-    store(impulse, joint.impulse);
-    push(of, m, joint, impulse - old);
+  }
+  static ISO_INLINE void substitute_down(const TreeRun<S>& run, std::size_t n, Memory m) {
+    const TreeNode& of = run.shape.nodes[n];
+    if (idles(run, n)) return;
+    Vec3<V> change = load(m.nodes[n].right);
+    for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
+      const std::uint32_t to = run.shape.links[l].to;
+      if (idles(run, to)) continue;
+      const Vec3<V> next = less_moved(change, load(m.links[l].up), load(m.nodes[to].right));
+      change = run.shape.nodes[to].may_idle ? choose(idle_lanes(run, to), change, next) : next;
+    }
+    if (of.may_idle) change = choose(idle_lanes(run, n), {V::zero(), V::zero(), V::zero()}, change);
+    store(change, m.nodes[n].right);
   }
 };
 
@@ -133,7 +191,14 @@ template <class S, int W, class Isa> constexpr TreeKernels<S> make_tree_kernels(
           &Kernel::store_impulses,
           &Kernel::warm_start,
           &Kernel::template solve<false>,
-          &Kernel::template solve<true>};
+          &Kernel::template solve<true>,
+          &Kernel::begin,
+          &Kernel::template find_right_sides_of<false>,
+          &Kernel::template find_right_sides_of<true>,
+          &Kernel::substitute_all,
+          &Kernel::restore,
+          &Kernel::resume,
+          &Kernel::end};
 }
 
 }  // namespace

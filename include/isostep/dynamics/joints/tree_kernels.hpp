@@ -1,5 +1,5 @@
-// The kernels that solve trees of ball joints side by side, as a table: one for each instruction set, chosen at run
-// time, all giving the same bits.
+// The kernels that solve trees of joints side by side, as a table: one for each instruction set, chosen at run time, all
+// giving the same bits.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,22 +17,36 @@ template <class S> struct TreeRun {
   TreeShape shape;
   const std::uint32_t* joints;       // in the step's constraints: W for every joint of the shape
   const std::uint32_t* rows;         // of SolverBodies: W for every body of the shape
+  const std::uint32_t* idle;         // for every node: the lanes in which it asks for nothing, one bit each
   std::uint32_t lanes;               // which of the W have a tree, one bit each
-  void* memory;                      // TreeMemory<S, W>
+  unsigned char* memory;             // TreeMemory<S, W>
   MotionRow<Velocity<S>>* velocity;  // of SolverBodies
   const SolverMass<S>* mass;         // likewise
 };
 
+/// A pass over trees without drives is one call. One over trees with drives is several: between them the laws of the
+/// drives say what their rows ask for and are, in TreeDriveLanes.
 template <class S> struct TreeKernels {
   const char* name;
   std::int32_t width;
   /// Once a step: from the constraints, and back.
   void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints);
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
-  /// Once a sub-step each, as JointTrees has them.
+  /// Once a sub-step each, as JointTrees has them. Reads the constraints' rows, but of points.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
+
+  void (*begin)(const TreeRun<S>&);
+  /// Speeds and impulses of drives; right-hand sides of equalities, without bias where relaxed.
+  void (*find_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
+  void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
+  /// From the drives' right-hand sides to their new speeds and impulses.
+  void (*substitute)(const TreeRun<S>&);
+  /// All as the pass began. Then, from the drives' impulses, scales and give of their next pieces, a new factorisation.
+  void (*restore)(const TreeRun<S>&);
+  void (*resume)(const TreeRun<S>&);
+  void (*end)(const TreeRun<S>&);
 };
 
 /// The kernels for `simd`. Null when the processor or build lacks it; never for `best`.

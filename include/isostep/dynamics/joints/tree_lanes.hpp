@@ -11,47 +11,101 @@ namespace isostep {
 
 /// Symmetric matrices are their xx, xy, xz, yy, yz, zz; others nine entries by rows.
 template <class S, int W> struct TreeBodyLanes {
-  Velocity<S> linear[3][W], angular[3][W];  // [m/s], [rad/s] for the length of a pass
-  S centre[3][W];                           // [m] now
-  Unit<S> rotation[9][W];                   // body to world, now
-  S kappa[6][W];                            // [1/m^2] now
-  S felt[6][W];                             // [1/m^2] as the joints see it, tension in it
-  S tension[6][W];                          // [m^2] geometric stiffness h^2 / mass, where there is enough of it
-  S pull[W];                                // [m^2] sum of the joints' h^2 f.r / mass
-  S calm[W];                                // [m^2] up to this such a sum changes nothing
+  Velocity<S> linear[3][W], angular[3][W];              // [m/s], [rad/s] for the length of a pass
+  Velocity<S> start_linear[3][W], start_angular[3][W];  // when the pass began, of trees with drives
+  S centre[3][W];                                       // [m] now
+  Unit<S> rotation[9][W];                               // body to world, now
+  S kappa[6][W];                                        // [1/m^2] now
+  S felt[6][W];                                         // [1/m^2] as the joints see it, tension in it
+  S tension[6][W];  // [m^2] geometric stiffness h^2 / mass, where there is enough of it
+  S pull[W];        // [m^2] sum of the joints' h^2 f.r / mass
+  S calm[W];        // [m^2] up to this such a sum changes nothing
 };
 template <class S, int W> struct TreeJointLanes {
   S frame_a[3][W], frame_b[3][W];  // [m] where the joint is, body axes
   S share_a[W], share_b[W];        // [1] MassShare
   S arm_a[3][W], arm_b[3][W];      // [m] the same, world axes, now
   S pull_a[W], pull_b[W];          // [m^2]
-  S turn_a[9][W], turn_b[9][W];    // [1/m] angular velocity per impulse, before the mass share: column i for axis i
-  S inverse[6][W];                 // [1] of D; until then what earlier eliminations have left of K
-  Velocity<S> error[3][W];         // [m]
-  Velocity<S> impulse[3][W];       // [m/s] accumulated
-  Velocity<S> curve[3][W];         // [m/s] of what the arms' turning adds to the speed
-  Velocity<S> right[3][W];         // [m/s] right-hand sides, then solutions
+  S turn_a[9][W], turn_b[9][W];    // [1/m] of a point: angular velocity per impulse, before the mass share: column i
+                                   // for axis i
+  Velocity<S> curve[3][W];         // [m/s] of what the arms' turning adds to the speed of a point
+};
+template <class S, int W> struct TreeNodeLanes {
+  S inverse[6][W];            // [1] of D; until then what earlier eliminations have left of K
+  Velocity<S> error[3][W];    // [m] of equalities
+  Velocity<S> impulse[3][W];  // [m/s] accumulated
+  Velocity<S> start[3][W];    // [m/s] the same when the pass began, of trees with drives
+  Velocity<S> right[3][W];    // [m/s] right-hand sides, then solutions
+};
+/// Three rows that are no point, as JointRow has them: row i in entries 3 i to 3 i + 2.
+template <class S, int W> struct TreeRowLanes {
+  S linear[9][W];                     // [1] of places
+  S angular_a[9][W], angular_b[9][W];  // [m]
+  S turn_a[9][W], turn_b[9][W];        // [1/m]
 };
 template <class S, int W> struct TreeLinkLanes {
-  S down[9][W];  // [1] K_ji, i = the joint that has the link, j = `to`
+  S down[9][W];  // [1] K_ji, i = the node that has the link, j = `to`
   S up[9][W];    // [1] K_ij, then D_i^-1 K_ij
+};
+/// What a drive's law and the kernel tell each other.
+template <class S, int W> struct TreeDriveLanes {
+  Velocity<S> speed[W];    // [m/s] along the row
+  Velocity<S> impulse[W];  // [m/s] accumulated
+  Velocity<S> right[W];    // [m/s] right-hand side
+  Unit<S> scale[W];        // [1] of the row: 1 a fixed speed, less a spring, 0 a constant impulse
+  S give[W];               // [1] added to the row's entry of K: springs yield
 };
 
 template <class S, int W> struct TreeMemory {
   TreeBodyLanes<S, W>* bodies;
   TreeJointLanes<S, W>* joints;
+  TreeNodeLanes<S, W>* nodes;
+  TreeRowLanes<S, W>* rows;
   TreeLinkLanes<S, W>* links;
+  TreeDriveLanes<S, W>* drives;
 
   static ISO_INLINE TreeMemory of(void* memory, const TreeShape& shape) {
-    auto* bodies = static_cast<TreeBodyLanes<S, W>*>(memory);
-    auto* joints = reinterpret_cast<TreeJointLanes<S, W>*>(bodies + shape.bodies.size());
-    return {bodies, joints, reinterpret_cast<TreeLinkLanes<S, W>*>(joints + shape.joints.size())};
+    TreeMemory m;
+    m.bodies = static_cast<TreeBodyLanes<S, W>*>(memory);
+    m.joints = reinterpret_cast<TreeJointLanes<S, W>*>(m.bodies + shape.bodies.size());
+    m.nodes = reinterpret_cast<TreeNodeLanes<S, W>*>(m.joints + shape.joints.size());
+    m.rows = reinterpret_cast<TreeRowLanes<S, W>*>(m.nodes + shape.nodes.size());
+    m.links = reinterpret_cast<TreeLinkLanes<S, W>*>(m.rows + shape.row_blocks);
+    m.drives = reinterpret_cast<TreeDriveLanes<S, W>*>(m.links + shape.links.size());
+    return m;
   }
 };
 /// Lanes and nothing between: W trees take W times the bytes of one.
-template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
+template <class S> ISO_INLINE std::size_t tree_bytes_before_drives(const TreeShape& shape) {
   return shape.bodies.size() * sizeof(TreeBodyLanes<S, 1>) + shape.joints.size() * sizeof(TreeJointLanes<S, 1>) +
+         shape.nodes.size() * sizeof(TreeNodeLanes<S, 1>) + shape.row_blocks * sizeof(TreeRowLanes<S, 1>) +
          shape.links.size() * sizeof(TreeLinkLanes<S, 1>);
 }
+template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
+  return tree_bytes_before_drives<S>(shape) + shape.drives.size() * sizeof(TreeDriveLanes<S, 1>);
+}
+
+/// The drives of W trees, whatever W is: for code that is compiled for no instruction set of its own.
+template <class S> class TreeDriveView {
+ public:
+  /// `memory` is a TreeMemory<S, width>.
+  ISO_INLINE TreeDriveView(unsigned char* memory, const TreeShape& shape, std::size_t width)
+      : first_(memory + tree_bytes_before_drives<S>(shape) * width), width_(width) {}
+
+  ISO_INLINE Velocity<S>& speed(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 0, lane); }
+  ISO_INLINE Velocity<S>& impulse(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 1, lane); }
+  ISO_INLINE Velocity<S>& right(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 2, lane); }
+  ISO_INLINE Unit<S>& scale(std::size_t drive, std::size_t lane) const { return at<Unit<S>>(drive, 3, lane); }
+  ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return at<S>(drive, 4, lane); }
+
+ private:
+  static_assert(sizeof(Velocity<S>) == sizeof(S) && sizeof(Unit<S>) == sizeof(S));
+  static_assert(sizeof(TreeDriveLanes<S, 1>) == 5 * sizeof(S));
+  template <class T> ISO_INLINE T& at(std::size_t drive, std::size_t word, std::size_t lane) const {
+    return *reinterpret_cast<T*>(first_ + ((drive * 5 + word) * width_ + lane) * sizeof(S));
+  }
+  unsigned char* first_;
+  std::size_t width_;
+};
 
 }  // namespace isostep

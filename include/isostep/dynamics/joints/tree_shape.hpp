@@ -1,4 +1,4 @@
-// The shape of a tree of ball joints: what trees have in common that are solved side by side.
+// The shape of a tree of joints: what trees have in common that are solved side by side.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,14 +23,34 @@ template <class T> struct KernelSpan {
 /// A joint of the shape, numbered in the order of elimination.
 struct TreeJoint {
   std::uint32_t body_a, body_b;
-  std::uint32_t first_link, link_count;  // to joints that are eliminated later
+  std::uint32_t node;  // its block of places; that of angles is the node before
   bool a_moves, b_moves;
   bool closes_loop;  // through the world
+  bool turns;        // has a block of angles
 };
-/// Two joints at one body.
+/// A block of a joint that is eliminated in its turn.
+struct TreeNode {
+  std::uint32_t joint;
+  std::uint32_t rows;                      // in the rows of the memory; kNoRows: the world's axes through a point
+  std::uint32_t first_link, link_count;    // to nodes that are eliminated later
+  std::uint32_t first_drive, drive_count;  // that are rows of it
+  bool of_angles;                          // its rows have no linear parts
+  bool may_idle;                           // all its rows are drives: it asks for nothing while none acts
+
+  static constexpr std::uint32_t kNoRows = 0xffffffffu;
+  ISO_INLINE bool is_point() const { return rows == kNoRows; }
+};
+/// Two nodes at one body; or both of one joint, which meet at both of its bodies.
 struct TreeLink {
   std::uint32_t to;
   bool from_is_a, to_is_a;  // which end of either is at the body
+  bool of_one_joint;
+};
+/// A row of a node that a drive stands in.
+struct TreeDrive {
+  std::uint32_t joint, node;
+  std::uint32_t place;  // of the node's three rows
+  std::uint32_t index;  // of the joint's drives
 };
 /// A body of the shape, by a joint that it has. What does not move is one body an end, even where it is the same one.
 struct TreeBody {
@@ -40,9 +60,12 @@ struct TreeBody {
 
 struct TreeShape {
   KernelSpan<TreeJoint> joints;
+  KernelSpan<TreeNode> nodes;
   KernelSpan<TreeLink> links;
+  KernelSpan<TreeDrive> drives;
   KernelSpan<TreeBody> bodies;
   KernelSpan<std::uint32_t> given;  // joints in the order in which they were made
+  std::uint32_t row_blocks;         // nodes that are no point
 };
 
 }  // namespace isostep

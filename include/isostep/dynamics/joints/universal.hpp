@@ -14,7 +14,6 @@ template <class S> struct UniversalJoint : detail::PointJoint<S> {
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;
   static constexpr const char* kFlagNames = "of a universal joint kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
-  static constexpr bool kDrivesAlone = false;
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;

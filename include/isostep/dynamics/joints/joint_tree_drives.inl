@@ -1,0 +1,120 @@
+// Bodies of joint_tree.hpp that follow the laws of drives: what kernels leave to them between passes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_drive_rows.hpp"
+#include "isostep/dynamics/joints/joint_tree.hpp"
+#include "isostep/dynamics/joints/tree_lanes.hpp"
+
+namespace isostep {
+
+/// act(drive of the shape, its number, lane, whether the lane has a tree of its own)
+template <class S>
+template <class Act>
+void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+    for (std::uint32_t lane = 0; lane < width; ++lane) act(run.shape.drives[d], d, lane, (run.lanes >> lane & 1u) != 0);
+  }
+}
+
+/// Rows, errors and springs of the joints that are more than a point.
+template <class S>
+void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                               const JointStep<S>& step) {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const SolverBodies<S>& bodies = *step.bodies;
+  for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
+    const TreeJoint& of = run.shape.joints[j];
+    if (!of.turns && run.shape.nodes[of.node].is_point()) continue;
+    for (std::uint32_t lane = 0; lane < width; ++lane) {
+      if ((run.lanes >> lane & 1u) == 0) continue;
+      JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
+      linearise_joint(joint, step);
+      bool sprung = false;
+      for (std::uint32_t i = 0; i < joint.drive_count; ++i) sprung = sprung || joint.drives[i].sprung;
+      if (sprung) weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
+    }
+  }
+}
+
+/// Impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
+template <class S>
+void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                               const JointStep<S>& step) {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeDriveView<S> view(run.memory, run.shape, width);
+  std::uint32_t* const idle = idle_.data() + batch.first_idle;
+  for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) idle[n] = run.shape.nodes[n].may_idle ? 0xffffffffu : 0u;
+  each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
+    JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    const bool fixed = detail::fixes_speed(drive.piece), yields = detail::springs(drive, drive.piece);
+    const S share = convert<S>(drive.spring_row.x);
+    view.scale(d, lane) = fixed ? Unit<S>(1) : yields ? drive.spring_row.y : Unit<S>(0);
+    view.give(d, lane) = yields ? share * share : S(0);
+    if (fixed || yields) idle[of.node] &= ~(1u << lane);
+    else drive.impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
+    view.impulse(d, lane) = drive.impulse;
+  });
+}
+
+template <class S>
+void JointTrees<S>::ask_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                               const JointStep<S>& step, bool relax) const {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeDriveView<S> view(run.memory, run.shape, width);
+  each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
+    JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    drive.impulse = view.impulse(d, lane);
+    const Velocity<S> speed = round_to<Velocity<S>>(product(view.scale(d, lane), view.speed(d, lane)));
+    view.right(d, lane) = detail::drive_right_side(drive, speed, detail::bounds_of(drive, step, relax),
+                                                   detail::most_impulse(drive, step.h));
+  });
+}
+
+/// Whether a drive is off its piece of the law; `next` is the piece to try then. Without `may_hold` only those count
+/// that hold a speed and should not: they let go, and the pass ends.
+template <class S>
+bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
+                                 const JointStep<S>& step, bool relax, bool may_hold) const {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeDriveView<S> view(run.memory, run.shape, width);
+  bool off = false;
+  each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool has_tree) {
+    if (!has_tree) return;
+    JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    drive.impulse = view.impulse(d, lane);
+    off = detail::judge_drive(drive, view.speed(d, lane), step, relax, may_hold) || off;
+  });
+  return off;
+}
+
+/// With drives on the pieces where they are; then anew as long as one is off its piece. Trees that are on theirs go the
+/// same way again.
+template <class S>
+void JointTrees<S>::solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
+                                 bool relax) {
+  const TreeKernels<S>& kernels = *batch.kernels;
+  const TreeRun<S> run = run_of(batch, step.bodies);
+  const auto width = static_cast<std::uint32_t>(kernels.width);
+  const TreeDriveView<S> view(run.memory, run.shape, width);
+  kernels.begin(run);
+  for (int changes = 0;; ++changes) {
+    if (relax) kernels.find_relaxed_right_sides(run, step);
+    else kernels.find_right_sides(run, step);
+    ask_drives(batch, run, joints, step, relax);
+    kernels.substitute(run);
+    if (!judge_drives(batch, run, joints, step, relax, changes < detail::kMostPieceChanges)) break;
+    kernels.restore(run);
+    each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
+      JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+      drive.piece = drive.next;
+      drive.impulse = view.impulse(d, lane);
+    });
+    set_pieces(batch, run, joints, step);
+    kernels.resume(run);
+  }
+  kernels.end(run);
+}
+
+}  // namespace isostep

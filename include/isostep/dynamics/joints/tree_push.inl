@@ -1,0 +1,191 @@
+// Speeds along the rows of W trees, and impulses on their bodies. Part of tree_kernel.inl, with internal linkage like
+// it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/tree_factor.inl"
+#include "isostep/scalar/lanes_bounded.hpp"
+
+namespace isostep {
+namespace {
+
+/// Speeds of rows that are no point are held at the format's end, and so is what they do to a body: a pass with drives
+/// on wrong pieces leaves any.
+template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Isa> {
+  using Base = TreeFactoriser<S, W, Isa>;
+  using Base::load;
+  using Base::store;
+  using Base::times;
+  using typename Base::Body;
+  using typename Base::Joint;
+  using typename Base::L;
+  using typename Base::Mask;
+  using typename Base::Memory;
+  using typename Base::Node;
+  using typename Base::Rows;
+  using typename Base::U;
+  using typename Base::V;
+
+  static ISO_INLINE Vec3<V> times(L a, Vec3<V> v) { return {times(a, v.x), times(a, v.y), times(a, v.z)}; }
+  static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
+    return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
+  }
+  static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
+    const V high = V::broadcast(most), low = -high;
+    return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
+  }
+
+  // ---- speeds
+
+  static ISO_INLINE Vec3<V> speed(const TreeShape& shape, const TreeNode& node, Memory m) {
+    const TreeJoint& of = shape.joints[node.joint];
+    const Body &a = m.bodies[of.body_a], &b = m.bodies[of.body_b];
+    if (node.is_point()) return point_speed(m.joints[node.joint], a, b);
+    const Rows& rows = m.rows[node.rows];
+    const auto along = [&](int r) ISO_INLINE_LAMBDA { return row_speed(node, rows, r, a, b); };
+    return {along(0), along(1), along(2)};
+  }
+  static ISO_INLINE V speed_along(const TreeShape& shape, const TreeDrive& drive, Memory m) {
+    const TreeNode& node = shape.nodes[drive.node];
+    const TreeJoint& of = shape.joints[drive.joint];
+    return row_speed(node, m.rows[node.rows], static_cast<int>(drive.place), m.bodies[of.body_a], m.bodies[of.body_b]);
+  }
+
+  // ---- impulses
+
+  /// All impulses of a joint.
+  static ISO_INLINE void push_all(const TreeShape& shape, std::uint32_t j, Memory m) {
+    const TreeJoint& of = shape.joints[j];
+    const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
+    push(shape, of, m, m.joints[j], load(m.nodes[of.node].impulse),
+         of.turns ? load(m.nodes[of.node - 1].impulse) : none);
+  }
+  /// Adds a joint's solutions to its impulses, and to the bodies what they grew by.
+  static ISO_INLINE void push_changes(const TreeShape& shape, std::uint32_t j, Memory m) {
+    const TreeJoint& of = shape.joints[j];
+    const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
+    const Vec3<V> place = add_solution(shape, of.node, m);
+    push(shape, of, m, m.joints[j], place, of.turns ? add_solution(shape, of.node - 1, m) : none);
+  }
+  /// A change of one drive's impulse; bodies of lanes in which there is none stay as they are, signs of zeros too.
+  static ISO_INLINE void push_row(const TreeShape& shape, const TreeDrive& drive, Memory m, V change) {
+    const Mask acts = ~equal(change, V::zero());
+    if (!any(acts)) return;
+    const TreeNode& node = shape.nodes[drive.node];
+    const TreeJoint& of = shape.joints[drive.joint];
+    const Joint& joint = m.joints[drive.joint];
+    const Rows& rows = m.rows[node.rows];
+    const auto add = [&](V p, const S(&by)[9][W], Velocity<S>(&field)[3][W]) ISO_INLINE_LAMBDA {
+      const Vec3<L> row = row_of(by, static_cast<int>(drive.place));
+      for (int k = 0; k < 3; ++k) {
+        const V old = V::load(field[k]), next = with_headroom(old) + round_with_headroom<V>(product(row[k], p));
+        select(acts, next, old).store(field[k]);
+      }
+    };
+    const auto push_body = [&](V p, const S(&turn)[9][W], Body& body) ISO_INLINE_LAMBDA {
+      if (!node.of_angles) add(p, rows.linear, body.linear);
+      add(p, turn, body.angular);
+    };
+    if (of.a_moves) push_body(-times(L::load(joint.share_a), change), rows.turn_a, m.bodies[of.body_a]);
+    if (of.b_moves) push_body(times(L::load(joint.share_b), change), rows.turn_b, m.bodies[of.body_b]);
+  }
+
+ private:
+  /// speed_along() of joint_rows.hpp: v + w x r of b less that of a.
+  static ISO_INLINE Vec3<V> point_speed(const Joint& joint, const Body& a, const Body& b) {
+    const Vec3<L> ra = load(joint.arm_a), rb = load(joint.arm_b);
+    const Vec3<V> wa = load(a.angular), wb = load(b.angular);
+    const Vec3<V> turning = {
+        round_to<V>(product(rb.z, wb.y) - product(rb.y, wb.z) - product(ra.z, wa.y) + product(ra.y, wa.z)),
+        round_to<V>(product(rb.x, wb.z) - product(rb.z, wb.x) - product(ra.x, wa.z) + product(ra.z, wa.x)),
+        round_to<V>(product(ra.x, wa.y) - product(ra.y, wa.x) - product(rb.x, wb.y) + product(rb.y, wb.x))};
+    return load(b.linear) - load(a.linear) + turning;
+  }
+  static ISO_INLINE Vec3<L> row_of(const S (&field)[9][W], int r) {
+    return {L::load(field[3 * r]), L::load(field[3 * r + 1]), L::load(field[3 * r + 2])};
+  }
+  static ISO_INLINE V row_speed(const TreeNode& node, const Rows& rows, int r, const Body& a, const Body& b) {
+    const auto turning = dot_sum(row_of(rows.angular_b, r), load(b.angular)) -
+                         dot_sum(row_of(rows.angular_a, r), load(a.angular));
+    if (node.of_angles) return round_saturated<V>(turning);
+    const Vec3<V> va = load(a.linear), vb = load(b.linear);
+    const Vec3<V> between = {with_headroom(vb.x) - with_headroom(va.x), with_headroom(vb.y) - with_headroom(va.y),
+                             with_headroom(vb.z) - with_headroom(va.z)};
+    return round_saturated<V>(dot_sum(row_of(rows.linear, r), between) + turning);
+  }
+
+  /// What a node's impulses grow by; a drive's solution counts as its row does.
+  static ISO_INLINE Vec3<V> add_solution(const TreeShape& shape, std::uint32_t n, Memory m) {
+    const TreeNode& of = shape.nodes[n];
+    Node& node = m.nodes[n];
+    for (std::uint32_t d = of.first_drive; d < of.first_drive + of.drive_count; ++d) {
+      auto& field = node.right[shape.drives[d].place];
+      round_to<V>(product(U::load(m.drives[d].scale), V::load(field))).store(field);
+    }
+    const Vec3<V> old = load(node.impulse);
+    const Vec3<V> impulse = bounded(old + load(node.right), most_joint_impulse<S>());
+    store(impulse, node.impulse);
+    return impulse - old;
+  }
+
+  static ISO_INLINE void push(const TreeShape& shape, const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> place,
+                              Vec3<V> angle) {
+    const TreeNode& node = shape.nodes[of.node];
+    if (node.is_point() && !of.turns) return push_point(of, m, joint, place);
+    if (of.a_moves) {
+      const L share = L::load(joint.share_a);
+      push_body<true>(shape, of, m, m.bodies[of.body_a], -times(share, place), -times(share, angle));
+    }
+    if (of.b_moves) {
+      const L share = L::load(joint.share_b);
+      push_body<false>(shape, of, m, m.bodies[of.body_b], times(share, place), times(share, angle));
+    }
+  }
+  static ISO_INLINE void push_point(const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> impulse) {
+    if (of.a_moves) {
+      Body& body = m.bodies[of.body_a];
+      const Vec3<V> p = times(L::load(joint.share_a), impulse);
+      store(load(body.linear) - p, body.linear);
+      store(load(body.angular) - times(load(joint.turn_a), p), body.angular);
+    }
+    if (of.b_moves) {
+      Body& body = m.bodies[of.body_b];
+      const Vec3<V> p = times(L::load(joint.share_b), impulse);
+      store(load(body.linear) + p, body.linear);
+      store(load(body.angular) + times(load(joint.turn_b), p), body.angular);
+    }
+  }
+  /// All rows of a joint at once: on a long arm a drive and the point turn a light body hard against each other, beyond
+  /// the range of velocities, and what is left of both is little.
+  template <bool IsA>
+  static ISO_INLINE void push_body(const TreeShape& shape, const TreeJoint& of, Memory m, Body& body, Vec3<V> place,
+                                   Vec3<V> angle) {
+    const TreeNode& node = shape.nodes[of.node];
+    const Joint& joint = m.joints[node.joint];
+    const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum) ISO_INLINE_LAMBDA {
+      (with_headroom(V::load(field[k])) + round_with_headroom<V>(sum)).store(field[k]);
+    };
+    const auto across = [](const Mat3<L>& rows, int k, Vec3<V> p) ISO_INLINE_LAMBDA {
+      return product(rows.rows[0][k], p.x) + product(rows.rows[1][k], p.y) + product(rows.rows[2][k], p.z);
+    };
+    Mat3<L> turn;  // rows of the places' turns
+    if (node.is_point()) {
+      turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
+      store(load(body.linear) + place, body.linear);
+    } else {
+      turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
+      const Mat3<L> linear = load(m.rows[node.rows].linear);
+      for (int k = 0; k < 3; ++k) add(body.linear, k, across(linear, k, place));
+    }
+    if (!of.turns) {
+      for (int k = 0; k < 3; ++k) add(body.angular, k, across(turn, k, place));
+      return;
+    }
+    const Rows& rows = m.rows[shape.nodes[of.node - 1].rows];
+    const Mat3<L> other = load(IsA ? rows.turn_a : rows.turn_b);
+    for (int k = 0; k < 3; ++k) add(body.angular, k, across(turn, k, place) + across(other, k, angle));
+  }
+};
+
+}  // namespace
+}  // namespace isostep
