@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint.inl"
+#include "isostep/dynamics/joints/row_inverse.hpp"
 
 namespace isostep {
 

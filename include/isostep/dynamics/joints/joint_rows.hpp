@@ -142,22 +142,22 @@ ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t 
 }
 
 template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
-/// 1 / a where least < a, else 0.
-template <class S> ISO_INLINE S reciprocal_above(S least, S a) { return least < a ? S(1) / a : S(0); }
 
-namespace detail {
-/// LDL^T of a symmetric matrix plus `softness` times the identity, whose pivots stay near one where a determinant would
-/// vanish in fixed point. `inverse_of` a pivot: where it is zero the row is left out, and its row of the inverse is
-/// zeros. A pivot that rounding took below the softness is held there. T may be lanes.
-template <class T, class InverseOf>
-ISO_INLINE Mat3<T> invert_by_pivots(const Mat3<T>& m, T softness, const InverseOf& inverse_of) {
-  const T i0 = inverse_of(max(m.rows[0].x + softness, softness));
+/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle. T may
+/// be lanes.
+/// Method: LDL^T, whose pivots stay near one where a determinant would vanish in fixed point. A pivot that rounding
+///         took below the softness is held there: such a direction moves nothing.
+/// Error:  measured in tests/unit/dynamics/joints_test.cpp.
+template <class T> ISO_INLINE Mat3<T> invert_symmetric(const Mat3<T>& m, T softness) {
+  const T d0 = max(m.rows[0].x + softness, softness);
+  const T i0 = reciprocal(d0);
   const T l1 = m.rows[0].y * i0, l2 = m.rows[0].z * i0;
-  const T i1 = inverse_of(max(m.rows[1].y + softness - l1 * m.rows[0].y, softness));
+  const T d1 = max(m.rows[1].y + softness - l1 * m.rows[0].y, softness);
+  const T i1 = reciprocal(d1);
   const T e = m.rows[1].z - l1 * m.rows[0].z;
   const T l3 = e * i1;
-  const T i2 =
-      inverse_of(max(m.rows[2].z + softness - round_to<T>(product(l2, m.rows[0].z) + product(l3, e)), softness));
+  const T d2 = max(m.rows[2].z + softness - round_to<T>(product(l2, m.rows[0].z) + product(l3, e)), softness);
+  const T i2 = reciprocal(d2);
   // L^-1 = [1; -l1 1; l1 l3 - l2, -l3, 1]
   const T n20 = l1 * l3 - l2;
   const T zz = i2, yz = -(l3 * i2), xz = n20 * i2;
@@ -165,14 +165,6 @@ ISO_INLINE Mat3<T> invert_by_pivots(const Mat3<T>& m, T softness, const InverseO
   const T xy = -(l1 * i1) - l3 * xz;
   const T xx = i0 + round_to<T>(product(l1 * l1, i1) + product(n20, xz));
   return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
-}
-}  // namespace detail
-
-/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle. T may
-/// be lanes. A direction whose pivot is the softness moves nothing.
-/// Error:  measured in tests/unit/dynamics/joints_test.cpp.
-template <class T> ISO_INLINE Mat3<T> invert_symmetric(const Mat3<T>& m, T softness) {
-  return detail::invert_by_pivots(m, softness, [](T pivot) ISO_INLINE_LAMBDA { return reciprocal(pivot); });
 }
 namespace detail {
 /// [m/s] a joint's error is closed no faster than this.
@@ -186,29 +178,6 @@ template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
 /// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.
 template <class S> inline constexpr S kTautLimit = S(2);
 }  // namespace detail
-
-namespace detail {
-/// Whether a block of rows with this softness leaves out those that move next to nothing: finer formats have the digits.
-template <class S> ISO_INLINE constexpr bool drops_rows(S softness) { return S(4) * softness < kLeastCompliance<S>; }
-}  // namespace detail
-
-/// invert_symmetric() of a block's coupling; where it `drops`, without a row that asks for what rows before it hold or
-/// for what no body can do: a weld of a body that a lock keeps from turning about an axis. T may be lanes.
-/// Why:    its inverse is 1 / softness along such a direction, and multiplies what float and Q16.16 rounded of the
-///         neighbours' couplings by as much: what is left of those is noise, and a tree of them explodes. What moves by
-///         less than three times the softness is softer than anything that a tree of these formats may hold.
-/// Differs: a point moves along every axis.
-template <class T> ISO_INLINE Mat3<T> invert_rows(const Mat3<T>& m, T softness, bool drops) {
-  if (!drops) return invert_symmetric(m, softness);
-  const T twice = softness + softness, least = twice + twice;
-  return detail::invert_by_pivots(m, softness, [least](T pivot) ISO_INLINE_LAMBDA {
-    return reciprocal_above(least, pivot);
-  });
-}
-template <class S> ISO_INLINE Mat3<S> invert_block(const JointBlock<S>& block, S softness) {
-  if (block.point) return invert_symmetric(block.coupling, softness);
-  return invert_rows(block.coupling, softness, detail::drops_rows(softness));
-}
 
 /// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
 template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {

@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/joints/row_inverse.hpp"
 #include "isostep/dynamics/joints/tree_couplings.inl"
 #include "isostep/scalar/lanes_bounded.hpp"
-#include "isostep/scalar/lanes_reciprocal.hpp"
 
 namespace isostep {
 namespace {
@@ -251,7 +251,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   static ISO_INLINE Mat3<L> inverse_of(const TreeShape& shape, const TreeNode& node, const Mat3<L>& k) {
     const S softness =
         shape.joints[node.joint].closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
-    return node.is_point() ? invert_symmetric(k, number(softness)) : invert_rows(k, number(softness), detail::drops_rows(softness));
+    return node.is_point() ? invert_symmetric(k, number(softness)) : invert_rows(k, softness);
   }
   /// K = L D L^T by blocks: what node i's elimination leaves among the nodes it is linked to.
   static ISO_INLINE void eliminate(const TreeRun<S>& run, std::size_t i, Memory m) {

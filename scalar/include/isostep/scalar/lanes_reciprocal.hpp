@@ -30,10 +30,4 @@ requires(InRegister<S, W, Isa>&& std::same_as<detail::LaneKey<S>, std::int64_t> 
   return q + select(less_equal(a, twice), one, L::zero()) - select(less(twice, -a), one, L::zero());
 }
 
-/// 1 / a where least < a, else 0.
-template <class S, int W, class Isa>
-ISO_INLINE Lanes<S, W, Isa> reciprocal_above(Lanes<S, W, Isa> least, Lanes<S, W, Isa> a) {
-  return select(less(least, a), reciprocal(a), Lanes<S, W, Isa>::zero());
-}
-
 }  // namespace isostep
