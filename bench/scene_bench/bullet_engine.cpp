@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_joints.hpp"
 #include "bullet_queries.hpp"
 #include "bullet_shapes.hpp"
 #include "peer.hpp"
@@ -49,6 +50,7 @@ class BulletEngine : public Peer {
       add(bodies_.back(), body);
     }
     for (const PeerJoint& joint : joints()) connect(joint);
+    for (const PeerGear& gear : gears()) connect(gear);
   }
   ~BulletEngine() override {
     for (const auto& joint : joints_) world_.removeConstraint(joint.get());
@@ -154,44 +156,17 @@ class BulletEngine : public Peer {
     }
     if (from.gravity_scale != 1) made.body->setGravity(bt(gravity() * from.gravity_scale));
   }
-  /// Its axis of twist is x.
-  static std::unique_ptr<btTypedConstraint> shoulder(const PeerJoint& joint, btRigidBody& a, btRigidBody& b,
-                                                     const btTransform& on_a, const btTransform& on_b) {
-    const btTransform x_to_z(btQuaternion(btVector3(0, 1, 0), -SIMD_HALF_PI));
-    auto made = std::make_unique<btConeTwistConstraint>(a, b, on_a * x_to_z, on_b * x_to_z);
-    made->setLimit(bt(joint.cone), bt(joint.cone), bt(joint.upper));
-    return made;
-  }
-  std::unique_ptr<btTypedConstraint> constraint(const PeerJoint& joint) {
-    btRigidBody& a = joint.a < 0 ? btTypedConstraint::getFixedBody() : *bodies_[static_cast<std::size_t>(joint.a)].body;
-    btRigidBody& b = *bodies_[static_cast<std::size_t>(joint.b)].body;
-    const btTransform on_a(bt(joint.on_a.orientation), bt(joint.on_a.position));
-    const btTransform on_b(bt(joint.on_b.orientation), bt(joint.on_b.position));
-    switch (joint.type) {
-      case JointType::hinge: {
-        auto hinge = std::make_unique<btHingeConstraint>(a, b, on_a, on_b);
-        if (joint.is_limited) hinge->setLimit(bt(joint.lower), bt(joint.upper));
-        else hinge->setLimit(1, -1);  // none
-        return hinge;
-      }
-      case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, on_a, on_b);
-      case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");
-      case JointType::slider:
-      case JointType::cylindrical:
-      case JointType::planar:
-      case JointType::universal:
-      case JointType::constant_velocity:
-      case JointType::angular:
-      case JointType::six_axis: throw scenes::SceneError("", "a joint that Bullet is not asked for");
-      case JointType::ball: break;
-    }
-    if (joint.cone > 0) return shoulder(joint, a, b, on_a, on_b);
-    if (joint.a < 0) return std::make_unique<btPoint2PointConstraint>(b, bt(joint.on_b.position));
-    return std::make_unique<btPoint2PointConstraint>(a, b, bt(joint.on_a.position), bt(joint.on_b.position));
+  btRigidBody& body(int i) {
+    return i < 0 ? btTypedConstraint::getFixedBody() : *bodies_[static_cast<std::size_t>(i)].body;
   }
   void connect(const PeerJoint& joint) {
-    joints_.push_back(constraint(joint));
+    joints_.push_back(bullet_joint(joint, body(joint.a), body(joint.b)));
     world_.addConstraint(joints_.back().get(), !joint.collide);
+  }
+  void connect(const PeerGear& gear) {
+    btRigidBody &a = body(joints()[gear.joint_a].b), &b = body(joints()[gear.joint_b].b);
+    joints_.push_back(bullet_gear(gear, joints(), a, b));
+    world_.addConstraint(joints_.back().get());
   }
 
   GroupFilter filter_;

@@ -47,14 +47,12 @@ std::vector<Maker> chosen_makers(const Arguments& arguments) {
 
 std::vector<std::string> chosen_scenes(const Arguments& arguments) {
   if (!arguments.scenes.empty()) return arguments.scenes;
-  return {"S1", "S1x10", "S2",  "S3",  "S4",  "S4s",  "S5",   "S6",  "S6v", "S7",   "S20", "S8",
-          "S9", "S10",   "S11", "S12", "S13", "S13m", "S13d", "S14", "S15", "S15h", "S16", "S16h"};
+  return {"S1",  "S1x10", "S2",           "S3",           "S4",  "S4s",  "S5",  "S6",  "S6v",
+          "S7",  "S20",   "slider_crank", "braked_gears", "S8",  "S9",   "S10", "S11", "S12",
+          "S13", "S13m",  "S13d",         "S14",          "S15", "S15h", "S16", "S16h"};
 }
 void check_name(const std::string& name) {
-  const std::span<const scenes::NamedScene> all = scenes::named_scenes();
-  if (std::none_of(all.begin(), all.end(), [&](const scenes::NamedScene& scene) { return name == scene.name; })) {
-    throw CLI::ValidationError("--scenes", "no scene " + name);
-  }
+  if (!scenes::find_scene(name)) throw CLI::ValidationError("--scenes", "no scene " + name);
 }
 scenes::Scene scene_of(const std::string& name, const Arguments& arguments) {
   std::optional<scenes::Scene> scene = scenes::find_scene(name);

@@ -1,10 +1,9 @@
 // ODE (double) in the scene benchmark: QuickStep with the defaults of its manual.
 // SPDX-License-Identifier: MIT
-#include <ode/ode.h>
-
 #include <algorithm>
 #include <set>
 
+#include "ode_joints.hpp"
 #include "peer.hpp"
 
 namespace isostep::bench {
@@ -42,6 +41,8 @@ class OdeEngine : public Peer {
     dWorldSetAutoDisableFlag(world_, allow_sleep() ? 1 : 0);
     for (const PeerBody& body : bodies()) bodies_.push_back(make(body));
     for (const PeerJoint& joint : joints()) connect(joint);
+    for (const PeerGear& gear : gears())
+      add_ode_gear(world_, gear, place_of(joints()[gear.joint_a]), place_of(joints()[gear.joint_b]));
     dRandSetSeed(0);
   }
   ~OdeEngine() override {
@@ -187,66 +188,20 @@ class OdeEngine : public Peer {
     dGeomSetPosition(geom, at.x, at.y, at.z);
     dGeomSetQuaternion(geom, q);
   }
-  /// A spring as its manual has it: `push` [N s/m] is stiffness times the step, `damping` [N s/m].
-  static void soften(dJointID joint, double push, double damping) {
-    dJointSetDBallParam(joint, dParamERP, push / (push + damping));
-    dJointSetDBallParam(joint, dParamCFM, 1 / (push + damping));
-  }
   Vec3<double> in_world(int body, Vec3<double> local) const {
     if (body < 0) return local;
     const PeerBody& at = bodies()[static_cast<std::size_t>(body)];
     return at.position + to_matrix(at.orientation) * local;
   }
   /// Anchors are given where they lie at the start.
-  void connect(const PeerJoint& joint) {
+  OdePlace place_of(const PeerJoint& joint) const {
     const auto body = [&](int i) { return i < 0 ? nullptr : bodies_[static_cast<std::size_t>(i)].body; };
-    const Vec3<double> on_a = in_world(joint.a, joint.on_a.position), on_b = in_world(joint.b, joint.on_b.position);
-    const Vec3<double> axis =
-        in_world(joint.a, joint.on_a.position + to_matrix(joint.on_a.orientation).column(2)) - on_a;
-    dJointID made = nullptr;
-    switch (joint.type) {
-      case JointType::ball:
-        if (joint.cone > 0) throw scenes::SceneError("", "ODE has no cone");
-        made = dJointCreateBall(world_, nullptr);
-        dJointAttach(made, body(joint.a), body(joint.b));
-        dJointSetBallAnchor(made, on_b.x, on_b.y, on_b.z);
-        break;
-      case JointType::hinge:
-        made = dJointCreateHinge(world_, nullptr);
-        dJointAttach(made, body(joint.a), body(joint.b));
-        dJointSetHingeAnchor(made, on_b.x, on_b.y, on_b.z);
-        dJointSetHingeAxis(made, axis.x, axis.y, axis.z);
-        if (joint.is_limited) {
-          dJointSetHingeParam(made, dParamLoStop, joint.lower);
-          dJointSetHingeParam(made, dParamHiStop, joint.upper);
-        }
-        break;
-      case JointType::fixed:
-        made = dJointCreateFixed(world_, nullptr);
-        dJointAttach(made, body(joint.a), body(joint.b));
-        dJointSetFixed(made);
-        break;
-      case JointType::distance:
-        if (!joint.is_spring && joint.lower != joint.upper) throw scenes::SceneError("", "ODE has no rope");
-        made = dJointCreateDBall(world_, nullptr);
-        dJointAttach(made, body(joint.a), body(joint.b));
-        dJointSetDBallAnchor1(made, on_a.x, on_a.y, on_a.z);
-        dJointSetDBallAnchor2(made, on_b.x, on_b.y, on_b.z);
-        dJointSetDBallDistance(made, joint.is_spring ? joint.rest : joint.upper);
-        if (joint.is_spring) soften(made, joint.stiffness / 60, joint.damping);
-        break;
-      case JointType::slider:
-        made = dJointCreateSlider(world_, nullptr);
-        dJointAttach(made, body(joint.a), body(joint.b));
-        dJointSetSliderAxis(made, axis.x, axis.y, axis.z);
-        break;
-      case JointType::cylindrical:
-      case JointType::planar:
-      case JointType::universal:
-      case JointType::constant_velocity:
-      case JointType::angular:
-      case JointType::six_axis: throw scenes::SceneError("", "a joint that ODE is not asked for");
-    }
+    const Vec3<double> on_a = in_world(joint.a, joint.on_a.position);
+    const Vec3<double> tip = joint.on_a.position + to_matrix(joint.on_a.orientation).column(2);
+    return {body(joint.a), body(joint.b), on_a, in_world(joint.b, joint.on_b.position), in_world(joint.a, tip) - on_a};
+  }
+  void connect(const PeerJoint& joint) {
+    add_ode_joint(world_, joint, place_of(joint));
     if (joint.collide || joint.a < 0 || joint.b < 0) return;
     const auto place = [&](int i) { return &bodies()[static_cast<std::size_t>(i)]; };
     apart_.insert(std::minmax(place(joint.a), place(joint.b)));

@@ -27,8 +27,8 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
   if (scene.script == scenes::Script::mixed) {
     throw scenes::SceneError("", "peers cannot follow this script");
   }
-  if (!scene.records.empty() || !(scene.restitution_threshold == scenes::Scene{}.restitution_threshold)) {
-    throw scenes::SceneError("", "peers are given no records and no threshold of restitution");
+  if (!(scene.restitution_threshold == scenes::Scene{}.restitution_threshold)) {
+    throw scenes::SceneError("", "peers are given no threshold of restitution");
   }
   const bool fast = has_fast_bodies(scene);
   for (const scenes::SceneBody& body : scene.bodies) {
@@ -36,6 +36,7 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
     bodies_.back().fast = fast && body.type == BodyType::dynamic;
   }
   for (const scenes::SceneJoint& joint : scene.joints) joints_.push_back(peer_joint(joint, bodies_));
+  for (const scenes::SceneRecord& record : scene.records) gears_.push_back(peer_gear(record, scene.joints));
 }
 
 void Peer::before_step(int frame) {
@@ -90,20 +91,23 @@ scenes::Sight Peer::sight() const {
   return sight;
 }
 
-Vec3<double> Peer::anchor_now(int body, const PeerEnd& end) const {
-  if (body < 0) return end.position;
+PeerEnd Peer::end_now(int body, const PeerEnd& end) const {
+  if (body < 0) return end;
   const Motion at = motion(static_cast<std::size_t>(body));
-  return at.position + to_matrix(at.orientation) * end.position;
+  return {at.position + to_matrix(at.orientation) * end.position, normalise(at.orientation * end.orientation)};
 }
 
 /// As World::joint_error.
 double Peer::joint_error() const {
   double largest = 0;
   for (const PeerJoint& joint : joints_) {
-    const Vec3<double> apart = anchor_now(joint.b, joint.on_b) - anchor_now(joint.a, joint.on_a);
+    if (joint.is_spring) continue;
+    const PeerEnd on_a = end_now(joint.a, joint.on_a), on_b = end_now(joint.b, joint.on_b);
+    Vec3<double> apart = on_b.position - on_a.position;
+    const Vec3<double> axis = to_matrix(on_a.orientation).column(2);
+    if (joint.type == JointType::slider) apart = apart - axis * dot(apart, axis);
     const double length = std::sqrt(dot(apart, apart));
     const bool distance = joint.type == JointType::distance;
-    if (joint.is_spring) continue;
     largest = std::max(largest, distance ? std::max(length - joint.upper, joint.lower - length) : length);
   }
   return largest;

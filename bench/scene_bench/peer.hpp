@@ -14,7 +14,7 @@ struct Motion {
   bool awake;
 };
 
-/// Bodies, joints, the scripts that exchange bodies or hit one. The rest of what a scene may say is
+/// Bodies, joints, gears, the scripts that exchange bodies or hit one. The rest of what a scene may say is
 /// refused by a SceneError.
 class Peer : public Engine {
  public:
@@ -29,6 +29,7 @@ class Peer : public Engine {
  protected:
   const std::vector<PeerBody>& bodies() const { return bodies_; }
   const std::vector<PeerJoint>& joints() const { return joints_; }
+  const std::vector<PeerGear>& gears() const { return gears_; }
   Vec3<double> gravity() const { return gravity_; }
   bool allow_sleep() const { return scene_.allow_sleep; }
 
@@ -42,13 +43,14 @@ class Peer : public Engine {
  private:
   void exchange(int frame);
   void hit(int frame);
-  Vec3<double> anchor_now(int body, const PeerEnd& end) const;
+  PeerEnd end_now(int body, const PeerEnd& end) const;
   double joint_error() const;
   scenes::Energy energy() const;
 
   scenes::Scene scene_;  // with the bodies of now
   std::vector<PeerBody> bodies_;
   std::vector<PeerJoint> joints_;
+  std::vector<PeerGear> gears_;
   Vec3<double> gravity_;
   int frames_ = 0;
 };

@@ -148,6 +148,7 @@ void set_spring(PeerJoint& joint, const scenes::SceneJoint& of, double mass) {
 void turn_round(PeerJoint& joint) {
   std::swap(joint.a, joint.b);
   std::swap(joint.on_a, joint.on_b);
+  joint.motor_speed = -joint.motor_speed;
   if (!joint.is_limited) return;
   std::swap(joint.lower, joint.upper);
   joint.lower = -joint.lower;
@@ -155,14 +156,16 @@ void turn_round(PeerJoint& joint) {
 }
 void require_plain(const scenes::SceneJoint& joint) {
   const std::uint32_t limit = joint_flag::kLimit, spring = joint_flag::kSpring, plain = joint_flag::kCollideConnected;
-  const bool hinge = joint.type == JointType::hinge, distance = joint.type == JointType::distance;
-  const std::uint32_t known = plain | (hinge || distance ? limit : 0u) | (distance ? spring : 0u);
+  const bool turns = joint.type == JointType::hinge, slides = joint.type == JointType::slider,
+             distance = joint.type == JointType::distance;
+  const std::uint32_t known =
+      plain | (turns || slides ? limit | joint_flag::kMotor : 0u) | (distance ? limit | spring : 0u);
   const std::uint32_t both = limit | joint_flag::kCone;
   const bool shoulder = joint.type == JointType::ball && (joint.flags & both) == both &&
                         real(joint.lower) == -real(joint.upper) && (joint.flags & ~(plain | both)) == 0;
   if (shoulder) return;
   if ((joint.flags & ~known) != 0 || (joint.flags & (limit | spring)) == (limit | spring)) {
-    throw SceneError("", "peers are given no motors, and of limits those of hinges and whole shoulders");
+    throw SceneError("", "peers are given motors of hinges and sliders, and limits of those and of whole shoulders");
   }
 }
 
@@ -214,16 +217,37 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.b = of.b;
   joint.on_a = end(of.a, of.anchor);
   joint.on_b = end(of.b, joins_two_points(of.type) ? of.anchor_b : of.anchor);
-  const bool turns = of.type == JointType::hinge || of.type == JointType::ball;
-  joint.is_limited = turns && (of.flags & joint_flag::kLimit) != 0;
+  joint.is_limited = of.type != JointType::distance && (of.flags & joint_flag::kLimit) != 0;
   joint.cone = (of.flags & joint_flag::kCone) != 0 ? real(of.cone) : 0;
   joint.lower = real(of.lower);
   joint.upper = real(of.upper);
+  joint.has_motor = (of.flags & joint_flag::kMotor) != 0;
+  joint.motor_speed = real(of.motor_speed);
+  joint.motor_force = real(of.motor_torque);
   joint.is_spring = (of.flags & joint_flag::kSpring) != 0;
   joint.collide = (of.flags & joint_flag::kCollideConnected) != 0;
   if (joint.is_spring) set_spring(joint, of, reduced_mass(joint, bodies));
   if (joint.b < 0) turn_round(joint);
   return joint;
+}
+
+PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints) {
+  const auto refuse = [] { return SceneError("", "of records peers are given gears between two wheels on the world"); };
+  if (record.kind != "coupling") throw refuse();
+  PeerGear gear = {joints.size(), joints.size(), 1, 1};
+  for (const scenes::SceneField& field : record.fields) {
+    const double value = real(field.numbers.front());
+    if (field.name == "joint_a") gear.joint_a = static_cast<std::size_t>(value);
+    else if (field.name == "joint_b") gear.joint_b = static_cast<std::size_t>(value);
+    else if (field.name == "ratio_a") gear.ratio_a = value;
+    else if (field.name == "ratio_b") gear.ratio_b = value;
+    else throw refuse();
+  }
+  for (const std::size_t joint : {gear.joint_a, gear.joint_b}) {
+    const bool wheel = joint < joints.size() && joints[joint].type == JointType::hinge && joints[joint].a < 0;
+    if (!wheel || joints[joint].b < 0) throw refuse();
+  }
+  return gear;
 }
 
 Vec3<double> peer_gravity(const scenes::Scene& scene) { return real(scene.gravity); }

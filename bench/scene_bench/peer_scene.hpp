@@ -39,23 +39,31 @@ struct PeerBody {
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.
 using PeerEnd = Pose<double>;
-/// Hinges may have limits, balls a cone and a twist as far to both sides, distance joints may be springs; motors
-/// are refused.
+/// Hinges and sliders may have limits and motors, balls a cone and a twist as far to both sides, distance joints may be
+/// springs.
 struct PeerJoint {
   JointType type;
   int a, b;             // a = -1: the world
   PeerEnd on_a, on_b;   // z is the axis
-  bool is_limited;      // a hinge, or the twist of a ball
-  double lower, upper;  // [rad], 0 at the start; of distance joints [m]
+  bool is_limited;      // a hinge, a slider, or the twist of a ball
+  double lower, upper;  // [rad], 0 at the start; of distance joints and sliders [m]
   double cone;          // [rad] of a ball; 0: none
+  bool has_motor;
+  double motor_speed, motor_force;  // [rad/s] and [N m] of a hinge, [m/s] and [N] of a slider; of b against a
   bool is_spring;
   double rest, stiffness, damping;  // [m], [N/m], [N s/m]
   bool collide;                     // the two bodies with each other
+};
+/// Two hinges whose angles go together: ratio_a angle_a + ratio_b angle_b stays 0.
+struct PeerGear {
+  std::size_t joint_a, joint_b;  // in the list of joints; their other ends are the world
+  double ratio_a, ratio_b;
 };
 
 /// Throw SceneError with the reason where peers cannot be told.
 PeerBody peer_body(const scenes::SceneBody& body);
 PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
+PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints);
 Vec3<double> peer_gravity(const scenes::Scene& scene);
 /// Whether this is a scene whose bodies are PeerBody::fast: the bullets, and the thin boxes.
 bool has_fast_bodies(const scenes::Scene& scene);

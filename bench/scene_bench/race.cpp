@@ -9,6 +9,7 @@
 #include "scenes/bars.hpp"
 #include "scenes/limits.hpp"
 #include "scenes/named.hpp"
+#include "scenes/shapes.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -26,8 +27,10 @@ struct Lane {
   std::vector<double> times;  // [ms] a frame
   double kinetic = 0, joint_worst = 0, limit_worst = 0, limit_end = 0, energy_most = 0;
   int asleep_at = -1;
+  std::vector<double> turned;  // [rad] of a trial's bodies about z
 };
 
+bool is_trial(const scenes::Scene& scene) { return scenes::find_trial(scene.name) != nullptr; }
 double square_across(Vec3<double> v) { return v.x * v.x + v.z * v.z; }
 
 /// Scripts move bodies to other places of the list: their joints' limits are not looked at.
@@ -40,13 +43,24 @@ void watch_joints(Lane& lane, const scenes::Scene& scene, const scenes::JointLim
   lane.energy_most = std::max(lane.energy_most, sight.energy.total() - lane.energy_start.total());
 }
 
+/// Turns are counted from frame to frame.
+void watch_turns(Lane& lane, const scenes::Sight& before, const scenes::Sight& now) {
+  lane.turned.resize(now.bodies.size());
+  for (std::size_t i = 0; i < now.bodies.size(); ++i) {
+    const Quat<double> p = before.bodies[i].orientation, q = now.bodies[i].orientation;
+    lane.turned[i] += std::remainder(2 * (std::atan2(q.z, q.w) - std::atan2(p.z, p.w)), scenes::kTurn);
+  }
+}
+
 void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
   const scenes::JointLimits limits(scene);
   for (int frame = from; frame < to; ++frame) {
+    const scenes::Sight before = is_trial(scene) ? lane.engine->sight() : scenes::Sight{};
     lane.engine->before_step(frame);
     lane.times.push_back(lane.engine->timed_steps(1));
     if (!scene.joints.empty()) watch_joints(lane, scene, limits);
     if (lane.judge) lane.judge->see(lane.engine->sight());
+    if (is_trial(scene)) watch_turns(lane, before, lane.engine->sight());
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
     if (frame < scene.frames - kEnergyFrames) continue;
     const scenes::Energy energy = lane.engine->sight().energy;
@@ -57,7 +71,7 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
 /// Reach: from the world's end of the first joint to the last body, straight chains only.
 void measure_places(const Lane& lane, const scenes::Scene& scene, Row& row) {
   const std::vector<scenes::BodySight> now = lane.engine->sight().bodies;
-  row.outside = scenes::count_outside(scene.name, now);
+  if (!is_trial(scene)) row.outside = scenes::count_outside(scene.name, now);
   row.through = scenes::count_through(scene.name, lane.start, now).value_or(-1);
   if (scene.script != scenes::Script::none) return;
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -97,7 +111,13 @@ void measure(Lane& lane, const scenes::Scene& scene, Row& row) {
   row.settings = lane.engine->settings();
   row.faults = lane.engine->faults();
   row.overlap = overlap_of(*lane.engine);
-  if (lane.judge) row.bump = lane.judge->figure();
+  row.trial = scenes::find_trial(scene.name);
+  if (row.trial != nullptr) {
+    row.figure = scenes::verdict_of(*row.trial, *lane.judge, end).figure;
+    for (const double angle : lane.turned) row.speeds.push_back(angle / end.time);
+  } else if (lane.judge) {
+    row.bump = lane.judge->figure();
+  }
   row.kinetic = lane.kinetic;
   row.energy_loss = (lane.energy_start.total() - end.energy.total()) / end.energy.mass;
   row.joint_worst = lane.joint_worst;
@@ -136,10 +156,9 @@ Lane start_lane(const scenes::Scene& scene, const Maker& maker, const EngineOpti
   const scenes::Sight start = lane.engine->sight();
   lane.start = start.bodies;
   lane.energy_start = start.energy;
-  if (scenes::own_measure(scene.name) == scenes::Measure::bump) {
-    lane.judge = scenes::benchmark_judge(scene);
-    lane.judge->see(start);
-  }
+  if (const scenes::Trial* trial = scenes::find_trial(scene.name)) lane.judge = trial->judge(scene);
+  else if (scenes::own_measure(scene.name) == scenes::Measure::bump) lane.judge = scenes::benchmark_judge(scene);
+  if (lane.judge) lane.judge->see(start);
   return lane;
 } catch (const scenes::SceneError& error) {
   Lane lane;

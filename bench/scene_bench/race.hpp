@@ -3,6 +3,7 @@
 #pragma once
 
 #include "memory.hpp"
+#include "scenes/trials/trial.hpp"
 
 namespace isostep::bench {
 
@@ -29,6 +30,9 @@ struct Row {
   int outside = 0;                        // bodies that left the pit, the floor, the drum or the hills
   int through = -1;                       // bullets that passed what was in their way; less than 0: there are none
   double bump = -1;                       // [m/s] as scenes::Measure::bump; less than 0: not looked at
+  const scenes::Trial* trial = nullptr;   // that the scene is
+  double figure = 0;                      // of the trial, in its unit; not a number: it did not do what it is to do
+  std::vector<double> speeds;             // [rad/s] of its bodies about z, mean of the run
   double asleep_at = -1;                  // [s] first frame with nobody awake; less than 0: never
   // Judged by verdict.hpp.
   bool failed = false;

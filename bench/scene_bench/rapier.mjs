@@ -19,6 +19,8 @@ await RAPIER.init();
 
 const vector = ([x, y, z]) => ({ x, y, z });
 const rotation = ([x, y, z, w]) => ({ x, y, z, w });
+// A motor is a damper of its speed, this strong: beyond it nothing changes but that floats end.
+const stiff = 1e6;
 let world, bodies, uniform;
 
 // With Rapier's own remedy for bodies that catch on inner edges; without it they stop on a plain.
@@ -84,19 +86,36 @@ function make(body, allowSleep) {
   return made;
 }
 
-// Ends are given in the bodies' own frames, z the axis of a hinge; body -1 is the world.
-function connect({ type, a, b, on_a, on_b, limits, rest, stiffness, damping, length, collide }) {
+// Rapier slides along x.
+const xToZ = (q) => {
+  const [x, y, z, w] = q, h = Math.SQRT1_2;
+  return rotation([h * (x + z), h * (y - w), h * (z - x), h * (w + y)]);
+};
+
+// Ends are given in the bodies' own frames, z the axis of a hinge or slider; body -1 is the world.
+function connect({ type, a, b, on_a, on_b, motor, limits, rest, stiffness, damping, length, collide }) {
   const holder = a < 0 ? world.createRigidBody(RAPIER.RigidBodyDesc.fixed()) : bodies[a];
   const p = vector(on_a.anchor), q = vector(on_b.anchor), z = [0, 0, 1];
   const axis = (end) => vector(turned(end.axes, z));
   const joint =
     type === "ball" ? RAPIER.JointData.spherical(p, q)
     : type === "hinge" ? RAPIER.JointData.revoluteWithAxes(p, q, axis(on_a), axis(on_b))
+    : type === "slider" ? RAPIER.JointData.prismatic(p, q, vector([1, 0, 0]))
     : type === "fixed" ? RAPIER.JointData.fixed(p, rotation(on_a.axes), q, rotation(on_b.axes))
     : type === "spring" ? RAPIER.JointData.spring(rest, stiffness, damping, p, q)
     : RAPIER.JointData.rope(length, p, q);
-  if (limits !== null) Object.assign(joint, { limitsEnabled: true, limits });
-  world.createImpulseJoint(joint, holder, bodies[b], true).setContactsEnabled(collide);
+  const made = world.createImpulseJoint(joint, holder, bodies[b], true);
+  made.setContactsEnabled(collide);
+  if (limits !== null) made.setLimits(...limits); // those of JointData are a slider's alone
+  if (type === "slider") {
+    made.setFrameX1(xToZ(on_a.axes));
+    made.setFrameX2(xToZ(on_b.axes));
+  }
+  if (motor !== null) {
+    const [speed, force] = motor;
+    made.configureMotorVelocity(speed, stiff);
+    made.setMotorMaxForce(force);
+  }
 }
 
 function raise(scene) {

@@ -27,6 +27,7 @@ class RapierEngine : public Peer {
                   {"bodies", Json::array()},
                   {"joints", Json::array()}};
     for (const PeerBody& body : bodies()) built["bodies"].push_back(json_of(body));
+    if (!gears().empty()) throw scenes::SceneError("", "Rapier has no gears");
     for (const PeerJoint& joint : joints()) built["joints"].push_back(json_of(joint));
     node_.ask({{"scene", built}}, 1);
   }

@@ -45,7 +45,7 @@ Json json_of(const PeerPart& part) {
 Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"axes", json_of(end.orientation)}}; }
 /// The names that rapier.mjs knows. A rod is no joint of Rapier's.
 const char* name_of(const PeerJoint& joint) {
-  if (JointType::distance < joint.type) throw scenes::SceneError("", "a joint that Rapier is not asked for");
+  if (JointType::slider < joint.type) throw scenes::SceneError("", "a joint that Rapier is not asked for");
   if (joint.cone > 0) throw scenes::SceneError("", "Rapier has no cone");
   if (joint.type != JointType::distance) return kJointNames[static_cast<std::size_t>(joint.type)];
   if (!joint.is_spring && joint.lower > 0) throw scenes::SceneError("", "Rapier has no rod");
@@ -92,6 +92,7 @@ Json json_of(const PeerJoint& joint) {
           {"rest", joint.rest},
           {"stiffness", joint.stiffness},
           {"damping", joint.damping},
+          {"motor", joint.has_motor ? Json{joint.motor_speed, joint.motor_force} : Json()},
           {"limits", joint.is_limited ? Json{joint.lower, joint.upper} : Json()},
           {"a", joint.a},
           {"b", joint.b},

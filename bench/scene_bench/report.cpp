@@ -7,6 +7,7 @@
 
 #include "compare.hpp"
 #include "dated.hpp"
+#include "scenes/shapes.hpp"
 #include "text.hpp"
 
 namespace isostep::bench {
@@ -26,8 +27,13 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
   return false;
 }
 
+/// [m] A tooth of a wheel is so long.
+constexpr double kTooth = scenes::kTurn / 40;
+
 /// What the chart shows of a run: the error that its scene is about [m].
 double error_of(const Row& row) {
+  if (is(row, {"slider_crank"})) return row.figure / 1000;
+  if (is(row, {"braked_gears"})) return row.figure * kTooth;
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
   if (is(row, {"S4", "S4s", "S5", "S10", "S10s", "S11", "S12"})) return row.overlap.mean;
   if (is(row, {"S6", "S6v", "S7", "S20"})) return row.joint_worst;
@@ -51,6 +57,13 @@ std::string particular(const Row& row) {
                  1e3 * row.joint_end, row.limit_worst, row.limit_end);
   } else if (is(row, {"S9"})) {
     text = print("longest step %.3f ms", row.max);
+  }
+  if (is(row, {"slider_crank"})) {
+    text = print("piston %.3g mm from where the crank puts it; crank %.4f rad/s, joint %.3g mm", row.figure,
+                 row.speeds[0], 1e3 * row.joint_worst);
+  } else if (is(row, {"braked_gears"})) {
+    text = print("%.3g teeth slipped; %.4f rad/s, ratios %.5f, %.5f", row.figure, row.speeds[0],
+                 row.speeds[1] / row.speeds[0], row.speeds[2] / row.speeds[0]);
   }
   if (row.through >= 0) text = print("%d through", row.through);
   if (row.bump >= 0) text = print("bump %.2f mm/s", 1e3 * row.bump);
@@ -100,6 +113,8 @@ Json json_of(const Row& row, const FastestPeers& fastest) {
           {"outside", row.outside},
           {"through", row.through >= 0 ? Json(row.through) : Json(nullptr)},
           {"bump", positive(row.bump)},
+          {"figure", row.trial != nullptr ? Json(row.figure) : Json(nullptr)},
+          {"speeds", row.speeds},
           {"faults", row.faults},
           {"asleep_at_s", positive(row.asleep_at)},
           {"asleep_step_ms", positive(row.asleep_ms)}};
@@ -141,7 +156,7 @@ std::vector<std::string> figures(const Row& row, const FastestPeers& fastest) {
   line.push_back(ratio_text(row, fastest.here));
   line.push_back(ratio_text(row, fastest.dated));
   const scenes::Overlap& o = row.overlap;
-  const bool collides = !is(row, {"S6", "S6v"});
+  const bool collides = row.trial == nullptr && !is(row, {"S6", "S6v"});
   for (const double overlap : {o.worst, o.mean, o.p99}) line.push_back(collides ? print("%.3g", 1e3 * overlap) : "-");
   line.push_back(collides ? print("%u", o.deep) : "-");
   line.push_back(print("%.1e", row.kinetic));

@@ -44,6 +44,7 @@ bool turns_are_cut(const Row& row) {
 bool lost(const Row& row) {
   const std::string_view scene = row.scene;
   if (row.faults != 0 && !turns_are_cut(row)) return true;
+  if (row.trial != nullptr) return !std::isfinite(row.figure);
   if (row.outside != 0 || !std::isfinite(row.kinetic) || passed(row)) return true;
   if (is_of_shapes(scene)) return false;
   if (starts_with(scene, "S1")) return !stack_stands(row);
@@ -80,6 +81,13 @@ std::optional<double> value_of(const Row& row, Measure measure) {
 
 void judge(Row& row) {
   row.failed = lost(row);
+  if (row.trial != nullptr) {
+    const bool holds = !row.failed && row.figure <= row.trial->bar;
+    row.bar = scenes::kReachNames[static_cast<int>(!row.ours ? scenes::Reach::no_bar
+                                                   : holds   ? scenes::Reach::must
+                                                             : scenes::Reach::misses)];
+    return;
+  }
   const std::vector<scenes::Bar> bars = scenes::bars_of(row.scene, row.engine == "q16.16");
   const scenes::Reach reach = scenes::reach_of(bars, [&](Measure measure) { return value_of(row, measure); });
   const bool misses = row.failed && reach != scenes::Reach::no_bar;

@@ -22,6 +22,7 @@ std::span<const Trial> loop_trials();
 std::span<const Trial> bounce_trials();
 std::span<const Trial> ragdoll_trials();
 std::span<const Trial> mechanism_trials();
+std::span<const Trial> gear_trials();
 std::span<const Trial> fixed_point_trials();
 
 inline std::vector<std::span<const Trial>> trial_families() {
@@ -38,6 +39,7 @@ inline std::vector<std::span<const Trial>> trial_families() {
           bounce_trials(),     //
           ragdoll_trials(),    //
           mechanism_trials(),  //
+          gear_trials(),       //
           fixed_point_trials()};
 }
 

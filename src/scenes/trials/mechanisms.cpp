@@ -1,57 +1,11 @@
-// Trials of mechanisms whose motion is known in closed form: cranks, gears, ropes, stops, shafts, beams.
+// Trials of mechanisms whose motion is known in closed form: cranks, ropes, stops, shafts, beams.
 // SPDX-License-Identifier: MIT
 #include "families.hpp"
 #include "isostep/math/rotations.hpp"
-#include "judges.hpp"
-#include "scene_numbers.hpp"
-#include "scenes/shapes.hpp"
+#include "mechanism_parts.hpp"
 
 namespace isostep::scenes {
 namespace {
-
-/// [rad] about z, in (-pi, pi].
-double angle_of(const BodySight& body) {
-  const double angle = 2 * std::atan2(body.orientation.z, body.orientation.w);
-  return angle - kTurn * std::round(angle / kTurn);
-}
-SceneBody weighing(SceneBody body, double mass) {
-  body.mass = mass;
-  return body;
-}
-SceneBody apart(SceneBody body) {
-  body.collide = false;
-  return body;
-}
-SceneJoint driven(SceneJoint joint, double speed, double torque) {
-  joint.flags |= joint_flag::kMotor;
-  joint.motor_speed = speed;
-  joint.motor_torque = torque;
-  return joint;
-}
-SceneJoint stopped(SceneJoint joint, double lower, double upper) {
-  joint.flags |= joint_flag::kLimit;
-  joint.lower = lower;
-  joint.upper = upper;
-  return joint;
-}
-
-/// A judge of one error from the second `from` on: the worst.
-class Off : public FromStart {
- public:
-  explicit Off(double from) : from_(from) {}
-  double figure() const override { return worst_; }
-
- protected:
-  virtual double error(const Sight& start, const Sight& now) const = 0;
-
- private:
-  void compare(const Sight& start, const Sight& now) override {
-    for (const BodySight& body : now.bodies) finite_ = worse(finite_, 0 * length_of(body.centre));
-    if (from_ <= now.time) worst_ = worse(worst_, std::abs(error(start, now)) + finite_);
-  }
-  double from_;  // [s]
-  double worst_ = 0, finite_ = 0;
-};
 
 // ---- a crank drives a piston
 
@@ -80,54 +34,6 @@ class CrankError : public Off {
   double error(const Sight&, const Sight& now) const override {
     const double angle = angle_of(now.bodies[0]), across = kCrank * std::sin(angle);
     return 1000 * (now.bodies[2].centre.x - kCrank * std::cos(angle) - std::sqrt(kRod * kRod - across * across));
-  }
-};
-
-// ---- gears
-
-constexpr double kTeeth[] = {20, 40, 10};
-
-/// Three wheels in a row, as large as their teeth; the first is driven, the last winds up a weight on a slider.
-Scene gear_train() {
-  Scene scene = awake(3600);
-  double x = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double radius = kTeeth[i] / 40;
-    x += i == 0 ? 0 : kTeeth[i - 1] / 40 + radius;
-    scene.bodies.push_back(apart(weighing(body_of(box_part({radius, radius, 0.1}), {x, 0, 0}), kTeeth[i])));
-    scene.joints.push_back(joint_of(JointType::hinge, -1, i, {x, 0, 0}));
-  }
-  scene.joints[0] = driven(scene.joints[0], 1, 2000);
-  const double winch = 0.25;  // [m]
-  scene.bodies.push_back(apart(weighing(body_of(box_part({0.25, 0.25, 0.25}), {x, -2, 0}), 4)));
-  SceneJoint slide = joint_of(JointType::slider, -1, 3, {x, -2, 0});
-  slide.anchor_b = slide.anchor;
-  slide.orientation = {-kHalfRoot, 0, 0, kHalfRoot};  // z to y
-  scene.joints.push_back(slide);
-  const auto couple = [&](double a, double ratio_a, double b, double ratio_b) {
-    scene.records.push_back(
-        {"coupling", {{"joint_a", {a}}, {"joint_b", {b}}, {"ratio_a", {ratio_a}}, {"ratio_b", {ratio_b}}}});
-  };
-  couple(0, kTeeth[0], 1, kTeeth[1]);
-  couple(1, kTeeth[1], 2, kTeeth[2]);
-  couple(2, 1, 3, -1 / winch);
-  return scene;
-}
-/// [teeth] out of mesh, of either pair.
-class MeshError : public Off {
- public:
-  MeshError() : Off(1) {}
-
- private:
-  double error(const Sight&, const Sight& now) const override {
-    double worst = 0;
-    for (int i = 0; i < 2; ++i) {
-      const double teeth = (kTeeth[i] * angle_of(now.bodies[static_cast<std::size_t>(i)]) +
-                            kTeeth[i + 1] * angle_of(now.bodies[static_cast<std::size_t>(i) + 1])) /
-                           kTurn;
-      worst = worse(worst, std::abs(teeth - std::round(teeth)));
-    }
-    return worst;
   }
 };
 
@@ -350,8 +256,6 @@ std::span<const Trial> mechanism_trials() {
   static const Trial trials[] = {
       {"slider_crank", "S19", "a crank of 0.5 m drives a piston by a rod of 1.5 m, a turn a second",
        "the piston, from where the crank puts it", "mm", 0.5, slider_crank, judge_of<CrankError>},
-      {"gear_train", "S19", "wheels of 20, 40 and 10 teeth lift a weight", "teeth out of mesh", "", 0.05, gear_train,
-       judge_of<MeshError>},
       {"atwood", "S19", "1 and 2 kg on a rope over two wheels", "their acceleration; 2 um of rope count as 0.001", "%",
        0.5, atwood, judge_of<AtwoodError>},
       {"loaded_lift", "S19", "a platform with ten crates rises to its stop at 10 m", "the platform, from its stop",
