@@ -36,11 +36,11 @@ template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>
   return max(walks_[hit.body.slot] == detail::obstacle::kWalks ? room * S(0.5) : room, S(0));
 }
 
-template <class S> void CharacterWalk<S>::touch(const Hit& hit) {
+template <class S> void CharacterWalk<S>::touch(BodyId body, Vec3<S> point, Vec3<Unit<S>> normal) {
   for (const CharacterTouch<S>& known : touches()) {
-    if (known.body == hit.body) return;
+    if (known.body == body) return;
   }
-  if (touch_count_ < detail::kMostPlanes) touches_[touch_count_++] = {hit.body, hit.point, hit.normal};
+  if (touch_count_ < detail::kMostPlanes) touches_[touch_count_++] = {body, point, normal};
 }
 
 /// The same plane without its slope; of a ceiling and what looks straight up the plane itself.
@@ -84,9 +84,43 @@ template <class S> Vec3<S> CharacterWalk<S>::along_floor(Vec3<S> way, Vec3<Unit<
   return slope < detail::kGrazing<S> ? way : way - convert<S>(up_) * (dot(way, normal) / slope);
 }
 
-template <class S> auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait) -> Planes {
+/// The way on from a plane, which joins those met before.
+template <class S>
+Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const {
+  const bool steep = is_steep(normal);
+  planes.normals[planes.count++] = steep && gait != Gait::falls ? upright(normal) : normal;
+  return clipped(steep || gait != Gait::walks ? way : along_floor(way, normal), planes);
+}
+
+/// What it touches turns it without a cast, what it runs into most first. Floors turn nobody who walks: the edge of the
+/// next tile is near, but not in the way.
+template <class S>
+Vec3<S> CharacterWalk<S>::turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes) {
+  const Vec3<S> asked = way;
+  while (planes.count < detail::kMostPlanes) {
+    const NearContact<S>* first = nullptr;
+    S least = -max(detail::heading<S>(way).length * detail::kGrazing<S>, detail::kLeastWay<S>);
+    for (const NearContact<S>& contact : touching) {
+      if (character_.skin * detail::kTouchingSkins<S> < separation_of(contact)) continue;
+      const bool steep = is_steep(contact.normal);
+      if (gait == Gait::walks && !steep) continue;
+      S into = dot(way, contact.normal);
+      if (steep && gait != Gait::falls) into = max(into, dot(way, upright(contact.normal)));
+      if (into < least) least = into, first = &contact;
+    }
+    if (first == nullptr) return way;
+    touch(first->body, first->point, first->normal);
+    way = turned(way, first->normal, gait, planes);
+    if (!(S(0) < dot(way, asked))) return Vec3<S>::zero();
+  }
+  return Vec3<S>::zero();
+}
+
+template <class S>
+auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching) -> Planes {
   Planes planes;
   const Vec3<S> asked = way;
+  way = turned_by(touching, way, gait, planes);
   for (int casts = 0; casts < detail::kMostSlides && planes.count < detail::kMostPlanes; ++casts) {
     const Direction<S> along = detail::heading<S>(way);
     if (!(detail::kLeastWay<S> < along.length)) break;
@@ -96,12 +130,8 @@ template <class S> auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait) -> Plane
     const S gone = hit ? min(travel(*hit, reach), along.length) : along.length;
     at_ += detail::along<S>(along, gone);
     if (!(gone < along.length)) break;
-    touch(*hit);
-    const S rest = along.length - gone;
-    const bool steep = dot(convert<S>(hit->normal), up_) < character_.least_up;
-    planes.normals[planes.count++] = steep && gait != Gait::falls ? upright(hit->normal) : hit->normal;
-    const Vec3<S> left = detail::along<S>(along, rest);
-    way = clipped(steep || gait != Gait::walks ? left : along_floor(left, hit->normal), planes);
+    touch(hit->body, hit->point, hit->normal);
+    way = turned(detail::along<S>(along, along.length - gone), hit->normal, gait, planes);
     if (!(S(0) < dot(way, asked))) break;  // it would come back: corners do not shiver
   }
   return planes;

@@ -13,13 +13,16 @@ namespace isostep {
 namespace detail {
 inline constexpr int kMostSlides = 5;   // casts of a move
 inline constexpr int kMostPlanes = 8;   // that a move runs along
-inline constexpr int kMostWaysOut = 8;  // moves out of an overlap
+inline constexpr int kMostWaysOut = 8;  // moves out of an overlap, of each look at what is near
+inline constexpr int kMostLooks = 3;    // at what is near, on a way out
 /// [m] a step that it leaves an overlap by, besides what its ground moved it by.
 template <class S> inline constexpr S kMostWayOut = S(0.125);
 /// [m] less is rounding, and no way.
 template <class S> inline constexpr S kLeastWay = S(0x1p-16);
 /// [1] least cosine by which a skin counts along a way.
 template <class S> inline constexpr S kGrazing = S(0.125);
+/// [1] of a skin: what is no farther away touches.
+template <class S> inline constexpr S kTouchingSkins = S(1.0625);
 /// [m] a step up is worth taking from so much more way on.
 template <class S> inline constexpr S kWorthAStep = S(0x1p-10);
 /// [m] of height above step_height that is rounding.
@@ -81,6 +84,12 @@ template <class S> class CharacterWalk {
   // character_walk.inl
   void look_around(Vec3<S> carried);
   void leave_overlaps(S most);
+  bool move_out(std::uint8_t least_firm, S most);
+  bool push_out(std::uint8_t least_firm);
+  void look_for_contacts();
+  S separation_of(const NearContact<S>& contact) const {
+    return contact.separation + dot(at_ - contacts_at_, contact.normal);
+  }
   void take_off(Vec3<S> carried);
   void fall();
   void fly();
@@ -96,9 +105,12 @@ template <class S> class CharacterWalk {
   /// Moves along `way` as far as it goes. Who does not fall finds slopes upright that are too steep; who walks goes up
   /// the others as fast as on the level.
   enum class Gait { falls, rises, walks };
-  Planes slide(Vec3<S> way, Gait gait);
+  Planes slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching);
+  Vec3<S> turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes);
+  Vec3<S> turned(Vec3<S> way, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const;
+  bool is_steep(Vec3<Unit<S>> normal) const { return dot(convert<S>(normal), up_) < character_.least_up; }
   Vec3<S> along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const;
-  void touch(const Hit& hit);
+  void touch(BodyId body, Vec3<S> point, Vec3<Unit<S>> normal);
   bool is_walkable(const Hit& hit) const;
   Vec3<S> flat(Vec3<S> v) const { return v - convert<S>(up_) * dot(v, up_); }
   Vec3<Unit<S>> upright(Vec3<Unit<S>> normal) const;
@@ -109,7 +121,8 @@ template <class S> class CharacterWalk {
   std::span<const std::uint8_t> walks_;  // by body slot: of obstacle
   WalkMemory<S>& memory_;
   Character<S>& character_;
-  Vec3<S> start_, at_;  // [m] of the body's origin
+  Vec3<S> start_, at_;   // [m] of the body's origin
+  Vec3<S> contacts_at_;  // [m] likewise, where memory_.contacts were found
   Vec3<S> foot_;
   S floor_ = S(0);  // [m] height of what it stands on, as the step begins
   Vec3<Unit<S>> up_;

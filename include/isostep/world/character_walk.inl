@@ -16,6 +16,7 @@ CharacterWalk<S>::CharacterWalk(const Queries<S>& queries, const Place& place, s
       character_(character),
       start_(place.pose.position),
       at_(place.pose.position),
+      contacts_at_(place.pose.position),
       foot_(place.pose.position),
       up_(place.up),
       h_(divide_to<Step<S>>(S(1), S(place.hz))) {}
@@ -48,39 +49,61 @@ template <class S> void CharacterWalk<S>::look_around(Vec3<S> carried) {
   queries_.find_bodies_near(place_.shape, place_.pose, reach, filter(), memory_.bodies);
 }
 
-/// The deepest first. Another character gives way too, so half is enough. Where all together leave no room, what is
-/// dynamic waits, for the character's body pushes that out as well; and where others who walk leave none either, at
-/// least what stays where it is remains outside.
-template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
-  const auto move_out = [&](std::uint8_t least_firm) {
-    const Vec3<S> begin = at_;
-    for (int round = 0; round < detail::kMostWaysOut; ++round) {
-      queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin, memory_.contacts, filter(),
-                             &memory_.bodies);
-      const NearContact<S>* deepest = nullptr;
-      for (const NearContact<S>& contact : memory_.contacts.all) {
-        if (least_firm < walks_[contact.body.slot]) continue;
-        if (deepest == nullptr || contact.separation < deepest->separation) deepest = &contact;
-      }
-      if (deepest == nullptr || character_.skin * S(0.5) <= deepest->separation) return true;
-      const S missing = character_.skin - deepest->separation;
-      const S way = walks_[deepest->body.slot] == detail::obstacle::kWalks ? missing * S(0.5) : missing;
-      at_ += convert<S>(deepest->normal) * way;
-      const Direction<S> gone = detail::heading<S>(at_ - begin);
-      if (!(most < gone.length)) continue;
+template <class S> void CharacterWalk<S>::look_for_contacts() {
+  queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin * detail::kTouchingSkins<S>,
+                         memory_.contacts, filter(), &memory_.bodies);
+  contacts_at_ = at_;
+}
+
+/// Out of the planes of what is near, the deepest first; false: not out of all. What is convex lies behind its plane
+/// wherever the character goes. Another character gives way too, so half is enough.
+template <class S> bool CharacterWalk<S>::push_out(std::uint8_t least_firm) {
+  for (int way = 0; way < detail::kMostWaysOut; ++way) {
+    const NearContact<S>* deepest = nullptr;
+    for (const NearContact<S>& contact : memory_.contacts.all) {
+      if (least_firm < walks_[contact.body.slot]) continue;
+      if (deepest == nullptr || separation_of(contact) < separation_of(*deepest)) deepest = &contact;
+    }
+    if (deepest == nullptr || character_.skin * S(0.5) <= separation_of(*deepest)) return true;
+    const S missing = character_.skin - separation_of(*deepest);
+    const bool gives_way = walks_[deepest->body.slot] == detail::obstacle::kWalks;
+    at_ += convert<S>(deepest->normal) * (gives_way ? missing * S(0.5) : missing);
+  }
+  return false;
+}
+
+/// True once a look at what is near finds no overlap. The contacts of the first look must be there.
+template <class S> bool CharacterWalk<S>::move_out(std::uint8_t least_firm, S most) {
+  const Vec3<S> begin = at_;
+  for (int look = 0;;) {
+    const Vec3<S> before = at_;
+    const bool is_out = push_out(least_firm);
+    if (is_out && at_ == before) return true;
+    const Direction<S> gone = detail::heading<S>(at_ - begin);
+    if (most < gone.length) {
       at_ = begin + detail::along<S>(gone, most);
       return false;
     }
-    return false;
-  };
+    if (++look == detail::kMostLooks) return false;
+    look_for_contacts();
+  }
+}
+
+/// Where all together leave no room, what is dynamic waits, for the character's body pushes that out as well; and where
+/// others who walk leave none either, at least what stays where it is remains outside.
+template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   const Vec3<S> begin = at_;
-  if (move_out(detail::obstacle::kDynamic)) {
+  look_for_contacts();
+  if (move_out(detail::obstacle::kDynamic, most)) {
     character_.stuck = 0;
     return;
   }
   ++character_.stuck;
   at_ = begin;
-  if (!move_out(detail::obstacle::kWalks)) move_out(detail::obstacle::kFixed);
+  look_for_contacts();
+  if (move_out(detail::obstacle::kWalks, most)) return;
+  look_for_contacts();
+  move_out(detail::obstacle::kFixed, most);
 }
 
 /// It keeps the velocity of its ground.
@@ -102,15 +125,15 @@ template <class S> void CharacterWalk<S>::fall() {
 }
 
 template <class S> void CharacterWalk<S>::fly() {
-  const Planes planes =
-      slide(character_.velocity * h_, dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises);
+  const Planes planes = slide(character_.velocity * h_,
+                              dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises, memory_.contacts.all);
   character_.velocity = clipped(character_.velocity, planes);
 }
 
 /// Along the ground: over the horizontal as fast as is asked for.
 template <class S> void CharacterWalk<S>::walk() {
   const Vec3<S> ahead = flat(character_.move) * h_, from = at_;
-  const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks);
+  const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks, memory_.contacts.all);
   bool blocked = false;
   for (int i = 0; i < planes.count; ++i)
     blocked = blocked || dot(convert<S>(planes.normals[i]), up_) < character_.least_up;
@@ -141,12 +164,12 @@ template <class S> bool CharacterWalk<S>::step_up(Vec3<S> from, Vec3<S> way) {
   const S risen = dot(at_ - from, up_);
   // A skin away from the riser, a short step would end before its edge.
   const Direction<S> ahead = detail::heading<S>(way);
-  slide(detail::along<S>(ahead, max(ahead.length, S(2) * character_.skin)), Gait::walks);
-  const std::optional<Hit> floor = move_along_up(-(risen + character_.skin));
-  const S higher = floor ? dot(floor->point, up_) - floor_ : S(0),
-          farther = dot(at_ - reached, detail::unit_of<S>(ahead));
-  if (!floor || !is_walkable(*floor) || character_.step_height + detail::kStepSlack<S> < higher) return take_back();
+  slide(detail::along<S>(ahead, max(ahead.length, S(2) * character_.skin)), Gait::walks, {});
+  const S farther = dot(at_ - reached, detail::unit_of<S>(ahead));
   if (!(detail::kWorthAStep<S> < farther)) return take_back();
+  const std::optional<Hit> floor = move_along_up(-(risen + character_.skin));
+  const S higher = floor ? dot(floor->point, up_) - floor_ : S(0);
+  if (!floor || !is_walkable(*floor) || character_.step_height + detail::kStepSlack<S> < higher) return take_back();
   touch_count_ = touched;
   return true;
 }

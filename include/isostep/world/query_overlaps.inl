@@ -197,9 +197,11 @@ void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t sl
   Manifold<S> manifold;
   const auto tell = [&] {
     if (manifold.count == 0) return true;
-    S least = manifold.points[0].separation;
-    for (int i = 1; i < manifold.count; ++i) least = min(least, manifold.points[i].separation);
-    out.push_back({id_of(slot), -manifold.normal, least});
+    const ManifoldPoint<S>* deepest = &manifold.points[0];
+    for (int i = 1; i < manifold.count; ++i) {
+      if (manifold.points[i].separation < deepest->separation) deepest = &manifold.points[i];
+    }
+    out.push_back({id_of(slot), -manifold.normal, deepest->separation, asked.pose.position + deepest->position});
     return true;
   };
   const auto visit_child = [&](std::uint32_t, const ShapeView<S>& part, const Transform<S>& at,

@@ -72,6 +72,7 @@ template <class S> struct NearContact {
   BodyId body;
   Vec3<Unit<S>> normal;  // [1] of the surface, towards the shape
   S separation;          // [m] of the deepest point; below 0: overlap
+  Vec3<S> point;         // [m] that one, midway between the two, world
 };
 
 /// A list of them, with memory that is used again.
