@@ -224,6 +224,38 @@ TYPED_TEST(BodyChanges, a_body_put_to_sleep_stops_with_its_island_and_wakes_as_o
   EXPECT_NEAR(this->at(apart).y, 2.5, 0.02);
 }
 
+TYPED_TEST(BodyChanges, the_next_step_tells_who_was_put_to_sleep_and_of_two_changes_none) {
+  using S = TypeParam;
+  add_ground(this->w);
+  const BodyId low = this->box({0, 0.5, 0}), high = this->box({0, 1.5, 0}), apart = this->box({8, 0.5, 0});
+  run(this->w, 3);
+  typename World<S>::Snapshot saved;
+  const auto expect_told = [&](std::vector<BodyId> fell_asleep, std::vector<BodyId> woke) {
+    this->w.save(saved);
+    for (const bool again : {false, true}) {  // what is to be told is state
+      if (again) this->w.load(saved);
+      this->w.step();
+      EXPECT_EQ(this->w.events().fell_asleep, fell_asleep);
+      EXPECT_EQ(this->w.events().woke, woke);
+    }
+  };
+  ASSERT_TRUE(this->w.sleep(high));
+  expect_told({low, high}, {});
+  expect_told({}, {});
+  ASSERT_TRUE(this->w.wake(low));
+  ASSERT_TRUE(this->w.sleep(low));
+  ASSERT_TRUE(this->w.sleep(apart));
+  expect_told({apart}, {});
+  ASSERT_TRUE(this->w.wake(low));
+  ASSERT_TRUE(this->w.sleep(high));
+  ASSERT_TRUE(this->w.wake(low));
+  expect_told({}, {low, high});
+  ASSERT_TRUE(this->w.sleep(low));
+  ASSERT_TRUE(this->w.destroy(low));
+  this->w.step();
+  EXPECT_TRUE(this->w.events().fell_asleep.empty());
+}
+
 TYPED_TEST(BodyChanges, an_island_of_one_that_may_not_sleep_stays_awake) {
   using S = TypeParam;
   add_ground(this->w);

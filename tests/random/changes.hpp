@@ -11,6 +11,7 @@
 #include "random/forces.hpp"
 #include "random/mechanisms.hpp"
 #include "random/placing.hpp"
+#include "random/responses.hpp"
 #include "random/rules.hpp"
 #include "random/vehicles.hpp"
 
@@ -33,6 +34,7 @@ template <class S> class RandomChanges {
     change_pairs(w, seed, frame);
     change_rules(w, seed, frame);
     change_bodies(w, seed, frame);
+    change_responses(w, seed, frame);
   }
 
  private:
@@ -170,6 +172,12 @@ template <class S> class RandomChanges {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 314606869 + frame * 334214467 + 41);
     if (dice.one_in(6)) RandomBodies<S>(w, dice, kMoverSpeed).change();
+  }
+  /// How contacts push, what slows, waters by rank, where movers are. Dice of its own.
+  static void change_responses(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers) return;
+    Dice dice(seed * 353868019 + frame * 373587883 + 43);
+    if (dice.one_in(8)) RandomResponses<S>(w, dice).change();
   }
 };
 

@@ -9,6 +9,7 @@
 #include "isostep/core/registry.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/kind_ghost.hpp"
+#include "isostep/dynamics/kind_response.hpp"
 #include "isostep/dynamics/material_pair.hpp"
 
 namespace isostep {
@@ -52,5 +53,6 @@ template <class Record, class IdType> class KindTable {
 
 template <class S> using MaterialTable = KindTable<MaterialPair<S>, MaterialPairId>;
 template <class S> using GhostTable = KindTable<KindGhost<S>, KindGhostId>;
+template <class S> using ResponseTable = KindTable<KindResponse<S>, KindResponseId>;
 
 }  // namespace isostep

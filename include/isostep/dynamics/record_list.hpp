@@ -6,14 +6,17 @@
 #include "isostep/dynamics/character.hpp"
 #include "isostep/dynamics/contact_report.hpp"
 #include "isostep/dynamics/coupling.hpp"
+#include "isostep/dynamics/damping_zone.hpp"
 #include "isostep/dynamics/ghost.hpp"
 #include "isostep/dynamics/hit_report.hpp"
 #include "isostep/dynamics/joint_load.hpp"
 #include "isostep/dynamics/joints/axis_drive.hpp"
 #include "isostep/dynamics/kind_ghost.hpp"
+#include "isostep/dynamics/kind_response.hpp"
 #include "isostep/dynamics/material_pair.hpp"
 #include "isostep/dynamics/move_target.hpp"
 #include "isostep/dynamics/one_way.hpp"
+#include "isostep/dynamics/ranked_water.hpp"
 #include "isostep/dynamics/ranked_zone.hpp"
 #include "isostep/dynamics/surface_velocity.hpp"
 #include "isostep/dynamics/vehicle.hpp"
@@ -26,9 +29,9 @@
   R(vehicle, Vehicle<S>, VehicleId, S)                 \
   R(wheel, Wheel<S>, WheelId, S)
 
-/// The same, of newer kinds: what says how bodies touch, what joints bear and share, where kinematic bodies are to be,
-/// and which zones hide others. The position is the kind's number in hashes and portable forms: append, never reorder.
-/// A world to which none of a kind was ever added has the hash and form of one that does not know it.
+/// The same, of newer kinds: how bodies touch, what joints bear and share, where kinematic bodies are to be, which
+/// zones and waters hide others, what slows. The position is the kind's number in hashes and portable forms: append,
+/// never reorder. A world to which none of a kind was ever added has the hash and form of one that does not know it.
 #define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
   R(surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
   R(ghost, Ghost<S>, GhostId, S)                                \
@@ -40,4 +43,7 @@
   R(move_target, MoveTarget<S>, MoveTargetId, S)                \
   R(kind_ghost, KindGhost<S>, KindGhostId, S)                   \
   R(ranked_zone, RankedZone<S>, RankedZoneId, S)                \
-  R(contact_report, ContactReport<S>, ContactReportId, S)
+  R(contact_report, ContactReport<S>, ContactReportId, S)       \
+  R(kind_response, KindResponse<S>, KindResponseId, S)          \
+  R(damping_zone, DampingZone<S>, DampingZoneId, S)             \
+  R(ranked_water, RankedWater<S>, RankedWaterId, S)

@@ -56,6 +56,10 @@ template <class S> class BodyForces {
     S depth;           // [m] of the point below it, along the normal
     Vec3<S> velocity;  // [m/s] of the water there
   };
+  /// [1/s] What the zones that a body is in slow it by.
+  struct Damping {
+    S linear, angular;
+  };
   /// What a body displaces.
   struct Wet {
     S mass;       // [kg] of water
@@ -68,13 +72,15 @@ template <class S> class BodyForces {
 
   ISO_INLINE bool no_records() const {
     const ForceRecords<S>& records = *state_.force_records;
-    return records.no_forces() && records.ranked_zones.all().empty() && !wheels_.any() && !couplings_.any();
+    return records.no_forces() && records.ranked_zones.all().empty() && records.ranked_waters.all().empty() &&
+           records.damping_zones.all().empty() && !wheels_.any() && !couplings_.any();
   }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   void act(const ForceZone<S>& zone);
   void act(const ForceZone<S>& zone, std::int32_t priority);
   void act_by_rank();
   bool replaces_gravity(std::uint32_t category, Vec3<S> point) const;
+  template <class Zones> void rank(const Zones& zones, std::vector<std::uint64_t>& ranks);
   void rank_zones();
   bool is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
   void act(const Attractor<S>& attractor);
@@ -82,7 +88,8 @@ template <class S> class BodyForces {
   void act(const Thruster<S>& thruster);
   void act(const BuoyancyPoint<S>& buoyancy);
   void act(const Explosion<S>& explosion);
-  void act(const Water<S>& water);
+  void act(const Water<S>& water) { act(water, 0, false); }
+  void act(const Water<S>& water, std::int32_t priority, bool by_centre);
   void act(const BodyDrag<S>&) {}  // these resist
   void act(const AeroSurface<S>&) {}
 
@@ -102,9 +109,12 @@ template <class S> class BodyForces {
   void resist_all();
   void resist(const BodyDrag<S>& drag);
   void resist(const AeroSurface<S>& surface);
+  void gather_damping();
+  void resist_damping(std::uint32_t row);
   S mass_part(std::uint32_t row) const;
   Vec3<S> next_velocity(std::uint32_t row) const;
   Vec3<S> next_angular_velocity(std::uint32_t row) const;
+  S slowed(std::uint32_t row, S rate) const;
   void slow_turning(std::uint32_t row, Vec3<S> way, S rate);
   // explosion_forces.inl
   Vec3<S> exposed_point(std::uint32_t row, Vec3<S> from) const;
@@ -115,7 +125,8 @@ template <class S> class BodyForces {
   Surface surface_at(const Water<S>& water, Vec3<S> at) const;
   Wet wet_part(std::uint32_t row, S density, const Surface& surface) const;
   void resist(const Wet& wet);
-  bool is_dry(std::uint32_t row, Vec3<S> point) const;
+  bool is_dry(std::uint32_t row, std::int32_t priority, Vec3<S> point) const;
+  template <class Visit> void for_each_water(const Visit& visit) const;
   bool is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const;
 
   WorldState<S>& state_;
@@ -123,9 +134,11 @@ template <class S> class BodyForces {
   const Proxies<S>& proxies_;
   WheelForces<S> wheels_;
   CouplingForces<S> couplings_;
-  std::vector<std::uint64_t> ranks_, rank_scratch_;              // of RankedZones, ascending by (priority, slot)
+  // Of RankedZones, DampingZones and RankedWaters, ascending by (priority, slot).
+  std::vector<std::uint64_t> ranks_, damping_ranks_, water_ranks_, rank_scratch_;
   std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
   std::vector<Wet> wet_;
+  std::vector<Damping> damping_;          // by awake body; empty without DampingZones
   std::vector<std::uint32_t> resisting_;  // by awake body: how many forces resist its motion
   Bitset cut_;                            // awake bodies
   std::uint32_t cut_count_ = 0;

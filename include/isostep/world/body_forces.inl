@@ -47,7 +47,7 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   if (substep_ == 0) rank_zones();
   accelerations_ = asked_;
   wet_.clear();
-  wet_.reserve(state_.force_records->waters.all().size() * accelerations_.size());
+  wet_.reserve((state_.force_records->waters.all().size() + water_ranks_.size()) * accelerations_.size());
   ForceRecords<S>::forces(
       [&](const char*, const auto& registry) { for_each_taken(registry, [&](const auto& record) { act(record); }); },
       *state_.force_records);

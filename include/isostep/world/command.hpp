@@ -345,7 +345,16 @@ template <class Record> using SetForce = SetRecord<Record, typename detail::Forc
   X(remove_ranked_zone, RemoveRecord<RankedZoneId>, bool, S)                   \
   X(add_contact_report, AddRecord<ContactReport<S>>, ContactReportId, S)       \
   X(set_contact_report, SetForce<ContactReport<S>>, bool, S)                   \
-  X(remove_contact_report, RemoveRecord<ContactReportId>, bool, S)
+  X(remove_contact_report, RemoveRecord<ContactReportId>, bool, S)             \
+  X(add_kind_response, AddRecord<KindResponse<S>>, KindResponseId, S)          \
+  X(set_kind_response, SetForce<KindResponse<S>>, bool, S)                     \
+  X(remove_kind_response, RemoveRecord<KindResponseId>, bool, S)               \
+  X(add_damping_zone, AddRecord<DampingZone<S>>, DampingZoneId, S)             \
+  X(set_damping_zone, SetForce<DampingZone<S>>, bool, S)                       \
+  X(remove_damping_zone, RemoveRecord<DampingZoneId>, bool, S)                 \
+  X(add_ranked_water, AddRecord<RankedWater<S>>, RankedWaterId, S)             \
+  X(set_ranked_water, SetForce<RankedWater<S>>, bool, S)                       \
+  X(remove_ranked_water, RemoveRecord<RankedWaterId>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/contact_response.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/state.hpp"
 
@@ -15,9 +16,10 @@ namespace isostep {
 
 /// A step's contacts as the narrow phase and the solver leave them.
 template <class S> struct SolvedContacts {
-  std::span<const Contact<S>> old, now;          // of the last step and of this one, ascending
-  std::span<const ContactGeometry<S>> geometry;  // parallel to `now`
-  std::span<const Velocity<S>> impulses;         // [m/s] likewise, of the whole step
+  std::span<const Contact<S>> old, now;                // of the last step and of this one, ascending
+  std::span<const ContactGeometry<S>> geometry;        // parallel to `now`
+  std::span<const Velocity<S>> impulses;               // [m/s] likewise, of the whole step
+  std::span<const ContactResponse<S>> responses = {};  // of those that answer otherwise, ascending by contact
 };
 
 /// Input:   the contacts of two steps.

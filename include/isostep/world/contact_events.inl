@@ -22,7 +22,9 @@ ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>&
   auto total = SumOf<S, Velocity<S>>{};
   for (std::size_t i = first; i < end; ++i) {
     const ContactGeometry<S>& g = contacts.geometry[i];
-    const S mass = reduced_mass(mass_of_row(state, g.row_a), mass_of_row(state, g.row_b));
+    const S a = mass_of_row(state, g.row_a), b = mass_of_row(state, g.row_b);
+    const ContactResponse<S>* const response = response_of(contacts.responses, i);
+    const S mass = response == nullptr ? reduced_mass(a, b) : response->reduced(a, b);
     total = total + product(mass, contacts.impulses[i]);
   }
   const auto most = product(highest<S>(), Velocity<S>(1));
@@ -51,9 +53,9 @@ template <class S> void ContactEvents<S>::emit(const SolvedContacts<S>& contacts
     for (; new_pair == pair; new_pair = pair_at(now, ++j)) is = is || touching(now[j]);
     if (was && !is) events.contact_end.push_back({id(pair_a(pair)), id(pair_b(pair))});
     if (!was && is)
-      events.contact_begin.push_back(
-          {id(pair_a(pair)), id(pair_b(pair)), detail::normal_impulse(state_, contacts, first, j),
-           contacts.geometry[first].normal});
+      events.contact_begin.push_back({id(pair_a(pair)), id(pair_b(pair)),
+                                      detail::normal_impulse(state_, contacts, first, j),
+                                      contacts.geometry[first].normal});
   }
   if (told) detail::sort_ends(events.contact_end, end_scratch_);
 }

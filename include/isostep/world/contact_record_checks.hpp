@@ -59,6 +59,31 @@ template <class S> FaultReport fault_of(const KindGhost<S>& g) {
 }
 template <class S> NamedBodies<S> bodies_of(const KindGhost<S>&) { return {{}, 0}; }
 
+template <class S> FaultReport fault_of(const KindResponse<S>& r) {
+  constexpr const char *kMass = "0, or 2^-8 to 1", *kOne = "above 0 where inverse_mass_scale_a is 0", *kPart = "0 to 1",
+                       *kSame = "that of a, for both are of one kind";
+  const auto is_mass_scale = [](S x) { return x == S(0) || (S(0x1p-8) <= x && x <= S(1)); };
+  const bool same = r.kind_a == r.kind_b;
+  return Checklist()
+      .finite(r.inverse_mass_scale_a, "inverse_mass_scale_a")
+      .finite(r.inverse_mass_scale_b, "inverse_mass_scale_b")
+      .finite(r.inverse_inertia_scale_a, "inverse_inertia_scale_a")
+      .finite(r.inverse_inertia_scale_b, "inverse_inertia_scale_b")
+      .finite(r.max_force, "max_force")
+      .proper(r.kind_a != 0, "kind_a", "1 or more")
+      .proper(r.kind_b != 0, "kind_b", "1 or more")
+      .proper(is_mass_scale(r.inverse_mass_scale_a), "inverse_mass_scale_a", kMass)
+      .proper(is_mass_scale(r.inverse_mass_scale_b), "inverse_mass_scale_b", kMass)
+      .proper(S(0) < r.inverse_mass_scale_a || S(0) < r.inverse_mass_scale_b, "inverse_mass_scale_b", kOne)
+      .proper(S(0) <= r.inverse_inertia_scale_a && r.inverse_inertia_scale_a <= S(1), "inverse_inertia_scale_a", kPart)
+      .proper(S(0) <= r.inverse_inertia_scale_b && r.inverse_inertia_scale_b <= S(1), "inverse_inertia_scale_b", kPart)
+      .proper(!same || r.inverse_mass_scale_a == r.inverse_mass_scale_b, "inverse_mass_scale_b", kSame)
+      .proper(!same || r.inverse_inertia_scale_a == r.inverse_inertia_scale_b, "inverse_inertia_scale_b", kSame)
+      .proper(S(0) <= r.max_force, "max_force", kZeroOrMore)
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const KindResponse<S>&) { return {{}, 0}; }
+
 template <class S> FaultReport fault_of(const MoveTarget<S>& t) {
   return Checklist()
       .also(fault_of_place(t.pose.position, "pose.position"))
@@ -76,5 +101,22 @@ template <class S> FaultReport fault_of(const RankedZone<S>& z) {
       .report();
 }
 template <class S> NamedBodies<S> bodies_of(const RankedZone<S>&) { return {{}, 0}; }
+
+template <class S> FaultReport fault_of(const DampingZone<S>& z) {
+  constexpr const char* kRate = "0 to 16384";
+  return Checklist()
+      .also(fault_of_region(z))
+      .finite(z.linear, "linear")
+      .finite(z.angular, "angular")
+      .in_range(z.linear <= S(kMaxRate), "linear", kRate)
+      .in_range(z.angular <= S(kMaxRate), "angular", kRate)
+      .proper(S(0) <= z.linear, "linear", kRate)
+      .proper(S(0) <= z.angular, "angular", kRate)
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const DampingZone<S>&) { return {{}, 0}; }
+
+template <class S> FaultReport fault_of(const RankedWater<S>& w) { return fault_of(static_cast<const Water<S>&>(w)); }
+template <class S> NamedBodies<S> bodies_of(const RankedWater<S>&) { return {{}, 0}; }
 
 }  // namespace isostep::detail

@@ -36,8 +36,10 @@ template <class S> class ContinuousCollision {
   ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// What leaves one of the `ways`, or passes it from below, is not stopped by it; null: there are none.
-  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const Ways<S>* ways = nullptr);
+  /// What leaves one of the `ways`, or passes it from below, is not stopped by it; null: there are none. Nor are pairs
+  /// `giving_way`, ascending, each of the other: their contacts press no harder than they may.
+  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const Ways<S>* ways = nullptr,
+              std::span<const std::uint64_t> giving_way = {});
 
  private:
   /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
@@ -117,6 +119,7 @@ template <class S> class ContinuousCollision {
   std::span<const Pose<S>> start_;  // for one update
   std::span<const std::uint64_t> joined_;
   const Ways<S>* ways_ = nullptr;  // null: none
+  std::span<const std::uint64_t> giving_way_;
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
   std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones

@@ -55,9 +55,10 @@ template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
 
 template <class S>
 void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined,
-                                    const Ways<S>* ways) {
+                                    const Ways<S>* ways, std::span<const std::uint64_t> giving_way) {
   start_ = start;
   joined_ = joined;
+  giving_way_ = giving_way;
   ways_ = ways == nullptr || ways->empty() ? nullptr : ways;
   const Survey found = survey();
   find_movers(found);
@@ -237,8 +238,11 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
   if (ways_ != nullptr && is_let_out(mover, slot)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
-  const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
-  return at == joined_.size() || joined_[at] != key;
+  const auto is_in = [key](std::span<const std::uint64_t> pairs) {
+    const std::size_t at = lower_bound(pairs.size(), [&](std::size_t i) { return pairs[i] < key; });
+    return at < pairs.size() && pairs[at] == key;
+  };
+  return !is_in(joined_) && !is_in(giving_way_);
 }
 
 /// By their velocities as the step leaves them.

@@ -14,6 +14,7 @@
 #include "isostep/world/command_executor.hpp"
 #include "isostep/world/contact_events.hpp"
 #include "isostep/world/contact_points.hpp"
+#include "isostep/world/contact_responses.hpp"
 #include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/destruction.hpp"
 #include "isostep/world/hit_events.hpp"
@@ -46,6 +47,7 @@ namespace isostep {
 ///   IslandSleep     -> BodyMap, Proxies
 ///   PairRules       -> BodyMap
 ///   NarrowPhase     -> BodyMap (as PartPairs inside of it)
+///   ContactResponses -> BodyMap
 ///   Carriers        -> no other
 ///   StepSolver      -> BodyMap
 ///   BodyFinisher    -> BodyMap, Proxies
@@ -100,6 +102,7 @@ template <class S> class WorldEngine {
   MoveTargets<S> targets_{state_, map_};
   PairRules<S> pair_rules_{state_, map_};
   NarrowPhase<S> narrow_phase_{state_, map_};
+  ContactResponses<S> responses_{state_, map_};
   Belts<S> belts_;
   Carriers<S> carriers_;
   StepSolver<S> solver_{state_, map_, proxies_};
@@ -123,10 +126,13 @@ template <class S> class WorldEngine {
   void find_pairs();
   void find_contacts();
   void tell_untold();
+  void tell_sleep();
   template <class Solver, class After> void solve(Solver& solver, const After& after, bool watched);
 
   // engine_fields.inl
   template <class Visit> void visit_scratch(const Visit& visit, Stage stage);
+
+  std::vector<std::uint32_t> change_of_;  // of tell_sleep(), by slot
 };
 
 /// The step is compiled apart from what is called between steps: instantiate/world_step.cpp.

@@ -18,7 +18,7 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
   switch (stage) {
     case Stage::find_pairs: proxies_.visit_scratch(visit); return map_.visit_scratch(visit);
     case Stage::apply_forces: solver_.visit_forces(visit); return render_poses_.visit_scratch(visit);
-    case Stage::update_manifolds: return narrow_phase_.visit_scratch(visit);
+    case Stage::update_manifolds: responses_.visit_scratch(visit); return narrow_phase_.visit_scratch(visit);
     case Stage::colour_constraints: return solved(SolverStage::colour);
     case Stage::prepare: return solved(SolverStage::prepare);
     case Stage::solve_substeps: return solved(SolverStage::solve);

@@ -8,6 +8,7 @@
 #include "isostep/world/break_events.inl"
 #include "isostep/world/contact_events.inl"
 #include "isostep/world/contact_points.inl"
+#include "isostep/world/contact_responses.inl"
 #include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/hit_events.inl"
@@ -46,12 +47,13 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   targets_.arrive();
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
-  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways());
+  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways(),
+                     responses_.giving_way());
   after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
   const SolvedContacts<S> solved = {narrow_phase_.old_contacts(), state_.contacts, narrow_phase_.geometry(),
-                                    solver_.impulses()};
+                                    solver_.impulses(), responses_.all()};
   contact_events_.emit(solved, events_);
   break_events_.emit(solved, events_);
   joint_loads_.update(events_);
@@ -85,6 +87,7 @@ template <class S> void WorldEngine<S>::find_contacts() {
                 });
   pair_rules_.update(proxies_.pairs());
   report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_, {pair_rules_.apart(), &belts_});
+  responses_.update();
   hit_events_.measure(narrow_phase_.geometry());
   carriers_.update(state_.awake.states, state_.awake.properties, narrow_phase_.geometry(), rate, state_.contacts,
                    &belts_);
@@ -95,7 +98,29 @@ template <class S> void WorldEngine<S>::tell_untold() {
   events_.clear();
   events_.contact_end.swap(state_.untold.contact_end);
   events_.sensor_end.swap(state_.untold.sensor_end);
-  events_.woke.swap(state_.untold.woke);
+  tell_sleep();
+}
+
+/// A body whose sleep changed more than once is in the list as often: two changes are none.
+template <class S> void WorldEngine<S>::tell_sleep() {
+  std::vector<BodyId>& changed = state_.untold.woke;
+  if (changed.empty()) return;
+  change_of_.assign(state_.body_slots.entries().size(), 0);
+  for (std::uint32_t i = 0; i < changed.size(); ++i) {
+    std::uint32_t& last = change_of_[changed[i].slot];  // of the slot's body, after which it is no longer as it was
+    if (last != 0 && changed[last - 1] == changed[i]) {
+      changed[last - 1] = changed[i] = {};
+      last = 0;
+    } else {
+      last = i + 1;
+    }
+  }
+  for (const BodyId body : changed) {
+    if (!body) continue;
+    const bool sleeps = state_.body_slots.holds(body) && map_.location(body.slot).is_asleep();
+    (sleeps ? events_.fell_asleep : events_.woke).push_back(body);
+  }
+  changed.clear();
 }
 
 /// From colour_constraints to store_impulses: the calls of rigid_solver.hpp.
@@ -103,7 +128,8 @@ template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   const StepContext<S> context =
-      solver_.context(narrow_phase_.geometry(), carriers_.carried(), joint_loads_.impulses(), tools_, watched);
+      solver_.context(narrow_phase_.geometry(), carriers_.carried(), responses_.all(), joint_loads_.impulses(),
+                      tools_, watched);
   solver.colour_constraints(context);
   after(Stage::colour_constraints);
   solver.prepare(context);
@@ -128,6 +154,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class IslandSleep<S>;                                                                            \
   template class PartPairs<S>;                                                                              \
   template class NarrowPhase<S>;                                                                            \
+  template class ContactResponses<S>;                                                                       \
   template class Carriers<S>;                                                                               \
   template class StepSolver<S>;                                                                             \
   template class BodyFinisher<S>;                                                                           \

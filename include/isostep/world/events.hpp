@@ -141,7 +141,7 @@ template <class S> struct Events {
 struct UntoldEvents {
   std::vector<ContactEnd> contact_end;  // ascending by slots
   std::vector<SensorEvent> sensor_end;  // ascending by slots
-  std::vector<BodyId> woke;             // as they woke
+  std::vector<BodyId> woke;             // as they woke, or commands put them to sleep
 };
 
 /// What a step had to mend. Identical on every peer.

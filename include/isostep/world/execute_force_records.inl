@@ -85,6 +85,13 @@ template <class S> bool CommandExecutor<S>::check_alone(const KindGhost<S>& ghos
   return check_kinds(ghost, slot);
 }
 
+/// Two rows of `direct` on one body share its true mass: its matrix is one of square roots of masses.
+template <class S> bool CommandExecutor<S>::check_alone(const KindResponse<S>& response, std::uint32_t slot) {
+  if (state_.settings.solver == SolverName::direct)
+    return journal_.refuse({Fault::bad_argument, "", "solver", "another solver than direct"});
+  return check_kinds(response, slot);
+}
+
 namespace detail {
 /// What two records of one kind may not have in common.
 template <class Record> ISO_INLINE auto subject_of(const Record& record) {

@@ -11,19 +11,26 @@ inline constexpr char kZeroOrMore[] = "0 or more";
 inline constexpr int kMostWavePeriod = 1024;    // [s] its part in a sub-step still has digits
 inline constexpr int kMostBlastSeconds = 1024;  // [s] of each phase; the clock counts to 16384
 
-template <class S> FaultReport fault_of(const ForceZone<S>& z) {
-  const S speed = Limits<S>::speed();
+/// Where a zone of any kind is.
+template <class Zone> FaultReport fault_of_region(const Zone& z) {
+  using S = decltype(z.half.x);
   return Checklist()
       .proper(z.shape <= ZoneShape::box, "shape", "one of ZoneShape")
       .also(fault_of_place(z.pose.position, "pose.position"))
       .proper(is_unit<S>(z.pose.orientation), "pose.orientation", kUnitLength)
       .finite(z.half, "half")
+      .in_range(within(z.half, Limits<S>::position()), "half", "0 to Limits::position()")
+      .proper(S(0) <= z.half.x && S(0) <= z.half.y && S(0) <= z.half.z, "half", "0 to Limits::position()")
+      .report();
+}
+template <class S> FaultReport fault_of(const ForceZone<S>& z) {
+  const S speed = Limits<S>::speed();
+  return Checklist()
+      .also(fault_of_region(z))
       .finite(z.acceleration, "acceleration")
       .finite(z.wind, "wind")
-      .in_range(within(z.half, Limits<S>::position()), "half", "0 to Limits::position()")
       .in_range(within(z.acceleration, speed), "acceleration", "components up to Limits::speed()")
       .in_range(no_longer(z.wind, speed), "wind", kWithinSpeed)
-      .proper(S(0) <= z.half.x && S(0) <= z.half.y && S(0) <= z.half.z, "half", "0 to Limits::position()")
       .report();
 }
 template <class S> FaultReport fault_of(const Attractor<S>& a) {
@@ -189,9 +196,9 @@ template <class S> NamedBodies<S> bodies_of(const Attractor<S>& a) {
   return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
 }
 template <class S> NamedBodies<S> bodies_of(const BodySpring<S>& s) {
-  return {{{s.a, "a", false, MustBe::any, s.anchor_a, "anchor_a"},
-           {s.b, "b", true, MustBe::any, s.anchor_b, "anchor_b"}},
-          2};
+  return {
+      {{s.a, "a", false, MustBe::any, s.anchor_a, "anchor_a"}, {s.b, "b", true, MustBe::any, s.anchor_b, "anchor_b"}},
+      2};
 }
 template <class S> NamedBodies<S> bodies_of(const Thruster<S>& t) {
   return {{{t.body, "body", false, MustBe::dynamic, t.point, "point"}, {}}, 1};

@@ -27,8 +27,8 @@ template <class S> class IslandSleep {
   /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none.
   void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr);
 
-  /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do. False, and no
-  /// change: one of them may not sleep.
+  /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do; the next step
+  /// tells. False, and no change: one of them may not sleep.
   bool put_to_sleep(std::uint32_t slot);
 
  private:

@@ -38,8 +38,7 @@ template <class S> bool IslandSleep<S>::put_to_sleep(std::uint32_t slot) {
     if (falls_asleep(i) && (state_.awake.properties[i].flags & body_flag::kAllowSleep) == 0) return false;
   }
   std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return falls_asleep(map_.location(f.slot).index); });
-  std::vector<BodyId> untold;
-  move_marked_islands(untold);
+  move_marked_islands(state_.untold.woke);
   return true;
 }
 

@@ -74,6 +74,7 @@ template <class S> class RecordValidator {
     if (const char* rule = one_a_body(all.contact_reports, "two reports of contacts have the same body")) return rule;
     if (const char* rule = one_a_body(all.move_targets, "two targets have the same body")) return rule;
     if (const char* rule = kind_pairs(all.kind_ghosts)) return rule;
+    if (const char* rule = kind_pairs(all.kind_responses)) return rule;
     return one_a_key(
         all.ghosts, [](const Ghost<S>& ghost) { return pair_key(ghost.a.slot, ghost.b.slot); },
         "two ghosts have the same bodies");
@@ -117,7 +118,8 @@ template <class S> class RecordValidator {
       for (int i = 0; i < bodies.count; ++i) {
         if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
       }
-      if (!ties_well(all[slot])) return "a spring or a coupling ties two islands, or a record names no joint";
+      if (!ties_well(all[slot]))
+        return "a spring or a coupling ties two islands, a record names no joint, or direct is to scale masses";
     }
     return nullptr;
   }
@@ -127,6 +129,7 @@ template <class S> class RecordValidator {
            detail::is_as_asked(seen_.type_of_body[named.body.slot], named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
+  bool ties_well(const KindResponse<S>&) const { return state_.settings.solver != SolverName::direct; }
   bool ties_well(const BodySpring<S>& spring) const {
     const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of_body[body.slot] == BodyType::dynamic; };
     if (!is_dynamic(spring.a) && !is_dynamic(spring.b)) return false;

@@ -22,10 +22,20 @@ template <class S> void BodyForces<S>::resist_all() {
   for (const Wet& wet : wet_) count(wet.row);
   for_each_taken(records.drags, [&](const BodyDrag<S>& drag) { count(map_.row_of(drag.body.slot)); });
   for_each_taken(records.aero_surfaces, [&](const AeroSurface<S>& s) { count(map_.row_of(s.body.slot)); });
+  gather_damping();
+  const auto is_damped = [&](std::uint32_t row) {
+    return S(0) < damping_[row - 1].linear || S(0) < damping_[row - 1].angular;
+  };
+  for (std::uint32_t row = 1; row <= damping_.size(); ++row) {
+    if (is_damped(row)) count(row);
+  }
   steady_ = accelerations_;
   for (const Wet& wet : wet_) resist(wet);
   for_each_taken(records.drags, [&](const BodyDrag<S>& drag) { resist(drag); });
   for_each_taken(records.aero_surfaces, [&](const AeroSurface<S>& surface) { resist(surface); });
+  for (std::uint32_t row = 1; row <= damping_.size(); ++row) {
+    if (is_damped(row)) resist_damping(row);
+  }
 }
 
 /// [kg] The part of a body that each of its resisting forces has.
@@ -68,16 +78,30 @@ template <class S> void BodyForces<S>::resist(const BodyDrag<S>& drag) {
   if (!(S(0) < largest)) return;
   slow_turning(row, (mass.kappa * next_angular_velocity(row)) / largest, fastest);
 }
+template <class S> void BodyForces<S>::resist_damping(std::uint32_t row) {
+  const Damping& damping = damping_[row - 1];
+  const Vec3<S> v = next_velocity(row);
+  const S slowed_by = slowed(row, damping.linear);
+  if (S(0) < damping.linear)
+    accelerate(row, -Vec3<S>{saturate_to<S>(product(v.x, slowed_by)), saturate_to<S>(product(v.y, slowed_by)),
+                             saturate_to<S>(product(v.z, slowed_by))});
+  if (S(0) < damping.angular) slow_turning(row, next_angular_velocity(row), damping.angular);
+}
+
+/// [1/s] At which a motion that fades at a rate is slowed, on its part of the body's mass.
+template <class S> S BodyForces<S>::slowed(std::uint32_t row, S rate) const {
+  const S parts = S(static_cast<int>(min(max(resisting_[row - 1], 1u), kMostParts)));
+  return rate / (S(1) + saturate_to<S>(product(rate * h_, parts)));
+}
 /// A turning [rad/s] that fades at a rate [1/s].
 template <class S> void BodyForces<S>::slow_turning(std::uint32_t row, Vec3<S> way, S rate) {
-  const S parts = S(static_cast<int>(min(max(resisting_[row - 1], 1u), kMostParts)));
-  const S slowed = rate / (S(1) + saturate_to<S>(product(rate * h_, parts)));
+  const S slowed_by = slowed(row, rate);
   Acceleration<S>& sum = accelerations_[row - 1];
   const S most = detail::most_acceleration(rate_, Limits<S>::angular_speed());
   detail::Bounder<S> turned;
-  const Vec3<S> against = {turned.rounded(product(way.x, -slowed), most),
-                           turned.rounded(product(way.y, -slowed), most),
-                           turned.rounded(product(way.z, -slowed), most)};
+  const Vec3<S> against = {turned.rounded(product(way.x, -slowed_by), most),
+                           turned.rounded(product(way.y, -slowed_by), most),
+                           turned.rounded(product(way.z, -slowed_by), most)};
   sum.angular = turned.sum(sum.angular, against, most);
   note_cut(row, turned.cut);
 }

@@ -28,7 +28,8 @@ template <class S> class StepSolver {
   ISO_INLINE void report_forces(StepReport& report) { forces_.end_step(report); }
   /// `watched`: somebody looks between the stages.
   StepContext<S> context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
-                         std::span<JointImpulse<S>> joint_impulses, const StepTools<S>& tools, bool watched);
+                         std::span<const ContactResponse<S>> responses, std::span<JointImpulse<S>> joint_impulses,
+                         const StepTools<S>& tools, bool watched);
   /// visit(the solver)
   template <class Visit> void with_solver(Visit&& visit) {
     isostep::with_solver(solvers_, state_.settings.solver, static_cast<Visit&&>(visit));

@@ -37,6 +37,7 @@ template <class S> void StepSolver<S>::list_axis_drives() {
 
 template <class S>
 StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
+                                      std::span<const ContactResponse<S>> responses,
                                       std::span<JointImpulse<S>> joint_impulses, const StepTools<S>& tools,
                                       bool watched) {
   joint_ends_.resize(state_.joints.properties.size());
@@ -74,7 +75,8 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           state_.settings.projection,
           convert<Velocity<S>>(state_.settings.restitution_threshold),
           axis_drives_,
-          joint_impulses};
+          joint_impulses,
+          responses};
 }
 
 }  // namespace isostep

@@ -8,7 +8,7 @@
 namespace isostep {
 
 namespace detail {
-template <class S> ISO_INLINE bool is_inside(const ForceZone<S>& zone, Vec3<S> point) {
+template <class Zone, class S> ISO_INLINE bool is_inside(const Zone& zone, Vec3<S> point) {
   if (zone.shape == ZoneShape::everywhere) return true;
   const Vec3<S> from_middle = point - zone.pose.position;
   if (zone.shape == ZoneShape::sphere) return length(from_middle) <= zone.half.x;
@@ -18,17 +18,24 @@ template <class S> ISO_INLINE bool is_inside(const ForceZone<S>& zone, Vec3<S> p
 }  // namespace detail
 
 /// Priorities in the order of whole numbers, then slots.
-template <class S> void BodyForces<S>::rank_zones() {
-  ranks_.clear();
-  const auto& zones = state_.force_records->ranked_zones;
+template <class S>
+template <class Zones>
+void BodyForces<S>::rank(const Zones& zones, std::vector<std::uint64_t>& ranks) {
+  ranks.clear();
   for (std::uint32_t slot = 0; slot < zones.all().size(); ++slot) {
     if (!zones.is_taken(slot)) continue;
     const auto place = static_cast<std::uint32_t>(zones.all()[slot].priority) ^ 0x80000000u;
-    ranks_.push_back(std::uint64_t{place} << 32 | slot);
+    ranks.push_back(std::uint64_t{place} << 32 | slot);
   }
-  if (ranks_.empty()) return;
-  rank_scratch_.resize(ranks_.size());
-  stable_sort(ranks_.data(), rank_scratch_.data(), static_cast<std::uint32_t>(ranks_.size()), OwnKey{});
+  if (ranks.empty()) return;
+  rank_scratch_.resize(ranks.size());
+  stable_sort(ranks.data(), rank_scratch_.data(), static_cast<std::uint32_t>(ranks.size()), OwnKey{});
+}
+template <class S> void BodyForces<S>::rank_zones() {
+  const ForceRecords<S>& records = *state_.force_records;
+  rank(records.ranked_zones, ranks_);
+  rank(records.damping_zones, damping_ranks_);
+  rank(records.ranked_waters, water_ranks_);
 }
 
 /// Whether a zone of higher priority replaces the effect at a point, for bodies of that category.
@@ -56,8 +63,12 @@ template <class S> void BodyForces<S>::act(const ForceZone<S>& zone, std::int32_
   }
 }
 
-/// Ranked zones, and the world's gravity where one replaces it: below all of them.
+/// Ranked waters and zones, and the world's gravity where a zone replaces it: below all of them.
 template <class S> void BodyForces<S>::act_by_rank() {
+  for (const std::uint64_t rank : water_ranks_) {
+    const RankedWater<S>& water = state_.force_records->ranked_waters.all()[rank & 0xffffffffu];
+    act(water, water.priority, true);
+  }
   if (ranks_.empty()) return;
   const auto& zones = state_.force_records->ranked_zones;
   for (const std::uint64_t rank : ranks_) {
@@ -93,6 +104,27 @@ template <class S> Vec3<S> BodyForces<S>::wind_at(Vec3<S> point) const {
     blow(zone, zone.priority);
   }
   return held_within(wind, Limits<S>::speed());
+}
+
+/// From the highest zone down, until one that replaces the rest.
+template <class S> void BodyForces<S>::gather_damping() {
+  damping_.clear();
+  if (damping_ranks_.empty()) return;
+  damping_.assign(accelerations_.size(), {S(0), S(0)});
+  const auto& zones = state_.force_records->damping_zones;
+  for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
+    if (!bodies_->moves(row)) continue;
+    const Vec3<S> centre = state_.awake.states[row - 1].centre;
+    const DampingZone<S>* last = nullptr;  // of those that replace
+    for (std::size_t i = damping_ranks_.size(); i-- > 0;) {
+      const DampingZone<S>& zone = zones.all()[damping_ranks_[i] & 0xffffffffu];
+      if (last != nullptr && zone.priority < last->priority) break;
+      if (!is_pushed(row, zone.mask) || !detail::is_inside(zone, centre)) continue;
+      damping_[row - 1].linear = saturating_add(damping_[row - 1].linear, zone.linear);
+      damping_[row - 1].angular = saturating_add(damping_[row - 1].angular, zone.angular);
+      if (zone.replaces) last = &zone;
+    }
+  }
 }
 
 }  // namespace isostep

@@ -123,6 +123,25 @@ void add_rules(Scene& scene) {
                             {"priority", {1}},
                             {"replaces", {5}}}});
 }
+/// The ground's side of the sled, what slows the swing, and a lower level around the raft.
+void add_media(Scene& scene) {
+  scene.records.push_back(
+      {"kind_response", {{"kind_a", {2}}, {"kind_b", {1}}, {"inverse_inertia_scale_a", {0.5}}, {"max_force", {75}}}});
+  scene.records.push_back({"damping_zone",
+                           {{"shape", {1}},
+                            {"position", {0, 3, 0}},
+                            {"half", {1, 0, 0}},
+                            {"linear", {0.5}},
+                            {"angular", {1}},
+                            {"priority", {1}},
+                            {"replaces", {1}}}});
+  scene.records.push_back({"ranked_water",
+                           {{"surface_height", {0.875}},
+                            {"middle", {-8, 0, 0}},
+                            {"half", {1, 2, 2}},
+                            {"linear_drag", {1}},
+                            {"priority", {1}}}});
+}
 /// Drives round a curve.
 void add_cart(Scene& scene) {
   scene.records.push_back({"vehicle",
@@ -197,6 +216,7 @@ Scene elements() {
   add_medium(scene);
   add_pulls(scene);
   add_blows(scene);
+  add_media(scene);
   add_cart(scene);
   add_joints(scene);
   add_rules(scene);

@@ -78,6 +78,13 @@ constexpr const char* kRecords[] = {
     R"({"type": "ranked_zone", "shape": "box", "position": [1, 0, 0], "orientation": [0, 1, 0, 0], )"
     R"("half": [2, 1, 1], "acceleration": [0, 9.5, 0], "wind": [1, 0, 0], "mask": 3, )"
     R"("priority": -7, "replaces": 5})",
+    R"({"type": "kind_response", "kind_a": 1, "kind_b": 4294967295, "inverse_mass_scale_a": 0.25, )"
+    R"("inverse_mass_scale_b": 0.5, "inverse_inertia_scale_a": 0.5, "inverse_inertia_scale_b": 0, "max_force": 8})",
+    R"({"type": "damping_zone", "shape": "box", "position": [1, 0, 0], "orientation": [0, 1, 0, 0], )"
+    R"("half": [2, 1, 1], "linear": 2, "angular": 0.5, "mask": 3, "priority": -7, "replaces": true})",
+    R"({"type": "ranked_water", "surface_height": 1, "density": 2, "middle": [1, 0, 0], "half": [8, 8, 8], )"
+    R"("current": [0.5, 0, 0], "linear_drag": 1, "quadratic_drag": 0.25, "angular_drag": 1, "wave_height": 0.25, )"
+    R"("wave_length": 8, "wave_period": 2, "wave_direction": [0, 0, 1], "mask": 3, "priority": -7})",
 };
 #define ISO_COUNT(name, Record, Id, S) +1
 constexpr std::size_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, double);

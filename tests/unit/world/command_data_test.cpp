@@ -39,6 +39,18 @@ template <class S> RankedZone<S> broken(RankedZone<S> zone) {
   zone.replaces = zone_effect::kAll + 1;
   return zone;
 }
+template <class S> KindResponse<S> broken(KindResponse<S> response) {
+  response.inverse_mass_scale_a = S(2);
+  return response;
+}
+template <class S> DampingZone<S> broken(DampingZone<S> zone) {
+  zone.linear = S(-1);
+  return zone;
+}
+template <class S> RankedWater<S> broken(RankedWater<S> water) {
+  water.density = S(-1);
+  return water;
+}
 template <class S> JointLoad<S> broken(JointLoad<S> load) {
   load.joint = {};
   return load;
@@ -117,7 +129,7 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one}, [&](auto& w) {
     return w.set_heights(ground, 1, {1, 1, 1, 1, one});
   }));
-  static_assert(std::variant_size_v<Command<S>> == 98, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 107, "a command more: test it here");
 
   EXPECT_TRUE(both(SleepBody{b}, [&](auto& w) { return w.sleep(b); }));
   const BodyMass<S> heavy = {S(1), S(4), Vec3<S>::zero()};
@@ -169,6 +181,9 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   each(pair, MaterialPairId{0, 1});
   each(KindGhost<S>{1, 2}, KindGhostId{0, 1});
   each(RankedZone<S>{}, RankedZoneId{0, 1});
+  each(KindResponse<S>{1, 2}, KindResponseId{0, 1});
+  each(DampingZone<S>{}, DampingZoneId{0, 1});
+  each(RankedWater<S>{}, RankedWaterId{0, 1});
   Breakable<S> breakable;
   breakable.body = b;
   each(breakable, BreakableId{0, 1});

@@ -2,88 +2,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <cstring>
-
-#include "isostep/dynamics/solvers/contact_block.hpp"
-#include "isostep/math/mat3.hpp"
+#include "isostep/dynamics/solvers/contact_lane.hpp"
 
 namespace isostep {
 
 /// Contacts are prepared once a step. Where a body turns by a radian in it, they answer an impulse with an inertia
 /// about axes that have long turned: a rod is 600 times easier to turn about its length than across, and pushed along
 /// the one and turned about the other it gains energy out of nothing, in a step a hundred thousand times what it had.
-/// Rows that answer with the inertia of now and begin each sub-step from nothing only take energy, whatever their
-/// arms: a row pushes no more once nothing approaches along it. What presses overlaps apart is bounded elsewhere.
+/// Rows that answer with the inertia of now (turn_by) and begin each sub-step from nothing only take energy, whatever
+/// their arms: a row pushes no more once nothing approaches along it. What presses overlaps apart is bounded elsewhere.
 /// Arms and normals stay: the place of a contact does not turn with what passes by it.
-/// Lanes:   one lane of a block of `width`, by the words of a block of one; the same bits at every width.
-template <class S> class FollowedContact {
- public:
-  /// `words`: of the contact's RollingRows if it has them, else of its ContactBlock.
-  ISO_INLINE FollowedContact(unsigned char* words, std::size_t width, std::int32_t points, bool rolling)
-      : words_(words), width_(width), points_(static_cast<std::size_t>(points)), rolling_(rolling) {}
+template <class S> class FollowedContact : public ContactLane<S> {
+  using Lane = ContactLane<S>;
+  using typename Lane::Normal, typename Lane::Row, typename Lane::V;
 
-  /// kappa: mass times inverse inertia about the world's axes [1/m^2], of the two bodies now.
-  ISO_INLINE void follow(const Mat3<S>& kappa_a, const Mat3<S>& kappa_b) const {
-    const S share_a = get<S>(block() + offsetof(Block, share_a)), share_b = get<S>(block() + offsetof(Block, share_b));
-    each_row([&](std::size_t at, bool pushes) ISO_INLINE_LAMBDA {
-      const Vec3<S> jacobian_a = vector(at + offsetof(Row, jacobian_a)),
-                    jacobian_b = vector(at + offsetof(Row, jacobian_b));
-      const Vec3<S> response_a = (kappa_a * jacobian_a) * share_a, response_b = (kappa_b * jacobian_b) * share_b;
-      const S linear = pushes ? share_a + share_b : S(0);
-      const S k = linear + round_to<S>(dot_sum(jacobian_a, response_a) + dot_sum(jacobian_b, response_b));
-      put(at + offsetof(Row, response_a), response_a);
-      put(at + offsetof(Row, response_b), response_b);
-      put(at + offsetof(Row, effective_mass), S(0.125) < k ? divide_to<S>(S(1), k) : S(0));  // as RowMaker's
-    });
-  }
+ public:
+  using Lane::Lane;
+
   /// No warm start: impulses of before met other axes, and one pass would not take all of them back.
   ISO_INLINE void forget_impulses() const {
-    using V = Velocity<S>;
-    for (std::size_t p = 0; p < points_; ++p) {
-      const std::size_t at = normal(p);
-      const V given = get<V>(at + offsetof(Row, impulse));
-      put(at + offsetof(Normal, total_impulse), get<V>(at + offsetof(Normal, total_impulse)) + given);
+    for (std::size_t p = 0; p < this->points(); ++p) {
+      const std::size_t at = this->normal(p), total = at + offsetof(Normal, total_impulse);
+      const V given = this->template get<V>(at + offsetof(Row, impulse));
+      this->put(total, this->template get<V>(total) + given);
     }
-    each_row([&](std::size_t at, bool) ISO_INLINE_LAMBDA { put(at + offsetof(Row, impulse), V(0)); });
+    this->each_row([&](std::size_t at, std::size_t)
+                       ISO_INLINE_LAMBDA { this->put(at + offsetof(Row, impulse), V(0)); });
   }
-
- private:
-  using Block = ContactBlock<S, 1, kMaxContactPoints>;
-  using Rolling = RollingRows<S, 1>;
-  using Row = AngularRow<S, 1>;
-  using Friction = FrictionRow<S, 1>;
-  using Normal = NormalRow<S, 1>;
-  static_assert(offsetof(Friction, row) == 0 && offsetof(Normal, row) == 0 && sizeof(Velocity<S>) == sizeof(S));
-
-  // Places are those in a block of one [bytes].
-  ISO_INLINE std::size_t block() const { return rolling_ ? sizeof(Rolling) : 0; }
-  ISO_INLINE std::size_t normal(std::size_t p) const { return block() + offsetof(Block, normals) + p * sizeof(Normal); }
-  /// act(place, whether the row pushes)
-  template <class Act> ISO_INLINE void each_row(const Act& act) const {
-    for (std::size_t k = 0; rolling_ && k < 2; ++k) act(offsetof(Rolling, rows) + k * sizeof(Row), false);
-    for (std::size_t k = 0; k < 2; ++k) act(block() + offsetof(Block, tangents) + k * sizeof(Friction), true);
-    act(block() + offsetof(Block, twist), false);
-    for (std::size_t p = 0; p < points_; ++p) act(normal(p), true);
-  }
-  template <class T> ISO_INLINE T get(std::size_t at) const {
-    T value;
-    std::memcpy(&value, words_ + width_ * at, sizeof value);
-    return value;
-  }
-  template <class T> ISO_INLINE void put(std::size_t at, T value) const {
-    std::memcpy(words_ + width_ * at, &value, sizeof value);
-  }
-  ISO_INLINE Vec3<S> vector(std::size_t at) const {
-    return {get<S>(at), get<S>(at + sizeof(S)), get<S>(at + 2 * sizeof(S))};
-  }
-  ISO_INLINE void put(std::size_t at, Vec3<S> value) const {
-    for (std::size_t i = 0; i < 3; ++i) put(at + i * sizeof(S), value[static_cast<int>(i)]);
-  }
-
-  unsigned char* words_;
-  std::size_t width_, points_;
-  bool rolling_;
 };
 
 }  // namespace isostep

@@ -65,7 +65,8 @@ template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, I
     const std::uint32_t c = island.contacts[k];
     const ContactGeometry<S>& g = context.geometry[c];
     const auto points = static_cast<std::int32_t>(context.contacts[c].count);
-    FollowedContact<S>(memory_[c].bytes, 1, points, rolls(context, c)).follow(mass[g.row_a].kappa, mass[g.row_b].kappa);
+    FollowedContact<S>(memory_[c].bytes, 1, points, rolls(context, c))
+        .turn_by(mass[g.row_a].kappa, mass[g.row_b].kappa);
     take_back_turns(context, island, k);
     place_contact(context, island, k);
   }

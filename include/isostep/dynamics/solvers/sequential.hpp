@@ -21,6 +21,15 @@ namespace detail {
 /// How deep a contact is as a step begins: it rests or touches; it overlaps by more than kDeepOverlap; it does so with
 /// a body that nothing moves.
 inline constexpr std::uint32_t kShallow = 0, kDeep = 1, kPressed = 2, kDepths = 3;
+
+/// What a kernel's index says of its contacts.
+struct Variant {
+  std::int32_t points;
+  bool rolling;
+  static ISO_INLINE constexpr Variant of(std::uint32_t index) {
+    return {static_cast<std::int32_t>(index) % kMaxContactPoints + 1, index >= kMaxContactPoints};
+  }
+};
 }  // namespace detail
 
 /// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
@@ -55,20 +64,23 @@ template <class S> class Sequential {
     std::uint32_t first;
     std::int32_t count;
   };
-  /// Where the kernel reads a contact that a platform carries.
-  struct CarriedLane {
+  /// Where the kernels read a contact.
+  struct Lane {
     unsigned char* words;
     std::size_t width;
+    detail::Variant shape;
   };
   /// What the pieces of one stage do.
   enum class Work : std::uint32_t {
     prepare,
+    respond,
     renew_forces,
     integrate_velocities,
     warm_start_joints,
     warm_start,
     solve_joints,
     solve,
+    relieve,
     integrate_positions,
     begin_contacts,
     follow,
@@ -101,7 +113,10 @@ template <class S> class Sequential {
   BlockRun<S> blocks_of(const PassPlan::Slice& slice);
   void prepare_slice(const StepContext<S>& context, const PassPlan::Slice& slice);
   void store_slice(const StepContext<S>& context, const PassPlan::Slice& slice);
-  void find_carried(const StepContext<S>& context);
+  void find_lanes(const StepContext<S>& context);
+  Lane lane_of(std::uint32_t contact);
+  void respond(const StepContext<S>& context);
+  void relieve(const StepContext<S>& context);
   void carry(const StepContext<S>& context);
   template <class Act> void each_followed(const StepContext<S>& context, const Act& act);
   void forget_impulses(const StepContext<S>& context);
@@ -111,6 +126,7 @@ template <class S> class Sequential {
   void run(const StepContext<S>& context);
   void add_stage(Work work, std::uint32_t pieces, const PassPlan* plan = nullptr, std::uint32_t of_plan = 0);
   void add_stages(Work work, const PassPlan& plan);
+  void add_pass(Work work, const PassPlan& plan, const StepContext<S>& context);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);
@@ -128,8 +144,9 @@ template <class S> class Sequential {
   std::vector<Run> runs_;
   AlignedBytes memory_;
   std::vector<BlockBodies> block_bodies_;
-  std::vector<CarriedLane> carried_;   // as the context's
-  std::vector<std::uint32_t> places_;  // of contacts in order_, where any is carried
+  std::vector<Lane> carried_, responding_;  // as the context's; the former without RollingRows
+  std::vector<Velocity<S>> most_;           // [m/s] of the latter, in a sub-step
+  std::vector<std::uint32_t> places_;       // of contacts in order_, where any of them is either
   std::uint32_t block_count_ = 0;
   std::size_t memory_bytes_ = 0;
   TaskRunner runner_;                  // the context's, or none where the work is too little to share

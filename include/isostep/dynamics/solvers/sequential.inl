@@ -5,20 +5,12 @@
 #include <cstddef>
 
 #include "isostep/dynamics/solvers/contact_follow.hpp"
+#include "isostep/dynamics/solvers/contact_respond.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 #include "isostep/dynamics/solvers/sequential_stages.inl"
 
 namespace isostep {
 namespace detail {
-
-/// What a kernel's index says of its contacts.
-struct Variant {
-  std::int32_t points;
-  bool rolling;
-  static ISO_INLINE constexpr Variant of(std::uint32_t index) {
-    return {static_cast<std::int32_t>(index) % kMaxContactPoints + 1, index >= kMaxContactPoints};
-  }
-};
 
 template <class S>
 ISO_INLINE std::uint32_t depth_of(const ContactGeometry<S>& g, std::uint32_t points, const SolverBodies<S>& bodies) {
@@ -169,25 +161,32 @@ template <class S> void Sequential<S>::store_slice(const StepContext<S>& context
 }
 
 /// Contacts as they lie in their blocks.
-template <class S> void Sequential<S>::find_carried(const StepContext<S>& context) {
+template <class S> void Sequential<S>::find_lanes(const StepContext<S>& context) {
   carried_.resize(context.carried.size());
-  if (carried_.empty()) return;
+  responding_.resize(context.responses.size());
+  if (carried_.empty() && responding_.empty()) return;
   places_.resize(order_.size());
   for (std::uint32_t i = 0; i < order_.size(); ++i) places_[order_[i]] = i;
   for (std::size_t i = 0; i < carried_.size(); ++i) {
-    const std::uint32_t place = places_[context.carried[i].contact];
-    std::size_t r = 0;
-    while (place >= runs_[r].first + runs_[r].count) ++r;
-    const Run& run = runs_[r];
-    const auto width = static_cast<std::uint32_t>(run.kernels->width);
-    const std::uint32_t at = place - run.first;
-    const std::size_t rolling = detail::Variant::of(run.variant).rolling ? sizeof(RollingRows<S, 1>) * width : 0;
-    carried_[i] = {memory_.data() + place_of(run, at / width) + rolling + (at % width) * sizeof(S), width};
+    const Lane lane = lane_of(context.carried[i].contact);
+    const std::size_t rolling = lane.shape.rolling ? sizeof(RollingRows<S, 1>) * lane.width : 0;
+    carried_[i] = {lane.words + rolling, lane.width, lane.shape};
   }
+  for (std::size_t i = 0; i < responding_.size(); ++i) responding_[i] = lane_of(context.responses[i].contact);
+}
+template <class S> typename Sequential<S>::Lane Sequential<S>::lane_of(std::uint32_t contact) {
+  const std::uint32_t place = places_[contact];
+  std::size_t r = 0;
+  while (place >= runs_[r].first + runs_[r].count) ++r;
+  const Run& run = runs_[r];
+  const auto width = static_cast<std::uint32_t>(run.kernels->width);
+  const std::uint32_t at = place - run.first;
+  return {memory_.data() + place_of(run, at / width) + (at % width) * sizeof(S), width,
+          detail::Variant::of(run.variant)};
 }
 template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
   for (std::size_t i = 0; i < carried_.size(); ++i) {
-    const CarriedLane& lane = carried_[i];
+    const Lane& lane = carried_[i];
     const Carried<S>& carried = context.carried[i];
     set_surface<S>(lane.words, lane.width, carried.surface(bodies_.rows()));
     if (carried.spins()) set_spin<S>(lane.words, lane.width, carried.spin);
@@ -224,8 +223,36 @@ template <class S> void Sequential<S>::follow(const StepContext<S>& context) {
   each_followed(context, [&](const ContactGeometry<S>& g, bool of_a, bool of_b, const FollowedContact<S>& contact) {
     if (of_a) bodies_.renew_inertia(context, g.row_a);
     if (of_b) bodies_.renew_inertia(context, g.row_b);
-    contact.follow(mass[g.row_a].kappa, mass[g.row_b].kappa);
+    contact.turn_by(mass[g.row_a].kappa, mass[g.row_b].kappa);
   });
+  respond(context);
+}
+
+/// Contacts that answer by other masses do so with the inertia of now, and bear what they bear in a sub-step.
+template <class S> void Sequential<S>::respond(const StepContext<S>& context) {
+  const std::vector<SolverMass<S>>& mass = bodies_.rows().mass;
+  most_.resize(responding_.size());
+  for (std::size_t i = 0; i < responding_.size(); ++i) {
+    const Lane& lane = responding_[i];
+    const ContactResponse<S>& response = context.responses[i];
+    const ContactGeometry<S>& g = context.geometry[response.contact];
+    const SolverMass<S>&a = mass[g.row_a], &b = mass[g.row_b];
+    RespondingContact<S>(lane.words, lane.width, lane.shape.points, lane.shape.rolling).respond(response, a, b);
+    most_[i] = response.most_impulse(a.mass, b.mass, divide_to<Step<S>>(S(1), S(schedule_.rate)));
+  }
+}
+/// In the contacts' order, of what a pass left.
+template <class S> void Sequential<S>::relieve(const StepContext<S>& context) {
+  SolverBodies<S>& bodies = bodies_.rows();
+  for (std::size_t i = 0; i < responding_.size(); ++i) {
+    if (!context.responses[i].is_limited()) continue;
+    const Lane& lane = responding_[i];
+    const ContactGeometry<S>& g = context.geometry[context.responses[i].contact];
+    MotionRow<Velocity<S>> a = bodies.velocity[g.row_a], b = bodies.velocity[g.row_b];
+    RespondingContact<S>(lane.words, lane.width, lane.shape.points, lane.shape.rolling).relieve(most_[i], a, b);
+    if (bodies.moves(g.row_a)) bodies.velocity[g.row_a] = a;
+    if (bodies.moves(g.row_b)) bodies.velocity[g.row_b] = b;
+  }
 }
 
 }  // namespace isostep

@@ -30,6 +30,11 @@ void Sequential<S>::add_stage(Work work, std::uint32_t pieces, const PassPlan* p
 template <class S> void Sequential<S>::add_stages(Work work, const PassPlan& plan) {
   for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, plan.stages()[i], &plan, i);
 }
+/// Over contacts; what they do not bear is given back at once.
+template <class S> void Sequential<S>::add_pass(Work work, const PassPlan& plan, const StepContext<S>& context) {
+  add_stages(work, plan);
+  if (!context.responses.empty()) add_stage(Work::relieve, 1);
+}
 
 template <class S> void Sequential<S>::run(const StepContext<S>& context) {
   const S rate = S(schedule_.rate);
@@ -53,6 +58,8 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
     case Work::begin_contacts: solver.carry(job.context); return solver.forget_impulses(job.context);
     case Work::follow: return solver.follow(job.context);
+    case Work::respond: return solver.respond(job.context);
+    case Work::relieve: return solver.relieve(job.context);
     case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
     case Work::renew_forces: return solver.bodies_.renew_forces(job.context, solver.schedule_.rate);
     case Work::warm_start_joints:
@@ -101,8 +108,9 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
 template <class S> void Sequential<S>::prepare(const StepContext<S>& context) {
   memory_.resize(memory_bytes_);
   block_bodies_.resize(block_count_ + 1);
-  find_carried(context);
+  find_lanes(context);
   add_stages(Work::prepare, all_);
+  if (!context.responses.empty()) add_stage(Work::respond, 1);
   if (context.watched) run(context);
 }
 
@@ -117,9 +125,9 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
     add_stages(Work::warm_start, colours_[detail::kShallow]);
     for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
       add_stage(Work::solve_joints, joints);
-      add_stages(Work::solve, colours_[detail::kShallow]);
+      add_pass(Work::solve, colours_[detail::kShallow], context);
     }
-    if (schedule_.relaxes) add_stages(Work::solve, colours_[detail::kPressed]);
+    if (schedule_.relaxes) add_pass(Work::solve, colours_[detail::kPressed], context);
     add_stage(Work::integrate_positions, body_pieces_);
     if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
     add_stage(Work::relax_joints, joints);
@@ -128,8 +136,8 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
       add_stage(Work::add_joint_impulses, 1);
     }
     if (!schedule_.relaxes) continue;
-    add_stages(Work::relax, colours_[detail::kShallow]);
-    for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_stages(Work::relax, colours_[detail::kDeep]);
+    add_pass(Work::relax, colours_[detail::kShallow], context);
+    for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_pass(Work::relax, colours_[detail::kDeep], context);
   }
   add_stage(Work::store_joints, joints);
   if (context.watched) run(context);
@@ -138,7 +146,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
 template <class S> void Sequential<S>::apply_restitution(const StepContext<S>& context) {
   bool bounces = false;
   for (const ContactGeometry<S>& g : context.geometry) bounces = bounces || g.material.restitution > S(0);
-  if (bounces) add_stages(Work::apply_restitution, colours_[detail::kShallow]);
+  if (bounces) add_pass(Work::apply_restitution, colours_[detail::kShallow], context);
   if (context.watched) run(context);
 }
 

@@ -9,6 +9,7 @@
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/carrying.hpp"
 #include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/contact_response.hpp"
 #include "isostep/dynamics/joints/joint.hpp"
 #include "isostep/dynamics/joints/joint_impulse.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
@@ -70,6 +71,7 @@ template <class S> struct StepContext {
   Velocity<S> restitution_threshold = Velocity<S>(0.25);  // [m/s] slower approaches do not bounce
   std::span<const JointAxisDrive<S>> axis_drives = {};    // ascending by joint
   std::span<JointImpulse<S>> joint_impulses = {};         // per joint, or empty: zeros, to which each sub-step adds
+  std::span<const ContactResponse<S>> responses = {};     // ascending by contact; none for `direct`
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.

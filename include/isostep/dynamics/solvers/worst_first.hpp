@@ -77,10 +77,17 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
     }
   };
 
+  /// Of a contact's bodies, as it sees them turn.
+  struct Masses {
+    SolverMass<S> a, b;
+  };
+
   // worst_first.inl
   void add_point(const StepContext<S>& context, std::uint32_t contact, std::uint32_t point);
   void load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row);
-  void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, Point& row);
+  void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, const SolverMass<S>& a,
+                   const SolverMass<S>& b, Point& row);
+  Masses masses_of(const StepContext<S>& context, const Point& row) const;
   void list_neighbours();
   void follow(const StepContext<S>& context);
   template <class Look, class Apply> void resolve(const Look& look, const Apply& apply, std::uint32_t turns);
@@ -100,6 +107,10 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void warm_start(const Point& row);
   void hold(JointConstraint<S>& joint);
   void forget_impact(Point& row);
+  V most_beside(std::size_t index, const Point& row) const;
+  ISO_INLINE V most_of(const Point& row) const {
+    return most_beside(static_cast<std::size_t>(&row - points_.data()), row);
+  }
   V motion_urgency(const Point& row) const;
   V motion_urgency(const JointConstraint<S>& joint, const JointStep<S>& step) const;
   void resolve_motion(Point& row);
@@ -109,6 +120,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   // worst_first_position.inl
   void begin_positions(const JointStep<S>& step);
   V gap(const Point& row) const;
+  bool gives_way(const Point& row) const;
   V overlap_urgency(const Point& row) const;
   V error_urgency(JointConstraint<S>& joint, const JointStep<S>& step) const;
   void end_overlap(const StepContext<S>& context, const Point& row);

@@ -46,16 +46,23 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constr
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std::uint32_t contact,
                                              std::uint32_t point) {
-  const SolverBodies<S>& bodies = bodies_.rows();
   const ContactGeometry<S>& g = context.geometry[contact];
-  const SolverMass<S>& a = bodies.mass[g.row_a];
-  const SolverMass<S>& b = bodies.mass[g.row_b];
   Point row = {};
   row.contact = contact;
   row.a = g.row_a;
   row.b = g.row_b;
   row.rolling = kNoPair;
+  const ContactResponse<S>* const response = response_of(context.responses, contact);
+  row.response = response == nullptr ? kNoPair : static_cast<std::uint32_t>(response - context.responses.data());
+  const Masses masses = masses_of(context, row);
+  const SolverMass<S>&a = masses.a, &b = masses.b;
   row.share = mass_share(a.mass, b.mass);
+  row.most = highest<V>();
+  if (response != nullptr) {
+    row.share = response->share(a.mass, b.mass);
+    const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
+    row.most = response->most_impulse(a.mass, b.mass, divide_to<Step<S>>(S(1), S(rate)));
+  }
   const auto& at = g.points[point];
   const auto pushing = [&](Vec3<Unit<S>> d) {
     const Vec3<S> n = convert<S>(d);
@@ -74,14 +81,23 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   row.restitution = g.material.restitution;
   row.separation = convert<V>(at.separation);
   load_impulses(context.contacts[contact], point, row);
-  if (g.material.rolling_resistance > S(0)) add_rolling(g, point, row);
+  if (g.material.rolling_resistance > S(0)) add_rolling(g, point, a, b, row);
   points_.push_back(row);
+}
+
+template <class S, class Queue>
+typename WorstFirstResolver<S, Queue>::Masses WorstFirstResolver<S, Queue>::masses_of(const StepContext<S>& context,
+                                                                                      const Point& row) const {
+  const SolverMass<S>&a = bodies_.rows().mass[row.a], &b = bodies_.rows().mass[row.b];
+  if (row.response == kNoPair) return {a, b};
+  const ContactResponse<S>& response = context.responses[row.response];
+  return {response.seen_a(a), response.seen_b(b)};
 }
 
 /// The last step's. A contact's friction was borne by its points as its weight was.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
-  row.impulse = contact.normal_impulse[point];
+  row.impulse = min(contact.normal_impulse[point], most_beside(points_.size(), row));
   row.total_impulse = -row.impulse;  // the first warm start is the last step's
   V weight = V(0);
   for (std::uint32_t p = 0; p < contact.count; ++p) weight = saturating_add(weight, contact.normal_impulse[p]);
@@ -96,7 +112,8 @@ void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std:
 /// As soft step has it: the rows' radius is the distance from the contact to the centre that rolls, which keeps the
 /// coefficients near one.
 template <class S, class Queue>
-void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, Point& row) {
+void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, const SolverMass<S>& a,
+                                               const SolverMass<S>& b, Point& row) {
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto distance = [&](std::uint32_t body, Vec3<S> arm) {
     return bodies.moves(body) ? abs(dot(arm, g.normal)) : S(0);
@@ -107,8 +124,7 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
   const Tangents<Unit<S>> basis = tangents_of(g.normal);
   const auto turning = [&](Vec3<Unit<S>> axis) {
     const Vec3<S> jacobian = convert<S>(axis) * radius;
-    return detail::weighed_row(Vec3<S>::zero(), jacobian, jacobian, bodies.mass[g.row_a], bodies.mass[g.row_b],
-                               row.share);
+    return detail::weighed_row(Vec3<S>::zero(), jacobian, jacobian, a, b, row.share);
   };
   pair.rows[0] = turning(basis.t);
   pair.rows[1] = turning(basis.u);
@@ -121,14 +137,14 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
 
 /// As contact_follow.hpp has it.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const StepContext<S>& context) {
-  const SolverBodies<S>& bodies = bodies_.rows();
   for (Point& row : points_) {
     const bool by_a = bodies_.is_followed(context, row.a), by_b = bodies_.is_followed(context, row.b);
     if (!by_a && !by_b) continue;
     if (by_a) bodies_.renew_inertia(context, row.a);
     if (by_b) bodies_.renew_inertia(context, row.b);
+    const Masses masses = masses_of(context, row);
     const auto renew = [&](JointRow<S>& r) {
-      r = detail::weighed_row(r.linear, r.angular_a, r.angular_b, bodies.mass[row.a], bodies.mass[row.b], row.share);
+      r = detail::weighed_row(r.linear, r.angular_a, r.angular_b, masses.a, masses.b, row.share);
     };
     const auto renew_pair = [&](TangentPair<S>& pair, S linear) {
       for (JointRow<S>& r : pair.rows) renew(r);

@@ -19,6 +19,8 @@ template <class S> inline constexpr S kRelaxation = S(0.25);
 template <class S> inline constexpr S kRelaxedPart = S(0.5);
 /// As many turns of `relaxed`: halvings that bring what a sub-step takes at most, 3 m/s for 1/200 s, to the tolerance.
 inline constexpr std::uint32_t kRelaxedTurns = 8;
+/// [m/s] A contact with less than that to what it bears gives way: half of what motion_tolerance() leaves.
+template <class S> inline constexpr Velocity<S> kLeftToBear = Velocity<S>(0x1p-15);
 /// [m] Errors of position that are left alone.
 template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<S>(0x1p-14);
 /// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
@@ -40,12 +42,18 @@ template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::gap(co
                         detail::along(row.normal, bodies.displacement[row.a], bodies.displacement[row.b]));
 }
 
+/// What a contact does not bear sinks in.
+template <class S, class Queue> bool WorstFirstResolver<S, Queue>::gives_way(const Point& row) const {
+  return row.most < highest<V>() && !(saturating_add(row.impulse, detail::kLeftToBear<S>) < most_of(row));
+}
+
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::begin_positions(const JointStep<S>& step) {
   const V fastest = detail::kPushSpeed<S> * step.h;
   for (Point& row : points_) {
     const V over = min(saturating_add(gap(row), detail::kRestingOverlap<S>), V(0));
     const V taken = min(saturate_to<V>(product(detail::kRelaxation<S>, -over)), fastest);
     row.least_gap = saturating_add(over, taken) - detail::kRestingOverlap<S>;
+    if (gives_way(row)) row.least_gap = -highest<V>();
   }
 }
 

@@ -33,9 +33,10 @@ template <class S> struct TangentPair {
 /// A point of a contact. Impulses are velocity changes of the pair's reduced mass, as in Contact.
 template <class S> struct PointRow {
   using V = Velocity<S>;
-  std::uint32_t contact;  // of the context's
-  std::uint32_t a, b;     // of SolverBodies
-  std::uint32_t rolling;  // of the resolver's pairs; kNoPair for none
+  std::uint32_t contact;   // of the context's
+  std::uint32_t a, b;      // of SolverBodies
+  std::uint32_t rolling;   // of the resolver's pairs; kNoPair for none
+  std::uint32_t response;  // of the context's; kNoPair for none
   MassShare<S> share;
   JointRow<S> normal;  // turns hold the mass shares
   TangentPair<S> friction;
@@ -49,12 +50,14 @@ template <class S> struct PointRow {
   V least_gap;      // [m] what this sub-step's projection aims at
   V impulse;        // [m/s] of this sub-step
   V total_impulse;  // [m/s] of the sub-steps before
+  V most;           // [m/s] that all points of its contact bear in a sub-step; the highest of the format for any
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("contact", self.contact);
     visit("a", self.a);
     visit("b", self.b);
     visit("rolling", self.rolling);
+    visit("response", self.response);
     visit("share", self.share);
     visit("normal", self.normal);
     visit("friction", self.friction);
@@ -68,6 +71,7 @@ template <class S> struct PointRow {
     visit("least_gap", self.least_gap);
     visit("impulse", self.impulse);
     visit("total_impulse", self.total_impulse);
+    visit("most", self.most);
   }
 };
 inline constexpr std::uint32_t kNoPair = 0xffffffffu;

@@ -46,7 +46,7 @@ template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::recall
 
 template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::recall_urgency(const Point& row) const {
   const V missing = saturating_subtract(-detail::kRestingOverlap<S>, gap(row));
-  if (!(detail::kProjectionTolerance<S> < missing)) return V(0);
+  if (!(detail::kProjectionTolerance<S> < missing) || row.most < highest<V>()) return V(0);
   const V closed = min(recalled(row), missing);
   return detail::kProjectionTolerance<S> < closed ? closed : V(0);
 }

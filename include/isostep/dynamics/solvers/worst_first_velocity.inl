@@ -112,12 +112,23 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impact
   pair.impulse[0] = pair.impulse[1] = V(0);
 }
 
+/// [m/s] What a point at a place of points_ may bear: of what all of its contact may, as much as the others leave.
+template <class S, class Queue>
+Velocity<S> WorstFirstResolver<S, Queue>::most_beside(std::size_t index, const Point& row) const {
+  if (row.most == highest<V>()) return row.most;
+  V left = row.most;
+  const auto is_beside = [&](std::size_t i) { return i < points_.size() && points_[i].contact == row.contact; };
+  for (std::size_t i = index; i > 0 && is_beside(i - 1); --i) left = saturating_subtract(left, points_[i - 1].impulse);
+  for (std::size_t i = index + 1; is_beside(i); ++i) left = saturating_subtract(left, points_[i].impulse);
+  return max(left, V(0));
+}
+
 template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const Point& row) const {
   const SolverBodies<S>& bodies = bodies_.rows();
   const Motion& a = bodies.velocity[row.a];
   const Motion& b = bodies.velocity[row.b];
   const V speed = detail::along(row.normal, a, b);
-  V most = saturating_subtract(row.least_speed, speed);
+  V most = min(saturating_subtract(row.least_speed, speed), saturating_subtract(most_of(row), row.impulse));
   const bool pushes = V(0) < row.impulse;
   if (pushes) most = max(most, min(saturating_subtract(speed, row.target), row.impulse));
   const auto look_across = [&](const TangentPair<S>& pair, S slope) ISO_INLINE_LAMBDA {
@@ -194,8 +205,9 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_norma
     gained_change = saturate_to<V>(product(row.mass, -max(gained, speed)));
   }
   const V change = saturate_to<V>(product(row.mass, saturating_subtract(aim, speed)));
-  const V next = max(saturating_add(row.impulse, change), V(0));
+  const V next = max(min(saturating_add(row.impulse, change), most_of(row)), V(0));
   if (!closes) gained_change = next - row.impulse;
+  else if (row.most < highest<V>()) gained_change = min(gained_change, next - row.impulse);
   detail::push(row.normal, row.share, gained_change, gained_[row.a], gained_[row.b]);
   detail::push(row.normal, row.share, next - row.impulse, a, b);
   row.impulse = next;

@@ -1,0 +1,45 @@
+// KindResponse: how contacts of two kinds of bodies push: whom they move, and how hard at most.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/id.hpp"
+#include "isostep/scalar/platform.hpp"
+#include "isostep/scalar/scalar.hpp"
+
+namespace isostep {
+
+using KindResponseId = Id<struct KindResponseTag>;
+
+/// A row of the world's table of pairs, beside MaterialPair: contacts of bodies whose materials are of these kinds
+/// solve for other masses, and press no harder than a force. The kind of the body's material counts, not those of a
+/// mesh's or height field's triangles. A second record of the same two kinds is refused, and every record where the
+/// solver is `direct`, whose matrix is symmetric.
+/// The scales multiply what a contact takes for a body's inverse mass and inverse inertia, nothing else: gravity,
+/// joints and other contacts have the true ones. With a scale of 0 a body pushes the other and is not pushed back. Of
+/// the two mass scales only the ratio counts; against what does not move they are of no account. Such contacts conserve
+/// neither momentum nor energy: what is not pushed back gives the other its speed, however heavy. The impulses that
+/// events tell and the force below are those on the side with the larger scale.
+/// What presses harder than max_force gives way: it sinks in at the speed that it has, is slowed by that force for as
+/// long as it is inside, and friction is that of the force. The force is that of one contact, all its points together:
+/// of a pair of bodies' parts. Continuous collision puts a fast body to where it first touches such a thing, once.
+template <class S> struct KindResponse {
+  std::uint32_t kind_a = 0, kind_b = 0;                        // Material::kind, 1 or more
+  S inverse_mass_scale_a = S(1), inverse_mass_scale_b = S(1);  // [1] 0, or 2^-8 to 1; not both 0
+  // [1] 0 to 1, times those of the masses; 0: the contact does not turn the body
+  S inverse_inertia_scale_a = S(1), inverse_inertia_scale_b = S(1);
+  S max_force = S(0);  // [N] along the normal; 0: any
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("kind_a", self.kind_a);
+    visit("kind_b", self.kind_b);
+    visit("inverse_mass_scale_a", self.inverse_mass_scale_a);
+    visit("inverse_mass_scale_b", self.inverse_mass_scale_b);
+    visit("inverse_inertia_scale_a", self.inverse_inertia_scale_a);
+    visit("inverse_inertia_scale_b", self.inverse_inertia_scale_b);
+    visit("max_force", self.max_force);
+  }
+};
+
+}  // namespace isostep
