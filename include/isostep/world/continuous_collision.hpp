@@ -48,11 +48,11 @@ template <class S> class ContinuousCollision {
     std::uint32_t index;  // among the awake ones
     std::uint32_t pieces;
     Pose<S> poses[kMostPieces + 1];
-    S inner;              // [m] least inner radius of its parts
-    S reach;              // [m] no point of it is further from its centre of mass
-    S motion;             // [m] no point of it has moved further
-    Unit<S> fraction;     // [1] what it was cut to
-    Vec3<S> centre;       // [m] in its frame: what goes straight in the first piece, where it touches at the start
+    S inner;           // [m] least inner radius of its parts
+    S reach;           // [m] no point of it is further from its centre of mass
+    S motion;          // [m] no point of it has moved further
+    Unit<S> fraction;  // [1] what it was cut to
+    Vec3<S> centre;    // [m] in its frame: what goes straight in the first piece, where it touches at the start
 
     ISO_INLINE CoreMotion<S> motion_of(std::uint32_t piece) const {
       return {poses[piece], poses[piece + 1], piece == 0 ? centre : Vec3<S>::zero()};
@@ -122,7 +122,7 @@ template <class S> class ContinuousCollision {
   std::span<const std::uint64_t> giving_way_;
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
-  std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones
+  std::vector<std::uint32_t> met_;                       // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
 };
 

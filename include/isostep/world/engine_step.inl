@@ -47,8 +47,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   targets_.arrive();
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
-  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways(),
-                     responses_.giving_way());
+  continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(), &pair_rules_.ways(), responses_.giving_way());
   after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);
@@ -127,9 +126,8 @@ template <class S> void WorldEngine<S>::tell_sleep() {
 template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
-  const StepContext<S> context =
-      solver_.context(narrow_phase_.geometry(), carriers_.carried(), responses_.all(), joint_loads_.impulses(),
-                      tools_, watched);
+  const StepContext<S> context = solver_.context(narrow_phase_.geometry(), carriers_.carried(), responses_.all(),
+                                                 joint_loads_.impulses(), tools_, watched);
   solver.colour_constraints(context);
   after(Stage::colour_constraints);
   solver.prepare(context);

@@ -84,7 +84,7 @@ template <class S> class JointWorld {
       };
       prepare_joint(joints[j], impulses[j], end(joints[j].body_a), end(joints[j].body_b), bodies, constraints[j]);
     }
-    trees.plan(constraints, bodies, *kernels);
+    trees.plan(constraints, bodies, kernels);
   }
   JointStep<S> substep() {
     const S rate = S(240);

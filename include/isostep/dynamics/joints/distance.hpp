@@ -67,9 +67,7 @@ template <class S> struct DistanceJoint {
   static ISO_INLINE constexpr bool is_bounded(const JointProperties<S>& p) {
     return (p.flags & joint_flag::kLimit) != 0 || (p.flags & joint_flag::kSpring) == 0;
   }
-  static ISO_INLINE constexpr bool is_rod(const JointProperties<S>& p) {
-    return is_bounded(p) && !(p.lower < p.upper);
-  }
+  static ISO_INLINE constexpr bool is_rod(const JointProperties<S>& p) { return is_bounded(p) && !(p.lower < p.upper); }
 };
 
 }  // namespace isostep

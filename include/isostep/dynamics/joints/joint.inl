@@ -179,7 +179,8 @@ template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<
   bool changes = false;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
-    changes = detail::judge_drive(drive, speed_along(drive.row, m), step, relax, may_hold) || changes;
+    const DriveBounds<S> bounds = detail::bounds_of(drive, step, relax);
+    changes = detail::judge_drive(drive, speed_along(drive.row, m), bounds, step.h, may_hold) || changes;
   }
   return changes;
 }

@@ -60,9 +60,9 @@ ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, const JointStep<
 /// Sets the piece to try next, given the speed along the row; whether it is another one. Without `may_hold` a drive may
 /// only let go of a speed that it holds.
 template <class S>
-ISO_INLINE bool judge_drive(JointDrive<S>& drive, Velocity<S> speed, const JointStep<S>& step, bool relax,
+ISO_INLINE bool judge_drive(JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds, Step<S> h,
                             bool may_hold) {
-  drive.next = next_piece(drive, speed, bounds_of(drive, step, relax), most_impulse(drive, step.h));
+  drive.next = next_piece(drive, speed, bounds, most_impulse(drive, h));
   const bool lets_go = fixes_speed(drive.piece) && !fixes_speed(drive.next);
   if (!may_hold && !lets_go) drive.next = drive.piece;
   return drive.next != drive.piece;

@@ -39,8 +39,8 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 ///          may be warm-started and solved by a thread of its own, and in any order.
 template <class S> class JointTrees {
  public:
-  /// Once a step, after its joints are prepared.
-  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide,
+  /// Once a step, after its joints are prepared. `wide` is not null where there are joints.
+  void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
             JointOrder order = JointOrder::trees);
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (loose_.empty() ? 0u : 1u);
@@ -109,8 +109,8 @@ template <class S> class JointTrees {
   void make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
   void add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree);
   void add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape);
-  void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees,
-                 const TreeKernels<S>& kernels, std::size_t offset);
+  void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees, const TreeKernels<S>& kernels,
+                 std::size_t offset);
   TreeShape shape_of(const Shape& shape) const;
   TreeRun<S> run_of(const Batch& batch, SolverBodies<S>* bodies);
 
@@ -120,10 +120,12 @@ template <class S> class JointTrees {
   template <class Act> void each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const;
   void set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                   const JointStep<S>& step);
+  void bound_drives(const Batch& batch, const TreeRun<S>& run, std::span<const JointConstraint<S>> joints,
+                    const JointStep<S>& step, bool relax) const;
   void ask_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                  const JointStep<S>& step, bool relax) const;
+                  const JointStep<S>& step) const;
   bool judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                    const JointStep<S>& step, bool relax, bool may_hold) const;
+                    const JointStep<S>& step, bool may_hold) const;
   void solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
 
   // joint_tree.inl

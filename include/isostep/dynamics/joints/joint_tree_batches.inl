@@ -132,8 +132,18 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
   for (std::uint32_t j = tree.first; j != detail::kNone; j = next_[j]) listed_.push_back(j);
   eliminate(joints, listed_);
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  Shape shape = {size(shape_joints_), 0, size(shape_nodes_), size(nodes_), size(shape_links_), size(links_),
-                 size(shape_drives_), 0, size(shape_bodies_), tree.body_count, 0, false};
+  Shape shape = {size(shape_joints_),
+                 0,
+                 size(shape_nodes_),
+                 size(nodes_),
+                 size(shape_links_),
+                 size(links_),
+                 size(shape_drives_),
+                 0,
+                 size(shape_bodies_),
+                 tree.body_count,
+                 0,
+                 false};
   shape_bodies_.resize(shape.first_body + tree.body_count);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
@@ -152,12 +162,12 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
 }
 
 /// A joint's block of angles comes just before that of places: it is a node of the joint that is next.
-template <class S>
-void JointTrees<S>::add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape) {
+template <class S> void JointTrees<S>::add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape) {
   const Ends& ends = ends_[node.joint];
   const bool of_angles = node.block == 1, is_point = !of_angles && (ends.layout & 1u) != 0;
-  TreeNode made = {shape.joint_count, is_point ? TreeNode::kNoRows : shape.row_blocks, node.first_link,
-                   node.link_count,   shape.drive_count,                               0,
+  TreeNode made = {shape.joint_count, is_point ? TreeNode::kNoRows : shape.row_blocks,
+                   node.first_link,   node.link_count,
+                   shape.drive_count, 0,
                    of_angles,         (ends.layout & (of_angles ? 8u : 4u)) != 0};
   if (!is_point) ++shape.row_blocks;
   shape.written = shape.written || !is_point;
@@ -183,8 +193,12 @@ void JointTrees<S>::add_batch(std::span<const JointConstraint<S>> joints, std::s
   const Shape& shape = shapes_.back();
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  const Batch batch = {&kernels,         size(shapes_) - 1, size(lane_joints_),
-                       size(lane_rows_), size(idle_),       0xffffffffu >> (32 - trees.size()),
+  const Batch batch = {&kernels,
+                       size(shapes_) - 1,
+                       size(lane_joints_),
+                       size(lane_rows_),
+                       size(idle_),
+                       0xffffffffu >> (32 - trees.size()),
                        offset};
   lane_joints_.resize(lane_joints_.size() + std::size_t{shape.joint_count} * width);
   lane_rows_.resize(lane_rows_.size() + std::size_t{shape.body_count} * width);

@@ -58,17 +58,31 @@ void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::s
   });
 }
 
+/// Where limits leave drives in a pass, whatever their pieces.
+template <class S>
+void JointTrees<S>::bound_drives(const Batch& batch, const TreeRun<S>& run, std::span<const JointConstraint<S>> joints,
+                                 const JointStep<S>& step, bool relax) const {
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeDriveView<S> view(run.memory, run.shape, width);
+  each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
+    const JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    const DriveBounds<S> bounds = detail::bounds_of(drive, step, relax);
+    view.low(d, lane) = bounds.low;
+    view.high(d, lane) = bounds.high;
+  });
+}
+
 template <class S>
 void JointTrees<S>::ask_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                               const JointStep<S>& step, bool relax) const {
+                               const JointStep<S>& step) const {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
   each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
     JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
     drive.impulse = view.impulse(d, lane);
     const Velocity<S> speed = round_to<Velocity<S>>(product(view.scale(d, lane), view.speed(d, lane)));
-    view.right(d, lane) = detail::drive_right_side(drive, speed, detail::bounds_of(drive, step, relax),
-                                                   detail::most_impulse(drive, step.h));
+    const DriveBounds<S> bounds = {view.low(d, lane), view.high(d, lane)};
+    view.right(d, lane) = detail::drive_right_side(drive, speed, bounds, detail::most_impulse(drive, step.h));
   });
 }
 
@@ -76,7 +90,7 @@ void JointTrees<S>::ask_drives(const Batch& batch, const TreeRun<S>& run, std::s
 /// that hold a speed and should not: they let go, and the pass ends.
 template <class S>
 bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                                 const JointStep<S>& step, bool relax, bool may_hold) const {
+                                 const JointStep<S>& step, bool may_hold) const {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
   bool off = false;
@@ -84,7 +98,8 @@ bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std:
     if (!has_tree) return;
     JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
     drive.impulse = view.impulse(d, lane);
-    off = detail::judge_drive(drive, view.speed(d, lane), step, relax, may_hold) || off;
+    const DriveBounds<S> bounds = {view.low(d, lane), view.high(d, lane)};
+    off = detail::judge_drive(drive, view.speed(d, lane), bounds, step.h, may_hold) || off;
   });
   return off;
 }
@@ -99,12 +114,13 @@ void JointTrees<S>::solve_driven(const Batch& batch, std::span<JointConstraint<S
   const auto width = static_cast<std::uint32_t>(kernels.width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
   kernels.begin(run);
+  bound_drives(batch, run, joints, step, relax);
   for (int changes = 0;; ++changes) {
     if (relax) kernels.find_relaxed_right_sides(run, step);
     else kernels.find_right_sides(run, step);
-    ask_drives(batch, run, joints, step, relax);
+    ask_drives(batch, run, joints, step);
     kernels.substitute(run);
-    if (!judge_drives(batch, run, joints, step, relax, changes < detail::kMostPieceChanges)) break;
+    if (!judge_drives(batch, run, joints, step, changes < detail::kMostPieceChanges)) break;
     kernels.restore(run);
     each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
       JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];

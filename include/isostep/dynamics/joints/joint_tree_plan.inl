@@ -12,7 +12,7 @@ enum JointRole : std::uint8_t { kIdle, kBatched, kLoose, kTree, kClosing, kQueue
 }  // namespace detail
 
 template <class S>
-void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide,
+void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
                          JointOrder order) {
   loose_.clear();
   batches_.clear();
@@ -21,7 +21,7 @@ void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& 
   find_trees(joints, bodies, order);
   gather_trees(joints, bodies);
   list_joints_of_bodies(joints);
-  make_batches(joints, bodies, wide);
+  make_batches(joints, bodies, *wide);
   if (loose_.empty()) return;
   kappa_.resize(bodies.mass.size());
   tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));

@@ -22,9 +22,8 @@ ISO_INLINE Mat3<Lanes<S, W, Isa>> invert_rows(const Mat3<Lanes<S, W, Isa>>& m, S
   const L most = L::broadcast(S(0.25) / softness);
   Mat3<L> rest = m;
   for (int left = 0; left < 3; ++left) {
-    const auto asked = [&](int i) ISO_INLINE_LAMBDA {
-      return select(equal(rest.rows[i][i], zero), zero, inverse.rows[i][i]);
-    };
+    const auto asked = [&](int i)
+                           ISO_INLINE_LAMBDA { return select(equal(rest.rows[i][i], zero), zero, inverse.rows[i][i]); };
     const L x = asked(0), y = asked(1), z = asked(2), largest = max(x, max(y, z));
     const auto drops = less_equal(most, largest);
     if (!any(drops)) break;

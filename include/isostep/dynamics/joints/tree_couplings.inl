@@ -54,8 +54,7 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeGatherer<S, W, Isa
     const auto k = [&](int i, int j) ISO_INLINE_LAMBDA {
       const auto half = [&](L share, const Mat3<L>& angular, const Mat3<L>& turn) ISO_INLINE_LAMBDA {
         if (node.of_angles) return share * round_to<L>(dot_sum(angular.rows[i], turn.rows[j]));
-        return share *
-               round_to<L>(dot_sum(linear.rows[i], linear.rows[j]) + dot_sum(angular.rows[i], turn.rows[j]));
+        return share * round_to<L>(dot_sum(linear.rows[i], linear.rows[j]) + dot_sum(angular.rows[i], turn.rows[j]));
       };
       return half(share_a, a, turn_a) + half(share_b, b, turn_b);
     };

@@ -65,9 +65,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     return run.shape.nodes[node].may_idle && (run.idle[node] & kAll) == kAll;
   }
   /// The lanes in which it does.
-  static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) {
-    return Mask::from_bits(run.idle[node]);
-  }
+  static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) { return Mask::from_bits(run.idle[node]); }
 
   template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
 

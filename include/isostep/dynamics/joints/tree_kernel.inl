@@ -70,7 +70,8 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
       V::load(m.drives[d].right).store(m.nodes[drive.node].right[drive.place]);
     }
     substitute(run, m);
-    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) tell_drive(run.shape, run.shape.drives[d], m, m.drives[d]);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d)
+      tell_drive(run.shape, run.shape.drives[d], m, m.drives[d]);
   }
   static void restore(const TreeRun<S>& run) {
     const Memory m = Memory::of(run.memory, run.shape);
@@ -95,9 +96,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
     }
     Base::factorise(run, m);
   }
-  static void end(const TreeRun<S>& run) {
-    Base::scatter_velocities(run, Memory::of(run.memory, run.shape));
-  }
+  static void end(const TreeRun<S>& run) { Base::scatter_velocities(run, Memory::of(run.memory, run.shape)); }
 
  private:
   /// As the functions of these names in joint_rows.hpp.
@@ -117,7 +116,8 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
 
   // ---- right-hand sides
 
-  template <bool Relax> static ISO_INLINE void find_right_sides(const TreeShape& shape, Memory m, const JointStep<S>& step) {
+  template <bool Relax>
+  static ISO_INLINE void find_right_sides(const TreeShape& shape, Memory m, const JointStep<S>& step) {
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) find_right_side<Relax>(shape, n, m, step);
     for (std::size_t d = 0; d < shape.drives.size(); ++d) tell_drive(shape, shape.drives[d], m, m.drives[d]);
   }
@@ -131,8 +131,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
     Vec3<V> right = -speed;
     if constexpr (!Relax) {
       right -= bounded(times(number(step.softness.bias_rate), load(node.error)), detail::kJointPushSpeed<S>);
-      if (shape.joints[of.joint].closes_loop)
-        right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
+      if (shape.joints[of.joint].closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
     }
     store(right, node.right);
   }

@@ -39,7 +39,7 @@ template <class S, int W> struct TreeNodeLanes {
 };
 /// Three rows that are no point, as JointRow has them: row i in entries 3 i to 3 i + 2.
 template <class S, int W> struct TreeRowLanes {
-  S linear[9][W];                     // [1] of places
+  S linear[9][W];                      // [1] of places
   S angular_a[9][W], angular_b[9][W];  // [m]
   S turn_a[9][W], turn_b[9][W];        // [1/m]
 };
@@ -52,6 +52,8 @@ template <class S, int W> struct TreeDriveLanes {
   Velocity<S> speed[W];    // [m/s] along the row
   Velocity<S> impulse[W];  // [m/s] accumulated
   Velocity<S> right[W];    // [m/s] right-hand side
+  Velocity<S> low[W];      // [m/s] the speeds between which limits leave it in a pass
+  Velocity<S> high[W];     // [m/s]
   Unit<S> scale[W];        // [1] of the row: 1 a fixed speed, less a spring, 0 a constant impulse
   S give[W];               // [1] added to the row's entry of K: springs yield
 };
@@ -95,14 +97,17 @@ template <class S> class TreeDriveView {
   ISO_INLINE Velocity<S>& speed(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 0, lane); }
   ISO_INLINE Velocity<S>& impulse(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 1, lane); }
   ISO_INLINE Velocity<S>& right(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 2, lane); }
-  ISO_INLINE Unit<S>& scale(std::size_t drive, std::size_t lane) const { return at<Unit<S>>(drive, 3, lane); }
-  ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return at<S>(drive, 4, lane); }
+  ISO_INLINE Velocity<S>& low(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 3, lane); }
+  ISO_INLINE Velocity<S>& high(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 4, lane); }
+  ISO_INLINE Unit<S>& scale(std::size_t drive, std::size_t lane) const { return at<Unit<S>>(drive, 5, lane); }
+  ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return at<S>(drive, 6, lane); }
 
  private:
+  static constexpr std::size_t kWords = 7;
   static_assert(sizeof(Velocity<S>) == sizeof(S) && sizeof(Unit<S>) == sizeof(S));
-  static_assert(sizeof(TreeDriveLanes<S, 1>) == 5 * sizeof(S));
+  static_assert(sizeof(TreeDriveLanes<S, 1>) == kWords * sizeof(S));
   template <class T> ISO_INLINE T& at(std::size_t drive, std::size_t word, std::size_t lane) const {
-    return *reinterpret_cast<T*>(first_ + ((drive * 5 + word) * width_ + lane) * sizeof(S));
+    return *reinterpret_cast<T*>(first_ + ((drive * kWords + word) * width_ + lane) * sizeof(S));
   }
   unsigned char* first_;
   std::size_t width_;

@@ -105,8 +105,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     return {L::load(field[3 * r]), L::load(field[3 * r + 1]), L::load(field[3 * r + 2])};
   }
   static ISO_INLINE V row_speed(const TreeNode& node, const Rows& rows, int r, const Body& a, const Body& b) {
-    const auto turning = dot_sum(row_of(rows.angular_b, r), load(b.angular)) -
-                         dot_sum(row_of(rows.angular_a, r), load(a.angular));
+    const auto turning =
+        dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
     if (node.of_angles) return round_saturated<V>(turning);
     const Vec3<V> va = load(a.linear), vb = load(b.linear);
     const Vec3<V> between = {with_headroom(vb.x) - with_headroom(va.x), with_headroom(vb.y) - with_headroom(va.y),

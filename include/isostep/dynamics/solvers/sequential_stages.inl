@@ -115,7 +115,7 @@ template <class S> void Sequential<S>::prepare(const StepContext<S>& context) {
 }
 
 template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& context) {
-  joint_trees_.plan(joints_.all(), bodies_.rows(), *context.tree_kernels, schedule_.joint_order);
+  joint_trees_.plan(joints_.all(), bodies_.rows(), context.tree_kernels, schedule_.joint_order);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
     if (context.forces.renew != nullptr) add_stage(Work::renew_forces, 1);
