@@ -44,7 +44,7 @@ template <class S> JointHold hold_of(const World<S>& w, JointId id) {
   const JointAngles now = angles_of(w, p);
   const Mat3<double> a = to_matrix(end_of(w, p.body_a, p.generation_a, p.frame_a).frame),
                      b = to_matrix(end_of(w, p.body_b, p.generation_b, p.frame_b).frame);
-  const bool slides = !holds_point(p.type) && !joins_two_points(p.type);
+  const bool slides = !holds_point(p) && !joins_two_points(p.type);
   JointHold hold = {to_double(w.joint_error(id)), 0, now.swing};
   if (slides) hold.place /= std::max(1.0, now.apart / kFarOut);
   switch (p.type) {

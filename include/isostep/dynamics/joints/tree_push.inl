@@ -118,12 +118,13 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> add_solution(const TreeShape& shape, std::uint32_t n, Memory m) {
     const TreeNode& of = shape.nodes[n];
     Node& node = m.nodes[n];
+    Vec3<V> solution = load(node.right);
     for (std::uint32_t d = of.first_drive; d < of.first_drive + of.drive_count; ++d) {
-      auto& field = node.right[shape.drives[d].place];
-      round_to<V>(product(U::load(m.drives[d].scale), V::load(field))).store(field);
+      V& of_drive = solution[static_cast<int>(shape.drives[d].place)];
+      of_drive = round_to<V>(product(U::load(m.drives[d].scale), of_drive));
     }
     const Vec3<V> old = load(node.impulse);
-    const Vec3<V> impulse = bounded(old + load(node.right), most_joint_impulse<S>());
+    const Vec3<V> impulse = bounded(old + solution, most_joint_impulse<S>());
     store(impulse, node.impulse);
     return impulse - old;
   }
