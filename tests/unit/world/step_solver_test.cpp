@@ -38,17 +38,17 @@ TYPED_TEST(StepSolvers, forces_become_accelerations_and_leave_the_state) {
   this->solver.report_forces(report);
   EXPECT_TRUE(this->systems.state.forces.empty());
   EXPECT_EQ(report.clamped_force, 1u);
-  const StepContext<S> context = this->solver.context({}, {}, {}, this->tools, false);
+  const StepContext<S> context = this->solver.context({}, {}, {}, {}, this->tools, false);
   ASSERT_EQ(context.accelerations.size(), 1u);
   EXPECT_EQ(context.accelerations[0].linear, vec<S>(3, 0, 0));
   this->solver.take_forces();
   this->solver.report_forces(report);
-  EXPECT_TRUE(this->solver.context({}, {}, {}, this->tools, false).accelerations.empty());
+  EXPECT_TRUE(this->solver.context({}, {}, {}, {}, this->tools, false).accelerations.empty());
 }
 
 TYPED_TEST(StepSolvers, joints_know_the_rows_and_the_poses_of_their_ends) {
   using S = TypeParam;
-  const StepContext<S> context = this->solver.context({}, {}, {}, this->tools, true);
+  const StepContext<S> context = this->solver.context({}, {}, {}, {}, this->tools, true);
   EXPECT_TRUE(context.watched);
   ASSERT_EQ(context.joint_ends.size(), 1u);
   EXPECT_EQ(context.joint_ends[0].a.row, 0u);
@@ -69,7 +69,7 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
     state.awake.states[0] = start;
     state.awake.states[0].centre = vec<S>(0, y, 0);
     state.awake.states[0].velocity = vec<V>(0, 6, 0);
-    const StepContext<S> context = this->solver.context(geometry, {}, {}, this->tools, false);
+    const StepContext<S> context = this->solver.context(geometry, {}, {}, {}, this->tools, false);
     const void* used = nullptr;
     this->solver.with_solver([&](auto& chosen) {
       used = &chosen;

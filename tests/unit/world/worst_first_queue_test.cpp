@@ -22,7 +22,7 @@ template <class S, class Queue> std::uint64_t hash_of_step(const World<S>& world
   phase.update(systems.proxies.pairs(), tools);
   StepSolver<S> steps(systems.state, systems.map, systems.proxies);
   steps.take_forces();
-  const StepContext<S> context = steps.context(phase.geometry(), {}, {}, tools, false);
+  const StepContext<S> context = steps.context(phase.geometry(), {}, {}, {}, tools, false);
   WorstFirstResolver<S, Queue> solver;
   solver.colour_constraints(context);
   solver.prepare(context);
