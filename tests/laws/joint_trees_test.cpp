@@ -41,8 +41,9 @@ struct KnownTree {
   int seed;
 };
 /// Not yet mended. Springs and soft limits without spring_mass are as stiff as the mass that they feel; where it grows
-/// while they are stretched, they give back more than they took. With soft_step in double, joints 1598, 2774, 2877, 3615
-/// and 4458 of 4800 pass the energy bar so (in 4458 70 kg slide 3.4 m past a soft limit of 2.5 Hz and are thrown back)
+/// while they are stretched, they give back more than they took. With soft_step in double, joints 1598, 2774, 2877,
+/// 3615 and 4458 of 4800 pass the energy bar so (in 4458 70 kg slide 3.4 m past a soft limit of 2.5 Hz and are thrown
+/// back)
 /// and gain nothing once all drives have a spring_mass. In 790 they have it: its cause is not known, nor those of 784
 /// and 1950. Of pgs joints are solved one after another in one step of 1/60 s: trees gain energy (23 without bound) or
 /// come apart. soft_step: in 15 a lock is off by 0.24 rad in every scalar; in 20 Q16.16 lets a joint go by 1.4 m.

@@ -15,8 +15,8 @@ ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t wo
   hash = (hash ^ word) * 0x100000001b3u;
   return hash ^ (hash >> 29);
 }
-/// A joint's rows, as far as kernels must know them: whether its first block is a point, whether there is a second, which
-/// of both may idle, and in which row each drive stands.
+/// A joint's rows, as far as kernels must know them: whether its first block is a point, whether there is a second,
+/// which of both may idle, and in which row each drive stands.
 template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   std::uint32_t layout = (holds_point(p) ? 1u : 0u) | (joint.block_count > 1 ? 2u : 0u) | (is_free(p, 0) ? 4u : 0u) |

@@ -1,5 +1,5 @@
-// The kernels that solve trees of joints side by side, as a table: one for each instruction set, chosen at run time, all
-// giving the same bits.
+// The kernels that solve trees of joints side by side, as a table: one for each instruction set, chosen at run time,
+// all giving the same bits.
 // SPDX-License-Identifier: MIT
 #pragma once
 
