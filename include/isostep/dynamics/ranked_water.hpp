@@ -10,9 +10,9 @@ using RankedWaterId = Id<struct RankedWaterTag>;
 
 /// A Water with a rank: a lock or a tank in the sea, with a level, a density and a current of its own. A body, of a
 /// category of the mask, whose centre of mass is in its region has this water and none of lower priority, below the
-/// surface and above it; a Water has rank 0. Waters of one rank add up. Unlike a Water it acts on no body whose centre
-/// is outside, so that of two regions side by side a body has one at a time. A RankedZone that replaces the water hides
-/// those of lower priority.
+/// surface and above it. A Water has rank 0: higher ranks hide it, and it hides none. Waters of one rank add up. Unlike
+/// a Water it acts on no body whose centre is outside, so that of two regions side by side a body has one at a time. A
+/// RankedZone that replaces the water hides those of lower priority.
 template <class S> struct RankedWater : Water<S> {
   std::int32_t priority = 0;
 

@@ -75,7 +75,8 @@ template <class S> void IslandSleep<S>::update_clocks() {
 }
 /// A blast may be on its way, and water with a wave moves again what it lets rest for a while.
 template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
-  if (state_.force_records->no_forces()) return;
+  const auto& ranked = state_.force_records->ranked_waters;
+  if (state_.force_records->no_forces() && ranked.all().empty()) return;
   const auto& explosions = state_.force_records->explosions;
   const auto& waters = state_.force_records->waters;
   bool blast = false;
@@ -84,6 +85,10 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
     bool moved = blast;
     for (const Water<S>& water : waters.all())
       moved = moved || (S(0) < water.wave_height && in_region(water, state.fat));
+    for (std::uint32_t slot = 0; slot < ranked.all().size(); ++slot) {
+      const RankedWater<S>& water = ranked.all()[slot];
+      moved = moved || (ranked.is_taken(slot) && S(0) < water.wave_height && in_region<S>(water, state.fat));
+    }
     if (moved) state.sleep_clock = 0;
   }
 }

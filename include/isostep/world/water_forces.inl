@@ -122,7 +122,9 @@ template <class S> bool BodyForces<S>::is_under_water(std::uint32_t row, Vec3<S>
   bool under = false;
   velocity = Vec3<S>::zero();
   if (state_.settings.gravity == Vec3<S>::zero()) return false;
+  const std::uint32_t category = state_.awake.properties[row - 1].filter.category;
   for_each_water([&](const Water<S>& water, std::int32_t priority) {
+    if ((category & water.mask) == 0) return;
     if (!in_region(water, Aabb<S>{point, point}) || is_dry(row, priority, point)) return;
     const Surface surface = surface_at(water, point);
     if (!(S(0) < surface.depth)) return;

@@ -100,6 +100,37 @@ template <class S> void add_others(JointWorld<S>& world) {
   rope.upper = S(8);
 }
 
+/// Trees of one shape whose joints have rows and drives, and with which of them every tree does something else: limits
+/// that some are at, motors, springs, cones, sliders, ropes. `count` of them, which leaves lanes over.
+template <class S> void add_driven(JointWorld<S>& world, int count) {
+  Draw draw(13);
+  for (int i = 0; i < count; ++i) {
+    const D3 at = {8.0 * (i % 4), 44, 8.0 * (i / 4)};
+    const std::uint32_t first = static_cast<std::uint32_t>(world.joints.size());
+    add_creature(world, draw, at, 4);
+    const auto end = static_cast<std::uint32_t>(world.states.size()) - 1;
+    const auto joint = [&](std::uint32_t j, JointType type, std::uint32_t flags) -> JointProperties<S>& {
+      JointProperties<S>& p = world.joints[first + j];
+      p.type = type;
+      p.flags = flags;
+      p.lower = S(-0.25);
+      p.upper = S(0.25);
+      return p;
+    };
+    joint(0, JointType::ball, joint_flag::kLimit | joint_flag::kCone).cone = S(0.25);
+    JointProperties<S>& wheel = joint(1, JointType::hinge, joint_flag::kLimit | joint_flag::kMotor);
+    wheel.motor_speed = from_double<S>(draw(4));
+    wheel.motor_torque = S(2);
+    JointProperties<S>& lift = joint(2, JointType::slider, joint_flag::kLimit | joint_flag::kSpring);
+    lift.spring_frequency = S(2);
+    lift.spring_damping = S(0.5);
+    joint(3, JointType::ball, joint_flag::kCone).cone = S(0.5);
+    joint(4, JointType::hinge, joint_flag::kLimit);
+    joint(5, JointType::fixed, 0);
+    world.join(JointType::distance, end, kNoBody, at + D3{0, 3, -3}).upper = S(3.5);
+  }
+}
+
 template <class S> using Numbers = std::vector<RawBits<S>>;
 /// The bits of what moved and of what was pushed.
 template <class S> Numbers<S> numbers_of(const JointWorld<S>& world) {
@@ -134,7 +165,10 @@ template <class S> std::vector<Numbers<S>> play(const Way& way, bool others = tr
   world.kernels = tree_kernels<S>(way.simd);
   world.last_batch_first = way.last_batch_first;
   build_forest(world);
-  if (others) add_others(world);
+  if (others) {
+    add_others(world);
+    add_driven(world, 21);
+  }
   std::vector<Numbers<S>> frames;
   for (int frame = 0; frame < 24; ++frame) {
     if (frame == 12) {
@@ -162,6 +196,22 @@ TYPED_TEST(JointTreesTest, EveryWidthGivesTheBitsOfOneTreeByItself) {
     for (std::size_t f = 0; f < frames.size(); ++f)
       ASSERT_EQ(frames[f], expected[f]) << tree_kernels<S>(simd)->name << " frame " << f;
   }
+}
+
+/// So that the widths have something to disagree about: drives of one tree of these are on other pieces than another's.
+TYPED_TEST(JointTreesTest, DrivenTreesOfOneShapeAreOnDifferentPieces) {
+  using S = TypeParam;
+  JointWorld<S> world;
+  add_driven(world, 21);
+  bool differ = false;
+  for (int frame = 0; frame < 24; ++frame) {
+    world.step();
+    const std::size_t joints = world.joints.size() / 21;
+    for (std::size_t i = joints; i < world.joints.size(); ++i)
+      differ = differ || world.impulses[i].pieces != world.impulses[i % joints].pieces;
+  }
+  EXPECT_TRUE(differ);
+  EXPECT_LT(world.trees.batch_count(), 21u);
 }
 
 TYPED_TEST(JointTreesTest, BatchesMayComeInAnyOrder) {

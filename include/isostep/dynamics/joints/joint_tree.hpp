@@ -64,7 +64,7 @@ template <class S> class JointTrees {
   /// As a list that next_ links.
   struct Tree {
     std::uint64_t hash;    // of its joints' ends
-    std::uint32_t active;  // of its nodes that may idle, the first 32: those with a drive that acts
+    std::uint32_t active;  // of its joints, the first 32: those with a drive that is not free
     bool odd;              // shares a body with joints that are solved one by one
     std::uint32_t first, last, joint_count, body_count;
   };

@@ -31,11 +31,11 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
   static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::gather_velocities(run, m);
-    Base::factorise(run, m, joints, step);
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& drive = run.shape.drives[d];
       V::load(m.drives[d].impulse).store(m.nodes[drive.node].impulse[drive.place]);
     }
+    Base::factorise(run, m, joints, step);
     for (const std::uint32_t j : run.shape.given) Base::push_all(run.shape, j, m);
     Base::scatter_velocities(run, m);
   }

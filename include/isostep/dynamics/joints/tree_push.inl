@@ -35,6 +35,23 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
   }
 
+  /// Numbers of which two can be added: a fixed-point format's half, less one for what both ends would make.
+  static ISO_INLINE V held(V x) {
+    if constexpr (kIsFixed<S>) {
+      const V most = V::broadcast(most_held());
+      return clamp(x, -most, most);
+    } else {
+      return x;
+    }
+  }
+  template <class Sum> static ISO_INLINE V round_held(Sum sum) {
+    if constexpr (kIsFixed<S>) return round_within<V>(sum, most_held());
+    else return round_to<V>(sum);
+  }
+  static ISO_INLINE constexpr Velocity<S> most_held() {
+    return isostep::detail::half_of_range<Velocity<S>>() - Velocity<S>(1);
+  }
+
   // ---- speeds
 
   static ISO_INLINE Vec3<V> speed(const TreeShape& shape, const TreeNode& node, Memory m) {
@@ -78,7 +95,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const auto add = [&](V p, const S(&by)[9][W], Velocity<S>(&field)[3][W]) ISO_INLINE_LAMBDA {
       const Vec3<L> row = row_of(by, static_cast<int>(drive.place));
       for (int k = 0; k < 3; ++k) {
-        const V old = V::load(field[k]), next = with_headroom(old) + round_with_headroom<V>(product(row[k], p));
+        const V old = V::load(field[k]), next = held(old) + round_held(product(row[k], p));
         select(acts, next, old).store(field[k]);
       }
     };
@@ -109,8 +126,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
         dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
     if (node.of_angles) return round_saturated<V>(turning);
     const Vec3<V> va = load(a.linear), vb = load(b.linear);
-    const Vec3<V> between = {with_headroom(vb.x) - with_headroom(va.x), with_headroom(vb.y) - with_headroom(va.y),
-                             with_headroom(vb.z) - with_headroom(va.z)};
+    const Vec3<V> between = {held(vb.x) - held(va.x), held(vb.y) - held(va.y), held(vb.z) - held(va.z)};
     return round_saturated<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
@@ -163,9 +179,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
                                    Vec3<V> angle) {
     const TreeNode& node = shape.nodes[of.node];
     const Joint& joint = m.joints[node.joint];
-    const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum) ISO_INLINE_LAMBDA {
-      (with_headroom(V::load(field[k])) + round_with_headroom<V>(sum)).store(field[k]);
-    };
+    const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum)
+                         ISO_INLINE_LAMBDA { (held(V::load(field[k])) + round_held(sum)).store(field[k]); };
     const auto across = [](const Mat3<L>& rows, int k, Vec3<V> p) ISO_INLINE_LAMBDA {
       return product(rows.rows[0][k], p.x) + product(rows.rows[1][k], p.y) + product(rows.rows[2][k], p.z);
     };

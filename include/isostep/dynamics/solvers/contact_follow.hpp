@@ -17,7 +17,8 @@ template <class S> class FollowedContact : public ContactLane<S> {
   using typename Lane::Normal, typename Lane::Row, typename Lane::V;
 
  public:
-  using Lane::Lane;
+  ISO_INLINE FollowedContact(unsigned char* words, std::size_t width, std::int32_t points, bool rolling)
+      : Lane(words, width, points, rolling) {}
 
   /// No warm start: impulses of before met other axes, and one pass would not take all of them back.
   ISO_INLINE void forget_impulses() const {
