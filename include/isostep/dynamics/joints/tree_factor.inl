@@ -280,8 +280,8 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       }
     }
   }
-  /// Subtracts what an elimination leaves, and +0 in lanes in which its node idles: -0 would turn a -0 into +0, and where
-  /// all lanes idle nothing is subtracted.
+  /// Subtracts what an elimination leaves, and +0 in lanes in which its node idles: -0 would turn a -0 into +0, and
+  /// where all lanes idle nothing is subtracted.
   struct Left {
     Mask idle;
     bool some;
