@@ -147,8 +147,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
 
   static ISO_INLINE void push(const TreeShape& shape, const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> place,
                               Vec3<V> angle) {
-    const TreeNode& node = shape.nodes[of.node];
-    if (node.is_point() && !of.turns) return push_point(of, m, joint, place);
+    if (shape.row_blocks == 0) return push_point(of, m, joint, place);
     if (of.a_moves) {
       const L share = L::load(joint.share_a);
       push_body<true>(shape, of, m, m.bodies[of.body_a], -times(share, place), -times(share, angle));
@@ -187,7 +186,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     Mat3<L> turn;  // rows of the places' turns
     if (node.is_point()) {
       turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
-      store(load(body.linear) + place, body.linear);
+      const Vec3<V> v = load(body.linear);
+      store(Vec3<V>{held(v.x), held(v.y), held(v.z)} + place, body.linear);
     } else {
       turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
       const Mat3<L> linear = load(m.rows[node.rows].linear);
