@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "random/change_record.hpp"
 #include "random/dice.hpp"
 #include "random/parts.hpp"
 #include "random/zones.hpp"
@@ -78,15 +79,7 @@ template <class S> class RandomBodies {
   }
 
   template <class Record, class IdType> void change(const Registry<Record, IdType>& registry) {
-    const std::vector<IdType> ids = registry.slots().template ids<IdType>();
-    const std::uint32_t what = dice_.below(8);
-    if (ids.empty() || (what < 4 && ids.size() < 4)) {
-      world_.add(drawn(Record{}));
-      return;
-    }
-    const IdType id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];
-    if (what < 6) world_.remove(id);
-    else world_.set(id, drawn(Record{}));
+    change_record(world_, dice_, registry, [&](const auto& like) { return drawn(like); });
   }
   KindGhost<S> drawn(KindGhost<S> ghost) {
     ghost.kind_a = 1 + dice_.below(kMaterialKinds);

@@ -8,7 +8,7 @@ namespace isostep {
 
 namespace detail {
 inline constexpr std::uint32_t kNone = 0xffffffffu;
-enum JointRole : std::uint8_t { kIdle, kBatched, kLoose, kTree, kClosing, kQueued, kDone };
+enum JointRole : std::uint8_t { kIdle, kLoose, kTree, kClosing, kQueued, kDone };
 }  // namespace detail
 
 template <class S>

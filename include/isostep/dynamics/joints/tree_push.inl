@@ -4,7 +4,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/tree_factor.inl"
-#include "isostep/scalar/lanes_bounded.hpp"
+#include "isostep/scalar/lanes_addable.hpp"
 
 namespace isostep {
 namespace {
@@ -33,23 +33,6 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
-  }
-
-  /// Numbers of which two can be added: a fixed-point format's half, less one for what both ends would make.
-  static ISO_INLINE V held(V x) {
-    if constexpr (kIsFixed<S>) {
-      const V most = V::broadcast(most_held());
-      return clamp(x, -most, most);
-    } else {
-      return x;
-    }
-  }
-  template <class Sum> static ISO_INLINE V round_held(Sum sum) {
-    if constexpr (kIsFixed<S>) return round_within<V>(sum, most_held());
-    else return round_to<V>(sum);
-  }
-  static ISO_INLINE constexpr Velocity<S> most_held() {
-    return isostep::detail::half_of_range<Velocity<S>>() - Velocity<S>(1);
   }
 
   // ---- speeds
@@ -95,7 +78,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const auto add = [&](V p, const S(&by)[9][W], Velocity<S>(&field)[3][W]) ISO_INLINE_LAMBDA {
       const Vec3<L> row = row_of(by, static_cast<int>(drive.place));
       for (int k = 0; k < 3; ++k) {
-        const V old = V::load(field[k]), next = held(old) + round_held(product(row[k], p));
+        const V old = V::load(field[k]), next = addable(old) + round_addable<V>(product(row[k], p));
         select(acts, next, old).store(field[k]);
       }
     };
@@ -126,7 +109,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
         dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
     if (node.of_angles) return round_saturated<V>(turning);
     const Vec3<V> va = load(a.linear), vb = load(b.linear);
-    const Vec3<V> between = {held(vb.x) - held(va.x), held(vb.y) - held(va.y), held(vb.z) - held(va.z)};
+    const Vec3<V> between = {addable(vb.x) - addable(va.x), addable(vb.y) - addable(va.y),
+                             addable(vb.z) - addable(va.z)};
     return round_saturated<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
@@ -179,7 +163,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const TreeNode& node = shape.nodes[of.node];
     const Joint& joint = m.joints[node.joint];
     const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum)
-                         ISO_INLINE_LAMBDA { (held(V::load(field[k])) + round_held(sum)).store(field[k]); };
+                         ISO_INLINE_LAMBDA { (addable(V::load(field[k])) + round_addable<V>(sum)).store(field[k]); };
     const auto across = [](const Mat3<L>& rows, int k, Vec3<V> p) ISO_INLINE_LAMBDA {
       return product(rows.rows[0][k], p.x) + product(rows.rows[1][k], p.y) + product(rows.rows[2][k], p.z);
     };
@@ -187,7 +171,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     if (node.is_point()) {
       turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
       const Vec3<V> v = load(body.linear);
-      store(Vec3<V>{held(v.x), held(v.y), held(v.z)} + place, body.linear);
+      store(Vec3<V>{addable(v.x), addable(v.y), addable(v.z)} + place, body.linear);
     } else {
       turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
       const Mat3<L> linear = load(m.rows[node.rows].linear);
