@@ -62,7 +62,7 @@ template <class W> Result<void> play_frame(W& world, Bytes commands, Watch& watc
   if (!watch.watches()) return world.step_recorded(commands);
   Watched<W> step = {watch, 0};
   const Result<void> played = play_commands<typename W::Command>(
-      commands, [&](const typename W::Command& command) { return world.apply(command); },
+      commands, [&](const auto& command) { return static_cast<bool>(world.apply(command)); },
       [&] {
         ++step.number;
         step.play(world);

@@ -7,9 +7,15 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
+#include "isostep/dynamics/forces/force_list.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
+#include "isostep/world/contact_systems.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/event_systems.inl"
+#include "isostep/world/executing_commands.inl"
+#include "isostep/world/island_systems.inl"
+#include "isostep/world/motion_systems.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {
@@ -44,7 +50,7 @@ bool read(World<float>& world, const Buffer& bytes) {
 }
 bool play(World<float>& world, const Buffer& log) {
   return play_commands<Command<float>>(
-             log, [&](const Command<float>& c) { return world.apply(c); }, [] {})
+             log, [&](const auto& c) { return static_cast<bool>(world.apply(c)); }, [] {})
       .ok();
 }
 AssetSource source_of(BlobRef& asset) {

@@ -6,9 +6,15 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
+#include "isostep/dynamics/forces/force_list.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
+#include "isostep/world/contact_systems.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/event_systems.inl"
+#include "isostep/world/executing_commands.inl"
+#include "isostep/world/island_systems.inl"
+#include "isostep/world/motion_systems.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {
@@ -27,7 +33,7 @@ int main() {
   const bool taken = world.apply(Probe{3}), again = world.apply(Probe{2});
   const FaultReport& fault = world.fault();
   const Result<void> played = play_commands<Command<float>>(
-      log, [&](const Command<float>& command) { return other.apply(command); }, [] {});
+      log, [&](const auto& command) { return static_cast<bool>(other.apply(command)); }, [] {});
   std::printf("taken %d again %d %s.%s bytes %d number %d played %d tick %d\n", taken, again, fault.command,
               fault.field, static_cast<int>(log.size()), log[0], played.ok(), static_cast<int>(other.tick()));
 }

@@ -48,7 +48,7 @@ class CommandJournal {
     if (!Call(*this, "step_recorded").allowed())
       return Error{ErrorCode::invalid, "called while the world steps", "commands"};
     return play_commands<Command>(
-        log, [&](const Command& command) ISO_INLINE_LAMBDA { return world.apply(command); },
+        log, [&](const auto& command) ISO_INLINE_LAMBDA { return static_cast<bool>(world.apply(command)); },
         [&]() ISO_INLINE_LAMBDA { world.step(); });
   }
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <variant>
 
@@ -37,30 +36,36 @@ template <class Unused, class... Commands> struct CommandVariantOf {
   using Type = std::variant<Commands...>;
 };
 
-template <class C, class Variant> struct IndexOf;
-template <class C, class... Rest> struct IndexOf<C, std::variant<C, Rest...>> {
-  static constexpr std::uint8_t kValue = 0;
-};
-template <class C, class First, class... Rest> struct IndexOf<C, std::variant<First, Rest...>> {
-  static constexpr std::uint8_t kValue = 1 + IndexOf<C, std::variant<Rest...>>::kValue;
-};
-
-template <std::size_t I, class Variant>
-ISO_INLINE void read_if(std::size_t number, Reader& reader, std::optional<Variant>& command) {
-  if (number != I) return;
-  auto& alternative = *std::get_if<I>(&command.emplace(std::in_place_index<I>));
-  if constexpr (WritesItself<std::variant_alternative_t<I, Variant>>) {
-    alternative.read(reader);
-  } else {
-    reader.read(alternative);
+/// The place of each command in a list, as base classes: one instantiation for the list and one for each place, where a
+/// search through std::variant takes as many for every command, and a list of a hundred is minutes of compiling.
+template <std::size_t I, class C> struct Numbered {};
+template <class Indices, class... Commands> struct NumbersOf;
+template <std::size_t... I, class... Commands>
+struct NumbersOf<std::index_sequence<I...>, Commands...> : Numbered<I, Commands>... {
+  /// Calls visit(command) for the command of this number once it is read. False: there is none.
+  template <class Visit> static ISO_INLINE bool visit_read(std::size_t number, Reader& reader, Visit& visit) {
+    return (... || (number == I && read_one<Commands>(reader, visit)));
   }
-  if (!reader.ok()) command.reset();
-}
-template <class Variant, std::size_t... I>
-ISO_INLINE void read_any(std::size_t number, Reader& reader, std::optional<Variant>& command,
-                         std::index_sequence<I...>) {
-  (read_if<I>(number, reader, command), ...);
-}
+
+ private:
+  template <class C, class Visit> static bool read_one(Reader& reader, Visit& visit) {
+    C command = {};
+    if constexpr (WritesItself<C>) {
+      command.read(reader);
+    } else {
+      reader.read(command);
+    }
+    if (reader.ok()) visit(std::as_const(command));
+    return true;
+  }
+};
+template <class Variant> struct Numbers;
+template <class... Commands>
+struct Numbers<std::variant<Commands...>> : NumbersOf<std::index_sequence_for<Commands...>, Commands...> {};
+template <class C, std::size_t I> constexpr std::uint8_t number_in(const Numbered<I, C>*) { return I; }
+/// Of a command in a list.
+template <class C, class Variant>
+inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers<Variant>*>(nullptr));
 }  // namespace detail
 
 /// The closed list of a world's commands: a command's place in it is its number. A macro that writes the list puts a
@@ -71,7 +76,7 @@ using CommandVariant = typename detail::CommandVariantOf<Unused, Commands...>::T
 /// `Variant` is such a list.
 template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, const C& command) {
   static_assert(std::variant_size_v<Variant> < kStepMarker);
-  writer.write(detail::IndexOf<C, Variant>::kValue);
+  writer.write(detail::kNumberOf<C, Variant>);
   if constexpr (detail::WritesItself<C>) {
     command.write(writer);
   } else {
@@ -79,25 +84,25 @@ template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, 
   }
 }
 
-/// Nothing, and a reader that has failed, for bytes that are no command.
-template <class Variant> ISO_INLINE std::optional<Variant> read_command(Reader& reader) {
+/// Calls visit(command) with the one that is next, as the type that it is. Bytes that are no command are not visited,
+/// and leave a reader that has failed.
+template <class Variant, class Visit> ISO_INLINE void read_command(Reader& reader, Visit&& visit) {
   const auto number = reader.read<std::uint8_t>();
-  std::optional<Variant> command;
-  detail::read_any(number, reader, command, std::make_index_sequence<std::variant_size_v<Variant>>{});
-  if (reader.ok() && !command) reader.fail(ErrorCode::invalid, "no command has this number");
-  return command;
+  const bool known = detail::Numbers<Variant>::visit_read(number, reader, visit);
+  if (reader.ok() && !known) reader.fail(ErrorCode::invalid, "no command has this number");
 }
 
-/// A frame's command log from front to back: `apply(command)` says whether it was accepted. What comes before an error
-/// was done.
+/// A frame's command log from front to back: `apply(command)`, called with each as the type that it is, says whether it
+/// was accepted. What comes before an error was done.
 template <class Variant, class Apply, class Step>
 ISO_INLINE Result<void> play_commands(Bytes log, Apply&& apply, Step&& step) {
   Reader reader(log);
   std::uint32_t steps = 0;
   while (reader.remaining() > 0) {
     if (log[reader.offset()] != kStepMarker) {
-      const std::optional<Variant> command = read_command<Variant>(reader);
-      if (command && !apply(*command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
+      read_command<Variant>(reader, [&](const auto& command) {
+        if (!apply(command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
+      });
     } else if (steps++ == kFrameStepCap) {
       reader.fail(ErrorCode::limit, kTooManySteps);
     } else {

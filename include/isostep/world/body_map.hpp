@@ -40,7 +40,11 @@ template <class S> class BodyMap {
   ISO_INLINE Location location(std::uint32_t slot) const { return locations_[slot]; }
   ISO_INLINE Location joint_location(std::uint32_t slot) const { return joint_locations_[slot]; }
   /// The row of SolverBodies: 0, which nothing moves, unless the body is awake.
-  std::uint32_t row_of(std::uint32_t slot) const;
+  ISO_INLINE std::uint32_t row_of(std::uint32_t slot) const {
+    if (slot == kNoBody) return 0;
+    const Location at = locations_[slot];
+    return at.set == Location::kAwake ? at.index + 1 : 0;
+  }
   /// Contacts and joints of sleeping islands that name the body.
   ISO_INLINE std::uint32_t names(std::uint32_t slot) const { return names_[slot]; }
   /// Whether the body takes part; what is disabled lies among the static ones. kNoBody, the world itself, does.
@@ -54,14 +58,25 @@ template <class S> class BodyMap {
   }
 
   // Records. Those by id are null for an id that names nothing.
-  const BodyState<S>& state_at(Location at) const;
-  const BodyProperties<S>& properties_at(Location at) const;
+  ISO_INLINE const BodyState<S>& state_at(Location at) const {
+    if (at.set == Location::kAwake) return state_.awake.states[at.index];
+    if (at.set == Location::kStatic) return state_.static_bodies->states[at.index];
+    return state_.sleeping[at.set]->bodies.states[at.index];
+  }
+  ISO_INLINE const BodyProperties<S>& properties_at(Location at) const {
+    if (at.set == Location::kAwake) return state_.awake.properties[at.index];
+    if (at.set == Location::kStatic) return state_.static_bodies->properties[at.index];
+    return state_.sleeping[at.set]->bodies.properties[at.index];
+  }
   const BodyState<S>* state_of(BodyId body) const;
   const BodyProperties<S>* properties_of(BodyId body) const;
   const JointProperties<S>* properties_of(JointId joint) const;
   /// Of a body that does not sleep, to be changed.
   BodyProperties<S>& change_properties(std::uint32_t slot);
-  std::span<const Child<S>> children_of(std::uint32_t shape_slot) const;
+  ISO_INLINE std::span<const Child<S>> children_of(std::uint32_t shape_slot) const {
+    const ShapeRecord& record = (*state_.shapes)[shape_slot];
+    return {state_.children->data() + record.first_child, record.child_count};
+  }
   /// Null: the shape has no such child, or it is no height field.
   const Child<S>* height_field_of(std::uint32_t shape_slot, std::uint32_t child) const;
   /// Null: the shape has few children.
@@ -73,7 +88,11 @@ template <class S> class BodyMap {
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
   Pose<S> origin_pose_at(std::uint32_t slot) const;
   /// Pose of the centre of mass, or for kNoBody of the world itself.
-  Pose<S> centre_pose_at(std::uint32_t slot) const;
+  ISO_INLINE Pose<S> centre_pose_at(std::uint32_t slot) const {
+    if (slot == kNoBody) return Pose<S>::identity();
+    const BodyState<S>& state = state_at(locations_[slot]);
+    return {state.centre, state.orientation};
+  }
 
   // Changes. `set` is the array's name in a Location.
   /// Puts a body among the static or the awake ones, and a joint among the awake ones.

@@ -12,22 +12,6 @@ template <class S> Location BodyMap<S>::locate(BodyId body) const {
   return state_.body_slots.holds(body) ? locations_[body.slot] : Location{};
 }
 
-template <class S> std::uint32_t BodyMap<S>::row_of(std::uint32_t slot) const {
-  if (slot == kNoBody) return 0;
-  const Location at = locations_[slot];
-  return at.set == Location::kAwake ? at.index + 1 : 0;
-}
-
-template <class S> const BodyState<S>& BodyMap<S>::state_at(Location at) const {
-  if (at.set == Location::kAwake) return state_.awake.states[at.index];
-  if (at.set == Location::kStatic) return state_.static_bodies->states[at.index];
-  return state_.sleeping[at.set]->bodies.states[at.index];
-}
-template <class S> const BodyProperties<S>& BodyMap<S>::properties_at(Location at) const {
-  if (at.set == Location::kAwake) return state_.awake.properties[at.index];
-  if (at.set == Location::kStatic) return state_.static_bodies->properties[at.index];
-  return state_.sleeping[at.set]->bodies.properties[at.index];
-}
 template <class S> const BodyState<S>* BodyMap<S>::state_of(BodyId body) const {
   const Location at = locate(body);
   return at.set == Location::kNone ? nullptr : &state_at(at);
@@ -48,11 +32,6 @@ template <class S> BodyProperties<S>& BodyMap<S>::change_properties(std::uint32_
                                     : state_.static_bodies.change().properties[at.index];
 }
 
-template <class S> std::span<const Child<S>> BodyMap<S>::children_of(std::uint32_t shape_slot) const {
-  const ShapeRecord& record = (*state_.shapes)[shape_slot];
-  return {state_.children->data() + record.first_child, record.child_count};
-}
-
 template <class S> const Child<S>* BodyMap<S>::height_field_of(std::uint32_t shape_slot, std::uint32_t child) const {
   const std::span<const Child<S>> children = children_of(shape_slot);
   const bool is_field = child < children.size() && children[child].primitive.type == ShapeType::height_field;
@@ -66,11 +45,6 @@ template <class S> Pose<S> BodyMap<S>::origin_pose(const BodyState<S>& state, co
 }
 template <class S> Pose<S> BodyMap<S>::origin_pose_at(std::uint32_t slot) const {
   return origin_pose(state_at(locations_[slot]), properties_at(locations_[slot]));
-}
-template <class S> Pose<S> BodyMap<S>::centre_pose_at(std::uint32_t slot) const {
-  if (slot == kNoBody) return Pose<S>::identity();
-  const BodyState<S>& state = state_at(locations_[slot]);
-  return {state.centre, state.orientation};
 }
 
 template <class S> void BodyMap<S>::relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from) {

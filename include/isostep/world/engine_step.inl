@@ -2,25 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/carriers.inl"
-#include "isostep/world/body_finisher.inl"
-#include "isostep/world/body_map.inl"
-#include "isostep/world/break_events.inl"
-#include "isostep/world/contact_events.inl"
-#include "isostep/world/contact_points.inl"
-#include "isostep/world/contact_responses.inl"
-#include "isostep/world/continuous_collision.inl"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/hit_events.inl"
-#include "isostep/world/island_sleep.inl"
-#include "isostep/world/island_wake.inl"
-#include "isostep/world/joint_loads.inl"
-#include "isostep/world/move_targets.inl"
-#include "isostep/world/narrow_phase.inl"
-#include "isostep/world/pair_rules.inl"
-#include "isostep/world/proxies.inl"
-#include "isostep/world/render_poses.inl"
-#include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/step_solver.inl"
 
 namespace isostep {
@@ -143,27 +125,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 
 }  // namespace isostep
 
-/// What a game calls every frame: the step, and the systems that it calls.
-#define ISO_INSTANTIATE_WORLD_STEP(S)                                                                       \
-  template class BodyMap<S>;                                                                                \
-  template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
-  template class Proxies<S>;                                                                                \
-  template class IslandWake<S>;                                                                             \
-  template class IslandSleep<S>;                                                                            \
-  template class PartPairs<S>;                                                                              \
-  template class NarrowPhase<S>;                                                                            \
-  template class ContactResponses<S>;                                                                       \
-  template class Carriers<S>;                                                                               \
-  template class StepSolver<S>;                                                                             \
-  template class BodyFinisher<S>;                                                                           \
-  template class ContinuousCollision<S>;                                                                    \
-  template class SensorOverlaps<S>;                                                                         \
-  template class ContactEvents<S>;                                                                          \
-  template class BreakEvents<S>;                                                                            \
-  template class JointLoads<S>;                                                                             \
-  template class ContactPoints<S>;                                                                          \
-  template class HitEvents<S>;                                                                              \
-  template class MoveTargets<S>;                                                                            \
-  template class PairRules<S>;                                                                              \
-  template class RenderPoses<S>;                                                                            \
+/// What a game calls every frame. The systems that it calls: *_systems.inl, acting_records.inl.
+#define ISO_INSTANTIATE_WORLD_STEP(S) \
+  template class StepSolver<S>;       \
   template StepReport WorldEngine<S>::step(const StageObserver&);

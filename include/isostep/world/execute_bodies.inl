@@ -128,7 +128,7 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
   std::size_t count = 0;
   for (const BodyId body : bodies) {
     if (!mark_for_destruction(body)) {
-      journal_.sign(kCommandNames[detail::IndexOf<DestroyBody, Command>::kValue]);
+      journal_.sign(kCommandNames[detail::kNumberOf<DestroyBody, Command>]);
       continue;
     }
     journal_.record<Command>(DestroyBody{body});

@@ -17,6 +17,7 @@
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/collision/query/shape_cast.inl"
 #include "isostep/collision/query/solid_cast.inl"
+#include "isostep/dynamics/forces/force_list.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
@@ -34,9 +35,14 @@
 #include "isostep/particles/instantiate.inl"
 #include "isostep/scalar/math.inl"
 #include "isostep/world/acting_records.inl"
+#include "isostep/world/contact_systems.inl"
 #include "isostep/world/debug_draw.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/event_systems.inl"
+#include "isostep/world/executing_commands.inl"
+#include "isostep/world/island_systems.inl"
+#include "isostep/world/motion_systems.inl"
 #include "isostep/world/queries.inl"
 #include "isostep/world/world.inl"
 
@@ -111,7 +117,13 @@
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                                \
   ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                            \
   ISO_INSTANTIATE_ACTING_RECORDS(OwnScalar)                                                                           \
+  ISO_INSTANTIATE_CONTACT_SYSTEMS(OwnScalar)                                                                          \
+  ISO_INSTANTIATE_ISLAND_SYSTEMS(OwnScalar)                                                                           \
+  ISO_INSTANTIATE_MOTION_SYSTEMS(OwnScalar)                                                                           \
+  ISO_INSTANTIATE_EVENT_SYSTEMS(OwnScalar)                                                                            \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                               \
+  ISO_INSTANTIATE_FORCE_RECORDS(OwnScalar)                                                                            \
+  ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                                                 \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                                    \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                             \
   template void draw<OwnScalar>(const ParticleWorld<OwnScalar>&, DebugDraw&, const DrawOptions&);                     \

@@ -6,15 +6,8 @@
 #include <variant>
 
 #include "isostep/state/command_log.hpp"
-#include "isostep/world/destruction.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
-#include "isostep/world/execute_bodies.inl"
-#include "isostep/world/execute_body_changes.inl"
-#include "isostep/world/execute_force_records.inl"
-#include "isostep/world/execute_forces.inl"
-#include "isostep/world/execute_joints.inl"
-#include "isostep/world/execute_shapes.inl"
 #include "isostep/world/state_loader.inl"
 #include "isostep/world/world_joints.inl"
 #include "isostep/world/world_queries.inl"
@@ -355,12 +348,8 @@ template <class S> StageView World<S>::state_fields() const { return engine_->vi
 
 }  // namespace isostep
 
-/// World<S>, and the systems that work between its steps (those of a step: engine_step.inl). What each command does: a
-/// command of the list without `execute` does not compile.
-#define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);
+/// World<S>, and how states come into it. What it calls: executing_commands.inl, queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
-  template class Destruction<S>;                       \
   template class StateLoader<S>;                       \
-  ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S)     \
   template std::uint64_t WorldEngine<S>::hash() const; \
   template class World<S>;

@@ -1,4 +1,4 @@
-// World<S> and its commands for every shipped scalar; its step: world_step.cpp.
+// World<S> for every shipped scalar; its step: world_step.cpp, its commands: executing_commands.cpp.
 // SPDX-License-Identifier: MIT
 #include "isostep/world/world.inl"
 

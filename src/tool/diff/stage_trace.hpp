@@ -78,7 +78,7 @@ template <class W> class PlayedFrame {
     };
     world_.load(before_);
     static_cast<void>(play_commands<typename W::Command>(
-        commands_, [&](const typename W::Command& command) { return world_.apply(command); },
+        commands_, [&](const auto& command) { return static_cast<bool>(world_.apply(command)); },
         [&] {
           look(&watch, 0);  // before the first stage
           world_.step({look, &watch});

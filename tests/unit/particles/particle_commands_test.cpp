@@ -309,13 +309,13 @@ TYPED_TEST(ParticleCommands, have_the_numbers_that_replays_know) {
   using S = TypeParam;
   using Command = ParticleCommand<S>;
   static_assert(std::variant_size_v<Command> == 27);
-  static_assert(detail::IndexOf<SetParticleGravity<S>, Command>::kValue == 8);
-  static_assert(detail::IndexOf<AddRecord<ParticleMaterial<S>>, Command>::kValue == 9);
-  static_assert(detail::IndexOf<SetRecord<Spring<S>, SpringId>, Command>::kValue == 13);
-  static_assert(detail::IndexOf<RemoveRecord<ForceId>, Command>::kValue == 17);
-  static_assert(detail::IndexOf<AddRecord<Cohesion<S>>, Command>::kValue == 18);
-  static_assert(detail::IndexOf<SetRecord<Link<S>, LinkId>, Command>::kValue == 22);
-  static_assert(detail::IndexOf<RemoveRecord<ColliderId>, Command>::kValue == 26);
+  static_assert(detail::kNumberOf<SetParticleGravity<S>, Command> == 8);
+  static_assert(detail::kNumberOf<AddRecord<ParticleMaterial<S>>, Command> == 9);
+  static_assert(detail::kNumberOf<SetRecord<Spring<S>, SpringId>, Command> == 13);
+  static_assert(detail::kNumberOf<RemoveRecord<ForceId>, Command> == 17);
+  static_assert(detail::kNumberOf<AddRecord<Cohesion<S>>, Command> == 18);
+  static_assert(detail::kNumberOf<SetRecord<Link<S>, LinkId>, Command> == 22);
+  static_assert(detail::kNumberOf<RemoveRecord<ColliderId>, Command> == 26);
 }
 
 TYPED_TEST(ParticleCommands, observers_of_stages_give_none) {

@@ -48,9 +48,12 @@ template <class S> struct ForceRecords {
   ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
 #undef ISO_REGISTRY
 
-  // As the compiler makes them, but no weak functions in each of the files that copy what is Shared.
-  ISO_INLINE ForceRecords() = default;
-  ISO_INLINE ForceRecords(const ForceRecords&) = default;
+  // As the compiler makes them, but in one place: inlined into every command that changes records they are minutes of
+  // compiling.
+  ForceRecords();
+  ForceRecords(const ForceRecords&);
+  ~ForceRecords();
+  // No weak functions in each of the files that use them.
   ISO_INLINE ForceRecords(ForceRecords&&) = default;
   ISO_INLINE ForceRecords& operator=(const ForceRecords&) = default;
   ISO_INLINE ForceRecords& operator=(ForceRecords&&) = default;

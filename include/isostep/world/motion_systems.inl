@@ -1,0 +1,18 @@
+// The systems that look after how bodies move, before and after the solver. Compiled apart from the step that calls
+// them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/carriers.inl"
+#include "isostep/world/body_finisher.inl"
+#include "isostep/world/continuous_collision.inl"
+#include "isostep/world/move_targets.inl"
+#include "isostep/world/render_poses.inl"
+
+#define ISO_INSTANTIATE_MOTION_SYSTEMS(S)                                                                   \
+  template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
+  template class Carriers<S>;                                                                               \
+  template class BodyFinisher<S>;                                                                           \
+  template class ContinuousCollision<S>;                                                                    \
+  template class MoveTargets<S>;                                                                            \
+  template class RenderPoses<S>;

@@ -1,0 +1,9 @@
+// The systems that find contacts in a step of World<S>, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/contact_systems.inl"
+
+namespace isostep {
+
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_CONTACT_SYSTEMS)
+
+}  // namespace isostep

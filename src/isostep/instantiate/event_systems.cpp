@@ -1,0 +1,9 @@
+// What tells events in a step of World<S>, for every shipped scalar.
+// SPDX-License-Identifier: MIT
+#include "isostep/world/event_systems.inl"
+
+namespace isostep {
+
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_EVENT_SYSTEMS)
+
+}  // namespace isostep
