@@ -9,6 +9,7 @@
 
 #include "isostep/collision/continuous/core_motion.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
+#include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/one_way.hpp"
 #include "isostep/world/body_map.hpp"
@@ -28,6 +29,7 @@ namespace isostep {
 ///             other dynamic bodies but bullets. Nobody reads what another writes, so the order is free.
 ///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
 ///          body is swept in that one's frame and goes on with it to the end of the step.
+///          3. All bodies that joints tie to one that was stopped go as far of their ways as it did, and no farther.
 /// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
 ///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
 /// Limits:  two bodies may squeeze a third.
@@ -104,7 +106,13 @@ template <class S> class ContinuousCollision {
   template <class Visit>
   void visit_parts(const BodyProperties<S>& body, const Aabb<S>& swept, const BodyProperties<S>& other,
                    const Pose<S>& place, const Visit& visit) const;
+  void put_at(std::uint32_t index, const Pose<S>& pose);
+  void place(std::uint32_t index);
   void stop_middle(BodyState<S>& state, const Cut& cut) const;
+  // continuous_joined.inl
+  void stop_joined();
+  bool find_mechanism_fractions();
+  void put_back(const Mover& mover, Unit<S> fraction);
   void find_obstacles(const Mover& mover, bool moving);
   void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
   void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,
@@ -124,6 +132,9 @@ template <class S> class ContinuousCollision {
   std::vector<Carrier> carriers_;
   std::vector<std::uint32_t> met_;                       // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
+  DisjointSets mechanisms_;                              // of indices among the awake ones
+  std::vector<Unit<S>> fractions_;       // [1] by mechanism: of the first of its bodies that was stopped
+  std::vector<std::uint32_t> mover_of_;  // by index among the awake ones: in movers_, plus 1; 0: none
 };
 
 #define ISO_EXTERN(S) extern template class ContinuousCollision<S>;

@@ -63,10 +63,10 @@ void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<co
   const Survey found = survey();
   find_movers(found);
   for (Mover& mover : movers_) cut(mover, false);
-  if (!found.bullets) return;
   for (Mover& mover : movers_) {
     if ((state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0) cut(mover, true);
   }
+  stop_joined();
 }
 
 // ---- who is fast
@@ -376,12 +376,20 @@ template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
   if (!moving && find_touch(mover)) cut = sweep(mover, moving);
   if (!cut.is_before(mover.fraction)) return;
   mover.fraction = min(cut.fraction, cut.fraction_of_middle);
-  BodyState<S>& state = state_.awake.states[mover.index];
-  const BodyProperties<S>& body = state_.awake.properties[mover.index];
-  if (detail::turns_freely(body)) state.angular_velocity = detail::turned_back(state, cut.pose.orientation);
-  state.centre = cut.pose.position;
-  state.orientation = cut.pose.orientation;
-  if (cut.fraction_of_middle < cut.fraction) stop_middle(state, cut);
+  put_at(mover.index, cut.pose);
+  if (cut.fraction_of_middle < cut.fraction) stop_middle(state_.awake.states[mover.index], cut);
+  place(mover.index);
+}
+template <class S> void ContinuousCollision<S>::put_at(std::uint32_t index, const Pose<S>& pose) {
+  BodyState<S>& state = state_.awake.states[index];
+  if (detail::turns_freely(state_.awake.properties[index]))
+    state.angular_velocity = detail::turned_back(state, pose.orientation);
+  state.centre = pose.position;
+  state.orientation = pose.orientation;
+}
+template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
+  BodyState<S>& state = state_.awake.states[index];
+  const BodyProperties<S>& body = state_.awake.properties[index];
   detail::renew_fat_box(map_, state, body, false);
   proxies_.place(state, body, true);
 }

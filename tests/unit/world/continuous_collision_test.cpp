@@ -214,6 +214,30 @@ TYPED_TEST(ContinuousCollisions, every_pair_of_solids_stops) {
   for (int i = 0; i < 16; ++i) EXPECT_LT(this->place(bodies[static_cast<std::size_t>(i)]).x, 0) << i;
 }
 
+TYPED_TEST(ContinuousCollisions, what_joints_tie_together_stops_together) {
+  using S = TypeParam;
+  this->add_wall();
+  std::vector<BodyId> chain;
+  for (int i = 0; i < 3; ++i) chain.push_back(this->add_ball_at({-1, 3.0 * i, 0}));
+  const BodyId alone = this->add_ball_at({-1, 9, 0});
+  for (int i = 0; i < 2; ++i) {
+    const Pose<S> between = {vec<S>(-1, 3.0 * i + 1.5, 0), Quat<Unit<S>>::identity()};
+    const auto next = static_cast<std::size_t>(i) + 1;
+    this->world.create(this->world.joint_at(JointType::ball, chain[next - 1], chain[next], between));
+  }
+  for (const BodyId ball : chain) this->move(ball, {3, ball == chain[2] ? 8.0 : ball == chain[1] ? 3.0 : 0.0, 0});
+  this->move(alone, {3, 9, 0});
+  this->update();
+  const double stopped = this->place(chain[0]).x, fraction = (stopped + 1) / 4;
+  EXPECT_NEAR(stopped, -0.03125 - 0.125, this->kNear);
+  EXPECT_NEAR(this->place(chain[1]).x, stopped, 1e-3);
+  EXPECT_NEAR(this->place(chain[2]).x, stopped, 1e-3);
+  EXPECT_NEAR(this->place(chain[2]).y, 6 + 2 * fraction, 1e-3);
+  EXPECT_EQ(this->place(alone).x, 3);
+  for (const BodyId ball : chain)
+    EXPECT_TRUE(this->systems->proxies.boxes().box(ball.slot) == this->systems->awake(ball).fat);
+}
+
 TYPED_TEST(ContinuousCollisions, the_order_of_bodies_in_the_tree_does_not_matter) {
   using S = TypeParam;
   Dice dice(5);
