@@ -78,12 +78,24 @@ TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_vehicle) {
   this->expect_fault(v, "brake", [](V& r) { r.brake = S(2); });
   this->expect_fault(v, "handbrake", [](V& r) { r.handbrake = S(-1); });
   this->expect_fault(v, "steer", [](V& r) { r.steer = S(2); });
+  this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(-1); });
+  this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(0x1p-11); });
+  this->expect_fault(v, "clutch_torque", [](V& r) { r.clutch_torque = S(-1); });
+  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(-1); });
+  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(2); });
+  this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(-1); });
+  this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(3); });
+  this->expect_fault(v, "engine_spin", [](V& r) { r.engine_spin = fastest_engine<S>() * S(2); });
   EXPECT_TRUE(this->w.add(v));
   this->expect_fault(v, "body", [](V&) {});
   if constexpr (kIsFixed<S>) return;
   const S infinite = from_bits<S>(to_bits(highest<S>()) + 1);
   this->expect_fault(v, "gears", [&](V& r) { r.gears[3] = infinite; });
   this->expect_fault(v, "final_drive", [&](V& r) { r.final_drive = infinite; });
+  this->expect_fault(v, "engine_spin", [&](V& r) { r.engine_spin = infinite; });
+  this->expect_fault(v, "engine_inertia", [&](V& r) { r.engine_inertia = infinite; });
+  this->expect_fault(v, "clutch_torque", [&](V& r) { r.clutch_torque = infinite; });
+  this->expect_fault(v, "clutch_load", [&](V& r) { r.clutch_load = infinite; });
 }
 
 TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
