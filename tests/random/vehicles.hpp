@@ -7,7 +7,8 @@
 
 namespace isostep::test {
 
-/// Up to two vehicles of two to six wheels, whose engines end at some metres a second.
+/// Up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the left
+/// and the right or of any wheels, and some a clutch.
 template <class S> class RandomVehicles {
  public:
   static constexpr double kFastest = 4;  // [m/s] of a rim
@@ -47,8 +48,10 @@ template <class S> class RandomVehicles {
     vehicle.handbrake_torque = num<S>(mass * dice_.in(0, 4));
     vehicle.ackermann = num<S>(dice_.in(0, 1));
     drive(vehicle);
+    if (dice_.one_in(2)) add_clutch(vehicle, mass, radius);
     if (!world_.add(vehicle)) return;
     const std::uint32_t wheels = 2 + dice_.below(5);
+    const std::uint32_t tracks = dice_.below(3);  // none, two, or up to three of any wheels
     for (std::uint32_t i = 0; i < wheels; ++i) {
       Wheel<S> wheel;
       wheel.body = body;
@@ -72,8 +75,14 @@ template <class S> class RandomVehicles {
       wheel.handbrake_share = num<S>(dice_.in(0, 1));
       wheel.axle = dice_.below(3);
       wheel.anti_roll = num<S>(mass * dice_.in(0, 30));
+      wheel.track = tracks == 0 ? 0 : tracks == 1 ? 1 + i % 2 : dice_.below(3);
       world_.add(wheel);
     }
+  }
+  void add_clutch(Vehicle<S>& vehicle, double mass, double radius) {
+    vehicle.engine_inertia = num<S>(mass * radius * radius * dice_.in(0.0625, 0.5));
+    vehicle.clutch_torque = num<S>(mass * dice_.in(0, 4));
+    vehicle.track_steer = num<S>(dice_.in(0, 2));
   }
   void drive(Vehicle<S>& vehicle) {
     vehicle.throttle = num<S>(dice_.in(-1, 1));
@@ -81,6 +90,7 @@ template <class S> class RandomVehicles {
     vehicle.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
     vehicle.steer = num<S>(dice_.in(-1, 1));
     vehicle.gear = dice_.below(3);
+    vehicle.clutch = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 1);
   }
 
   World<S>& world_;

@@ -93,7 +93,7 @@ template <class V> ISO_INLINE V tyre_slip(V slide_along, V slide_across, V speed
 template <class S> ISO_INLINE S rim_give(S mass, S radius, S inertia) {
   return saturate_to<S>(product(radius, saturate_to<S>(product(mass, divide_to<S>(radius, inertia)))));
 }
-/// The spin of a wheel that meets the ground or does not, as speed of its rim [m/s].
+/// The spin of a wheel that meets the ground or does not, or of its track, as speed of its rim [m/s].
 template <class S> struct WheelSpin {
   using V = Velocity<S>;
   V rim;    // without tyre and brake
@@ -102,7 +102,7 @@ template <class S> struct WheelSpin {
 
   /// With an impulse of the tyre on the body.
   ISO_INLINE V after(V along) const {
-    const V driven = rim - saturate_to<V>(product(give, along));
+    const V driven = saturating_subtract(rim, saturate_to<V>(product(give, along)));
     return driven - clamp(driven, -brake, brake);
   }
 };
@@ -174,9 +174,11 @@ ISO_INLINE TyreImpulse<Velocity<S>> tyre_impulse(const WheelSpin<S>& spin, S giv
   TyreSlip<S> slip = {slip_along, slip_across, give_along, give_across};
   const V holding = divide_to<V>(-slip_along, give_along);
   TyreImpulse<V> sticking = {holding, divide_to<V>(-slip_across, give_across)};
-  const V driven = spin.rim - saturate_to<V>(product(spin.give, clamp(holding, -most_along, most_along)));
+  const V taken = saturate_to<V>(product(spin.give, clamp(holding, -most_along, most_along)));
+  const V driven = saturating_subtract(spin.rim, taken);
   if (driven < -spin.brake || spin.brake < driven) {
-    slip.along = slip_along - (spin.rim - (driven < V(0) ? -spin.brake : spin.brake));
+    const V braked = saturating_subtract(spin.rim, driven < V(0) ? -spin.brake : spin.brake);
+    slip.along = saturating_subtract(slip_along, braked);
     slip.give_along = saturating_add(give_along, spin.give);
     sticking.along = divide_to<V>(-slip.along, slip.give_along);
   }

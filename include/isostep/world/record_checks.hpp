@@ -123,14 +123,23 @@ template <class S> FaultReport fault_of(const Vehicle<S>& v) {
   for (const S gear : v.gears) checks.list.finite(gear, "gears");
   checks.list.proper(v.gear < kMostGears, "gear", "0 to 7");
   checks.list.finite(v.final_drive, "final_drive");
+  checks.list.finite(v.engine_inertia, "engine_inertia")
+      .proper(v.engine_inertia == S(0) || S(0x1p-10) <= v.engine_inertia, "engine_inertia", "0, or 2^-10 or more");
+  checks.not_negative(v.clutch_torque, "clutch_torque");
   checks.part(v.differential_lock, "differential_lock");
   checks.not_negative(v.brake_torque, "brake_torque");
   checks.not_negative(v.handbrake_torque, "handbrake_torque");
   checks.part(v.ackermann, "ackermann");
+  checks.list.finite(v.track_steer, "track_steer")
+      .proper(S(0) <= v.track_steer && v.track_steer <= S(2), "track_steer", "0 to 2");
   checks.input(v.throttle, "throttle");
+  checks.part(v.clutch, "clutch");
   checks.part(v.brake, "brake");
   checks.part(v.handbrake, "handbrake");
   checks.input(v.steer, "steer");
+  checks.list.finite(v.engine_spin, "engine_spin")
+      .in_range(within(v.engine_spin, fastest_engine<S>()), "engine_spin", "a size up to fastest_engine()");
+  checks.list.finite(v.clutch_load, "clutch_load");
   return checks.list.report();
 }
 template <class S> NamedBodies<S> bodies_of(const Vehicle<S>& v) {

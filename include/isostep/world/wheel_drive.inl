@@ -8,70 +8,90 @@ namespace isostep {
 
 /// The rim's change of speed by a torque in a sub-step.
 template <class S> void WheelForces<S>::turn(const Run& run, V& rim, S torque) const {
-  const Wheel<S>& w = wheel(run);
-  const S rate = saturate_to<S>(product(torque, divide_to<S>(w.radius, w.inertia)));  // [m/s^2]
+  const S rate = saturate_to<S>(product(torque, divide_to<S>(wheel(run).radius, run.inertia)));  // [m/s^2]
   rim = saturating_add(rim, saturate_to<V>(product(rate, h_)));
 }
 
-/// Torque on the driven wheels, and how much the brakes can do. The engine's torque is what brings its shaft to
-/// engine_speed within the sub-step, where that is less.
-template <class S> void WheelForces<S>::drive(const Group& group) {
-  if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
+/// How much the brakes can do.
+template <class S> void WheelForces<S>::set_brakes(const Group& group, const Vehicle<S>& vehicle) {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
-  S shares = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const Wheel<S>& w = wheel(runs_[i]);
-    shares = saturating_add(shares, w.drive_share);
-    runs_[i].spin.brake = V(0);
-    turn(runs_[i], runs_[i].spin.brake,
-         saturating_add(times(times(vehicle.brake, vehicle.brake_torque), w.brake_share),
-                        times(times(vehicle.handbrake, vehicle.handbrake_torque), w.handbrake_share)));
-  }
-  const S ratio = times(vehicle.gears[vehicle.gear], vehicle.final_drive);
-  if (!(S(0) < shares) || ratio == S(0) || vehicle.throttle == S(0)) return;
-  S speed = S(0), give = S(0);  // of the engine's shaft [rad/s]; [1 / kg m^2]
-  for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
-    const S part = times(divide_to<S>(w.drive_share, shares), ratio);
-    speed = saturating_add(speed, times(part, divide_to<S>(runs_[i].spin.rim, w.radius)));
-    give = saturating_add(give, divide_to<S>(times(part, part), w.inertia));
-  }
-  const S asked = times(vehicle.throttle, vehicle.engine_torque);
-  const S end = vehicle.throttle < S(0) ? -vehicle.engine_speed : vehicle.engine_speed;
-  const S rest = saturating_add(end, -speed);
-  const S limit = S(0) < give ? times(divide_to<S>(rest, give), S(rate_)) : asked;
-  const S torque = vehicle.throttle < S(0) ? min(S(0), max(asked, limit)) : max(S(0), min(asked, limit));
-  for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const S part = times(divide_to<S>(wheel(runs_[i]).drive_share, shares), ratio);
-    turn(runs_[i], runs_[i].spin.rim, times(torque, part));
+    const S torque = saturating_add(times(times(vehicle.brake, vehicle.brake_torque), w.brake_share),
+                                    times(times(vehicle.handbrake, vehicle.handbrake_torque), w.handbrake_share));
+    Run& leader = runs_[runs_[i].leader];
+    turn(leader, leader.spin.brake, leads(runs_[i]) ? torque : times(torque, runs_[i].to_leader));
   }
 }
 
-/// Takes of the driven wheels' differences in speed; what they have together stays.
+/// With rims of that speed: rim_of(run) [m/s].
+template <class S>
+template <class Rim>
+auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Shaft {
+  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
+  Shaft shaft = {S(0), S(0)};
+  for (std::uint32_t i = group.first; i < group.end; ++i) {
+    const Run& run = runs_[i];
+    if (!leads(run)) continue;
+    const S spin = divide_to<S>(rim_of(run), wheel(run).radius);
+    shaft.speed = saturating_add(shaft.speed, times(run.drive, spin));
+    shaft.give = saturating_add(shaft.give, divide_to<S>(times(run.drive, run.drive), run.inertia));
+  }
+  return shaft;
+}
+
+/// What throttle asks for, or what brings the shaft to engine_speed within the sub-step, where that is less.
+template <class S> S WheelForces<S>::engine_torque(const Vehicle<S>& vehicle, const Shaft& shaft) const {
+  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
+  const S asked = times(vehicle.throttle, vehicle.engine_torque);
+  const S end = vehicle.throttle < S(0) ? -vehicle.engine_speed : vehicle.engine_speed;
+  const S rest = saturating_subtract(end, shaft.speed);
+  const S limit = S(0) < shaft.give ? times(divide_to<S>(rest, shaft.give), S(rate_)) : asked;
+  return vehicle.throttle < S(0) ? min(S(0), max(asked, limit)) : max(S(0), min(asked, limit));
+}
+
+template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque) {
+  for (std::uint32_t i = group.first; i < group.end; ++i) {
+    Run& run = runs_[i];
+    if (leads(run)) turn(run, run.spin.rim, saturate_to<S>(product(torque, run.drive)));
+  }
+}
+
+/// Torque on the driven wheels or on the engine, and brakes.
+template <class S> void WheelForces<S>::drive(Group& group) {
+  if (group.vehicle == kNone) return;
+  const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
+  set_brakes(group, vehicle);
+  if (S(0) < group.engine.inertia) return turn_engine(group, vehicle);
+  if (!group.geared || vehicle.throttle == S(0)) return;
+  push_shaft(group, engine_torque(vehicle, shaft_of(group, [](const Run& run) { return run.spin.rim; })));
+}
+
+/// Takes of the differences in speed of driven wheels and tracks; the torque that does it acts between them, and what
+/// steering does not gear otherwise keeps what it turns with together.
 template <class S> void WheelForces<S>::lock(const Group& group) {
   if (group.vehicle == kNone) return;
   const S locked = state_.force_records->vehicles.all()[group.vehicle].differential_lock;
   if (!(S(0) < locked)) return;
-  const auto speed_of = [&](const Run& run) {
-    const V rim = run.touches ? run.spin.after(run.push_along) : run.spin.after(V(0));
-    return divide_to<S>(rim, wheel(run).radius);
-  };
+  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
+  const auto is_driven = [&](const Run& run) { return leads(run) && run.driven; };
+  const auto speed_of = [&](const Run& run) { return divide_to<S>(end_of(run), wheel(run).radius); };
   S inertia = S(0), mean = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
-    if (S(0) < w.drive_share) inertia = saturating_add(inertia, w.inertia);
+    const Run& run = runs_[i];
+    if (is_driven(run)) inertia = saturating_add(inertia, times(times(run.side, run.side), run.inertia));
+  }
+  if (!(S(0) < inertia)) return;
+  for (std::uint32_t i = group.first; i < group.end; ++i) {
+    const Run& run = runs_[i];
+    if (!is_driven(run)) continue;
+    mean = saturating_add(mean, times(times(run.side, speed_of(run)), divide_to<S>(run.inertia, inertia)));
   }
   for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
-    if (S(0) < w.drive_share)
-      mean = saturating_add(mean, saturate_to<S>(product(speed_of(runs_[i]), divide_to<S>(w.inertia, inertia))));
-  }
-  for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
-    if (!(S(0) < w.drive_share)) continue;
-    const S change = saturate_to<S>(product(locked, saturating_add(mean, -speed_of(runs_[i]))));
-    runs_[i].spin.rim = saturating_add(runs_[i].spin.rim, saturate_to<V>(product(change, w.radius)));
+    Run& run = runs_[i];
+    if (!is_driven(run)) continue;
+    const S change = times(locked, saturating_subtract(times(run.side, mean), speed_of(run)));
+    run.spin.rim = saturating_add(run.spin.rim, saturate_to<V>(product(change, wheel(run).radius)));
   }
 }
 

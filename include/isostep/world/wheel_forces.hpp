@@ -61,7 +61,13 @@ template <class S> class WheelForces {
     Vec3<U> axle;                     // [1] body frame, steered
     S mu_along, mu_across;            // [1] of tyre and ground, at no slip
     S anti_roll;                      // [N/m]
-    detail::WheelSpin<S> spin;
+    std::uint32_t leader, next;       // of its track, by run: itself without one; kNone
+    S to_leader;                      // [1] turns of the leader's axle by its own: 1 without a track
+    detail::WheelSpin<S> spin;        // of the leader: what all of them share
+    S inertia;                        // [kg m^2] likewise, about the leader's axle
+    S drive;                          // [1] likewise: turns of the engine's shaft by one of that axle
+    S side;                           // [1] likewise: what steering makes of that: 1, or Vehicle::track_steer
+    bool driven;                      // likewise
     S angle, steered, length;  // [rad], [rad], [m]
     // As the sub-step finds it.
     bool touches;
@@ -73,9 +79,24 @@ template <class S> class WheelForces {
     S slip;                     // [1] Wheel::slip
     V load, push_along, push_across;
   };
+  /// An engine behind a clutch, in this sub-step.
+  struct Engine {
+    S inertia;  // [kg m^2] 0: there is none
+    S most;     // [N m] that the clutch can bear
+    S free;     // [rad/s] the engine's speed without what the clutch bears
+    S spin;     // [rad/s] with it
+    S clutch;   // [N m] that it bears, on the gears
+  };
+  /// What the wheels turn: the shaft of the engine, or the clutch's disc.
+  struct Shaft {
+    S speed;  // [rad/s]
+    S give;   // [1/(kg m^2)] its change by a unit of angular impulse
+  };
   /// The wheels of one body.
   struct Group {
     std::uint32_t row, first, end, vehicle;
+    bool geared;      // some wheel is driven, and the gear is not neutral
+    Engine engine;
     bool ends_early;  // nothing but its own wheels changes what they find
     bool changed;     // by the last iteration
     bool done;        // in this sub-step
@@ -93,6 +114,7 @@ template <class S> class WheelForces {
   bool bears(std::uint32_t body, BodyId ground) const;
   // wheel_forces.inl
   const Wheel<S>& wheel(const Run& run) const { return state_.force_records->wheels.all()[run.slot]; }
+  bool leads(const Run& run) const { return &runs_[run.leader] == &run; }
   void place(Run& run, const Mat3<U>& turn);
   void compress(Run& run, S length) const;
   V speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const;
@@ -104,10 +126,28 @@ template <class S> class WheelForces {
   void turn_wheel(Run& run) const;
   S slip_of(const Run& run) const;
   void tell(const Group& group);
+  // wheel_tracks.inl
+  void join_tracks(const Group& group);
+  void join(Run& leader, Run& run) const;
+  detail::WheelSpin<S> spin_of(const Run& run) const;
+  V end_of(const Run& run) const;
+  S side_of(const Run& run, const Vehicle<S>& vehicle) const;
+  void gear_up(Group& group);
   // wheel_drive.inl
-  void drive(const Group& group);
+  void drive(Group& group);
+  void set_brakes(const Group& group, const Vehicle<S>& vehicle);
+  template <class Rim> Shaft shaft_of(const Group& group, const Rim& rim_of) const;
+  S engine_torque(const Vehicle<S>& vehicle, const Shaft& shaft) const;
+  void push_shaft(const Group& group, S torque);
   void lock(const Group& group);
   void turn(const Run& run, V& rim, S torque) const;
+  // wheel_clutch.inl
+  void begin_engine(Group& group, const Vehicle<S>& vehicle) const;
+  void turn_engine(Group& group, const Vehicle<S>& vehicle);
+  S spun(const Engine& engine, S speed, S torque) const;
+  void bear(Group& group, S torque);
+  void engage(Group& group);
+  void end_engines();
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "isostep/world/checks.hpp"
+#include "isostep/world/wheel_clutch.inl"
 #include "isostep/world/wheel_drive.inl"
 #include "isostep/world/wheel_ground.inl"
+#include "isostep/world/wheel_tracks.inl"
 
 namespace isostep {
 
@@ -19,7 +21,7 @@ auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acce
   const auto next = [&](std::uint32_t row) { return detail::next_motion(state_, bodies, accelerations, row, h_); };
   for (const Group& group : groups_) motion_[group.row] = next(group.row);
   for (const Run& run : runs_) motion_[run.ground] = next(run.ground);
-  for (const Group& group : groups_) {
+  for (Group& group : groups_) {
     const Mat3<U> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
     for (std::uint32_t r = group.first; r < group.end; ++r) place(runs_[r], turn);
     drive(group);
@@ -28,7 +30,9 @@ auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acce
     for (Group& group : groups_) {
       group.done = i > 0 && group.ends_early && !group.changed;
       group.changed = false;
-      if (!group.done) lock(group);
+      if (group.done) continue;
+      lock(group);
+      engage(group);
     }
     for (const std::uint32_t r : order_) {
       if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= iterate(runs_[r]);
@@ -140,8 +144,9 @@ template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& 
   const auto most = [&](S mu) ISO_INLINE_LAMBDA { return saturate_to<V>(product(mu, run.load)); };
   const V slip_along = without(run, run.along, run.push_along, body);
   const V slip_across = without(run, run.across, run.push_across, body);
-  const detail::TyreImpulse<V> made = detail::tyre_impulse<S>(
-      run.spin, run.along.give, run.across.give, slip_along, slip_across, most(run.grip_along), most(run.grip_across));
+  const detail::TyreImpulse<V> made =
+      detail::tyre_impulse<S>(spin_of(run), run.along.give, run.across.give, slip_along, slip_across,
+                              most(run.grip_along), most(run.grip_across));
   move(run, run.along, body, made.along - run.push_along);
   move(run, run.across, body, made.across - run.push_across);
   run.push_along = made.along;
@@ -159,11 +164,11 @@ template <class S> bool WheelForces<S>::iterate(Run& run) {
   return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
 }
 
-/// How far it turns in the sub-step.
+/// How far it turns in the sub-step; a track's leader before the others of it.
 template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
   constexpr S kTurn = S(6.28318530717958647692);
   const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
-  run.spin.rim = clamp(run.spin.after(run.push_along), -fastest, fastest);
+  run.spin.rim = leads(run) ? clamp(end_of(run), -fastest, fastest) : runs_[run.leader].spin.rim;
   const S spin = divide_to<S>(run.spin.rim, wheel(run).radius);
   run.angle += clamp(spin * h_, -kTurn, kTurn);
   if (kTurn <= run.angle) run.angle -= kTurn;
@@ -206,6 +211,7 @@ template <class S> void WheelForces<S>::tell(const Group& group) {
 
 template <class S> void WheelForces<S>::end_step() {
   if (runs_.empty()) return;
+  end_engines();
   std::vector<Wheel<S>>& wheels = state_.force_records.change().wheels.change_all();
   for (const Run& run : runs_) {
     Wheel<S>& w = wheels[run.slot];

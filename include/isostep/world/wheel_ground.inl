@@ -17,6 +17,8 @@ template <class S> void WheelForces<S>::begin_step() {
   list_runs();
   list_groups();
   for (Group& group : groups_) {
+    join_tracks(group);
+    gear_up(group);
     steer(group);
     join_bars(group);
     for (std::uint32_t i = group.first; i < group.end; ++i) find_ground(runs_[i]);
@@ -36,7 +38,7 @@ template <class S> void WheelForces<S>::list_runs() {
   runs_.resize(first_.back());
   for (std::uint32_t row = 1; row + 1 < first_.size(); ++row) {
     if (first_[row] == first_[row + 1]) continue;
-    groups_.push_back({row, first_[row], first_[row + 1], kNone, false, false, false});
+    groups_.push_back({row, first_[row], first_[row + 1], kNone, false, {}, false, false, false});
   }
   const Settings<S>& s = state_.settings;
   const S rate = S(integration_rate(s.solver, s.hz, s.substeps));
@@ -44,8 +46,12 @@ template <class S> void WheelForces<S>::list_runs() {
     const std::uint32_t row = wheels[slot].body ? map_.row_of(wheels[slot].body.slot) : 0;
     if (row == 0) continue;
     const Wheel<S>& w = wheels[slot];
-    Run& run = runs_[first_[row]++];
+    Run& run = runs_[first_[row]];
     run = {};
+    run.leader = first_[row]++;
+    run.next = kNone;
+    run.to_leader = run.side = S(1);
+    run.inertia = w.inertia;
     run.slot = slot;
     run.row = row;
     run.partner = run.vehicle = kNone;
@@ -91,12 +97,13 @@ template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
   return has ? &groups_[runs_[end - 1].group] : nullptr;
 }
 
-/// Neither those that stand on what moves, nor what they stand on, nor those that a differential's lock changes.
+/// Neither those that stand on what moves, nor what they stand on, nor those that a differential's lock or a clutch
+/// changes.
 template <class S> void WheelForces<S>::find_who_ends_early() {
   for (Group& group : groups_) {
     const bool locks = group.vehicle != kNone &&
                        S(0) < state_.force_records->vehicles.all()[group.vehicle].differential_lock;
-    group.ends_early = !locks;
+    group.ends_early = !locks && group.engine.inertia == S(0);
   }
   for (const Run& run : runs_) {
     if (run.ground == 0) continue;

@@ -52,15 +52,16 @@ constexpr const char* kRecords[] = {
     R"("footing": "steep", "ground": 0, "foot": [0, 0.5, 0], "foot_at": [6, 1.5, 0], "velocity": [0, -1, 0], )"
     R"("normal": [0, 1, 0], "stuck": 1})",
     R"({"type": "vehicle", "body": 0, "engine_torque": 200, "engine_speed": 400, )"
-    R"("gears": [0, -3, 3, 2, 1.5, 1, 0.75, 0.5], "gear": 2, "final_drive": 3, "differential_lock": 0.5, )"
-    R"("brake_torque": 8, "handbrake_torque": 4, "ackermann": 0.5, "throttle": 0.5, "brake": 0.25, )"
-    R"("handbrake": 0.125, "steer": -0.5})",
+    R"("gears": [0, -3, 3, 2, 1.5, 1, 0.75, 0.5], "gear": 2, "final_drive": 3, "engine_inertia": 0.25, )"
+    R"("clutch_torque": 100, "differential_lock": 0.5, )"
+    R"("brake_torque": 8, "handbrake_torque": 4, "ackermann": 0.5, "track_steer": 1.5, "throttle": 0.5, )"
+    R"("clutch": 0.75, "brake": 0.25, "handbrake": 0.125, "steer": -0.5, "engine_spin": 50, "clutch_load": -4})",
     R"({"type": "wheel", "body": 0, "hard_point": [0, 0.25, 0], "suspension": [0, 0, -1], )"
     R"("axle_direction": [0, 1, 0], "free_length": 0.5, "travel": 0.25, "stiffness": 8, "damping": 2, )"
     R"("radius": 0.25, "inertia": 2, "grip_along": 0.5, "grip_across": 0.75, "peak_slip": 0.125, "peak_grip": 2, )"
     R"("slide_slip": 0.5, "slide_grip": 0.75, "steer_angle": 0.5, )"
-    R"("drive_share": 0.5, "brake_share": 0.5, "handbrake_share": 1, "axle": 3, "anti_roll": 4, "spin": 2, )"
-    R"("angle": 1, "steered": 0.25, "length": 0.375, "slip": 0.5, "contact_body": 1, )"
+    R"("drive_share": 0.5, "brake_share": 0.5, "handbrake_share": 1, "axle": 3, "anti_roll": 4, "track": 2, )"
+    R"("spin": 2, "angle": 1, "steered": 0.25, "length": 0.375, "slip": 0.5, "contact_body": 1, )"
     R"("contact_point": [1, 0, 0], "contact_normal": [0, 1, 0], "load": 3, "along": 1, "across": 2})",
     R"({"type": "joint_load", "joint": 1, "break_force": 8, "break_torque": 4, "force": 2, "torque": 1})",
     R"({"type": "coupling", "joint_a": 0, "joint_b": 1, "joint_c": 2, "ratio_a": 2, "ratio_b": -0.5, "ratio_c": 1, )"

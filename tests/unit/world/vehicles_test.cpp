@@ -48,6 +48,18 @@ template <class S> class VehicleRecords : public ::testing::Test {
     v.steer = num<S>(steer);
     EXPECT_TRUE(w.set(vehicle, v));
   }
+  /// A track on each side, and an engine behind a clutch that slips while it starts.
+  void add_tracks_and_clutch() {
+    for (int i = 0; i < 4; ++i) {
+      Wheel<S> wheel = *w.find(wheels[i]);
+      wheel.track = i % 2 == 0 ? 1 : 2;
+      EXPECT_TRUE(w.set(wheels[i], wheel));
+    }
+    Vehicle<S> v = *w.find(vehicle);
+    v.engine_inertia = num<S>(0.5);
+    v.clutch_torque = S(200);
+    EXPECT_TRUE(w.set(vehicle, v));
+  }
   double height(BodyId body) { return to_double(w.center_of_mass(body).y); }
   template <class Record, class Change> void expect_fault(Record record, const char* field, const Change& change) {
     change(record);
@@ -78,12 +90,24 @@ TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_vehicle) {
   this->expect_fault(v, "brake", [](V& r) { r.brake = S(2); });
   this->expect_fault(v, "handbrake", [](V& r) { r.handbrake = S(-1); });
   this->expect_fault(v, "steer", [](V& r) { r.steer = S(2); });
+  this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(-1); });
+  this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(0x1p-11); });
+  this->expect_fault(v, "clutch_torque", [](V& r) { r.clutch_torque = S(-1); });
+  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(-1); });
+  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(2); });
+  this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(-1); });
+  this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(3); });
+  this->expect_fault(v, "engine_spin", [](V& r) { r.engine_spin = fastest_engine<S>() * S(2); });
   EXPECT_TRUE(this->w.add(v));
   this->expect_fault(v, "body", [](V&) {});
   if constexpr (kIsFixed<S>) return;
   const S infinite = from_bits<S>(to_bits(highest<S>()) + 1);
   this->expect_fault(v, "gears", [&](V& r) { r.gears[3] = infinite; });
   this->expect_fault(v, "final_drive", [&](V& r) { r.final_drive = infinite; });
+  this->expect_fault(v, "engine_spin", [&](V& r) { r.engine_spin = infinite; });
+  this->expect_fault(v, "engine_inertia", [&](V& r) { r.engine_inertia = infinite; });
+  this->expect_fault(v, "clutch_torque", [&](V& r) { r.clutch_torque = infinite; });
+  this->expect_fault(v, "clutch_load", [&](V& r) { r.clutch_load = infinite; });
 }
 
 TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
@@ -125,30 +149,37 @@ TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
 
 TYPED_TEST(VehicleRecords, go_on_alike_after_a_snapshot_and_from_the_portable_form) {
   using S = TypeParam;
-  add_ground(this->w, 0.9);
-  this->add_car({0, 1, 0});
-  this->control(1, 0, 0.5);
-  run(this->w, 45);
-  typename World<S>::Snapshot middle;
-  this->w.save(middle);
-  const auto bytes = bytes_of(this->w);
-  const auto drive_on = [&](World<S>& world) {
-    for (int i = 0; i < 90; ++i) {
-      Vehicle<S> v = *world.find(this->vehicle);
-      v.brake = S(i > 45 ? 1 : 0);
-      v.steer = S(i % 2);
-      world.set(this->vehicle, v);
-      world.step();
-    }
-    return world.hash();
-  };
-  const std::uint64_t first = drive_on(this->w);
-  ASSERT_TRUE(this->w.load(middle));
-  EXPECT_EQ(drive_on(this->w), first);
-  World<S> other;
-  Reader reader(bytes);
-  ASSERT_TRUE(other.read_portable(reader));
-  EXPECT_EQ(drive_on(other), first);
+  for (const bool tracked : {false, true}) {
+    World<S> fresh(settings<S>());
+    this->w = std::move(fresh);
+    add_ground(this->w, 0.9);
+    this->add_car({0, 1, 0});
+    if (tracked) this->add_tracks_and_clutch();
+    this->control(1, 0, 0.5);
+    run(this->w, 45);
+    EXPECT_EQ(to_double(this->w.find(this->vehicle)->engine_spin) > 1, tracked);
+    typename World<S>::Snapshot middle;
+    this->w.save(middle);
+    const auto bytes = bytes_of(this->w);
+    const auto drive_on = [&](World<S>& world) {
+      for (int i = 0; i < 90; ++i) {
+        Vehicle<S> v = *world.find(this->vehicle);
+        v.brake = S(i > 45 ? 1 : 0);
+        v.steer = S(i % 2);
+        v.clutch = num<S>(i % 30 < 10 ? 0 : 1);
+        world.set(this->vehicle, v);
+        world.step();
+      }
+      return world.hash();
+    };
+    const std::uint64_t first = drive_on(this->w);
+    ASSERT_TRUE(this->w.load(middle));
+    EXPECT_EQ(drive_on(this->w), first);
+    World<S> other;
+    Reader reader(bytes);
+    ASSERT_TRUE(other.read_portable(reader));
+    EXPECT_EQ(drive_on(other), first);
+  }
 }
 
 /// With all wheels on axles that meet: inner wheels turn by more than the outer.
