@@ -133,8 +133,19 @@ template <class S> bool CommandExecutor<S>::check_alone(const Vehicle<S>& vehicl
   return check_only_one(vehicle, slot);
 }
 
+/// Whether no record of another slot has the same part of the same body, and the body's shape has that part.
 template <class S> bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
-  return check_only_one(surface, slot);
+  const auto& all = state_.force_records->surface_velocitys;
+  const bool whole = surface.part == kEveryPart;
+  if (!whole && surface.part >= map_.children_of(map_.properties_of(surface.body)->shape).size())
+    return journal_.refuse({Fault::bad_argument, "", "part", "kEveryPart, or a child of the body's shape"});
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const SurfaceVelocity<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i) || !(other.body == surface.body) || other.part != surface.part) continue;
+    return journal_.refuse(whole ? FaultReport{Fault::bad_argument, "", "body", "a body that has no record yet"}
+                                 : FaultReport{Fault::bad_argument, "", "part", "a part that has no record yet"});
+  }
+  return true;
 }
 template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way, std::uint32_t slot) {
   return check_only_one(one_way, slot);

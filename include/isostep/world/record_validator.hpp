@@ -22,6 +22,7 @@ template <class S> struct SlotTables {
 
   std::vector<std::uint32_t> set_of_body;  // Location::kNone, kStatic, kAwake or a sleeping island
   std::vector<BodyType> type_of_body;
+  std::vector<const BodyProperties<S>*> properties_of_body;  // null: there is no body
   std::vector<JointAt> joint_at;
 
   bool is_body(std::uint32_t slot) const { return slot < set_of_body.size() && set_of_body[slot] != Location::kNone; }
@@ -68,7 +69,8 @@ template <class S> class RecordValidator {
  private:
   const char* contact_records() const {
     const ForceRecords<S>& all = *state_.force_records;
-    if (const char* rule = one_a_body(all.surface_velocitys, "two belts have the same body")) return rule;
+    const auto part_of = [](const SurfaceVelocity<S>& v) { return std::uint64_t{v.body.slot} << 32 | v.part; };
+    if (const char* rule = one_a_key(all.surface_velocitys, part_of, "two belts have the same part")) return rule;
     if (const char* rule = one_a_body(all.one_ways, "two one-way records have the same body")) return rule;
     if (const char* rule = one_a_body(all.hit_reports, "two reports of hits have the same body")) return rule;
     if (const char* rule = one_a_body(all.contact_reports, "two reports of contacts have the same body")) return rule;
@@ -119,7 +121,7 @@ template <class S> class RecordValidator {
         if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
       }
       if (!ties_well(all[slot]))
-        return "a spring or a coupling ties two islands, a record names no joint, or direct is to scale masses";
+        return "a spring or a coupling ties two islands, a record names no joint or part, or direct is to scale masses";
     }
     return nullptr;
   }
@@ -129,6 +131,10 @@ template <class S> class RecordValidator {
            detail::is_as_asked(seen_.type_of_body[named.body.slot], named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
+  bool ties_well(const SurfaceVelocity<S>& surface) const {
+    const std::uint32_t shape = seen_.properties_of_body[surface.body.slot]->shape;
+    return surface.part == kEveryPart || surface.part < (*state_.shapes)[shape].child_count;
+  }
   bool ties_well(const KindResponse<S>&) const { return state_.settings.solver != SolverName::direct; }
   bool ties_well(const BodySpring<S>& spring) const {
     const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of_body[body.slot] == BodyType::dynamic; };

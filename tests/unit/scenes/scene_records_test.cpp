@@ -68,7 +68,7 @@ constexpr const char* kRecords[] = {
     R"({"type": "axis_drive", "joint": 3, "axis": "swing_y", "limited": true, "motor": true, "lower": -1, )"
     R"("upper": 1, "motor_speed": 2, "spring_target": 0.5, "spring_frequency": 4, "spring_damping": 1, "force": 3, )"
     R"("spring_mass": 2, "limit_frequency": 8, "limit_damping": 1})",
-    R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0]})",
+    R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0], "part": 0})",
     R"({"type": "ghost", "a": 0, "b": 1})",
     R"({"type": "one_way", "body": 0, "axis": [1, 0, 0], "least_cosine": 0.75})",
     R"({"type": "hit_report", "body": 0, "speed": 2})",
