@@ -20,6 +20,7 @@
 #include "isostep/world/pair_rules.inl"
 #include "isostep/world/proxies.inl"
 #include "isostep/world/render_poses.inl"
+#include "isostep/world/sensor_mounts.inl"
 #include "isostep/world/sensor_overlaps.inl"
 #include "isostep/world/step_solver.inl"
 
@@ -42,6 +43,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   journal_.trace(*this);
   report_ = {};
   targets_.begin_step();
+  mounts_.begin_step();
   find_pairs();
   tell_untold();
   after(Stage::find_pairs);
@@ -72,6 +74,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_sleep);
   characters_.update();
   targets_.end_step();
+  mounts_.end_step();
   after(Stage::move_characters);
   ++state_.tick;
   return report_;
@@ -170,6 +173,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   template class ContactPoints<S>;                                                                          \
   template class HitEvents<S>;                                                                              \
   template class MoveTargets<S>;                                                                            \
+  template class SensorMounts<S>;                                                                           \
   template class PairRules<S>;                                                                              \
   template class RenderPoses<S>;                                                                            \
   template StepReport WorldEngine<S>::step(const StageObserver&);

@@ -159,6 +159,23 @@ template <class S> bool CommandExecutor<S>::check_alone(const ContactReport<S>& 
 template <class S> bool CommandExecutor<S>::check_alone(const MoveTarget<S>& target, std::uint32_t slot) {
   return check_only_one(target, slot);
 }
+/// Whether it is a sensor, which no record of another slot has, and neither of the two is mounted on and mounted.
+template <class S> bool CommandExecutor<S>::check_alone(const SensorMount<S>& mount, std::uint32_t slot) {
+  const auto refuse = [&](const char* field, const char* expected) {
+    return journal_.refuse({Fault::bad_argument, "", field, expected});
+  };
+  if ((map_.properties_of(mount.sensor)->flags & body_flag::kSensor) == 0)
+    return refuse("sensor", "a body that is a sensor");
+  const auto& all = state_.force_records->sensor_mounts;
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const SensorMount<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i)) continue;
+    if (other.sensor == mount.sensor) return refuse("sensor", "a sensor that has no record yet");
+    if (other.on == mount.sensor) return refuse("sensor", "a sensor that carries none");
+    if (other.sensor == mount.on) return refuse("on", "a body that is not mounted itself");
+  }
+  return true;
+}
 /// Whether no record of another slot has the same two bodies.
 template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, std::uint32_t slot) {
   const auto& all = state_.force_records->ghosts;
@@ -193,6 +210,7 @@ template <class S> inline constexpr bool kActsOnTouching<MoveTarget<S>> = true;
 template <class Record> inline constexpr bool kOnlyTells = false;
 template <class S> inline constexpr bool kOnlyTells<HitReport<S>> = true;
 template <class S> inline constexpr bool kOnlyTells<ContactReport<S>> = true;
+template <class S> inline constexpr bool kOnlyTells<SensorMount<S>> = true;
 }  // namespace detail
 
 /// What touches a body, and what sleeps on it as a step found it.
