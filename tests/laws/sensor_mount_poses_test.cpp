@@ -210,6 +210,19 @@ TYPED_TEST(SensorMountPoses, refuse_what_is_no_mount_and_change_nothing) {
   EXPECT_EQ(this->w.find(this->mount), nullptr);
 }
 
+/// A force at the origin of such a body would have too long an arm; a record about the whole body has none.
+TYPED_TEST(SensorMountPoses, go_with_a_body_whose_centre_is_far_from_its_origin) {
+  using S = TypeParam;
+  this->begin(0);
+  const Child<S> far[] = {part_at(primitive_of(Sphere<S>{num<S>(0.125)}), {100, 0, 0})};
+  const BodyId body = this->w.create(moving<S>(this->w.add_shape(std::span<const Child<S>>(far)), {-100, 0, 0}));
+  ASSERT_TRUE(body) << describe(this->w.fault());
+  this->feel(body, {100, 0, 0});
+  EXPECT_TRUE(this->w.add(HitReport<S>{body, S(1)})) << describe(this->w.fault());
+  this->w.step();
+  this->expect_in_place(body);
+}
+
 TYPED_TEST(SensorMountPoses, of_a_state_that_breaks_a_rule_are_not_read) {
   using S = TypeParam;
   this->begin(0);

@@ -183,7 +183,7 @@ template <class S> class RandomChanges {
   }
   /// Sensors that go with bodies, in half of the same worlds: the others stay as they were. Dice of its own.
   static void change_mounts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers || seed / kDrives % 2 == 0) return;
+    if (drive_of(seed) != Drive::movers || seed / kDrives % 2 != 0) return;
     Dice dice(seed * 393342739 + frame * 413158511 + 47);
     if (dice.one_in(6)) RandomMounts<S>(w, dice).change();
   }
