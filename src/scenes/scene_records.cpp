@@ -65,8 +65,7 @@ class FieldReader {
       : reader_(reader), bodies_(bodies), joints_(joints), to_(to) {}
 
   template <class T> void operator()(const char* name, const T&) const {
-    if (std::is_same_v<T, BodyId> && (std::string_view(name) == "body" || std::string_view(name) == "a"))
-      if (!may_act_on_the_world()) reader_.require(name);
+    if (std::is_same_v<T, BodyId> && has_to_be_given(name)) reader_.require(name);
     if (std::is_same_v<T, JointId> && std::string_view(name) != "joint_c") reader_.require(name);
     if (!reader_.has(name)) return;
     SceneField field = {name, {}};
@@ -75,7 +74,10 @@ class FieldReader {
   }
 
  private:
-  bool may_act_on_the_world() const { return to_.kind == "attractor"; }
+  bool has_to_be_given(std::string_view body) const {
+    if (to_.kind == "attractor") return false;  // it may act on the world
+    return body == "body" || body == "a" || body == "sensor" || body == "on";
+  }
   void read(const char* name, double, std::vector<Number>& out) const { reader_.number(name, out.emplace_back(0)); }
   void read(const char* name, bool, std::vector<Number>& out) const {
     bool set = false;

@@ -246,6 +246,31 @@ TYPED_TEST(Allocation, BeltsAndReportsOfHitsNeedNone) {
   }
 }
 
+TYPED_TEST(Allocation, BeltsOfPartsAndMountedSensorsNeedNone) {
+  using S = TypeParam;
+  World<S> world(test::settings<S>());
+  const ShapeId planks = test::add_two_boxes(world, {8, 0.25, 1}, {0, -0.25, 0}, {8, 0.25, 1}, {0, -0.25, 4});
+  const BodyId body = world.create(test::still<S>(planks));
+  EXPECT_TRUE(world.add(SurfaceVelocity<S>{body, {S(0.25), S(0), S(0)}, Vec3<S>::zero(), 0}));
+  EXPECT_TRUE(world.add(SurfaceVelocity<S>{body, {S(-0.25), S(0), S(0)}, Vec3<S>::zero(), 1}));
+  BodyDefinition<S> sensor = test::still<S>(test::add_ball(world, 1));
+  sensor.type = BodyType::kinematic;
+  sensor.sensor = true;
+  for (int i = 0; i < 8; ++i) {
+    SensorMount<S> mount;
+    const ShapeId crate = test::add_box(world, 0.25, 0.25, 0.25);
+    mount.on = world.create(test::moving<S>(crate, {i / 2 - 2.0, 0.25, 4.0 * (i % 2)}));
+    mount.sensor = world.create(sensor);
+    EXPECT_TRUE(world.add(mount));
+    if (i == 0) world.set_enabled(mount.on, false);
+  }
+  for (int frame = 0; frame < 120; ++frame) world.step();
+  EXPECT_EQ(world.counts().contacts, 7u);
+  const Count count;
+  for (int frame = 0; frame < 60; ++frame) world.step();
+  EXPECT_EQ(count.so_far(), 0u);
+}
+
 TYPED_TEST(Allocation, GhostsThatComeAndGoNeedNone) {
   using S = TypeParam;
   World<S> world(test::settings<S>(0));

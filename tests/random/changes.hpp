@@ -10,6 +10,7 @@
 #include "random/bodies.hpp"
 #include "random/forces.hpp"
 #include "random/mechanisms.hpp"
+#include "random/mounts.hpp"
 #include "random/placing.hpp"
 #include "random/responses.hpp"
 #include "random/rules.hpp"
@@ -35,6 +36,7 @@ template <class S> class RandomChanges {
     change_rules(w, seed, frame);
     change_bodies(w, seed, frame);
     change_responses(w, seed, frame);
+    change_mounts(w, seed, frame);
   }
 
  private:
@@ -178,6 +180,12 @@ template <class S> class RandomChanges {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 353868019 + frame * 373587883 + 43);
     if (dice.one_in(8)) RandomResponses<S>(w, dice).change();
+  }
+  /// Sensors that go with bodies, in half of the same worlds: the others stay as they were. Dice of its own.
+  static void change_mounts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    if (drive_of(seed) != Drive::movers || seed / kDrives % 2 != 0) return;
+    Dice dice(seed * 393342739 + frame * 413158511 + 47);
+    if (dice.one_in(6)) RandomMounts<S>(w, dice).change();
   }
 };
 

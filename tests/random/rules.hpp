@@ -41,15 +41,21 @@ template <class S> class RandomRules {
     if constexpr (requires(Record record) { record.body; }) {
       Record record = drawn(Record{});
       record.body = world_.find(id)->body;
-      if constexpr (std::is_same_v<Record, SurfaceVelocity<S>>) calm(record);
+      if constexpr (std::is_same_v<Record, SurfaceVelocity<S>>) {
+        record.part = world_.find(id)->part;
+        calm(record);
+      }
       world_.set(id, record);
     }
   }
-  /// Of its body or bodies there is none.
+  /// Of its body or bodies there is none, or none for its part.
   template <class Record, class IdType>
   static bool is_new(const Registry<Record, IdType>& registry, const Record& record) {
     const BodyId a = detail::first_body_of(record), b = detail::second_body_of(record);
     for (const Record& other : registry.all()) {
+      if constexpr (requires { record.part; }) {
+        if (record.part != other.part) continue;
+      }
       const BodyId c = detail::first_body_of(other), d = detail::second_body_of(other);
       if ((a == c && b == d) || (b && a == d && b == c)) return false;
     }
@@ -76,7 +82,13 @@ template <class S> class RandomRules {
     belt.linear = vec<S>(dice_.arrow(0, most_speed_));
     belt.angular = vec<S>(dice_.arrow(0, most_speed_ / 4));
     calm(belt);
+    Dice own = dice_.apart();
+    if (own.one_in(2)) belt.part = own.below(parts_of(belt.body));
     return belt;
+  }
+  std::uint32_t parts_of(BodyId body) const {
+    const WorldState<S>& state = world_.state();
+    return (*state.shapes)[world_.view(body).properties->shape].child_count;
   }
   Ghost<S> drawn(Ghost<S> ghost) {
     ghost.a = moving_body();

@@ -70,9 +70,22 @@ template <class S> class WorldFuzz : public ::testing::Test {
     j.spring_frequency = edges.near(S(240));
     return static_cast<bool>(world.create(j));
   }
+  /// Of one that is kinematic and a sensor, where there is one.
+  bool mount() {
+    BodyId sensor = edges.one_of(bodies);
+    for (const BodyId id : world.bodies()) {
+      const BodyView<S> view = world.view(id);
+      const bool fits = view.properties->type == kinematic && (view.properties->flags & body_flag::kSensor) != 0;
+      if (fits && edges.below(2) == 0) sensor = id;
+    }
+    const Pose<S> frame = {edges.vector(Limits<S>::extent()), edges.orientation()};
+    const SensorMount<S> record = {sensor, edges.one_of(bodies), frame};
+    return static_cast<bool>(world.add(record));
+  }
   bool command() {
     const BodyId body = edges.one_of(bodies);
-    switch (edges.below(12)) {
+    switch (edges.below(13)) {
+      case 12: return mount();
       case 0:
       case 10: return create();
       case 11: return world.wake(body);

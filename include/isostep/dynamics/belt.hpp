@@ -16,14 +16,25 @@
 
 namespace isostep {
 
-/// A body's surface as a step begins.
+/// Where the surface of a record is, as a step begins.
+template <class S> struct BeltPlace {
+  Quat<Unit<S>> orientation;  // of the body
+  Vec3<S> centre;             // [m] of mass, in its frame
+  std::uint32_t first_leaf;   // as contacts count the parts: surfaces.hpp. Of the whole body kEveryPart
+  std::uint32_t leaf_count;
+};
+
+/// A body's surface as a step begins, or a part's.
 template <class S> struct Belt {
   using V = Velocity<S>;
-  std::uint32_t body;   // slot
+  std::uint32_t body;                    // slot
+  std::uint32_t first_leaf, leaf_count;  // as BeltPlace has them
+  bool runs;
   Vec3<S> linear;       // [m/s] world
   Vec3<S> angular;      // [rad/s] world
   Vec3<S> from_origin;  // [m] from the body's origin to its centre of mass, world
 
+  ISO_INLINE std::uint64_t key() const { return std::uint64_t{body} << 32 | first_leaf; }
   ISO_INLINE bool turns() const { return !(angular == Vec3<S>::zero()); }
   /// [m/s] at the end of an arm [m] from the centre of mass.
   ISO_INLINE Vec3<S> velocity_at(Vec3<S> arm) const {
@@ -35,25 +46,26 @@ template <class S> struct Belt {
   }
 };
 
-/// Ascending by the body's slot. Keeps nothing from step to step but memory.
+/// Ascending by the body's slot, then by the part, the whole body's last. Keeps nothing from step to step but memory.
 template <class S> class Belts {
  public:
-  /// pose_of(slot): a pair of the body's orientation and its centre of mass in its frame [m]. `fastest` [rad/s].
-  template <class PoseOf>
+  /// place_of(record): a BeltPlace. `fastest` [rad/s].
+  template <class PlaceOf>
   ISO_INLINE void update(const Registry<SurfaceVelocity<S>, SurfaceVelocityId>& records, S fastest,
-                         const PoseOf& pose_of) {
+                         const PlaceOf& place_of) {
     all_.clear();
     if (records.all().empty()) return;
     for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
       const SurfaceVelocity<S>& record = records.all()[slot];
-      if (!records.is_taken(slot) || !record.runs()) continue;
-      const auto [orientation, centre] = pose_of(record.body.slot);
-      const Mat3<Unit<S>> turn = to_matrix(orientation);
-      all_.push_back(
-          {record.body.slot, turn * record.linear, held_within(turn * record.angular, fastest), turn * centre});
+      const bool counts = record.runs() || record.part != kEveryPart;  // a part that stands still hides the body's
+      if (!records.is_taken(slot) || !counts) continue;
+      const BeltPlace<S> place = place_of(record);
+      const Mat3<Unit<S>> turn = to_matrix(place.orientation);
+      all_.push_back({record.body.slot, place.first_leaf, place.leaf_count, record.runs(), turn * record.linear,
+                      held_within(turn * record.angular, fastest), turn * place.centre});
     }
     scratch_.resize(all_.size());
-    stable_sort(all_.data(), scratch_.data(), static_cast<std::uint32_t>(all_.size()), BySlot{});
+    stable_sort(all_.data(), scratch_.data(), static_cast<std::uint32_t>(all_.size()), ByPart{});
   }
   ISO_INLINE bool empty() const { return all_.empty(); }
   ISO_INLINE bool any_turns() const {
@@ -62,24 +74,32 @@ template <class S> class Belts {
     }
     return false;
   }
-  /// Null: its surface does not run.
-  ISO_INLINE const Belt<S>* find(std::uint32_t body) const {
-    const std::size_t at =
-        lower_bound(all_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return all_[i].body < body; });
-    return at < all_.size() && all_[at].body == body ? &all_[at] : nullptr;
+  /// Of a leaf as a ContactKey has it: its part's own, else the body's. Null: the surface does not run there.
+  ISO_INLINE const Belt<S>* find(std::uint32_t body, std::uint32_t leaf) const {
+    const std::uint64_t key = std::uint64_t{body} << 32 | leaf, whole = std::uint64_t{body} << 32 | kEveryPart;
+    const std::size_t next = first_not([&](std::uint64_t other) ISO_INLINE_LAMBDA { return other <= key; });
+    if (next > 0 && all_[next - 1].body == body && leaf - all_[next - 1].first_leaf < all_[next - 1].leaf_count)
+      return all_[next - 1].runs ? &all_[next - 1] : nullptr;
+    const std::size_t at = first_not([&](std::uint64_t other) ISO_INLINE_LAMBDA { return other < whole; });
+    return at < all_.size() && all_[at].key() == whole ? &all_[at] : nullptr;
   }
 
  private:
-  struct BySlot {
-    ISO_INLINE std::uint64_t operator()(const Belt<S>& belt) const { return belt.body; }
+  struct ByPart {
+    ISO_INLINE std::uint64_t operator()(const Belt<S>& belt) const { return belt.key(); }
   };
+  /// The first belt whose key is not before, for keys that ascend.
+  template <class Before> ISO_INLINE std::size_t first_not(const Before& before) const {
+    return lower_bound(all_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return before(all_[i].key()); });
+  }
+
   std::vector<Belt<S>> all_, scratch_;
 };
 
-/// What the belts of a contact's bodies add to its surface velocity.
+/// What the belts of a contact's parts add to its surface velocity.
 template <class S>
 ISO_INLINE void add_belts(const Belts<S>& belts, const ContactKey& key, std::uint32_t count, ContactGeometry<S>& g) {
-  const Belt<S>*a = belts.find(key.body_a), *b = belts.find(key.body_b);
+  const Belt<S>*a = belts.find(key.body_a, key.child_a), *b = belts.find(key.body_b, key.child_b);
   if (a == nullptr && b == nullptr) return;
   const auto arms = detail::ContactArms<S>::middle_of(g, count);
   Vec3<S> surface = g.material.surface_velocity;

@@ -53,7 +53,7 @@ template <class S>
 void Carriers<S>::add_on_belt(std::uint32_t contact, const ContactKey& key, const ContactGeometry<S>& g,
                               std::int32_t rate) {
   for (const bool on_b : {false, true}) {
-    const Belt<S>* const belt = belts_->find(on_b ? key.body_b : key.body_a);
+    const Belt<S>* const belt = on_b ? belts_->find(key.body_b, key.child_b) : belts_->find(key.body_a, key.child_a);
     if (belt == nullptr || !belt->turns()) continue;
     const std::uint32_t row = on_b ? g.row_b : g.row_a, rider = on_b ? g.row_a : g.row_b;
     const Vec3<Velocity<S>> w = convert<Velocity<S>>(belt->angular);
@@ -65,7 +65,7 @@ void Carriers<S>::add_on_belt(std::uint32_t contact, const ContactKey& key, cons
 }
 
 template <class S> void Carriers<S>::spin_on_belts(const ContactKey& key, Carried<S>& carried) const {
-  const Belt<S>*a = belts_->find(key.body_a), *b = belts_->find(key.body_b);
+  const Belt<S>*a = belts_->find(key.body_a, key.child_a), *b = belts_->find(key.body_b, key.child_b);
   Vec3<S> spin = b != nullptr ? b->angular : Vec3<S>::zero();
   if (a != nullptr) spin -= a->angular;
   carried.spin = convert<Velocity<S>>(held_within(spin, Limits<S>::angular_speed()));

@@ -18,6 +18,7 @@
 #include "isostep/dynamics/one_way.hpp"
 #include "isostep/dynamics/ranked_water.hpp"
 #include "isostep/dynamics/ranked_zone.hpp"
+#include "isostep/dynamics/sensor_mount.hpp"
 #include "isostep/dynamics/surface_velocity.hpp"
 #include "isostep/dynamics/vehicle.hpp"
 
@@ -29,7 +30,7 @@
   R(vehicle, Vehicle<S>, VehicleId, S)                 \
   R(wheel, Wheel<S>, WheelId, S)
 
-/// The same, of newer kinds: how bodies touch, what joints bear and share, where kinematic bodies are to be, which
+/// The same, of newer kinds: how bodies touch, what joints bear, where kinematic bodies and sensors are to be, which
 /// zones and waters hide others, what slows. The position is the kind's number in hashes and portable forms: append,
 /// never reorder. A world to which none of a kind was ever added has the hash and form of one that does not know it.
 #define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
@@ -46,4 +47,5 @@
   R(contact_report, ContactReport<S>, ContactReportId, S)       \
   R(kind_response, KindResponse<S>, KindResponseId, S)          \
   R(damping_zone, DampingZone<S>, DampingZoneId, S)             \
-  R(ranked_water, RankedWater<S>, RankedWaterId, S)
+  R(ranked_water, RankedWater<S>, RankedWaterId, S)             \
+  R(sensor_mount, SensorMount<S>, SensorMountId, S)

@@ -1,6 +1,8 @@
-// SurfaceVelocity: a body whose surface runs: a conveyor belt, an escalator, a turntable, a treadmill.
+// SurfaceVelocity: a body or a part of it whose surface runs: a conveyor belt, an escalator, a turntable, a treadmill.
 // SPDX-License-Identifier: MIT
 #pragma once
+
+#include <cstdint>
 
 #include "isostep/core/id.hpp"
 #include "isostep/math/vec3.hpp"
@@ -9,10 +11,16 @@ namespace isostep {
 
 using SurfaceVelocityId = Id<struct SurfaceVelocityTag>;
 
+/// SurfaceVelocity::part of a record for the whole body.
+inline constexpr std::uint32_t kEveryPart = 0xffffffffu;
+
 /// The surface of a body moves while the body does not: friction drags what touches it towards the velocity that a
 /// rigid body of these two would have at the contact, as far as the coefficient and the load allow. The body itself may
 /// be static, kinematic or dynamic; a dynamic one is pushed back. It adds to Material::surface_velocity, which is the
-/// same in the world's axes. One record a body.
+/// same in the world's axes.
+/// Parts: a record with a `part` is about that child of the body's shape alone, and stands there in place of the whole
+/// body's, also where it does not run. One record a body and one a part. A body's shape does not change, so a part that
+/// is there stays.
 /// A turning surface turns what lies on it and leads it round a circle: a sub-step aims at the end of its arc, as on a
 /// kinematic body that turns (carrying.hpp). A character rides on it.
 /// Sleep: a surface that runs keeps awake what touches it, what is held against a wall as well: the wall may go.
@@ -20,7 +28,8 @@ using SurfaceVelocityId = Id<struct SurfaceVelocityTag>;
 template <class S> struct SurfaceVelocity {
   BodyId body = {};
   Vec3<S> linear = {S(0), S(0), S(0)};   // [m/s] body frame
-  Vec3<S> angular = {S(0), S(0), S(0)};  // [rad/s] body frame, about the body's origin
+  Vec3<S> angular = {S(0), S(0), S(0)};  // [rad/s] body frame, about the body's origin, of a part's record too
+  std::uint32_t part = kEveryPart;       // child of the body's shape
 
   ISO_INLINE bool runs() const { return !(linear == Vec3<S>::zero() && angular == Vec3<S>::zero()); }
 
@@ -28,6 +37,7 @@ template <class S> struct SurfaceVelocity {
     visit("body", self.body);
     visit("linear", self.linear);
     visit("angular", self.angular);
+    visit("part", self.part);
   }
 };
 

@@ -40,6 +40,10 @@ template <class S> ISO_INLINE const SurfaceMaterial* listed_material(ShapeView<S
 struct Leaf {
   std::uint32_t child, triangle;
 };
+/// The leaves of one child.
+struct LeafRange {
+  std::uint32_t first, count;
+};
 /// Of all children of a body, `index` in range.
 template <class S>
 ISO_INLINE Leaf leaf_at(std::span<const Child<S>> children, Contents<S> contents, std::uint32_t index) {

@@ -36,6 +36,14 @@ template <class S> ISO_INLINE Leaf leaf_at(const BodyFrame<S>& frame, std::uint3
   return frame.tree != nullptr ? frame.tree->leaf_at(index)
                                : isostep::leaf_at(parts_of(frame), frame.contents, index);
 }
+template <class S> LeafRange leaves_of_part(const BodyFrame<S>& frame, std::uint32_t index) {
+  if (!frame.surfaces) return {index, 1};
+  const std::uint32_t count = leaves_of<S>(part(frame, index));
+  if (frame.tree != nullptr) return {frame.tree->first_leaf(index), count};
+  std::uint32_t first = 0;
+  for (std::uint32_t i = 0; i < index; ++i) first += leaves_of<S>(part(frame, i));
+  return {first, count};
+}
 }  // namespace detail
 
 template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {

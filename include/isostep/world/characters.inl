@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/query/closest_point.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/math/rotations.hpp"
 #include "isostep/world/character_walk.inl"
@@ -12,16 +13,44 @@
 namespace isostep {
 
 namespace detail {
+/// The part of its ground whose surface is nearest to its foot, of equals the first.
+template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Character<S>& character) {
+  const std::span<const Child<S>> parts = map.children_of(map.properties_of(character.ground)->shape);
+  std::uint32_t nearest = 0;
+  S least = highest<S>();
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    const ShapeView<S> view = map.contents().view(parts[i].primitive);
+    const S gap = abs(closest_point<S>(view, Transform<S>::of(parts[i].pose), character.foot).distance);
+    if (!(gap < least)) continue;
+    least = gap;
+    nearest = i;
+  }
+  return nearest;
+}
+/// The surface that it stands on: its part's record, else its body's; null where there is none.
+template <class S>
+const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
+  const SurfaceVelocity<S>* of_body = nullptr;
+  std::uint32_t part = kEveryPart;  // not asked for yet
+  for (const SurfaceVelocity<S>& belt : state.force_records->surface_velocitys.all()) {
+    if (!belt.body || belt.body != character.ground) continue;
+    if (belt.part == kEveryPart) {
+      of_body = &belt;
+      continue;
+    }
+    if (part == kEveryPart) part = part_under(map, character);
+    if (belt.part == part) return &belt;
+  }
+  return of_body;
+}
 /// [m] a step by which the surface of the ground runs under its foot.
 template <class S>
 Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
-  for (const SurfaceVelocity<S>& belt : state.force_records->surface_velocitys.all()) {
-    if (!belt.body || belt.body != character.ground) continue;
-    const Vec3<S> speed = held_within(belt.linear + saturated_cross(belt.angular, character.foot), Limits<S>::speed());
-    const Step<S> h = divide_to<Step<S>>(S(1), S(state.settings.hz));
-    return to_matrix(map.origin_pose_at(belt.body.slot).orientation) * (speed * h);
-  }
-  return Vec3<S>::zero();
+  const SurfaceVelocity<S>* const belt = belt_under(state, map, character);
+  if (belt == nullptr) return Vec3<S>::zero();
+  const Vec3<S> speed = held_within(belt->linear + saturated_cross(belt->angular, character.foot), Limits<S>::speed());
+  const Step<S> h = divide_to<Step<S>>(S(1), S(state.settings.hz));
+  return to_matrix(map.origin_pose_at(belt->body.slot).orientation) * (speed * h);
 }
 /// [m] how far the point of the ground has moved that the character stands on. What is fixed does not, but for belts.
 template <class S>

@@ -354,7 +354,10 @@ template <class Record> using SetForce = SetRecord<Record, typename detail::Forc
   X(remove_damping_zone, RemoveRecord<DampingZoneId>, bool, S)                 \
   X(add_ranked_water, AddRecord<RankedWater<S>>, RankedWaterId, S)             \
   X(set_ranked_water, SetForce<RankedWater<S>>, bool, S)                       \
-  X(remove_ranked_water, RemoveRecord<RankedWaterId>, bool, S)
+  X(remove_ranked_water, RemoveRecord<RankedWaterId>, bool, S)                 \
+  X(add_sensor_mount, AddRecord<SensorMount<S>>, SensorMountId, S)             \
+  X(set_sensor_mount, SetForce<SensorMount<S>>, bool, S)                       \
+  X(remove_sensor_mount, RemoveRecord<SensorMountId>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

@@ -92,6 +92,7 @@ template <class S> class CommandExecutor {
   bool check_alone(const KindGhost<S>& ghost, std::uint32_t slot);
   bool check_alone(const KindResponse<S>& response, std::uint32_t slot);
   bool check_alone(const MoveTarget<S>& target, std::uint32_t slot);
+  bool check_alone(const SensorMount<S>& mount, std::uint32_t slot);
   template <class Record> bool check_kinds(const Record& record, std::uint32_t slot);
   template <class Record> bool check_only_one(const Record& record, std::uint32_t slot);
   template <class Record> void wake_for_force(const Record& record);

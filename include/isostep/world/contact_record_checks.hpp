@@ -94,6 +94,20 @@ template <class S> NamedBodies<S> bodies_of(const MoveTarget<S>& t) {
   return {{{t.body, "body", false, MustBe::kinematic, Vec3<S>::zero(), ""}, {}}, 1};
 }
 
+template <class S> FaultReport fault_of(const SensorMount<S>& m) {
+  return Checklist()
+      .proper(!(m.sensor == m.on), "on", "another body than sensor")
+      .finite(m.frame.position, "frame.position")
+      .in_range(within(m.frame.position, Limits<S>::extent()), "frame.position", "components up to Limits::extent()")
+      .proper(is_unit<S>(m.frame.orientation), "frame.orientation", kUnitLength)
+      .report();
+}
+template <class S> NamedBodies<S> bodies_of(const SensorMount<S>& m) {
+  return {{{m.sensor, "sensor", false, MustBe::kinematic, Vec3<S>::zero(), ""},
+           {m.on, "on", false, MustBe::any, Vec3<S>::zero(), ""}},
+          2};
+}
+
 template <class S> FaultReport fault_of(const RankedZone<S>& z) {
   return Checklist()
       .also(fault_of(static_cast<const ForceZone<S>&>(z)))

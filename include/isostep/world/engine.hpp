@@ -27,6 +27,7 @@
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/queries.hpp"
 #include "isostep/world/render_poses.hpp"
+#include "isostep/world/sensor_mounts.hpp"
 #include "isostep/world/sensor_overlaps.hpp"
 #include "isostep/world/stages.hpp"
 #include "isostep/world/state.hpp"
@@ -61,6 +62,7 @@ namespace isostep {
 ///   RenderPoses     -> no other
 ///   Destruction     -> BodyMap, Proxies, IslandWake
 ///   MoveTargets     -> BodyMap
+///   SensorMounts    -> BodyMap, Proxies
 ///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; the journal, the assets
 ///   Queries         -> BodyMap, Proxies; the journal
 ///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
@@ -100,6 +102,7 @@ template <class S> class WorldEngine {
   IslandWake<S> wake_{state_, map_, proxies_};
   IslandSleep<S> sleep_{state_, map_, proxies_};
   MoveTargets<S> targets_{state_, map_};
+  SensorMounts<S> mounts_{state_, map_, proxies_};
   PairRules<S> pair_rules_{state_, map_};
   NarrowPhase<S> narrow_phase_{state_, map_};
   ContactResponses<S> responses_{state_, map_};

@@ -7,6 +7,15 @@
 
 namespace isostep {
 
+namespace detail {
+template <class S> BeltPlace<S> place_of_belt(const BodyMap<S>& map, const SurfaceVelocity<S>& record) {
+  const Location at = map.location(record.body.slot);
+  const LeafRange leaves =
+      record.part == kEveryPart ? LeafRange{kEveryPart, 0} : leaves_of_part(frame_at(map, at), record.part);
+  return {map.state_at(at).orientation, map.properties_at(at).local_centre, leaves.first, leaves.count};
+}
+}  // namespace detail
+
 template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
   const auto after = [&](Stage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
@@ -15,6 +24,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   journal_.trace(*this);
   report_ = {};
   targets_.begin_step();
+  mounts_.begin_step();
   find_pairs();
   tell_untold();
   after(Stage::find_pairs);
@@ -45,6 +55,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_sleep);
   characters_.update();
   targets_.end_step();
+  mounts_.end_step();
   after(Stage::move_characters);
   ++state_.tick;
   return report_;
@@ -62,10 +73,7 @@ template <class S> void WorldEngine<S>::find_contacts() {
   const Settings<S>& settings = state_.settings;
   const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
   belts_.update(state_.force_records->surface_velocitys, min(Limits<S>::angular_speed(), S(rate)),
-                [&](std::uint32_t slot) {
-                  const Location at = map_.location(slot);
-                  return std::pair{map_.state_at(at).orientation, map_.properties_at(at).local_centre};
-                });
+                [&](const SurfaceVelocity<S>& record) { return detail::place_of_belt(map_, record); });
   pair_rules_.update(proxies_.pairs());
   report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_, {pair_rules_.apart(), &belts_});
   responses_.update();

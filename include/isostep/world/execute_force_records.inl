@@ -20,7 +20,8 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_force(
       return journal_.refuse(named.must_be == detail::MustBe::dynamic
                                  ? FaultReport{Fault::not_dynamic, "", named.field, "a dynamic one"}
                                  : FaultReport{Fault::bad_argument, "", named.field, "a kinematic one"});
-    if (detail::overreaches(body.kappa, body.principal, named.point - body.local_centre))
+    const bool at_point = *named.point_field != 0;  // else it is about the body as a whole
+    if (at_point && detail::overreaches(body.kappa, body.principal, named.point - body.local_centre))
       return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
   }
   return check_joints(record) && check_spring(record);
@@ -133,8 +134,19 @@ template <class S> bool CommandExecutor<S>::check_alone(const Vehicle<S>& vehicl
   return check_only_one(vehicle, slot);
 }
 
+/// Whether no record of another slot has the same part of the same body, and the body's shape has that part.
 template <class S> bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
-  return check_only_one(surface, slot);
+  const auto& all = state_.force_records->surface_velocitys;
+  const bool whole = surface.part == kEveryPart;
+  if (!whole && surface.part >= map_.children_of(map_.properties_of(surface.body)->shape).size())
+    return journal_.refuse({Fault::bad_argument, "", "part", "kEveryPart, or a child of the body's shape"});
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const SurfaceVelocity<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i) || !(other.body == surface.body) || other.part != surface.part) continue;
+    return journal_.refuse(whole ? FaultReport{Fault::bad_argument, "", "body", "a body that has no record yet"}
+                                 : FaultReport{Fault::bad_argument, "", "part", "a part that has no record yet"});
+  }
+  return true;
 }
 template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way, std::uint32_t slot) {
   return check_only_one(one_way, slot);
@@ -147,6 +159,23 @@ template <class S> bool CommandExecutor<S>::check_alone(const ContactReport<S>& 
 }
 template <class S> bool CommandExecutor<S>::check_alone(const MoveTarget<S>& target, std::uint32_t slot) {
   return check_only_one(target, slot);
+}
+/// Whether it is a sensor, which no record of another slot has, and neither of the two is mounted on and mounted.
+template <class S> bool CommandExecutor<S>::check_alone(const SensorMount<S>& mount, std::uint32_t slot) {
+  const auto refuse = [&](const char* field, const char* expected) {
+    return journal_.refuse({Fault::bad_argument, "", field, expected});
+  };
+  if ((map_.properties_of(mount.sensor)->flags & body_flag::kSensor) == 0)
+    return refuse("sensor", "a body that is a sensor");
+  const auto& all = state_.force_records->sensor_mounts;
+  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
+    const SensorMount<S>& other = all.all()[i];
+    if (i == slot || !all.is_taken(i)) continue;
+    if (other.sensor == mount.sensor) return refuse("sensor", "a sensor that has no record yet");
+    if (other.on == mount.sensor) return refuse("sensor", "a sensor that carries none");
+    if (other.sensor == mount.on) return refuse("on", "a body that is not mounted itself");
+  }
+  return true;
 }
 /// Whether no record of another slot has the same two bodies.
 template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, std::uint32_t slot) {
@@ -182,6 +211,7 @@ template <class S> inline constexpr bool kActsOnTouching<MoveTarget<S>> = true;
 template <class Record> inline constexpr bool kOnlyTells = false;
 template <class S> inline constexpr bool kOnlyTells<HitReport<S>> = true;
 template <class S> inline constexpr bool kOnlyTells<ContactReport<S>> = true;
+template <class S> inline constexpr bool kOnlyTells<SensorMount<S>> = true;
 }  // namespace detail
 
 /// What touches a body, and what sleeps on it as a step found it.

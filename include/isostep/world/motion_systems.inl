@@ -8,6 +8,7 @@
 #include "isostep/world/continuous_joined.inl"
 #include "isostep/world/move_targets.inl"
 #include "isostep/world/render_poses.inl"
+#include "isostep/world/sensor_mounts.inl"
 
 #define ISO_INSTANTIATE_MOTION_SYSTEMS(S)                                                                   \
   template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
@@ -15,4 +16,5 @@
   template class BodyFinisher<S>;                                                                           \
   template class ContinuousCollision<S>;                                                                    \
   template class MoveTargets<S>;                                                                            \
+  template class SensorMounts<S>;                                                                           \
   template class RenderPoses<S>;

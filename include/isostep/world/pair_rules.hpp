@@ -1,4 +1,4 @@
-// PairRules<S>: which pairs of bodies do not touch in a step, by Ghost, KindGhost and OneWay records.
+// PairRules<S>: which pairs of bodies do not touch in a step, by Ghost, KindGhost, OneWay and SensorMount records.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -43,6 +43,7 @@ template <class S> class PairRules {
   bool still_meet(BodyId a, BodyId b) const;
   S skin_of(BodyId body) const;
   void add_kinds(std::span<const std::uint64_t> pairs);
+  void add_mounts(std::span<const std::uint64_t> pairs);
   void judge_pairs(std::span<const std::uint64_t> pairs);
   bool may_judge(std::uint64_t key) const;
   Verdict judge(std::uint64_t key) const;
@@ -56,6 +57,7 @@ template <class S> class PairRules {
   GhostTable<S> kinds_;
   std::vector<std::uint64_t> apart_, scratch_;
   std::vector<std::uint32_t> ended_;  // slots of records
+  std::vector<std::uint8_t> blind_;   // by body slot, where there are any: 1 of sensors on what is disabled
   std::size_t ghosts_ = 0;            // the first so many of apart_ are ghosts, ascending
 };
 

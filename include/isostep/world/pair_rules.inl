@@ -19,6 +19,7 @@ template <class S> void PairRules<S>::update(std::span<const std::uint64_t> pair
   apart_.clear();
   end_ghosts();
   add_kinds(pairs);
+  add_mounts(pairs);
   sort();
   ghosts_ = apart_.size();
   ways_.update(state_.force_records->one_ways,
@@ -55,6 +56,26 @@ template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> p
   const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
   for (const std::uint64_t key : pairs) {
     if (kinds_.find(kind(pair_a(key)), kind(pair_b(key))) != nullptr) apart_.push_back(key);
+  }
+}
+
+/// A sensor and the body that it goes with; all pairs of one on a body that is disabled.
+template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> pairs) {
+  const std::vector<SensorMount<S>>& mounts = state_.force_records->sensor_mounts.all();
+  bool any_blind = false;
+  for (const SensorMount<S>& mount : mounts) {
+    if (!mount.sensor) continue;
+    const std::uint32_t sensor = mount.sensor.slot, on = mount.on.slot;
+    apart_.push_back(pair_key(min(sensor, on), max(sensor, on)));
+    any_blind = any_blind || !map_.is_enabled(on);
+  }
+  if (!any_blind) return;
+  blind_.assign(state_.body_slots.entries().size(), 0);
+  for (const SensorMount<S>& mount : mounts) {
+    if (mount.sensor && !map_.is_enabled(mount.on.slot)) blind_[mount.sensor.slot] = 1;
+  }
+  for (const std::uint64_t key : pairs) {
+    if ((blind_[pair_a(key)] | blind_[pair_b(key)]) != 0) apart_.push_back(key);
   }
 }
 

@@ -22,6 +22,7 @@ template <class S> struct SlotTables {
 
   std::vector<std::uint32_t> set_of_body;  // Location::kNone, kStatic, kAwake or a sleeping island
   std::vector<BodyType> type_of_body;
+  std::vector<const BodyProperties<S>*> properties_of_body;  // null: there is no body
   std::vector<JointAt> joint_at;
 
   bool is_body(std::uint32_t slot) const { return slot < set_of_body.size() && set_of_body[slot] != Location::kNone; }
@@ -68,16 +69,30 @@ template <class S> class RecordValidator {
  private:
   const char* contact_records() const {
     const ForceRecords<S>& all = *state_.force_records;
-    if (const char* rule = one_a_body(all.surface_velocitys, "two belts have the same body")) return rule;
+    const auto part_of = [](const SurfaceVelocity<S>& v) { return std::uint64_t{v.body.slot} << 32 | v.part; };
+    if (const char* rule = one_a_key(all.surface_velocitys, part_of, "two belts have the same part")) return rule;
     if (const char* rule = one_a_body(all.one_ways, "two one-way records have the same body")) return rule;
     if (const char* rule = one_a_body(all.hit_reports, "two reports of hits have the same body")) return rule;
     if (const char* rule = one_a_body(all.contact_reports, "two reports of contacts have the same body")) return rule;
     if (const char* rule = one_a_body(all.move_targets, "two targets have the same body")) return rule;
+    const auto sensor_of = [](const SensorMount<S>& mount) { return std::uint64_t{mount.sensor.slot}; };
+    if (const char* rule = one_a_key(all.sensor_mounts, sensor_of, "two mounts have the same sensor")) return rule;
+    if (const char* rule = no_mounted_carrier(all.sensor_mounts)) return rule;
     if (const char* rule = kind_pairs(all.kind_ghosts)) return rule;
     if (const char* rule = kind_pairs(all.kind_responses)) return rule;
     return one_a_key(
         all.ghosts, [](const Ghost<S>& ghost) { return pair_key(ghost.a.slot, ghost.b.slot); },
         "two ghosts have the same bodies");
+  }
+  template <class Mounts> const char* no_mounted_carrier(const Mounts& all) const {
+    std::vector<std::uint8_t> is_mounted(seen_.set_of_body.size(), 0);
+    for (const SensorMount<S>& mount : all.all()) {
+      if (mount.sensor) is_mounted[mount.sensor.slot] = 1;
+    }
+    for (const SensorMount<S>& mount : all.all()) {
+      if (mount.sensor && is_mounted[mount.on.slot] != 0) return "a sensor is mounted on one that is mounted";
+    }
+    return nullptr;
   }
   template <class Drives> static const char* one_an_axis(const Drives& all) {
     const auto axis_of = [](const AxisDrive<S>& drive) {
@@ -119,7 +134,8 @@ template <class S> class RecordValidator {
         if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
       }
       if (!ties_well(all[slot]))
-        return "a spring or a coupling ties two islands, a record names no joint, or direct is to scale masses";
+        return "a spring or a coupling ties two islands, a record names no joint, part or sensor, or direct is to "
+               "scale masses";
     }
     return nullptr;
   }
@@ -129,6 +145,13 @@ template <class S> class RecordValidator {
            detail::is_as_asked(seen_.type_of_body[named.body.slot], named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
+  bool ties_well(const SurfaceVelocity<S>& surface) const {
+    const std::uint32_t shape = seen_.properties_of_body[surface.body.slot]->shape;
+    return surface.part == kEveryPart || surface.part < (*state_.shapes)[shape].child_count;
+  }
+  bool ties_well(const SensorMount<S>& mount) const {
+    return (seen_.properties_of_body[mount.sensor.slot]->flags & body_flag::kSensor) != 0;
+  }
   bool ties_well(const KindResponse<S>&) const { return state_.settings.solver != SolverName::direct; }
   bool ties_well(const BodySpring<S>& spring) const {
     const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of_body[body.slot] == BodyType::dynamic; };

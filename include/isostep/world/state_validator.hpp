@@ -32,6 +32,7 @@ template <class S> class StateValidator {
     }
     seen_.set_of_body.assign(state_.body_slots.entries().size(), Location::kNone);
     seen_.type_of_body.assign(seen_.set_of_body.size(), BodyType::static_);
+    seen_.properties_of_body.assign(seen_.set_of_body.size(), nullptr);
     leaves_of_body_.assign(seen_.set_of_body.size(), 0);
     seen_.joint_at.assign(state_.joint_slots.entries().size(), {nullptr, 0});
     for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
@@ -129,6 +130,7 @@ template <class S> class StateValidator {
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
       seen_.set_of_body[b.slot] = name;
       seen_.type_of_body[b.slot] = set.properties[i].type;
+      seen_.properties_of_body[b.slot] = &set.properties[i];
       if (const char* rule = properties(set.properties[i], name)) return rule;
       leaves_of_body_[b.slot] = leaves_of_shape_[set.properties[i].shape];
       if (const char* rule = motion(b)) return rule;

@@ -23,7 +23,8 @@ enum Place {
   wheel,
   bob,
   shelf,
-  arm
+  arm,
+  feeler
 };
 
 SceneBody of_mass(ScenePart part, Point at, double mass, Point velocity = {0, 0, 0}) {
@@ -49,8 +50,11 @@ void add_bodies(Scene& scene) {
                   of_mass(box_part({0.5, 0.5, 0.125}), {19.5, 3, -4}, 20),
                   of_mass(sphere_part(0.25), {22, 5, -4}, 2),
                   fixed_box({2.25, 2.8125, 0}, {3, 0.0625, 1}),
-                  of_mass(box_part({0.5, 0.125, 0.125}), {12, 4, -4}, 2)};
+                  of_mass(box_part({0.5, 0.125, 0.125}), {12, 4, -4}, 2),
+                  body_of(sphere_part(0.5), {-2, 0.75, -4})};
   scene.bodies[walker].type = BodyType::kinematic;
+  scene.bodies[feeler].type = BodyType::kinematic;
+  scene.bodies[feeler].sensor = true;
   scene.bodies[ground].kind = 1;
   scene.bodies[sled].kind = 2;
   scene.bodies[sled].static_friction = 0.75;
@@ -106,9 +110,11 @@ void add_blows(Scene& scene) {
                             {"chimney_duration", {0.5}},
                             {"is_shielded", {1}}}});
 }
-/// The crate drives itself like a tank; the kite rises through a shelf, in which the swing hangs from the start.
+/// The crate drives itself like a tank; the walker feels what is before it; the kite rises through a shelf, in which
+/// the swing hangs from the start.
 void add_rules(Scene& scene) {
   scene.records.push_back({"surface_velocity", {{"body", {crate}}, {"linear", {0, 0, 1}}, {"angular", {0, 0.125, 0}}}});
+  scene.records.push_back({"sensor_mount", {{"sensor", {feeler}}, {"on", {walker}}, {"position", {0.75, 0, 0}}}});
   scene.records.push_back({"one_way", {{"body", {shelf}}, {"least_cosine", {0.75}}}});
   scene.records.push_back({"ghost", {{"a", {shelf}}, {"b", {swing}}}});
   scene.records.push_back({"hit_report", {{"body", {hammer}}, {"speed", {2}}}});

@@ -14,7 +14,9 @@ namespace {
 constexpr char kBodies[] = R"({"bodies": [
   {"type": "dynamic", "position": [0, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
   {"type": "dynamic", "position": [3, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
-  {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]}], "joints": [
+  {"type": "kinematic", "position": [6, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
+  {"type": "kinematic", "position": [9, 2, 0], "sensor": true, "shapes": [{"type": "sphere", "radius": 0.5}]}],
+  "joints": [
   {"type": "slider", "a": -1, "b": 0, "anchor": [0, 2, 0]}, {"type": "slider", "a": -1, "b": 1, "anchor": [3, 2, 0]},
   {"type": "slider", "a": 0, "b": 1, "anchor": [1, 2, 0]},
   {"type": "six_axis", "a": 0, "b": 1, "anchor": [1, 2, 0], "lock_x": true}], "records": [)";
@@ -69,7 +71,8 @@ constexpr const char* kRecords[] = {
     R"({"type": "axis_drive", "joint": 3, "axis": "swing_y", "limited": true, "motor": true, "lower": -1, )"
     R"("upper": 1, "motor_speed": 2, "spring_target": 0.5, "spring_frequency": 4, "spring_damping": 1, "force": 3, )"
     R"("spring_mass": 2, "limit_frequency": 8, "limit_damping": 1})",
-    R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0]})",
+    R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0], "part": 0})",
+    R"({"type": "sensor_mount", "sensor": 3, "on": 0, "position": [0, 0.5, 0], "orientation": [0, 1, 0, 0]})",
     R"({"type": "ghost", "a": 0, "b": 1})",
     R"({"type": "one_way", "body": 0, "axis": [1, 0, 0], "least_cosine": 0.75})",
     R"({"type": "hit_report", "body": 0, "speed": 2})",
@@ -152,7 +155,8 @@ TEST(SceneRecordFaults, name_the_place) {
   EXPECT_NE(error(R"({"type": "magic"})").find("/records/0/type: expected force_zone, "), std::string::npos);
   EXPECT_EQ(error(R"({"type": "drag", "body": 0, "speed": 1})"), "/records/0/speed: unknown key");
   EXPECT_EQ(error(R"({"type": "drag"})"), "/records/0: the key \"body\" is missing");
-  EXPECT_NE(error(R"({"type": "drag", "body": 3})").find("/records/0/body: expected a whole"), std::string::npos);
+  EXPECT_EQ(error(R"({"type": "sensor_mount", "sensor": 3})"), "/records/0: the key \"on\" is missing");
+  EXPECT_NE(error(R"({"type": "drag", "body": 4})").find("/records/0/body: expected a whole"), std::string::npos);
   EXPECT_NE(error(R"({"type": "drag", "body": 0, "linear": 1e9})").find("/records/0/linear"), std::string::npos);
   EXPECT_NE(error(R"({"type": "drag", "body": 0, "linear": -1})").find("linear"), std::string::npos);
   EXPECT_EQ(error(R"({"type": "aero_surface", "body": 0, "tensor": [[1, 0, 0]]})"),

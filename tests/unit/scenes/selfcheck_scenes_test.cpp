@@ -137,8 +137,8 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
   std::size_t every = 0;
   ForceRecords<S>::members([&](const char*, const auto&) { ++every; }, *world.state().force_records);
   EXPECT_EQ(kinds_of(world).size(), every);
-  EXPECT_LE(world.counts().bodies, 17u);
-  std::size_t broke = 0, joints_broken = 0, most = 0, ghosts = 0, hits = 0;
+  EXPECT_LE(world.counts().bodies, 18u);
+  std::size_t broke = 0, joints_broken = 0, most = 0, ghosts = 0, hits = 0, felt = 0;
   double slowest = 0;  // [m/s] of the crate along z
   for (int i = 0; i < scene.frames; ++i) {
     before_step(scene.script, world);
@@ -147,6 +147,7 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
     broke += world.events().broke.size();
     joints_broken += world.events().joint_broke.size();
     hits += world.events().hits.size();
+    felt += world.events().sensor_begin.size();
     ghosts = std::max(ghosts, world.state().force_records->ghosts.slots().template ids<GhostId>().size());
     slowest = std::min(slowest, to_double(world.velocity(bodies[8]).z));
     most = std::max<std::size_t>(most, world.counts().bodies);
@@ -155,11 +156,12 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
   EXPECT_EQ(broke, 1u);
   EXPECT_EQ(joints_broken, 1u);
   EXPECT_NEAR(to_double(world.angular_velocity(bodies[13]).z), -3, 0.1);  // geared to a motor
-  EXPECT_GE(most, 18u);                                                   // the cube's pieces came
+  EXPECT_GE(most, 19u);                                                   // the cube's pieces came
   // A servo turns the arm as far as its limit lets it.
   const JointId shoulder = world.state().joint_slots.template id_of<JointId>(3);
   EXPECT_NEAR(to_double(world.joint_position(shoulder, JointAxis::twist)), 0.25, 0.01);
   EXPECT_GE(hits, 1u);                                            // told by the hammer
+  EXPECT_GE(felt, 1u);                                            // by what goes before the walker
   EXPECT_EQ(ghosts, 2u);                                          // swing and kite in the shelf
   EXPECT_LT(slowest, -0.5);                                       // the crate drives on its belt
   EXPECT_FALSE(world.contains(bodies[6]));                        // in its place

@@ -63,6 +63,10 @@ template <class S> Coupling<S> broken(Coupling<S> coupling) {
   coupling.ratio_a = S(0);
   return coupling;
 }
+template <class S> SensorMount<S> broken(SensorMount<S> mount) {
+  mount.on = {};
+  return mount;
+}
 /// Of what acts on one body: on none.
 template <class Record> Record broken(Record record) {
   record.body = {};
@@ -129,7 +133,7 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one}, [&](auto& w) {
     return w.set_heights(ground, 1, {1, 1, 1, 1, one});
   }));
-  static_assert(std::variant_size_v<Command<S>> == 107, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 110, "a command more: test it here");
 
   EXPECT_TRUE(both(SleepBody{b}, [&](auto& w) { return w.sleep(b); }));
   const BodyMass<S> heavy = {S(1), S(4), Vec3<S>::zero()};
@@ -234,6 +238,12 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   AxisDrive<S> drive;
   drive.joint = joined(JointType::six_axis, 0.5);
   each(drive, AxisDriveId{0, 1});
+  mover.sensor = true;
+  EXPECT_TRUE(both(CreateBody<S>{mover}, [&](auto& world) { return world.create(mover); }));
+  SensorMount<S> mount;
+  mount.sensor = called.bodies().back();
+  mount.on = b;
+  each(mount, SensorMountId{0, 1});
 }
 
 TYPED_TEST(CommandData, a_command_returns_what_it_made) {

@@ -134,10 +134,12 @@ ISO_FOR_EACH_RECORD(ISO_ID_OF, S)
 template <class Record> ISO_INLINE BodyId first_body_of(const Record& record) {
   if constexpr (requires { record.a; }) return record.a;
   else if constexpr (requires { record.body; }) return record.body;
+  else if constexpr (requires { record.sensor; }) return record.sensor;
   else return {};
 }
 template <class Record> ISO_INLINE BodyId second_body_of(const Record& record) {
   if constexpr (requires { record.b; }) return record.b;
+  else if constexpr (requires { record.on; }) return record.on;
   else return {};
 }
 /// The joints that a record names; null where it names fewer.

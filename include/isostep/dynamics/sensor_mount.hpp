@@ -1,0 +1,34 @@
+// SensorMount: a sensor that goes with a body, as a shape of it would.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/transform.hpp"
+
+namespace isostep {
+
+using SensorMountId = Id<struct SensorMountTag>;
+
+/// The sensor is where its carrier is: at `on`'s pose times the frame, as a step begins and ends. So a body gets a
+/// sensor with a filter and an id of its own in SensorEvents, without mass and contacts; the carrier keeps every bit of
+/// its motion. In the step the sensor has the carrier's velocity at its place; between steps it stands still. What else
+/// would move it - a pose or velocity that is set, a target, a Character - is of no account.
+/// Seen:    as of any sensor, what is there as the step begins: a carrier that is put elsewhere sees there in the next
+///          step. Never the carrier itself. While that is disabled the sensor sees nothing.
+/// Sleep:   a sensor is always awake, so it sees on while its carrier sleeps, and wakes nobody.
+/// Rules:   the sensor is a kinematic body with BodyDefinition::sensor; one record a sensor; what a sensor is mounted
+///          on is not mounted itself. The record ends with either body; then the sensor stays where it is. While the
+///          sensor is disabled the record waits. At the edge of the world its centre is held within Limits::position().
+template <class S> struct SensorMount {
+  BodyId sensor = {};
+  BodyId on = {};                       // the carrier: of any type
+  Pose<S> frame = Pose<S>::identity();  // of the sensor's origin in the carrier's frame
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("sensor", self.sensor);
+    visit("on", self.on);
+    visit("frame", self.frame);
+  }
+};
+
+}  // namespace isostep
