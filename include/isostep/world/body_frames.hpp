@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/world/body_map.hpp"
 
 namespace isostep {
@@ -12,6 +14,8 @@ namespace isostep {
 namespace detail {
 /// [m] contacts are found this far ahead of touching, so that the solver sees them before they overlap.
 template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
+/// Those of a child, as contacts count them.
+template <class S> LeafRange leaves_of_part(const BodyFrame<S>& frame, std::uint32_t index);
 }  // namespace detail
 
 template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at);
@@ -36,12 +40,19 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
 
 /// Of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table. That has one
 /// coefficient of friction and is of no kind.
-template <class S>
-Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
+template <class S> Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
 
 /// Whether two bodies have a contact, or are no further from each other than that [m].
 template <class S>
 bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b,
                   S margin = detail::kSpeculativeDistance<S>);
+
+#define ISO_BODY_FRAMES_OF(extern, S)                                                      \
+  extern template BodyFrame<S> frame_at<S>(const BodyMap<S>&, Location);                   \
+  extern template LeafRange detail::leaves_of_part<S>(const BodyFrame<S>&, std::uint32_t); \
+  extern template bool bodies_touch<S>(const BodyMap<S>&, std::uint32_t, std::uint32_t, S);
+#define ISO_EXTERN(S) ISO_BODY_FRAMES_OF(extern, S)
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
 
 }  // namespace isostep

@@ -1,5 +1,4 @@
-// What commands do, one after the other between steps. Compiled apart from the World that takes them. A command of the
-// list without `execute` does not compile.
+// What commands do, one after the other between steps. A command of the list without `execute` does not compile.
 // SPDX-License-Identifier: MIT
 #pragma once
 

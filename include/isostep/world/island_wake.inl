@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/world/body_frames.inl"
+#include "isostep/world/body_frames.hpp"
 #include "isostep/world/island_wake.hpp"
 
 namespace isostep {

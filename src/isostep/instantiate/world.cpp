@@ -1,9 +1,11 @@
-// World<S> for every shipped scalar; its step: world_step.cpp, its commands: executing_commands.cpp.
+// World<S> and its commands for every shipped scalar; its step: world_step.cpp.
 // SPDX-License-Identifier: MIT
+#include "isostep/world/executing_commands.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {
 
+ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_COMMANDS)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE_WORLD)
 
 }  // namespace isostep
