@@ -10,7 +10,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 1;
+inline constexpr std::uint16_t kSessionProtocol = 2;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
@@ -27,6 +27,7 @@ struct PacketHeader {
   std::uint16_t echo = 0;   // [ms] receiver's clock as the sender last heard it, plus what it waited since
   bool has_echo = false;
   bool started = false;          // the match runs
+  bool is_far = false;           // host: the receiver's line is one for which the others do not wait
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none

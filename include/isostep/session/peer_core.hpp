@@ -37,6 +37,8 @@ class PeerCore : public SessionCore {
   virtual void observe_delay() = 0;
   virtual void blocked(Time) {}
   virtual void unblocked(Time) {}
+  /// No turn was taken for so long that what happened meanwhile says nothing of the others.
+  virtual void paused(Time) {}
 
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
@@ -54,6 +56,10 @@ class PeerCore : public SessionCore {
   void take_acks(PeerLink& link, const PacketHeader& header);
   /// How early `player`'s next input came.
   void note_arrival(int player, Time now);
+  /// Since the last turn. Then nobody knows when what is read now arrived.
+  bool is_after_pause(Time now) const;
+  /// After a pause of ours: reports speak of our being late and not of the line.
+  void forgive_own_pause(Time now);
 
   /// What one machine says of its states.
   struct View {
@@ -93,6 +99,9 @@ class PeerCore : public SessionCore {
   Pending pending_[kMaxPlayers];
   Frame limit_ = 0;            // of what may be settled, as of the last plan
   Time next_observation_ = 0;  // [us] when observe_delay is called again
+  Time last_turn_ = 0;         // [us] of plan
+  Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before
+  bool has_turned_ = false;
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

@@ -12,7 +12,7 @@ constexpr Frame kCaughtUp = 3;       // [frames]
 
 void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
-  host_.set_clock(header, now);
+  if (!is_after_pause(now)) host_.set_clock(header, now);
   stats_.round_trip = host_.round_trip;
   take_acks(host_, header);
   if (player_ >= 0 && is_open_) {
@@ -32,13 +32,18 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (header.started && !runs_) {
     runs_ = true;
     clock_.start(now);
-    // To the host, and on to the others where there are any.
-    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
-    delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
     SessionEvent event{.kind = SessionEvent::Kind::started};
     event.frame = current();
     tell(event);
   }
+  if (runs_ && !knows_way_ && host_.round_trip > 0) {
+    knows_way_ = true;
+    // To the host, and on to the others where there are any.
+    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
+    delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
+  }
+  if (is_far_ && !header.is_far) lag_ = InputDelay(lag_settings(config_));
+  is_far_ = header.is_far;
 }
 
 void ClientCore::take_inputs(const InputSlice& slice, Time now) {
@@ -91,12 +96,12 @@ void ClientCore::lean(Time now) {
   const Time until = clock_.until_due(now);
   const Time done = until < clock_.period() ? clock_.period() - until : 0;
   const std::int64_t ours = std::int64_t{current()} * 256 + static_cast<std::int64_t>(done * 256 / clock_.period());
-  const std::int64_t ahead = ours - host_position(now);
+  const std::int64_t ahead = ours + std::int64_t{lag_.frames()} * 256 - host_position(now);
   constexpr std::int64_t kCap = 256 * 64;
   clock_.lean(static_cast<std::int32_t>(ahead < -kCap ? -kCap : ahead > kCap ? kCap : ahead));
 }
 
-bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind; }
+bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind + lag_.frames(); }
 
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
@@ -124,11 +129,23 @@ void ClientCore::before_steps(Time now) {
   }
 }
 
+Frame ClientCore::worst_slack() const {
+  Frame worst = RecentLeast::kNothing;
+  for (int p = 0; p < players(); ++p) {
+    if (p != player_ && slack_[p].value() < worst) worst = slack_[p].value();
+  }
+  return worst;
+}
+
 void ClientCore::observe_delay() {
-  if (is_open_ && phase_ == SessionPhase::playing && (host_.reported_mask >> player_ & 1) != 0 &&
-      host_.slack[player_] != RecentLeast::kNothing) {
+  if (!is_open_ || phase_ != SessionPhase::playing) return;
+  if ((host_.reported_mask >> player_ & 1) != 0 && host_.slack[player_] != RecentLeast::kNothing) {
     delay_.observe(host_.slack[player_]);
   }
+  const Frame worst = worst_slack(), before = lag_.frames();
+  if (!is_far_ || worst == RecentLeast::kNothing) return;
+  lag_.observe(worst);
+  if (lag_.frames() > before) delay_.grow(lag_.frames() - before);
 }
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
@@ -170,7 +187,8 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   for (int p = 0; p < players(); ++p) {
     header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
     header.ack[p] = p == player_ && is_open_ ? accepted_ : streams_[static_cast<std::size_t>(p)].end();
-    const bool measures = phase_ == SessionPhase::playing && p != player_;
+    // Who may run later does so before it asks the others to wait.
+    const bool measures = phase_ == SessionPhase::playing && p != player_ && (!is_far_ || lag_.is_at_most());
     header.slack[p] = static_cast<std::int8_t>(measures ? slack_[p].value() : RecentLeast::kNothing);
   }
   return Outgoing{host_.peer, Channel::datagram, compose(host_, header, now)};

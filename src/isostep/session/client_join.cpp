@@ -6,8 +6,23 @@
 
 namespace isostep {
 
+namespace {
+
+constexpr Frame kBeforeBlock = 2;  // [frames] of a rollback window that are kept free of lateness that is usual
+// By what we run later our own inputs come later, and our delay grows by as much. Beyond a third of what it may grow
+// by, the others are asked to wait as well, so that a very bad line does not use up all delay there is.
+constexpr Frame kLagShare = 3;
+
+}  // namespace
+
+InputDelay::Settings ClientCore::lag_settings(const SessionConfig& config) {
+  const Frame most = (config.most_delay - config.least_delay) / kLagShare;
+  const bool rolls_back = config.mode == SessionMode::rollback && config.window > kBeforeBlock;
+  return {.start = 0, .least = 0, .most = most, .wanted_slack = rolls_back ? kBeforeBlock - config.window : 0};
+}
+
 ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), token_(config.token) {}
+    : PeerCore(config, rules), token_(config.token), lag_(lag_settings(config)) {}
 
 void ClientCore::connected(PeerId host, Time now) {
   host_ = PeerLink{};
@@ -173,6 +188,8 @@ void ClientCore::begin_at(const HashReport& start) {
   for (bool& is_present : is_present_) is_present = false;
   accepted_ = frame;
   clock_.forget_lean();
+  lag_ = InputDelay(lag_settings(config_));
+  is_far_ = knows_way_ = false;
   if (welcome_.opens != kNoFrame) open(welcome_.opens);
 }
 

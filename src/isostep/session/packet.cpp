@@ -16,7 +16,7 @@ namespace isostep {
 namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
-constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kKnownFlags = 15;
+constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kKnownFlags = 31;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -80,7 +80,8 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.fixed(header.match);
   writer.fixed(header.time);
   writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
-                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0)));
+                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0) |
+                                        (header.is_far ? kIsFar : 0)));
   if (header.has_echo) writer.fixed(header.echo);
   writer.number(static_cast<std::uint32_t>(header.frame));
   if (has_report) write_report(writer, header.frame, header.report);
@@ -153,6 +154,7 @@ Result<Packet> read_packet(Bytes bytes) {
   if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");
   header.has_echo = (flags & kHasEcho) != 0;
   header.started = (flags & kStarted) != 0;
+  header.is_far = (flags & kIsFar) != 0;
   if (header.has_echo) header.echo = reader.fixed<std::uint16_t>();
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");

@@ -11,6 +11,10 @@ constexpr int kDueSteps = 2;        // in one advance: a caller that comes late 
 constexpr int kMostSteps = 6;       // while catching up
 constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
+// Between turns: a display of 30 Hz takes 33 ms, and a game that misses one of its pictures is not a hitch yet.
+constexpr Time kPause = 50000;           // [us]
+constexpr Time kPausePeriods = 3;        // of slow matches: [frames]
+constexpr Time kForgiven = 5 * kSecond;  // [us] who pauses more often than that has to cover it by its delay
 
 InputDelay::Settings delay_settings(const SessionConfig& config) {
   InputDelay::Settings settings{config.delay, config.least_delay, config.most_delay, 0};
@@ -68,7 +72,22 @@ bool PeerCore::may_step() const {
   return current() < known_end() + window();
 }
 
+bool PeerCore::is_after_pause(Time now) const {
+  const Time periods = kPausePeriods * clock_.period();
+  return has_turned_ && now - last_turn_ > (periods > kPause ? periods : kPause);
+}
+
+void PeerCore::forgive_own_pause(Time now) {
+  if (now < forgiven_until_) return;
+  forgiven_until_ = now + kForgiven;
+  delay_.disregard();
+}
+
 void PeerCore::plan(Time now) {
+  const bool was_away = is_after_pause(now);
+  has_turned_ = true;
+  last_turn_ = now;
+  if (was_away && running()) paused(now);
   if (!asked_start_) {
     asked_start_ = true;
     act(RequestKind::save, 0);
@@ -179,6 +198,7 @@ void PeerCore::tell_who_plays(Frame frame) {
     const bool is_present = stream.contains(frame) && !stream.at(frame).absent;
     if (is_present == is_present_[p]) continue;
     is_present_[p] = is_present;
+    if (!is_present) delay_.reconsider();
     if (is_present) views_[p] = View{};  // who comes back, comes with a state that agreed
     SessionEvent event{.kind = is_present ? SessionEvent::Kind::joined : SessionEvent::Kind::left};
     event.player = static_cast<std::uint8_t>(p);
@@ -213,7 +233,11 @@ void PeerCore::compare(std::size_t reporter) {
 }
 
 void PeerCore::note_arrival(int player, Time now) {
-  const Frame slack = streams_[static_cast<std::size_t>(player)].end() - current() - clock_.overdue(now);
+  if (is_after_pause(now)) return;
+  const Frame end = streams_[static_cast<std::size_t>(player)].end();
+  Frame slack = end - current();
+  // Who holds us up is late by all that we wait; the others may be waiting as we are.
+  if (is_blocked_ && end == known_end()) slack -= clock_.overdue(now);
   slack_[player].add(slack < -127 ? -127 : slack);
 }
 
