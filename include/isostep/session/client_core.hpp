@@ -74,10 +74,8 @@ class ClientCore : public PeerCore {
   /// [frames] that we run behind the host, when our line is so much worse than the others' that they do not wait for
   /// it: their inputs are in time for who runs later.
   InputDelay lag_;
-  bool is_far_ = false;          // as the host says
-  bool knows_way_ = false;       // the delay was told how long the way is
-  std::int64_t host_frame_ = 0;  // [1/256 frame] when host_frame_at_
-  Time host_frame_at_ = 0;
+  bool is_far_ = false;     // as the host says
+  bool knows_way_ = false;  // the delay was told how long the way is
 };
 
 }  // namespace isostep

@@ -96,7 +96,7 @@ class HostCore : public PeerCore {
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::uint64_t secrets_ = 0;  // given out
-  std::uint16_t match_;
+  std::uint64_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;  // [us]
   Frame charged_frame_ = 0;

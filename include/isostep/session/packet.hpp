@@ -22,7 +22,7 @@ struct HashReport {
 };
 
 struct PacketHeader {
-  std::uint16_t match = 0;  // who is meant: drops what an older match left in the network
+  std::uint64_t match = 0;  // which is meant: what another match left in the network is refused
   std::uint16_t time = 0;   // [ms] sender's clock mod 2^16
   std::uint16_t echo = 0;   // [ms] receiver's clock as the sender last heard it, plus what it waited since
   bool has_echo = false;

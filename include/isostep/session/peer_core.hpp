@@ -53,7 +53,7 @@ class PeerCore : public SessionCore {
   /// Counts, guards against floods, reads; false: to be ignored.
   bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);
-  void take_acks(PeerLink& link, const PacketHeader& header);
+  void take_header(PeerLink& link, const PacketHeader& header, Time now);
   /// How early `player`'s next input came.
   void note_arrival(int player, Time now);
   /// Since the last turn. Then nobody knows when what is read now arrived.

@@ -12,20 +12,13 @@ constexpr Frame kCaughtUp = 3;       // [frames]
 
 void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
-  if (!is_after_pause(now)) host_.set_clock(header, now);
+  take_header(host_, header, now);
   stats_.round_trip = host_.round_trip;
-  take_acks(host_, header);
   if (player_ >= 0 && is_open_) {
     const Frame acked = host_.acked[player_];
     if (acked > accepted_) accepted_ = acked;
   }
-  if (header.frame >= host_.frame) {
-    host_.frame = header.frame;
-    host_frame_ =
-        std::int64_t{header.frame} * 256 + static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
-    host_frame_at_ = now;
-    if (runs_) lean(now);
-  }
+  if (runs_) lean(now);
   take_hash(kHostMachine, header.report);
   if (header.reporter < players() && header.reporter != player_) take_hash(header.reporter, header.passed_on);
   for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(packet.slices[i], now);
@@ -85,9 +78,8 @@ Frame ClientCore::final_limit() const {
 }
 
 std::int64_t ClientCore::host_position(Time now) const {
-  const Time since = now > host_frame_at_ ? now - host_frame_at_ : 0;
-  const Time capped = since < kSecond ? since : kSecond;  // a silent host has probably stopped
-  return host_frame_ + static_cast<std::int64_t>(capped * 256 / clock_.period());
+  return host_.position.at(now, clock_.period()) +
+         static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
 }
 
 Frame ClientCore::frames_behind(Time now) const { return static_cast<Frame>(host_position(now) / 256 - current()); }

@@ -134,7 +134,6 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   token_ = welcome.token;
   phase_ = SessionPhase::joining;
-  host_frame_at_ = now;
   told_ = 0;
   is_restoring_ = welcome.snapshot_size > 0;
   must_begin_ = !is_restoring_;

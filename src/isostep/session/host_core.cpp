@@ -14,9 +14,7 @@ constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an ev
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules),
-      guests_(static_cast<std::size_t>(config.max_peers)),
-      match_(static_cast<std::uint16_t>(secret())) {
+    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers)), match_(secret()) {
   for (int p = 0; p < config.local_players; ++p) seats_[p] = {true, -1, 0, true};
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
@@ -88,9 +86,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 }
 
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
-  if (!is_after_pause(now)) guest.set_clock(packet.header, now);
-  guest.frame = packet.header.frame;
-  take_acks(guest, packet.header);
+  take_header(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
     if (packet.header.report.frame > guest.report.frame) guest.report = packet.header.report;

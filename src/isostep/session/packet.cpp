@@ -1,7 +1,7 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u16 | time u16 | flags u8 | [echo u16] | frame varint | [report: frame difference, chain u64]
+// Layout: kind u8 | match u64 | time u16 | flags u8 | [echo u16] | frame varint | [report: frame difference, chain u64]
 //         | [passed on: player u8, frame difference, chain u64] | ack mask u8 | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
@@ -148,7 +148,7 @@ Result<Packet> read_packet(Bytes bytes) {
   Packet packet;
   PacketHeader& header = packet.header;
   if (reader.byte() != kKind) return refuse("no datagram of a session");
-  header.match = reader.fixed<std::uint16_t>();
+  header.match = reader.fixed<std::uint64_t>();
   header.time = reader.fixed<std::uint16_t>();
   const std::uint8_t flags = reader.byte();
   if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");

@@ -209,7 +209,9 @@ void PeerCore::tell_who_plays(Frame frame) {
 
 void PeerCore::take_hash(std::size_t reporter, const HashReport& report) {
   View& view = views_[reporter];
-  if (view.pending.frame == kNoFrame && report.frame > view.agreed) view.pending = report;
+  // The earliest one waits until we are there: one that claims a frame which never comes keeps no others out.
+  const bool is_earlier = view.pending.frame == kNoFrame || report.frame < view.pending.frame;
+  if (is_earlier && report.frame > view.agreed) view.pending = report;
 }
 
 void PeerCore::compare(std::size_t reporter) {
@@ -270,12 +272,17 @@ bool PeerCore::accept_message(PeerLink& link, Bytes bytes, Time now) {
   return true;
 }
 
-void PeerCore::take_acks(PeerLink& link, const PacketHeader& header) {
+void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now) {
+  // Of an old or forged datagram only what stays true is taken: what was had, and the inputs.
+  const bool is_current = link.position.is_near(header.frame, now, clock_.period());
+  link.position.heard(header.frame, now);
+  if (is_current && !is_after_pause(now)) link.set_clock(header, now);
   for (int p = 0; p < players(); ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     // Nobody has what was never sent; and what was had once stays had.
     const Frame ack = header.ack[p];
     if (ack > link.acked[p] && ack <= streams_[static_cast<std::size_t>(p)].end()) link.acked[p] = ack;
+    if (!is_current) continue;
     link.slack[p] = header.slack[p];
     link.reported_mask = static_cast<std::uint8_t>(link.reported_mask | 1u << p);
   }

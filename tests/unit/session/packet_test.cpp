@@ -22,7 +22,7 @@ Frame any_frame(Pcg32& random) {
 }
 PacketHeader any_header(Pcg32& random) {
   PacketHeader header;
-  header.match = static_cast<std::uint16_t>(random.next());
+  header.match = std::uint64_t{random.next()} << 32 | random.next();
   header.time = static_cast<std::uint16_t>(random.next());
   header.has_echo = random.next() % 2 == 0;
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
@@ -225,7 +225,7 @@ TEST(Packet, CutAnywhereItIsRefusedOrAWholeNumberOfSlices) {
 WireWriter head(std::uint8_t* buffer, std::uint8_t flags = 0, std::uint32_t frame = 7, std::uint8_t mask = 0) {
   WireWriter writer(buffer, kDatagramCap);
   writer.byte(0xd1);
-  writer.fixed(std::uint16_t{1});
+  writer.fixed(std::uint64_t{1});
   writer.fixed(std::uint16_t{2});
   writer.byte(flags);
   writer.number(frame);
