@@ -141,6 +141,9 @@ Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::uint8_t
   header.has_echo = (flags & 1) != 0;
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(script.word());
   header.started = (flags & 2) == 0;
+  header.is_far = (flags & 16) != 0;
+  if ((flags & 32) != 0) header.stretch = script.byte() | 1;
+  if ((flags & 32) != 0) header.slowest = script.byte() % 8;
   header.frame = script.frame(now);
   if ((flags & 4) != 0) header.report = {script.frame(now), script.byte()};
   if ((flags & 8) != 0) {

@@ -51,6 +51,8 @@ class ClientCore : public PeerCore {
   /// [1/256 frame] the host's next frame, as we estimate it.
   std::int64_t host_position(Time now) const;
   Frame frames_behind(Time now) const;
+  /// [1/256 period] by which frames have to be longer for us.
+  int needed_stretch() const;
   /// How early the latest of a second's inputs came, over all others.
   Frame worst_slack() const;
 

@@ -45,7 +45,8 @@ class HostCore : public PeerCore {
     Stage stage = Stage::connected;
     int player = -1;  // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
-    bool is_far = false;  // its line is worse than the others'
+    Time too_slow_since = 0;  // [us]
+    bool is_far = false;      // its line is worse than the others'
     Frame opens = kNoFrame;
     Frame start = 0;                                // the state from which it goes on
     std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
@@ -80,6 +81,8 @@ class HostCore : public PeerCore {
   /// [us] round trips beyond this are their players' own affair: who has a worse line runs later, and nobody waits.
   Time farthest_that_counts() const;
   void judge_lines();
+  /// All go as fast as the slowest machine can, if that is fast enough.
+  void choose_pace(Time now);
   /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
   Frame slack_of(int player) const;
   /// Another number that only who knows the seed can guess.

@@ -28,6 +28,8 @@ struct PacketHeader {
   bool has_echo = false;
   bool started = false;          // the match runs
   bool is_far = false;           // host: the receiver's line is one for which the others do not wait
+  std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
+  std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none

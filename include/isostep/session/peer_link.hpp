@@ -51,6 +51,9 @@ struct PeerLink {
   bool has_more = false;                // something did not fit
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
   std::uint8_t reported_mask = 0;       // players of whom it did
+  Frame newest_frame = 0;               // of which the datagram is that said this:
+  int stretch = 0;                      // [1/256 period] by which its frames are longer,
+  std::uint8_t slowest = 0xff;          // and for whom
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
 

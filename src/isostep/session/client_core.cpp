@@ -7,6 +7,8 @@ namespace {
 
 constexpr Frame kCatchUpBehind = 6;  // [frames] behind the host at which frames are stepped as fast as they can be
 constexpr Frame kCaughtUp = 3;       // [frames]
+constexpr int kCatchUp = 4;          // [1/256 period] for each frame that a slow machine is behind,
+constexpr int kMostCatchUp = 16;     // but not more: a sixteenth of a period
 
 }  // namespace
 
@@ -18,7 +20,10 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
     const Frame acked = host_.acked[player_];
     if (acked > accepted_) accepted_ = acked;
   }
-  if (runs_) lean(now);
+  if (runs_) {
+    go_at_pace_of(host_.slowest, host_.stretch);
+    lean(now);
+  }
   take_hash(kHostMachine, header.report);
   if (header.reporter < players() && header.reporter != player_) take_hash(header.reporter, header.passed_on);
   for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(packet.slices[i], now);
@@ -116,7 +121,7 @@ void ClientCore::before_steps(Time now) {
   if (is_near && near_since_ == 0) near_since_ = now;
   if (config_.mode == SessionMode::spectator) {
     if (is_near) phase_ = SessionPhase::watching;
-  } else if (!is_open_ && !asked_ready_ && is_near && is_vouched_for(now)) {
+  } else if (!is_open_ && !asked_ready_ && is_near && pace_.stretch() <= kMostStretch && is_vouched_for(now)) {
     asked_ready_ = must_ready_ = true;
   }
 }
@@ -138,6 +143,15 @@ void ClientCore::observe_delay() {
   if (!is_far_ || worst == RecentLeast::kNothing) return;
   lag_.observe(worst);
   if (lag_.frames() > before) delay_.grow(lag_.frames() - before);
+}
+
+int ClientCore::needed_stretch() const {
+  const int needed = pace_.stretch();
+  if (needed == 0) return 0;
+  // Who steps as fast as it can never makes up for what it fell behind, unless the others go slower still for a while.
+  const int behind = clock_.ahead() < -256 ? -clock_.ahead() * kCatchUp / 256 : 0;
+  const int more = needed + (behind < kMostCatchUp ? behind : kMostCatchUp);
+  return more < StepPace::kLargest ? more : StepPace::kLargest;
 }
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
@@ -176,6 +190,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   PacketHeader header;
   header.match = welcome_.match;
   header.started = runs_;
+  header.stretch = static_cast<std::uint8_t>(needed_stretch());
   for (int p = 0; p < players(); ++p) {
     header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
     header.ack[p] = p == player_ && is_open_ ? accepted_ : streams_[static_cast<std::size_t>(p)].end();

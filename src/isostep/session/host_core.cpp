@@ -6,9 +6,6 @@ namespace isostep {
 namespace {
 
 constexpr Frame kMostAhead = 128;           // [frames] beyond ours that a client's input may lie
-constexpr Frame kLateBeyond = 4;            // [frames] that an input is late beyond its way: two losses and jitter
-constexpr Frame kMostSpread = 8;            // [frames] more, of who comes in bursts itself
-constexpr Time kAsGood = 2;                 // [frames] by which round trips differ on lines that are as good
 constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an event
 
 }  // namespace
@@ -152,10 +149,11 @@ void HostCore::before_steps(Time now) {
       guest.opens = kNoFrame;
     }
   }
-  // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
-  if (started_) fill_absent();
   reports_count_ = now >= reports_from_;
   judge_lines();
+  choose_pace(now);
+  // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
+  if (started_) fill_absent();
 }
 
 void HostCore::before_frame(Time) { fill_absent(); }
@@ -164,66 +162,6 @@ void HostCore::fill_absent() {
   for (int p = config_.local_players; p < players(); ++p) {
     if (!seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
-}
-
-void HostCore::paused(Time now) {
-  // What passes through us was late for everybody, whoever said it.
-  reports_from_ = now + InputDelay::kSettling * clock_.period();
-  forgive_own_pause(now);
-}
-
-Time HostCore::farthest_that_counts() const {
-  // The middle one of all lines: the better half of the players does not wait for the worse.
-  Time trips[kMaxPlayers] = {};
-  std::size_t count = 0;
-  for (const Guest& guest : guests_) {
-    if (!is_in_match(guest)) continue;
-    std::size_t at = count++;
-    for (; at > 0 && trips[at - 1] > guest.round_trip; --at) trips[at] = trips[at - 1];
-    trips[at] = guest.round_trip;
-  }
-  if (count == 0) return 0;
-  return trips[(count - 1) / 2] + kAsGood * clock_.period();
-}
-
-void HostCore::judge_lines() {
-  const Time farthest = farthest_that_counts();
-  for (Guest& guest : guests_) {
-    // A period less on the way back, so that jitter does not change it again and again.
-    guest.is_far = is_in_match(guest) && guest.round_trip > farthest - (guest.is_far ? clock_.period() : 0);
-  }
-}
-
-Frame HostCore::slack_of(int player) const {
-  const Frame here = is_local(player) ? delay_.frames() + 1 : slack_[player].value();
-  Frame least = is_local(player) ? RecentLeast::kNothing : here;
-  if (here == RecentLeast::kNothing || !reports_count_) return least;
-  const Time farthest = farthest_that_counts();
-  for (const Guest& guest : guests_) {
-    if (!is_in_match(guest) || guest.player == player || (guest.reported_mask >> player & 1) == 0) continue;
-    // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
-    // is said.
-    const Time trip = guest.round_trip < farthest ? guest.round_trip : farthest;
-    const Frame way = static_cast<Frame>(trip / 2 / clock_.period());
-    const Frame spread = guest.is_far ? 0 : slack_[guest.player].spread();
-    const Frame plausible = here - way - kLateBeyond - (spread < kMostSpread ? spread : kMostSpread);
-    const Frame said = guest.slack[player] < plausible ? plausible : guest.slack[player];
-    if (said < least) least = said;
-  }
-  return least;
-}
-
-void HostCore::observe_delay() {
-  stats_.round_trip = 0;
-  for (const Guest& guest : guests_) {
-    if (is_in_match(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
-  }
-  Frame least = RecentLeast::kNothing;
-  for (int p = 0; p < config_.local_players; ++p) {
-    const Frame slack = slack_of(p);
-    if (slack < least) least = slack;
-  }
-  if (least != RecentLeast::kNothing) delay_.observe(least);
 }
 
 void HostCore::blocked(Time now) {

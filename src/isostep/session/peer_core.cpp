@@ -11,10 +11,6 @@ constexpr int kDueSteps = 2;        // in one advance: a caller that comes late 
 constexpr int kMostSteps = 6;       // while catching up
 constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
-// Between turns: a display of 30 Hz takes 33 ms, and a game that misses one of its pictures is not a hitch yet.
-constexpr Time kPause = 50000;           // [us]
-constexpr Time kPausePeriods = 3;        // of slow matches: [frames]
-constexpr Time kForgiven = 5 * kSecond;  // [us] who pauses more often than that has to cover it by its delay
 
 InputDelay::Settings delay_settings(const SessionConfig& config) {
   InputDelay::Settings settings{config.delay, config.least_delay, config.most_delay, 0};
@@ -30,6 +26,7 @@ PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
       streams_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
       hashes_(config.history),
       clock_(config.hz),
+      pace_(clock_.period()),
       delay_(delay_settings(config)) {
   message_.reserve(kReliableCap);
 }
@@ -72,22 +69,12 @@ bool PeerCore::may_step() const {
   return current() < known_end() + window();
 }
 
-bool PeerCore::is_after_pause(Time now) const {
-  const Time periods = kPausePeriods * clock_.period();
-  return has_turned_ && now - last_turn_ > (periods > kPause ? periods : kPause);
-}
-
-void PeerCore::forgive_own_pause(Time now) {
-  if (now < forgiven_until_) return;
-  forgiven_until_ = now + kForgiven;
-  delay_.disregard();
-}
-
 void PeerCore::plan(Time now) {
   const bool was_away = is_after_pause(now);
   has_turned_ = true;
   last_turn_ = now;
   if (was_away && running()) paused(now);
+  pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_);
   if (!asked_start_) {
     asked_start_ = true;
     act(RequestKind::save, 0);
@@ -106,7 +93,9 @@ void PeerCore::plan(Time now) {
     observe_delay();
     for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
   }
-  for (int steps = 0; steps < kMostSteps && (clock_.is_due(now) || hurries(now)); ++steps) {
+  const int most = pace_.most_steps(kMostSteps);
+  int steps = 0;
+  for (; steps < most && (clock_.is_due(now) || hurries(now) || (steps == 1 && pace_.probes())); ++steps) {
     if (steps >= kDueSteps && !hurries(now)) break;
     sample_local_inputs();
     before_frame(now);
@@ -124,6 +113,7 @@ void PeerCore::plan(Time now) {
     act(RequestKind::save, frame + 1);
     clock_.stepped(now);
   }
+  pace_.end(steps);
   after_steps();
   limit_ = final_limit();
   settle();
@@ -234,15 +224,6 @@ void PeerCore::compare(std::size_t reporter) {
   tell(event);
 }
 
-void PeerCore::note_arrival(int player, Time now) {
-  if (is_after_pause(now)) return;
-  const Frame end = streams_[static_cast<std::size_t>(player)].end();
-  Frame slack = end - current();
-  // Who holds us up is late by all that we wait; the others may be waiting as we are.
-  if (is_blocked_ && end == known_end()) slack -= clock_.overdue(now);
-  slack_[player].add(slack < -127 ? -127 : slack);
-}
-
 bool PeerCore::accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet) {
   ++stats_.datagrams_in;
   stats_.bytes_in += bytes.size();
@@ -276,7 +257,13 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
   // Of an old or forged datagram only what stays true is taken: what was had, and the inputs.
   const bool is_current = link.position.is_near(header.frame, now, clock_.period());
   link.position.heard(header.frame, now);
+  if (!link.position.is_near(link.newest_frame, now, clock_.period())) link.newest_frame = 0;
   if (is_current && !is_after_pause(now)) link.set_clock(header, now);
+  if (is_current && header.frame >= link.newest_frame) {
+    link.newest_frame = header.frame;
+    link.stretch = header.stretch;
+    link.slowest = header.slowest;
+  }
   for (int p = 0; p < players(); ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     // Nobody has what was never sent; and what was had once stays had.
