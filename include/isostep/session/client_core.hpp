@@ -36,7 +36,7 @@ class ClientCore : public PeerCore {
   static InputDelay::Settings lag_settings(const SessionConfig& config);
   void lose();
   void take_message(MessageKind kind, Bytes bytes, Time now);
-  void take_welcome(const Welcome& welcome, Time now);
+  void take_welcome(const Welcome& welcome);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);

@@ -83,7 +83,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   if (kind == MessageKind::welcome) {
     if (const Result<Welcome> welcome = read_welcome(bytes)) {
       good = true;
-      take_welcome(welcome.value(), now);
+      take_welcome(welcome.value());
     }
   } else if (kind == MessageKind::refuse) {
     if (const Result<Refusal> refusal = read_refusal(bytes)) {
@@ -116,7 +116,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   }
 }
 
-void ClientCore::take_welcome(const Welcome& welcome, Time now) {
+void ClientCore::take_welcome(const Welcome& welcome) {
   // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
   const HashReport have = hashes_.settled();
   const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;

@@ -79,8 +79,8 @@ void HostCore::choose_pace(Time now) {
   const auto weight = [&](int player, int stretch) {
     return stretch > 0 && player == slowest() && stats_.stretch > 0 ? stretch + kAsSlow : stretch;
   };
-  int slowest = is_local(0) ? 0 : 0xff;
-  int stretch = pace_.stretch(), most = weight(slowest, stretch);
+  int whose = is_local(0) ? 0 : 0xff;
+  int stretch = pace_.stretch(), most = weight(whose, stretch);
   int needed = stretch;
   for (Guest& guest : guests_) {
     const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
@@ -91,9 +91,9 @@ void HostCore::choose_pace(Time now) {
     if (stretch > needed) needed = stretch;
     if (weight(guest.player, stretch) <= most) continue;
     most = weight(guest.player, stretch);
-    slowest = guest.player;
+    whose = guest.player;
   }
-  go_at_pace_of(slowest, needed);
+  go_at_pace_of(whose, needed);
 }
 
 }  // namespace isostep
