@@ -153,6 +153,7 @@ template <class Game> class TimedMatch {
   TimedMatch(SessionConfig config, const transport::NetworkProfile& line, const Maker& maker, Bot<Game> bot)
       : network_({.seed = 1, .max_peers = 16}), bot_(std::move(bot)) {
     config.host = true;
+    config.seed = 1;
     const auto add = [&](transport::EndpointId id) {
       peers_.push_back(std::make_unique<TimedPeer<Game>>(network_, id, config, maker()));
     };

@@ -103,6 +103,7 @@ int main() {
   const auto line = network.add_client(iso::transport::parse_profile("latency=75,jitter=20,loss=5").value());
   Machine client(config, network.port(line));
   config.host = true;
+  config.seed = 20;  // a game draws it anew for every match
   Machine host(config, network.port(SimulatedNetwork::kHost));
 
   network.connect(line);

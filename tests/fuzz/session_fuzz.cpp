@@ -133,7 +133,7 @@ struct Side {
   std::uint32_t named = 0;  // whose states differed: a bit each, 256: the host's
 };
 
-Buffer any_datagram(Script& script, std::uint16_t match, Frame now, std::uint8_t player) {
+Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::uint8_t player) {
   PacketHeader header;
   header.match = match;
   header.time = static_cast<std::uint16_t>(script.byte() * 256);
@@ -141,6 +141,9 @@ Buffer any_datagram(Script& script, std::uint16_t match, Frame now, std::uint8_t
   header.has_echo = (flags & 1) != 0;
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(script.word());
   header.started = (flags & 2) == 0;
+  header.is_far = (flags & 16) != 0;
+  if ((flags & 32) != 0) header.stretch = script.byte() | 1;
+  if ((flags & 32) != 0) header.slowest = script.byte() % 8;
   header.frame = script.frame(now);
   if ((flags & 4) != 0) header.report = {script.frame(now), script.byte()};
   if ((flags & 8) != 0) {
@@ -178,11 +181,12 @@ void attack_host(Script& script) {
   SessionConfig client_config = config;
   client_config.local_players = 0;
   config.host = true;
+  config.seed = 1;
   Side host(config), client(client_config);
   Time now = 1000;
   std::deque<std::pair<Channel, Buffer>> up, down;
   bool cut = false;
-  std::uint16_t match = 0;
+  std::uint64_t match = 0;
   std::uint8_t seats[3] = {0xff, 0xff, 0xff};
   std::uint64_t tokens[3] = {};
   Buffer overheard;

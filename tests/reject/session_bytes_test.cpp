@@ -175,6 +175,7 @@ TEST(HostileFlood, NothingThatAPeerSaysMakesTheHostAllocate) {
   SessionConfig config = three_players();
   const auto said = captured(config);
   config.host = true;
+  config.seed = 1;
   config.local_players = 2;
   Session<Game> host(config);
   Game game;

@@ -82,6 +82,7 @@ struct Diary {
 TEST(Caller, DroppedRequestsAreToldAndMadeGood) {
   SessionConfig config = config_of(1);
   config.host = true;
+  config.seed = 1;
   Session<Toy> session(config);
   Toy game;
   Diary diary{session, {}, {}};

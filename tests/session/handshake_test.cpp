@@ -25,6 +25,7 @@ template <class HostGame, class ClientGame, class Alter>
 Meeting meet(SessionConfig host_config, const SessionConfig& client_config, HostGame host_game, ClientGame client_game,
              Alter alter) {
   host_config.host = true;
+  host_config.seed = 1;
   Session<HostGame> host(host_config);
   Session<ClientGame> client(client_config);
   Meeting meeting;

@@ -91,6 +91,7 @@ TEST_P(Allocation, IsNotNeededByAMatchThatRuns) {
   config.mode = GetParam();
   SessionConfig host_config = config;
   host_config.host = true;
+  host_config.seed = 1;
   Session<Toy> host(host_config), client(config);
   Toy host_game, client_game;
   Line up, down;

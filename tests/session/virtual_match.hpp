@@ -25,6 +25,10 @@ template <class Game> struct Machine {
 
   void before_step(Frame frame) {
     if (will_step) will_step(frame);
+    if (frame >= newest) {
+      newest = frame + 1;
+      ++new_frames;
+    }
     if (tamper) tamper(*game, frame);
     for (int p = 0; p < session.config().players; ++p) {
       guessed = guessed || session.status(frame, p) == InputStatus::predicted;
@@ -138,6 +142,7 @@ template <class Game> struct Machine {
   bool guessed = false;     // stepped a frame on a predicted input
   bool plays = true;        // takes turns at all
   Time slow = 0;            // [us] between its turns
+  Time step_time = 0;       // [us] that a frame takes it; one that is stepped again takes nothing
   Time next_turn = 0;
   std::vector<SessionEvent> events;
   Frame first = 0;
@@ -145,7 +150,8 @@ template <class Game> struct Machine {
   std::vector<std::vector<Said>> inputs;  // of the same frames
   bool in_order = true;
   int restarts = 0;
-  std::uint64_t steps = 0;
+  std::uint64_t steps = 0, new_frames = 0;  // all that were stepped, and those for the first time
+  Frame newest = 0;
 
  private:
   std::vector<std::uint8_t> changed;
@@ -186,8 +192,12 @@ template <class Game> class VirtualMatch {
       network_.advance_to(now_);
       for (auto& machine : machines_) {
         if (!machine->plays || now_ < machine->next_turn) continue;
-        machine->next_turn = now_ + machine->slow;
+        const std::uint64_t before = machine->new_frames;
+        // A tick is coarser than what a frame takes: what it was late by is not lost.
+        const Time from = now_ - machine->next_turn < kTick ? machine->next_turn : now_;
         machine->turn(now_, bot_);
+        const Time busy = (machine->new_frames - before) * machine->step_time;
+        machine->next_turn = busy > 0 ? from + busy : now_ + machine->slow;
         const SessionPhase phase = machine->session.phase();
         const bool is_gone = phase == SessionPhase::lost || (machine->is_offline && phase == SessionPhase::waiting);
         if (machine->returns && is_gone) network_.connect(machine->endpoint);

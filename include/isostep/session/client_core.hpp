@@ -29,12 +29,14 @@ class ClientCore : public PeerCore {
   bool hurries(Time now) const override;
   void before_steps(Time now) override;
   void observe_delay() override;
+  void paused(Time now) override { forgive_own_pause(now); }
   void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
+  static InputDelay::Settings lag_settings(const SessionConfig& config);
   void lose();
   void take_message(MessageKind kind, Bytes bytes, Time now);
-  void take_welcome(const Welcome& welcome, Time now);
+  void take_welcome(const Welcome& welcome);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);
@@ -49,6 +51,10 @@ class ClientCore : public PeerCore {
   /// [1/256 frame] the host's next frame, as we estimate it.
   std::int64_t host_position(Time now) const;
   Frame frames_behind(Time now) const;
+  /// [1/256 period] by which frames have to be longer for us.
+  int needed_stretch() const;
+  /// How early the latest of a second's inputs came, over all others.
+  Frame worst_slack() const;
 
   PeerLink host_;
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false, must_close_ = false;
@@ -67,8 +73,11 @@ class ClientCore : public PeerCore {
   Time near_since_ = 0;      // [us] when we first had nearly caught up; 0: not yet
   Frame base_ = 0;           // the state with which our part of the match began
 
-  std::int64_t host_frame_ = 0;  // [1/256 frame] when host_frame_at_
-  Time host_frame_at_ = 0;
+  /// [frames] that we run behind the host, when our line is so much worse than the others' that they do not wait for
+  /// it: their inputs are in time for who runs later.
+  InputDelay lag_;
+  bool is_far_ = false;     // as the host says
+  bool knows_way_ = false;  // the delay was told how long the way is
 };
 
 }  // namespace isostep

@@ -37,7 +37,9 @@ struct SessionConfig {
   std::uint32_t snapshot_cap = 64u << 20;  // [bytes] of a portable snapshot that a client accepts
   std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread
 
-  std::uint64_t seed = 1;  // host: of match number and tokens; different for every match
+  /// Host: of match number and tokens, by which what was said in another match is known. Draw it anew for every match
+  /// from the system's source of random numbers; a session has none. 0, the default, is refused.
+  std::uint64_t seed = 0;
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
   /// its seat is ours again. 0: a new player.
   std::uint64_t token = 0;

@@ -46,6 +46,8 @@ struct SessionEvent {
     left,          // player is gone from frame on: as well
     waiting_for,   // players (a bit each) whose inputs are missing hold the match up
     resumed,       // it goes on
+    slowed_by,     // all step as slowly as player's machine can: told when that begins, and when it is another's
+    full_speed,    // no longer
     refused,       // field, theirs, ours: which field differs; the host reports it too
     lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
@@ -81,6 +83,7 @@ struct SessionStats {
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
   int peers = 0;                              // connected
   Frame delay = 0;                            // [frames] an input waits now
+  int stretch = 0;                            // [1/256 period] by which frames are longer than they should be
 };
 
 class SessionCore {

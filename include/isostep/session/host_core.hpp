@@ -27,6 +27,7 @@ class HostCore : public PeerCore {
   void before_frame(Time now) override;
   void after_steps() override { serve_snapshots(); }
   void observe_delay() override;
+  void paused(Time now) override;
   void blocked(Time now) override;
   void unblocked(Time now) override;
 
@@ -44,6 +45,8 @@ class HostCore : public PeerCore {
     Stage stage = Stage::connected;
     int player = -1;  // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
+    Time too_slow_since = 0;  // [us]
+    bool is_far = false;      // its line is worse than the others'
     Frame opens = kNoFrame;
     Frame start = 0;                                // the state from which it goes on
     std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
@@ -71,8 +74,17 @@ class HostCore : public PeerCore {
   /// Nobody plays on seats that are not open, up to the horizon.
   void fill_absent();
   void serve_snapshots();
-  /// Who lies about lateness makes others wait no longer than the network could.
-  Frame plausible_slack(Frame said, Time way) const;
+  /// A player in its seat, whose inputs are awaited.
+  bool is_in_match(const Guest& guest) const {
+    return guest.stage == Guest::Stage::live && guest.player >= 0 && seats_[guest.player].is_open;
+  }
+  /// [us] round trips beyond this are their players' own affair: who has a worse line runs later, and nobody waits.
+  Time farthest_that_counts() const;
+  void judge_lines();
+  /// All go as fast as the slowest machine can, if that is fast enough.
+  void choose_pace(Time now);
+  /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
+  Frame slack_of(int player) const;
   /// Another number that only who knows the seed can guess.
   std::uint64_t secret();
   /// Inputs of absent players are final up to here.
@@ -87,11 +99,13 @@ class HostCore : public PeerCore {
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::uint64_t secrets_ = 0;  // given out
-  std::uint16_t match_;
+  std::uint64_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;  // [us]
   Frame charged_frame_ = 0;
   bool told_blocked_ = false;
+  Time reports_from_ = 0;       // [us] before that, what guests say of lateness speaks of a pause of ours
+  bool reports_count_ = false;  // in this turn
 
   // The one snapshot that is being sent; whoever needs another waits until nobody needs this one.
   HashReport snapshot_;

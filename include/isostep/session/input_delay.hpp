@@ -22,6 +22,17 @@ class InputDelay {
     const Frame wanted = way + settings_.wanted_slack;
     if (wanted > delay_) delay_ = wanted < settings_.most ? wanted : settings_.most;
   }
+  /// Inputs will come so much later from now on.
+  void grow(Frame by) {
+    delay_ = delay_ + by < settings_.most ? delay_ + by : settings_.most;
+    disregard();
+  }
+  /// Somebody who may have needed the delay is gone: what is to spare soon is given up at once.
+  void reconsider() {
+    disregard();
+    reconsiders_ = true;
+  }
+  bool is_at_most() const { return delay_ >= settings_.most; }
   /// By how much the latest of our inputs within a second came early, over all peers; once a frame of time.
   void observe(Frame slack) {
     if (++observed_ <= 0) return;
@@ -32,32 +43,45 @@ class InputDelay {
     Frame wanted = delay_;
     if (spare < 0) wanted -= spare;
     if (calm_ >= kCalm) --wanted;
+    if (reconsiders_ && spare > 1) wanted = delay_ - spare + 1;
+    reconsiders_ = false;
     wanted = wanted < settings_.least ? settings_.least : wanted > settings_.most ? settings_.most : wanted;
     observed_ = wanted == delay_ ? 0 : -kSettling;
     if (wanted != delay_) calm_ = 0;
     delay_ = wanted;
     worst_ = kNothing;
   }
+  /// What is reported now and for some time speaks of something that is over.
+  void disregard() {
+    observed_ = -kSettling;
+    worst_ = kNothing;
+    calm_ = 0;
+  }
+  static constexpr Frame kSettling = 90;  // [frames] until reports speak of the new delay: two buckets and a round trip
 
  private:
-  static constexpr Frame kPeriod = 30;    // [frames] of reports for one decision
-  static constexpr Frame kSettling = 90;  // [frames] until reports speak of the new delay: two buckets and a round trip
-  static constexpr Frame kSpare = 2;      // [frames] of spare that are left alone
-  static constexpr Frame kCalm = 4;       // periods in a row with spare before the delay shrinks
+  static constexpr Frame kPeriod = 30;  // [frames] of reports for one decision
+  static constexpr Frame kSpare = 2;    // [frames] of spare that are left alone
+  static constexpr Frame kCalm = 4;     // periods in a row with spare before the delay shrinks
   static constexpr Frame kNothing = 1 << 20;
 
   Settings settings_;
   Frame delay_;
-  Frame worst_ = kNothing;
-  Frame observed_ = -kSettling, calm_ = 0;  // at first, clocks still find each other
+  Frame worst_ = kNothing;       // of this period
+  Frame observed_ = -kSettling;  // at first, clocks still find each other
+  bool reconsiders_ = false;
+  int calm_ = 0;  // periods in a row with spare
 };
 
-/// The least of a quantity over the last one or two buckets of time.
+/// The least of a quantity over the last one or two buckets of time, and how far that is from the usual.
 class RecentLeast {
  public:
   void add(Frame value) {
     if (value < current_) current_ = value;
+    usual_ = has_usual_ ? usual_ + (value * kFine - usual_) / kSmoothing : value * kFine;
+    has_usual_ = true;
   }
+  Frame spread() const { return value() == kNothing ? 0 : usual_ / kFine - value(); }
   /// Once a frame of time.
   void tick(Frame bucket_frames) {
     if (++age_ < bucket_frames) return;
@@ -70,7 +94,12 @@ class RecentLeast {
   static constexpr Frame kNothing = 127;
 
  private:
+  static constexpr Frame kFine = 256;      // parts of a frame
+  static constexpr Frame kSmoothing = 16;  // values: a quarter of a second of inputs
+
   Frame current_ = kNothing, previous_ = kNothing, age_ = 0;
+  Frame usual_ = 0;  // [1/256 frame] smoothed
+  bool has_usual_ = false;
 };
 
 }  // namespace isostep

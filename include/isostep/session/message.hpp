@@ -22,7 +22,7 @@ struct Hello {
 
 /// The host's answer. With a snapshot, pieces of it follow; without, the client goes on from `start`, which it has.
 struct Welcome {
-  std::uint16_t match = 0;
+  std::uint64_t match = 0;
   std::uint8_t players = 0;       // of the match
   std::uint8_t host_players = 0;  // the first of them play on the host
   std::uint8_t player = 0xff;     // 0xff: a spectator

@@ -10,7 +10,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 1;
+inline constexpr std::uint16_t kSessionProtocol = 2;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
@@ -22,11 +22,14 @@ struct HashReport {
 };
 
 struct PacketHeader {
-  std::uint16_t match = 0;  // who is meant: drops what an older match left in the network
+  std::uint64_t match = 0;  // which is meant: what another match left in the network is refused
   std::uint16_t time = 0;   // [ms] sender's clock mod 2^16
   std::uint16_t echo = 0;   // [ms] receiver's clock as the sender last heard it, plus what it waited since
   bool has_echo = false;
   bool started = false;          // the match runs
+  bool is_far = false;           // host: the receiver's line is one for which the others do not wait
+  std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
+  std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none

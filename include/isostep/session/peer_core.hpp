@@ -7,6 +7,7 @@
 #include "isostep/session/hash_log.hpp"
 #include "isostep/session/input_delay.hpp"
 #include "isostep/session/peer_link.hpp"
+#include "isostep/session/step_pace.hpp"
 
 namespace isostep {
 
@@ -37,6 +38,8 @@ class PeerCore : public SessionCore {
   virtual void observe_delay() = 0;
   virtual void blocked(Time) {}
   virtual void unblocked(Time) {}
+  /// No turn was taken for so long that what happened meanwhile says nothing of the others.
+  virtual void paused(Time) {}
 
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
@@ -51,9 +54,18 @@ class PeerCore : public SessionCore {
   /// Counts, guards against floods, reads; false: to be ignored.
   bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);
-  void take_acks(PeerLink& link, const PacketHeader& header);
+  void take_header(PeerLink& link, const PacketHeader& header, Time now);
   /// How early `player`'s next input came.
   void note_arrival(int player, Time now);
+  /// Since the last turn. Then nobody knows when what is read now arrived.
+  bool is_after_pause(Time now) const;
+  /// All frames take longer by `stretch`, for `player`'s machine: tells the caller when that changes.
+  void go_at_pace_of(int player, int stretch);
+  int slowest() const { return slowest_; }
+  /// [1/256 period] 40 frames a second where there should be 60: who cannot do so many does not play.
+  static constexpr int kMostStretch = 128;
+  /// After a pause of ours: reports speak of our being late and not of the line.
+  void forgive_own_pause(Time now);
 
   /// What one machine says of its states.
   struct View {
@@ -67,6 +79,7 @@ class PeerCore : public SessionCore {
   std::vector<InputStream> streams_;
   HashLog hashes_;
   FrameClock clock_;
+  StepPace pace_;
   InputDelay delay_;
   RecentLeast slack_[kMaxPlayers];
   View views_[kMaxPlayers + 1];
@@ -93,6 +106,10 @@ class PeerCore : public SessionCore {
   Pending pending_[kMaxPlayers];
   Frame limit_ = 0;            // of what may be settled, as of the last plan
   Time next_observation_ = 0;  // [us] when observe_delay is called again
+  Time last_turn_ = 0;         // [us] of plan
+  Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before
+  bool has_turned_ = false;
+  int slowest_ = 0xff;  // as last told
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

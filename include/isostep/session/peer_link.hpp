@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/session/packet.hpp"
+#include "isostep/session/remote_position.hpp"
 
 namespace isostep {
 
@@ -36,12 +37,13 @@ struct PeerLink {
   Time heard = 0;      // [us] when a valid word came last
   Time next_send = 0;  // [us]
   Frame sent_frame = kNoFrame;
-  Frame frame = 0;  // the peer's next to step, as it last said
+  RemotePosition position;  // the peer's next frame
 
   bool has_clock = false;
   std::uint16_t clock = 0;  // [ms] the peer's, mod 2^16
   Time clock_at = 0;        // [us] when it was that
   Time round_trip = 0;      // [us] smoothed; 0: unknown
+  RecentMedian<Time> round_trips;
 
   Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
   Frame burst_end[kMaxPlayers] = {};    // first frame of each that this period's datagrams left out
@@ -49,6 +51,9 @@ struct PeerLink {
   bool has_more = false;                // something did not fit
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
   std::uint8_t reported_mask = 0;       // players of whom it did
+  Frame newest_frame = 0;               // of which the datagram is that said this:
+  int stretch = 0;                      // [1/256 period] by which its frames are longer,
+  std::uint8_t slowest = 0xff;          // and for whom
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
 
@@ -72,7 +77,8 @@ struct PeerLink {
     if (!header.has_echo) return;
     const std::uint16_t ms = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - header.echo);
     if (ms > 32767) return;  // ahead of our own clock: nonsense
-    const Time sample = Time{ms} * 1000;
+    round_trips.add(Time{ms} * 1000);
+    const Time sample = round_trips.median([](Time trip) { return trip; });
     round_trip = round_trip == 0 ? sample : (round_trip * 7 + sample) / 8;
   }
 };

@@ -7,24 +7,22 @@ namespace {
 
 constexpr Frame kCatchUpBehind = 6;  // [frames] behind the host at which frames are stepped as fast as they can be
 constexpr Frame kCaughtUp = 3;       // [frames]
+constexpr int kCatchUp = 4;          // [1/256 period] for each frame that a slow machine is behind,
+constexpr int kMostCatchUp = 16;     // but not more: a sixteenth of a period
 
 }  // namespace
 
 void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
-  host_.set_clock(header, now);
+  take_header(host_, header, now);
   stats_.round_trip = host_.round_trip;
-  take_acks(host_, header);
   if (player_ >= 0 && is_open_) {
     const Frame acked = host_.acked[player_];
     if (acked > accepted_) accepted_ = acked;
   }
-  if (header.frame >= host_.frame) {
-    host_.frame = header.frame;
-    host_frame_ =
-        std::int64_t{header.frame} * 256 + static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
-    host_frame_at_ = now;
-    if (runs_) lean(now);
+  if (runs_) {
+    go_at_pace_of(host_.slowest, host_.stretch);
+    lean(now);
   }
   take_hash(kHostMachine, header.report);
   if (header.reporter < players() && header.reporter != player_) take_hash(header.reporter, header.passed_on);
@@ -32,13 +30,18 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (header.started && !runs_) {
     runs_ = true;
     clock_.start(now);
-    // To the host, and on to the others where there are any.
-    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
-    delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
     SessionEvent event{.kind = SessionEvent::Kind::started};
     event.frame = current();
     tell(event);
   }
+  if (runs_ && !knows_way_ && host_.round_trip > 0) {
+    knows_way_ = true;
+    // To the host, and on to the others where there are any.
+    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
+    delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
+  }
+  if (is_far_ && !header.is_far) lag_ = InputDelay(lag_settings(config_));
+  is_far_ = header.is_far;
 }
 
 void ClientCore::take_inputs(const InputSlice& slice, Time now) {
@@ -80,9 +83,8 @@ Frame ClientCore::final_limit() const {
 }
 
 std::int64_t ClientCore::host_position(Time now) const {
-  const Time since = now > host_frame_at_ ? now - host_frame_at_ : 0;
-  const Time capped = since < kSecond ? since : kSecond;  // a silent host has probably stopped
-  return host_frame_ + static_cast<std::int64_t>(capped * 256 / clock_.period());
+  return host_.position.at(now, clock_.period()) +
+         static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
 }
 
 Frame ClientCore::frames_behind(Time now) const { return static_cast<Frame>(host_position(now) / 256 - current()); }
@@ -91,12 +93,12 @@ void ClientCore::lean(Time now) {
   const Time until = clock_.until_due(now);
   const Time done = until < clock_.period() ? clock_.period() - until : 0;
   const std::int64_t ours = std::int64_t{current()} * 256 + static_cast<std::int64_t>(done * 256 / clock_.period());
-  const std::int64_t ahead = ours - host_position(now);
+  const std::int64_t ahead = ours + std::int64_t{lag_.frames()} * 256 - host_position(now);
   constexpr std::int64_t kCap = 256 * 64;
   clock_.lean(static_cast<std::int32_t>(ahead < -kCap ? -kCap : ahead > kCap ? kCap : ahead));
 }
 
-bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind; }
+bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind + lag_.frames(); }
 
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
@@ -119,16 +121,37 @@ void ClientCore::before_steps(Time now) {
   if (is_near && near_since_ == 0) near_since_ = now;
   if (config_.mode == SessionMode::spectator) {
     if (is_near) phase_ = SessionPhase::watching;
-  } else if (!is_open_ && !asked_ready_ && is_near && is_vouched_for(now)) {
+  } else if (!is_open_ && !asked_ready_ && is_near && pace_.stretch() <= kMostStretch && is_vouched_for(now)) {
     asked_ready_ = must_ready_ = true;
   }
 }
 
+Frame ClientCore::worst_slack() const {
+  Frame worst = RecentLeast::kNothing;
+  for (int p = 0; p < players(); ++p) {
+    if (p != player_ && slack_[p].value() < worst) worst = slack_[p].value();
+  }
+  return worst;
+}
+
 void ClientCore::observe_delay() {
-  if (is_open_ && phase_ == SessionPhase::playing && (host_.reported_mask >> player_ & 1) != 0 &&
-      host_.slack[player_] != RecentLeast::kNothing) {
+  if (!is_open_ || phase_ != SessionPhase::playing) return;
+  if ((host_.reported_mask >> player_ & 1) != 0 && host_.slack[player_] != RecentLeast::kNothing) {
     delay_.observe(host_.slack[player_]);
   }
+  const Frame worst = worst_slack(), before = lag_.frames();
+  if (!is_far_ || worst == RecentLeast::kNothing) return;
+  lag_.observe(worst);
+  if (lag_.frames() > before) delay_.grow(lag_.frames() - before);
+}
+
+int ClientCore::needed_stretch() const {
+  const int needed = pace_.stretch();
+  if (needed == 0) return 0;
+  // Who steps as fast as it can never makes up for what it fell behind, unless the others go slower still for a while.
+  const int behind = clock_.ahead() < -256 ? -clock_.ahead() * kCatchUp / 256 : 0;
+  const int more = needed + (behind < kMostCatchUp ? behind : kMostCatchUp);
+  return more < StepPace::kLargest ? more : StepPace::kLargest;
 }
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
@@ -167,10 +190,12 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   PacketHeader header;
   header.match = welcome_.match;
   header.started = runs_;
+  header.stretch = static_cast<std::uint8_t>(needed_stretch());
   for (int p = 0; p < players(); ++p) {
     header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
     header.ack[p] = p == player_ && is_open_ ? accepted_ : streams_[static_cast<std::size_t>(p)].end();
-    const bool measures = phase_ == SessionPhase::playing && p != player_;
+    // Who may run later does so before it asks the others to wait.
+    const bool measures = phase_ == SessionPhase::playing && p != player_ && (!is_far_ || lag_.is_at_most());
     header.slack[p] = static_cast<std::int8_t>(measures ? slack_[p].value() : RecentLeast::kNothing);
   }
   return Outgoing{host_.peer, Channel::datagram, compose(host_, header, now)};

@@ -6,8 +6,23 @@
 
 namespace isostep {
 
+namespace {
+
+constexpr Frame kBeforeBlock = 2;  // [frames] of a rollback window that are kept free of lateness that is usual
+// By what we run later our own inputs come later, and our delay grows by as much. Beyond a third of what it may grow
+// by, the others are asked to wait as well, so that a very bad line does not use up all delay there is.
+constexpr Frame kLagShare = 3;
+
+}  // namespace
+
+InputDelay::Settings ClientCore::lag_settings(const SessionConfig& config) {
+  const Frame most = (config.most_delay - config.least_delay) / kLagShare;
+  const bool rolls_back = config.mode == SessionMode::rollback && config.window > kBeforeBlock;
+  return {.start = 0, .least = 0, .most = most, .wanted_slack = rolls_back ? kBeforeBlock - config.window : 0};
+}
+
 ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), token_(config.token) {}
+    : PeerCore(config, rules), token_(config.token), lag_(lag_settings(config)) {}
 
 void ClientCore::connected(PeerId host, Time now) {
   host_ = PeerLink{};
@@ -68,7 +83,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   if (kind == MessageKind::welcome) {
     if (const Result<Welcome> welcome = read_welcome(bytes)) {
       good = true;
-      take_welcome(welcome.value(), now);
+      take_welcome(welcome.value());
     }
   } else if (kind == MessageKind::refuse) {
     if (const Result<Refusal> refusal = read_refusal(bytes)) {
@@ -101,7 +116,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   }
 }
 
-void ClientCore::take_welcome(const Welcome& welcome, Time now) {
+void ClientCore::take_welcome(const Welcome& welcome) {
   // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
   const HashReport have = hashes_.settled();
   const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;
@@ -119,7 +134,6 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   token_ = welcome.token;
   phase_ = SessionPhase::joining;
-  host_frame_at_ = now;
   told_ = 0;
   is_restoring_ = welcome.snapshot_size > 0;
   must_begin_ = !is_restoring_;
@@ -173,6 +187,8 @@ void ClientCore::begin_at(const HashReport& start) {
   for (bool& is_present : is_present_) is_present = false;
   accepted_ = frame;
   clock_.forget_lean();
+  lag_ = InputDelay(lag_settings(config_));
+  is_far_ = knows_way_ = false;
   if (welcome_.opens != kNoFrame) open(welcome_.opens);
 }
 

@@ -74,6 +74,8 @@ const char* problem_of(const SessionConfig& config) {
   if (config.history < 2 * config.kept || config.history > 1 << 20) return "history: 2 * kept frames or more";
   if (config.max_peers < 1 || config.max_peers > 256) return "max_peers: 1 to 256";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
+  const bool is_match = config.mode != SessionMode::sync_test && config.mode != SessionMode::replay;
+  if (config.host && is_match && config.seed == 0) return "seed: of a host, a random number other than 0";
   if (config.mode == SessionMode::sync_test && config.window < 1)
     return "window: a sync test rolls back 1 or more frames";
   return nullptr;

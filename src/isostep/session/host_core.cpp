@@ -6,15 +6,12 @@ namespace isostep {
 namespace {
 
 constexpr Frame kMostAhead = 128;           // [frames] beyond ours that a client's input may lie
-constexpr Frame kLateBeyond = 10;           // [frames] that an input may be late beyond what its way explains
 constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an event
 
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules),
-      guests_(static_cast<std::size_t>(config.max_peers)),
-      match_(static_cast<std::uint16_t>(secret())) {
+    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers)), match_(secret()) {
   for (int p = 0; p < config.local_players; ++p) seats_[p] = {true, -1, 0, true};
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
@@ -86,9 +83,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 }
 
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
-  guest.set_clock(packet.header, now);
-  guest.frame = packet.header.frame;
-  take_acks(guest, packet.header);
+  take_header(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
     if (packet.header.report.frame > guest.report.frame) guest.report = packet.header.report;
@@ -154,6 +149,9 @@ void HostCore::before_steps(Time now) {
       guest.opens = kNoFrame;
     }
   }
+  reports_count_ = now >= reports_from_;
+  judge_lines();
+  choose_pace(now);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) fill_absent();
 }
@@ -164,27 +162,6 @@ void HostCore::fill_absent() {
   for (int p = config_.local_players; p < players(); ++p) {
     if (!seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
-}
-
-Frame HostCore::plausible_slack(Frame said, Time way) const {
-  const Frame most = static_cast<Frame>(way / clock_.period()) + kLateBeyond;
-  return said < -most ? -most : said;
-}
-
-void HostCore::observe_delay() {
-  Frame least = RecentLeast::kNothing;
-  Time farthest = 0;
-  for (const Guest& guest : guests_) {
-    if (guest.stage != Guest::Stage::live || guest.player < 0 || !seats_[guest.player].is_open) continue;
-    if (guest.round_trip > farthest) farthest = guest.round_trip;
-    for (int p = 0; p < config_.local_players; ++p) {
-      if ((guest.reported_mask >> p & 1) == 0) continue;
-      const Frame slack = plausible_slack(guest.slack[p], guest.round_trip);
-      if (slack < least) least = slack;
-    }
-  }
-  stats_.round_trip = farthest;
-  if (least != RecentLeast::kNothing) delay_.observe(least);
 }
 
 void HostCore::blocked(Time now) {

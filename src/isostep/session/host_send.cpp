@@ -105,19 +105,15 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   PacketHeader header;
   header.match = match_;
   header.started = started_;
+  header.is_far = guest.is_far;
+  header.stretch = static_cast<std::uint8_t>(stats_.stretch);
+  header.slowest = static_cast<std::uint8_t>(slowest());
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   if (guest.player >= 0 && seats_[guest.player].is_open) {
     const auto p = static_cast<std::size_t>(guest.player);
     header.ack_mask = static_cast<std::uint8_t>(1u << p);
     header.ack[p] = streams_[p].end();
-    Frame slack = slack_[p].value();
-    for (const Guest& other : guests_) {
-      const bool counts = other.stage == Guest::Stage::live && other.player >= 0 && seats_[other.player].is_open;
-      if (!counts || (other.reported_mask >> p & 1) == 0) continue;
-      const Frame late = plausible_slack(other.slack[p], guest.round_trip + other.round_trip);
-      if (late < slack) slack = late;
-    }
-    header.slack[p] = static_cast<std::int8_t>(slack);
+    header.slack[p] = static_cast<std::int8_t>(slack_of(guest.player));
   }
   // One other machine's word on its states with every datagram, in turns.
   for (std::size_t i = 0; i < guests_.size(); ++i) {

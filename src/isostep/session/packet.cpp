@@ -1,8 +1,9 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u16 | time u16 | flags u8 | [echo u16] | frame varint | [report: frame difference, chain u64]
-//         | [passed on: player u8, frame difference, chain u64] | ack mask u8 | {difference to frame, slack i8}...
+// Layout: kind u8 | match u64 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | frame varint
+//         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
+//         | ack mask u8 | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
 //         10000000  size varint, the input              10000001  as long as the previous: masks of 8, changed bytes
@@ -16,7 +17,8 @@ namespace isostep {
 namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
-constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kKnownFlags = 15;
+constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
+                       kKnownFlags = 63;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -80,8 +82,13 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.fixed(header.match);
   writer.fixed(header.time);
   writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
-                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0)));
+                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0) |
+                                        (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0)));
   if (header.has_echo) writer.fixed(header.echo);
+  if (header.stretch > 0) {
+    writer.byte(header.stretch);
+    writer.byte(header.slowest);
+  }
   writer.number(static_cast<std::uint32_t>(header.frame));
   if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
@@ -147,13 +154,20 @@ Result<Packet> read_packet(Bytes bytes) {
   Packet packet;
   PacketHeader& header = packet.header;
   if (reader.byte() != kKind) return refuse("no datagram of a session");
-  header.match = reader.fixed<std::uint16_t>();
+  header.match = reader.fixed<std::uint64_t>();
   header.time = reader.fixed<std::uint16_t>();
   const std::uint8_t flags = reader.byte();
   if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");
   header.has_echo = (flags & kHasEcho) != 0;
   header.started = (flags & kStarted) != 0;
+  header.is_far = (flags & kIsFar) != 0;
   if (header.has_echo) header.echo = reader.fixed<std::uint16_t>();
+  if ((flags & kIsSlow) != 0) {
+    header.stretch = reader.byte();
+    header.slowest = reader.byte();
+    if (header.stretch == 0) return refuse("slow by nothing");
+    if (header.slowest >= kMaxPlayers && header.slowest != 0xff) return refuse("slowed by no player");
+  }
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");
   header.frame = static_cast<Frame>(frame);

@@ -26,6 +26,7 @@ PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
       streams_(static_cast<std::size_t>(config.players), InputStream(config.history, rules.cap)),
       hashes_(config.history),
       clock_(config.hz),
+      pace_(clock_.period()),
       delay_(delay_settings(config)) {
   message_.reserve(kReliableCap);
 }
@@ -69,6 +70,11 @@ bool PeerCore::may_step() const {
 }
 
 void PeerCore::plan(Time now) {
+  const bool was_away = is_after_pause(now);
+  has_turned_ = true;
+  last_turn_ = now;
+  if (was_away && running()) paused(now);
+  pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_);
   if (!asked_start_) {
     asked_start_ = true;
     act(RequestKind::save, 0);
@@ -87,7 +93,9 @@ void PeerCore::plan(Time now) {
     observe_delay();
     for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
   }
-  for (int steps = 0; steps < kMostSteps && (clock_.is_due(now) || hurries(now)); ++steps) {
+  const int most = pace_.most_steps(kMostSteps);
+  int steps = 0;
+  for (; steps < most && (clock_.is_due(now) || hurries(now) || (steps == 1 && pace_.probes())); ++steps) {
     if (steps >= kDueSteps && !hurries(now)) break;
     sample_local_inputs();
     before_frame(now);
@@ -105,6 +113,7 @@ void PeerCore::plan(Time now) {
     act(RequestKind::save, frame + 1);
     clock_.stepped(now);
   }
+  pace_.end(steps);
   after_steps();
   limit_ = final_limit();
   settle();
@@ -179,6 +188,7 @@ void PeerCore::tell_who_plays(Frame frame) {
     const bool is_present = stream.contains(frame) && !stream.at(frame).absent;
     if (is_present == is_present_[p]) continue;
     is_present_[p] = is_present;
+    if (!is_present) delay_.reconsider();
     if (is_present) views_[p] = View{};  // who comes back, comes with a state that agreed
     SessionEvent event{.kind = is_present ? SessionEvent::Kind::joined : SessionEvent::Kind::left};
     event.player = static_cast<std::uint8_t>(p);
@@ -189,7 +199,9 @@ void PeerCore::tell_who_plays(Frame frame) {
 
 void PeerCore::take_hash(std::size_t reporter, const HashReport& report) {
   View& view = views_[reporter];
-  if (view.pending.frame == kNoFrame && report.frame > view.agreed) view.pending = report;
+  // The earliest one waits until we are there: one that claims a frame which never comes keeps no others out.
+  const bool is_earlier = view.pending.frame == kNoFrame || report.frame < view.pending.frame;
+  if (is_earlier && report.frame > view.agreed) view.pending = report;
 }
 
 void PeerCore::compare(std::size_t reporter) {
@@ -210,11 +222,6 @@ void PeerCore::compare(std::size_t reporter) {
   event.ours = hashes_.chain(report.frame);
   event.theirs = report.chain;
   tell(event);
-}
-
-void PeerCore::note_arrival(int player, Time now) {
-  const Frame slack = streams_[static_cast<std::size_t>(player)].end() - current() - clock_.overdue(now);
-  slack_[player].add(slack < -127 ? -127 : slack);
 }
 
 bool PeerCore::accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet) {
@@ -246,12 +253,23 @@ bool PeerCore::accept_message(PeerLink& link, Bytes bytes, Time now) {
   return true;
 }
 
-void PeerCore::take_acks(PeerLink& link, const PacketHeader& header) {
+void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now) {
+  // Of an old or forged datagram only what stays true is taken: what was had, and the inputs.
+  const bool is_current = link.position.is_near(header.frame, now, clock_.period());
+  link.position.heard(header.frame, now);
+  if (!link.position.is_near(link.newest_frame, now, clock_.period())) link.newest_frame = 0;
+  if (is_current && !is_after_pause(now)) link.set_clock(header, now);
+  if (is_current && header.frame >= link.newest_frame) {
+    link.newest_frame = header.frame;
+    link.stretch = header.stretch;
+    link.slowest = header.slowest;
+  }
   for (int p = 0; p < players(); ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     // Nobody has what was never sent; and what was had once stays had.
     const Frame ack = header.ack[p];
     if (ack > link.acked[p] && ack <= streams_[static_cast<std::size_t>(p)].end()) link.acked[p] = ack;
+    if (!is_current) continue;
     link.slack[p] = header.slack[p];
     link.reported_mask = static_cast<std::uint8_t>(link.reported_mask | 1u << p);
   }

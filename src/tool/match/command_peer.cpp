@@ -30,6 +30,8 @@ const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::left: return "left";
     case SessionEvent::Kind::waiting_for: return "waiting";
     case SessionEvent::Kind::resumed: return "resumed";
+    case SessionEvent::Kind::slowed_by: return "slowed by";
+    case SessionEvent::Kind::full_speed: return "full speed";
     case SessionEvent::Kind::refused: return "refused";
     case SessionEvent::Kind::lost_host: return "lost the host";
     case SessionEvent::Kind::desync: return "DESYNC";

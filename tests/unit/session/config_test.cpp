@@ -57,6 +57,13 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 0), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 257), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.most_packets = 119), "most_packets"));
+  for (const SessionMode mode : {SessionMode::lockstep, SessionMode::rollback, SessionMode::spectator}) {
+    SessionConfig config;
+    config.host = true;
+    config.mode = mode;
+    ASSERT_NE(problem_of(config), nullptr);
+    EXPECT_TRUE(names(problem_of(config), "seed")) << "there is no default that two matches could share";
+  }
 }
 
 TEST(SessionConfig, TheEdgesAreFine) {
@@ -72,6 +79,8 @@ TEST(SessionConfig, TheEdgesAreFine) {
   EXPECT_EQ(PROBLEM(c.kept = 4096; c.history = 8192), "");
   EXPECT_EQ(PROBLEM(c.max_peers = 256), "");
   EXPECT_EQ(PROBLEM(c.most_packets = 120), "");
+  EXPECT_EQ(PROBLEM(c.host = true; c.seed = 1), "");
+  EXPECT_EQ(PROBLEM(c.host = true; c.mode = SessionMode::sync_test), "");
 }
 
 TEST(SessionConfig, ASessionOfABrokenOneIsRefusedAndSaysWhy) {

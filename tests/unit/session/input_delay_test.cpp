@@ -74,6 +74,45 @@ TEST(InputDelay, ARollbackThatIsWelcomeIsNotAvoided) {
   EXPECT_EQ(delay.frames(), 5);
 }
 
+TEST(InputDelay, WhatIsDisregardedChangesNothing) {
+  InputDelay delay({4, 0, 20, 0});
+  EXPECT_EQ(until_change(delay, 0, 110), 110);
+  for (int n = 0; n < 5; ++n) {
+    delay.observe(-10);
+    delay.disregard();
+    EXPECT_EQ(until_change(delay, -10, 80), 80);
+  }
+  EXPECT_EQ(delay.frames(), 4);
+}
+
+TEST(InputDelay, GivesUpWhatIsToSpareAtOnceWhenItIsToldToReconsider) {
+  InputDelay delay({12, 0, 20, 0});
+  delay.reconsider();
+  EXPECT_LE(until_change(delay, 9), 121);
+  EXPECT_EQ(delay.frames(), 4) << "one frame is kept to spare";
+  EXPECT_GE(until_change(delay, 9), 120) << "and once only";
+  EXPECT_EQ(delay.frames(), 3);
+}
+
+TEST(InputDelay, GrowsByWhatItIsToldUpToItsMost) {
+  InputDelay delay({2, 0, 8, 0});
+  delay.grow(4);
+  EXPECT_EQ(delay.frames(), 6);
+  EXPECT_FALSE(delay.is_at_most());
+  delay.grow(4);
+  EXPECT_EQ(delay.frames(), 8);
+  EXPECT_TRUE(delay.is_at_most());
+}
+
+TEST(RecentLeast, SaysHowFarTheLeastIsFromTheUsual) {
+  RecentLeast least;
+  EXPECT_EQ(least.spread(), 0);
+  for (int i = 0; i < 100; ++i) least.add(4);
+  EXPECT_EQ(least.spread(), 0);
+  least.add(-6);
+  EXPECT_NEAR(least.spread(), 10, 1);
+}
+
 TEST(RecentLeast, RemembersTwoBuckets) {
   RecentLeast least;
   EXPECT_EQ(least.value(), RecentLeast::kNothing);

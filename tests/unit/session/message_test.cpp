@@ -22,7 +22,7 @@ Hello hello() {
   return hello;
 }
 Welcome welcome() {
-  return {.match = 0xbeef,
+  return {.match = 0xfeedc0de12345678u,
           .players = 4,
           .host_players = 1,
           .player = 3,
@@ -47,7 +47,7 @@ TEST(Message, EachIsReadAsItWasWritten) {
   write_welcome(welcome(), bytes);
   EXPECT_EQ(message_kind(bytes).value(), MessageKind::welcome);
   const Welcome there = read_welcome(bytes).value();
-  EXPECT_EQ(there.match, 0xbeef);
+  EXPECT_EQ(there.match, 0xfeedc0de12345678u);
   EXPECT_EQ(there.players, 4);
   EXPECT_EQ(there.host_players, 1);
   EXPECT_EQ(there.player, 3);

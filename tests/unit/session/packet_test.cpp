@@ -22,11 +22,16 @@ Frame any_frame(Pcg32& random) {
 }
 PacketHeader any_header(Pcg32& random) {
   PacketHeader header;
-  header.match = static_cast<std::uint16_t>(random.next());
+  header.match = std::uint64_t{random.next()} << 32 | random.next();
   header.time = static_cast<std::uint16_t>(random.next());
   header.has_echo = random.next() % 2 == 0;
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
   header.started = random.next() % 2 == 0;
+  header.is_far = random.next() % 2 == 0;
+  if (random.next() % 2 == 0) {
+    header.stretch = static_cast<std::uint8_t>(random.next() % 255 + 1);
+    header.slowest = static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % kMaxPlayers);
+  }
   header.frame = any_frame(random);
   if (random.next() % 2 == 0) header.report = {any_frame(random), std::uint64_t{random.next()} << 32 | random.next()};
   if (random.next() % 2 == 0) {
@@ -44,7 +49,8 @@ PacketHeader any_header(Pcg32& random) {
 /// Every member takes the most bytes that it can.
 PacketHeader largest_header() {
   PacketHeader header;
-  header.has_echo = header.started = true;
+  header.has_echo = header.started = header.is_far = true;
+  header.stretch = 255;
   header.frame = kLastFrame;
   header.report = header.passed_on = {0, ~std::uint64_t{0}};
   header.reporter = 7;
@@ -73,6 +79,9 @@ void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.has_echo, b.has_echo);
   ASSERT_EQ(a.echo, b.echo);
   ASSERT_EQ(a.started, b.started);
+  ASSERT_EQ(a.is_far, b.is_far);
+  ASSERT_EQ(a.stretch, b.stretch);
+  ASSERT_EQ(a.slowest, b.slowest);
   ASSERT_EQ(a.frame, b.frame);
   ASSERT_EQ(a.report.frame, b.report.frame);
   ASSERT_EQ(a.report.chain, b.report.chain);
@@ -225,7 +234,7 @@ TEST(Packet, CutAnywhereItIsRefusedOrAWholeNumberOfSlices) {
 WireWriter head(std::uint8_t* buffer, std::uint8_t flags = 0, std::uint32_t frame = 7, std::uint8_t mask = 0) {
   WireWriter writer(buffer, kDatagramCap);
   writer.byte(0xd1);
-  writer.fixed(std::uint16_t{1});
+  writer.fixed(std::uint64_t{1});
   writer.fixed(std::uint16_t{2});
   writer.byte(flags);
   writer.number(frame);
@@ -240,8 +249,26 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(reads(buffer, head(buffer, 0, kLastFrame)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, kLastFrame + 1u)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, 0xffffffffu)));
-  for (unsigned flag = 16; flag < 256; flag *= 2)
+  for (unsigned flag = 64; flag < 256; flag *= 2)
     EXPECT_FALSE(reads(buffer, head(buffer, static_cast<std::uint8_t>(flag))));
+  const auto slow = [&](std::uint8_t stretch, std::uint8_t player) {
+    WireWriter writer(buffer, kDatagramCap);
+    writer.byte(0xd1);
+    writer.fixed(std::uint64_t{1});
+    writer.fixed(std::uint16_t{2});
+    writer.byte(32);
+    writer.byte(stretch);
+    writer.byte(player);
+    writer.number(7);
+    writer.byte(0);
+    return reads(buffer, writer);
+  };
+  EXPECT_TRUE(slow(1, 0));
+  EXPECT_TRUE(slow(255, 7));
+  EXPECT_TRUE(slow(255, 0xff));
+  EXPECT_FALSE(slow(0, 0)) << "slow by nothing is not said";
+  EXPECT_FALSE(slow(1, 8));
+  EXPECT_FALSE(slow(1, 0xfe));
   const auto report_at = [&](std::int32_t difference) {
     WireWriter writer = head(buffer, 4);
     writer.difference(difference);

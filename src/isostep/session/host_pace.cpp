@@ -1,0 +1,99 @@
+// The host as judge of time: whose fault a late input is, whose line is worse, and how fast all go.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/host_core.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr Frame kLateBeyond = 4;        // [frames] that an input is late beyond its way: two losses and jitter
+constexpr Frame kMostSpread = 8;        // [frames] more, of who comes in bursts itself
+constexpr int kCatchingUp = 16;         // [1/256 period] that a client adds to what it needs
+constexpr int kAsSlow = 8;              // [1/256 period] by which machines differ that are as slow
+constexpr Time kTooSlow = 2 * kSecond;  // [us] at less than the least pace, until a player watches
+constexpr Time kAsGood = 2;             // [frames] by which round trips differ on lines that are as good
+
+}  // namespace
+
+void HostCore::paused(Time now) {
+  // What passes through us was late for everybody, whoever said it.
+  reports_from_ = now + InputDelay::kSettling * clock_.period();
+  forgive_own_pause(now);
+}
+
+Time HostCore::farthest_that_counts() const {
+  // The middle one of all lines: the better half of the players does not wait for the worse.
+  Time trips[kMaxPlayers] = {};
+  std::size_t count = 0;
+  for (const Guest& guest : guests_) {
+    if (!is_in_match(guest)) continue;
+    std::size_t at = count++;
+    for (; at > 0 && trips[at - 1] > guest.round_trip; --at) trips[at] = trips[at - 1];
+    trips[at] = guest.round_trip;
+  }
+  if (count == 0) return 0;
+  return trips[(count - 1) / 2] + kAsGood * clock_.period();
+}
+
+void HostCore::judge_lines() {
+  const Time farthest = farthest_that_counts();
+  for (Guest& guest : guests_) {
+    // A period less on the way back, so that jitter does not change it again and again.
+    guest.is_far = is_in_match(guest) && guest.round_trip > farthest - (guest.is_far ? clock_.period() : 0);
+  }
+}
+
+Frame HostCore::slack_of(int player) const {
+  const Frame here = is_local(player) ? delay_.frames() + 1 : slack_[player].value();
+  Frame least = is_local(player) ? RecentLeast::kNothing : here;
+  if (here == RecentLeast::kNothing || !reports_count_) return least;
+  const Time farthest = farthest_that_counts();
+  for (const Guest& guest : guests_) {
+    if (!is_in_match(guest) || guest.player == player || (guest.reported_mask >> player & 1) == 0) continue;
+    // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
+    // is said.
+    const Time trip = guest.round_trip < farthest ? guest.round_trip : farthest;
+    const Frame way = static_cast<Frame>(trip / 2 / clock_.period());
+    const Frame spread = guest.is_far ? 0 : slack_[guest.player].spread();
+    const Frame plausible = here - way - kLateBeyond - (spread < kMostSpread ? spread : kMostSpread);
+    const Frame said = guest.slack[player] < plausible ? plausible : guest.slack[player];
+    if (said < least) least = said;
+  }
+  return least;
+}
+
+void HostCore::observe_delay() {
+  stats_.round_trip = 0;
+  for (const Guest& guest : guests_) {
+    if (is_in_match(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
+  }
+  Frame least = RecentLeast::kNothing;
+  for (int p = 0; p < config_.local_players; ++p) {
+    const Frame slack = slack_of(p);
+    if (slack < least) least = slack;
+  }
+  if (least != RecentLeast::kNothing) delay_.observe(least);
+}
+
+void HostCore::choose_pace(Time now) {
+  // Of two that are as slow the one that was named stays it.
+  const auto weight = [&](int player, int stretch) {
+    return stretch > 0 && player == slowest() && stats_.stretch > 0 ? stretch + kAsSlow : stretch;
+  };
+  int whose = is_local(0) ? 0 : 0xff;
+  int stretch = pace_.stretch(), most = weight(whose, stretch);
+  int needed = stretch;
+  for (Guest& guest : guests_) {
+    const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
+    if (!is_too_slow) guest.too_slow_since = now;
+    if (now - guest.too_slow_since >= kTooSlow) close_seat(guest.player);
+    if (!is_in_match(guest)) continue;
+    stretch = guest.stretch < kMostStretch ? guest.stretch : kMostStretch;
+    if (stretch > needed) needed = stretch;
+    if (weight(guest.player, stretch) <= most) continue;
+    most = weight(guest.player, stretch);
+    whose = guest.player;
+  }
+  go_at_pace_of(whose, needed);
+}
+
+}  // namespace isostep
