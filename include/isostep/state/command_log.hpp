@@ -48,7 +48,7 @@ struct NumbersOf<std::index_sequence<I...>, Commands...> : Numbered<I, Commands>
   }
 
  private:
-  template <class C, class Visit> static bool read_one(Reader& reader, Visit& visit) {
+  template <class C, class Visit> static ISO_INLINE bool read_one(Reader& reader, Visit& visit) {
     C command = {};
     if constexpr (WritesItself<C>) {
       command.read(reader);
@@ -100,7 +100,7 @@ ISO_INLINE Result<void> play_commands(Bytes log, Apply&& apply, Step&& step) {
   std::uint32_t steps = 0;
   while (reader.remaining() > 0) {
     if (log[reader.offset()] != kStepMarker) {
-      read_command<Variant>(reader, [&](const auto& command) {
+      read_command<Variant>(reader, [&](const auto& command) ISO_INLINE_LAMBDA {
         if (!apply(command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
       });
     } else if (steps++ == kFrameStepCap) {
