@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/session/frame.hpp"
 
 namespace isostep {
@@ -15,15 +16,11 @@ template <class T> class RecentMedian {
     if (count_ < kValues) ++count_;
   }
   int count() const { return count_; }
-  /// `map(value)` of every one; count() > 0. Of an even number the upper one.
+  /// `map(value)` of every one, 0 or more; count() > 0. Of an even number the upper one.
   template <class Map> auto median(const Map& map) const {
     decltype(map(values_[0])) sorted[kValues] = {};
-    for (int n = 0; n < count_; ++n) {
-      const auto value = map(values_[n]);
-      int at = n;
-      for (; at > 0 && value < sorted[at - 1]; --at) sorted[at] = sorted[at - 1];
-      sorted[at] = value;
-    }
+    for (int n = 0; n < count_; ++n) sorted[n] = map(values_[n]);
+    insertion_sort(sorted, static_cast<std::uint32_t>(count_), OwnKey{});
     return sorted[count_ / 2];
   }
   static constexpr int kValues = 9;  // a seventh of a second of datagrams at 60 Hz: four of them may be wrong

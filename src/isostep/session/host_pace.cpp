@@ -1,5 +1,6 @@
 // The host as judge of time: whose fault a late input is, whose line is worse, and how fast all go.
 // SPDX-License-Identifier: MIT
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/session/host_core.hpp"
 
 namespace isostep {
@@ -23,14 +24,12 @@ void HostCore::paused(Time now) {
 Time HostCore::farthest_that_counts() const {
   // The middle one of all lines: the better half of the players does not wait for the worse.
   Time trips[kMaxPlayers] = {};
-  std::size_t count = 0;
+  std::uint32_t count = 0;
   for (const Guest& guest : guests_) {
-    if (!is_in_match(guest)) continue;
-    std::size_t at = count++;
-    for (; at > 0 && trips[at - 1] > guest.round_trip; --at) trips[at] = trips[at - 1];
-    trips[at] = guest.round_trip;
+    if (is_in_match(guest)) trips[count++] = guest.round_trip;
   }
   if (count == 0) return 0;
+  insertion_sort(trips, count, OwnKey{});
   return trips[(count - 1) / 2] + kAsGood * clock_.period();
 }
 
