@@ -88,6 +88,10 @@ template <class S> class ContinuousCollision {
     bool bullets, kinematic;
   };
 
+  ISO_INLINE Pose<S> now(std::size_t index) const {
+    return {state_.awake.states[index].centre, state_.awake.states[index].orientation};
+  }
+  // continuous_movers.inl
   void find_way(Mover& mover) const;
   Survey survey() const;
   S thinnest_static() const;
@@ -98,6 +102,7 @@ template <class S> class ContinuousCollision {
   void add_if_fast(std::size_t index, S thinnest);
   Mover measure(std::size_t index) const;
   void find_met_by_kinematic(S least);
+  // continuous_collision.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
   void cut(Mover& mover, bool moving);
@@ -109,17 +114,14 @@ template <class S> class ContinuousCollision {
   void put_at(std::uint32_t index, const Pose<S>& pose);
   void place(std::uint32_t index);
   void stop_middle(BodyState<S>& state, const Cut& cut) const;
-  // continuous_joined.inl
-  void stop_joined();
-  bool find_mechanism_fractions();
-  void put_back(const Mover& mover, Unit<S> fraction);
   void find_obstacles(const Mover& mover, bool moving);
   void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
   void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,
                    const Rest& rest, Cut& cut) const;
-  ISO_INLINE Pose<S> now(std::size_t index) const {
-    return {state_.awake.states[index].centre, state_.awake.states[index].orientation};
-  }
+  // continuous_joined.inl
+  void stop_joined();
+  bool find_mechanism_fractions();
+  void put_back(const Mover& mover, Unit<S> fraction);
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;

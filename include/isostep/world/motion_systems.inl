@@ -6,6 +6,7 @@
 #include "isostep/dynamics/carriers.inl"
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/continuous_joined.inl"
+#include "isostep/world/continuous_movers.inl"
 #include "isostep/world/move_targets.inl"
 #include "isostep/world/render_poses.inl"
 #include "isostep/world/sensor_mounts.inl"
