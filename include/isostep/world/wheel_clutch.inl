@@ -9,7 +9,7 @@ namespace isostep {
 template <class S> void WheelForces<S>::begin_engine(Group& group, const Vehicle<S>& vehicle) const {
   group.engine = {};
   group.engine.inertia = vehicle.engine_inertia;
-  group.engine.most = saturate_to<S>(product(vehicle.clutch, vehicle.clutch_torque));
+  group.engine.most = times(vehicle.clutch, vehicle.clutch_torque);
   group.engine.spin = vehicle.engine_spin;
   group.engine.clutch = vehicle.clutch_load;
 }
@@ -49,7 +49,7 @@ template <class S> void WheelForces<S>::engage(Group& group) {
   if (!(S(0) < shaft.give)) return;
   const S give = saturating_add(shaft.give, divide_to<S>(S(1), engine.inertia));
   const S slip = saturating_subtract(engine.spin, shaft.speed);
-  const S more = saturate_to<S>(product(divide_to<S>(slip, give), S(rate_)));
+  const S more = times(divide_to<S>(slip, give), S(rate_));
   bear(group, clamp(saturating_add(engine.clutch, more), -engine.most, engine.most));
 }
 

@@ -8,13 +8,12 @@ namespace isostep {
 
 /// The rim's change of speed by a torque in a sub-step.
 template <class S> void WheelForces<S>::turn(const Run& run, V& rim, S torque) const {
-  const S rate = saturate_to<S>(product(torque, divide_to<S>(wheel(run).radius, run.inertia)));  // [m/s^2]
+  const S rate = times(torque, divide_to<S>(wheel(run).radius, run.inertia));  // [m/s^2]
   rim = saturating_add(rim, saturate_to<V>(product(rate, h_)));
 }
 
 /// How much the brakes can do.
 template <class S> void WheelForces<S>::set_brakes(const Group& group, const Vehicle<S>& vehicle) {
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const Wheel<S>& w = wheel(runs_[i]);
     const S torque = saturating_add(times(times(vehicle.brake, vehicle.brake_torque), w.brake_share),
@@ -28,7 +27,6 @@ template <class S> void WheelForces<S>::set_brakes(const Group& group, const Veh
 template <class S>
 template <class Rim>
 auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Shaft {
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   Shaft shaft = {S(0), S(0)};
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const Run& run = runs_[i];
@@ -42,7 +40,6 @@ auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Sh
 
 /// What throttle asks for, or what brings the shaft to engine_speed within the sub-step, where that is less.
 template <class S> S WheelForces<S>::engine_torque(const Vehicle<S>& vehicle, const Shaft& shaft) const {
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const S asked = times(vehicle.throttle, vehicle.engine_torque);
   const S end = vehicle.throttle < S(0) ? -vehicle.engine_speed : vehicle.engine_speed;
   const S rest = saturating_subtract(end, shaft.speed);
@@ -53,7 +50,7 @@ template <class S> S WheelForces<S>::engine_torque(const Vehicle<S>& vehicle, co
 template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     Run& run = runs_[i];
-    if (leads(run)) turn(run, run.spin.rim, saturate_to<S>(product(torque, run.drive)));
+    if (leads(run)) turn(run, run.spin.rim, times(torque, run.drive));
   }
 }
 
@@ -73,7 +70,6 @@ template <class S> void WheelForces<S>::lock(const Group& group) {
   if (group.vehicle == kNone) return;
   const S locked = state_.force_records->vehicles.all()[group.vehicle].differential_lock;
   if (!(S(0) < locked)) return;
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const auto is_driven = [&](const Run& run) { return leads(run) && run.driven; };
   const auto speed_of = [&](const Run& run) { return divide_to<S>(end_of(run), wheel(run).radius); };
   S inertia = S(0), mean = S(0);

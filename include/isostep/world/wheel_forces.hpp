@@ -115,6 +115,7 @@ template <class S> class WheelForces {
   // wheel_forces.inl
   const Wheel<S>& wheel(const Run& run) const { return state_.force_records->wheels.all()[run.slot]; }
   bool leads(const Run& run) const { return &runs_[run.leader] == &run; }
+  static ISO_INLINE S times(S a, S b) { return saturate_to<S>(product(a, b)); }
   void place(Run& run, const Mat3<U>& turn);
   void compress(Run& run, S length) const;
   V speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const;

@@ -87,7 +87,6 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
 template <class S> void WheelForces<S>::compress(Run& run, S length) const {
   const Wheel<S>& w = wheel(run);
   const S mass = bodies_->mass[run.row].mass;
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const S stiffness = divide_to<S>(saturating_add(w.stiffness, run.anti_roll), mass);  // [1/s^2]
   run.length = length;
   const detail::SlipCurve<S> curve = {w.peak_slip, w.peak_grip, w.slide_slip, w.slide_grip};
@@ -115,15 +114,13 @@ ISO_INLINE Velocity<S> WheelForces<S>::without(const Run& run, const Row& row, V
                                                const MotionRow<V>& body) const {
   return saturating_subtract(speed_of(run, row, body), saturate_to<V>(product(row.give, impulse)));
 }
-template <class S>
-ISO_INLINE void WheelForces<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
+template <class S> ISO_INLINE void WheelForces<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
   if (run.ground == 0) row.push(body, impulse);
   else row.push(body, motion_[run.ground], impulse);
 }
 
 /// What the strut pushes, of the length and speed that it leads to itself.
 template <class S> ISO_INLINE void WheelForces<S>::press(Run& run, MotionRow<V>& body) {
-  const auto times = [](auto a, auto b) ISO_INLINE_LAMBDA { return saturate_to<S>(product(a, b)); };
   const V others = without(run, run.up, run.load, body);
   S force = run.strut.spring;  // [m/s^2] along the suspension
   if (run.partner != kNone && runs_[run.partner].touches) {
@@ -144,9 +141,8 @@ template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& 
   const auto most = [&](S mu) ISO_INLINE_LAMBDA { return saturate_to<V>(product(mu, run.load)); };
   const V slip_along = without(run, run.along, run.push_along, body);
   const V slip_across = without(run, run.across, run.push_across, body);
-  const detail::TyreImpulse<V> made =
-      detail::tyre_impulse<S>(spin_of(run), run.along.give, run.across.give, slip_along, slip_across,
-                              most(run.grip_along), most(run.grip_across));
+  const detail::TyreImpulse<V> made = detail::tyre_impulse<S>(spin_of(run), run.along.give, run.across.give, slip_along,
+                                                              slip_across, most(run.grip_along), most(run.grip_across));
   move(run, run.along, body, made.along - run.push_along);
   move(run, run.across, body, made.across - run.push_across);
   run.push_along = made.along;

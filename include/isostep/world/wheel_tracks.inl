@@ -22,7 +22,6 @@ template <class S> void WheelForces<S>::join_tracks(const Group& group) {
 }
 /// What the two turn with together, about their axles and for their radii, they keep.
 template <class S> void WheelForces<S>::join(Run& leader, Run& run) const {
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const S radius = wheel(leader).radius;
   run.to_leader = divide_to<S>(radius, wheel(run).radius);
   const S more = times(times(run.inertia, run.to_leader), run.to_leader);
@@ -54,16 +53,14 @@ template <class S> S WheelForces<S>::side_of(const Run& run, const Vehicle<S>& v
   if (w.track == 0) return S(1);
   const S left = dot(w.hard_point - state_.awake.properties[run.row - 1].local_centre, w.axle_direction);
   const bool is_inner = vehicle.steer < S(0) ? left < S(0) : S(0) < left;
-  return is_inner ? S(1) - saturate_to<S>(product(vehicle.track_steer, abs(vehicle.steer))) : S(1);
+  return is_inner ? S(1) - times(vehicle.track_steer, abs(vehicle.steer)) : S(1);
 }
 /// How many turns of the engine's shaft each wheel's and track's is.
 template <class S> void WheelForces<S>::gear_up(Group& group) {
   if (group.vehicle == kNone) return;
   const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
-  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   S shares = S(0);
-  for (std::uint32_t i = group.first; i < group.end; ++i)
-    shares = saturating_add(shares, wheel(runs_[i]).drive_share);
+  for (std::uint32_t i = group.first; i < group.end; ++i) shares = saturating_add(shares, wheel(runs_[i]).drive_share);
   const S most = Limits<S>::mass_ratio();
   const S ratio = clamp(times(vehicle.gears[vehicle.gear], vehicle.final_drive), -most, most);
   group.geared = S(0) < shares && !(ratio == S(0));
