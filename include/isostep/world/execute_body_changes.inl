@@ -38,8 +38,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
     if (!named.body || named.body.slot != slot) continue;
     if (!detail::is_as_asked(next.type, named.must_be))
       return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's records may name"});
-    const bool at_point = *named.point_field != 0;  // else it is about the body as a whole
-    if (at_point && detail::overreaches(next.kappa, next.principal, named.point - next.local_centre))
+    if (detail::overreaches(next, named))
       return journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
   }
   const auto as_next = [&](BodyId body) { return body && body.slot == slot ? &next : map_.properties_of(body); };

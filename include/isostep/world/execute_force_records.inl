@@ -20,8 +20,7 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_force(
       return journal_.refuse(named.must_be == detail::MustBe::dynamic
                                  ? FaultReport{Fault::not_dynamic, "", named.field, "a dynamic one"}
                                  : FaultReport{Fault::bad_argument, "", named.field, "a kinematic one"});
-    const bool at_point = *named.point_field != 0;  // else it is about the body as a whole
-    if (at_point && detail::overreaches(body.kappa, body.principal, named.point - body.local_centre))
+    if (detail::overreaches(body, named))
       return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
   }
   return check_joints(record) && check_spring(record);

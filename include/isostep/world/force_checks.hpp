@@ -185,6 +185,11 @@ ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
   if (must_be == MustBe::any) return true;
   return type == (must_be == MustBe::dynamic ? BodyType::dynamic : BodyType::kinematic);
 }
+/// Whether a force of the record acts too far from the centre of mass of the body that it names; a record without a
+/// point is about the body as a whole.
+template <class S> bool overreaches(const BodyProperties<S>& body, const NamedBody<S>& named) {
+  return *named.point_field != 0 && overreaches(body.kappa, body.principal, named.point - body.local_centre);
+}
 template <class S> struct NamedBodies {
   NamedBody<S> all[2];
   int count;

@@ -21,17 +21,18 @@ template <class S> struct SlotTables {
   };
 
   std::vector<std::uint32_t> set_of_body;  // Location::kNone, kStatic, kAwake or a sleeping island
-  std::vector<BodyType> type_of_body;
   std::vector<const BodyProperties<S>*> properties_of_body;  // null: there is no body
   std::vector<JointAt> joint_at;
 
   bool is_body(std::uint32_t slot) const { return slot < set_of_body.size() && set_of_body[slot] != Location::kNone; }
+  /// Of a body that is there.
+  BodyType type_of(std::uint32_t slot) const { return properties_of_body[slot]->type; }
   bool is_disabled(std::uint32_t slot) const {
-    return set_of_body[slot] == Location::kStatic && type_of_body[slot] != BodyType::static_;
+    return set_of_body[slot] == Location::kStatic && type_of(slot) != BodyType::static_;
   }
   /// Whether forces move it.
   bool moves(std::uint32_t slot) const {
-    return slot != kNoBody && type_of_body[slot] == BodyType::dynamic && set_of_body[slot] != Location::kStatic;
+    return slot != kNoBody && type_of(slot) == BodyType::dynamic && set_of_body[slot] != Location::kStatic;
   }
 };
 
@@ -142,7 +143,7 @@ template <class S> class RecordValidator {
   bool names_well(const detail::NamedBody<S>& named) const {
     if (!named.body) return named.may_be_null;
     return state_.body_slots.holds(named.body) &&
-           detail::is_as_asked(seen_.type_of_body[named.body.slot], named.must_be);
+           detail::is_as_asked(seen_.type_of(named.body.slot), named.must_be);
   }
   template <class Record> bool ties_well(const Record&) const { return true; }
   bool ties_well(const SurfaceVelocity<S>& surface) const {
@@ -154,7 +155,7 @@ template <class S> class RecordValidator {
   }
   bool ties_well(const KindResponse<S>&) const { return state_.settings.solver != SolverName::direct; }
   bool ties_well(const BodySpring<S>& spring) const {
-    const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of_body[body.slot] == BodyType::dynamic; };
+    const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of(body.slot) == BodyType::dynamic; };
     if (!is_dynamic(spring.a) && !is_dynamic(spring.b)) return false;
     const bool ties = spring.a && spring.b && seen_.moves(spring.a.slot) && seen_.moves(spring.b.slot);
     return !ties || seen_.set_of_body[spring.a.slot] == seen_.set_of_body[spring.b.slot];

@@ -31,7 +31,6 @@ template <class S> class StateValidator {
       return "settings out of range";
     }
     seen_.set_of_body.assign(state_.body_slots.entries().size(), Location::kNone);
-    seen_.type_of_body.assign(seen_.set_of_body.size(), BodyType::static_);
     seen_.properties_of_body.assign(seen_.set_of_body.size(), nullptr);
     leaves_of_body_.assign(seen_.set_of_body.size(), 0);
     seen_.joint_at.assign(state_.joint_slots.entries().size(), {nullptr, 0});
@@ -129,7 +128,6 @@ template <class S> class StateValidator {
         return "a body's slot is unknown or twice used";
       if (i > 0 && !(set.states[i - 1].slot < b.slot)) return "bodies ascend by slot";
       seen_.set_of_body[b.slot] = name;
-      seen_.type_of_body[b.slot] = set.properties[i].type;
       seen_.properties_of_body[b.slot] = &set.properties[i];
       if (const char* rule = properties(set.properties[i], name)) return rule;
       leaves_of_body_[b.slot] = leaves_of_shape_[set.properties[i].shape];
@@ -242,7 +240,7 @@ template <class S> class StateValidator {
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const std::uint32_t slot = forces[i].slot;
       if (!seen_.is_body(slot) || seen_.set_of_body[slot] != Location::kAwake ||
-          seen_.type_of_body[slot] != BodyType::dynamic) {
+          seen_.type_of(slot) != BodyType::dynamic) {
         return "a force acts on no dynamic body that is awake";
       }
       const std::int32_t hz = state_.settings.hz;
