@@ -86,6 +86,8 @@ template <class S> class BodyMap {
   /// Of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
+  /// The inverse: where the centre of mass is, axes as the body's, of a body with its origin there.
+  static Pose<S> centre_pose(const Pose<S>& origin, Vec3<S> local_centre);
   Pose<S> origin_pose_at(std::uint32_t slot) const;
   /// Pose of the centre of mass, or for kNoBody of the world itself.
   ISO_INLINE Pose<S> centre_pose_at(std::uint32_t slot) const {

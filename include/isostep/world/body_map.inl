@@ -43,6 +43,9 @@ template <class S> Pose<S> BodyMap<S>::origin_pose(const BodyState<S>& state, co
   if (body.local_centre == Vec3<S>::zero()) return {state.centre, state.orientation};
   return {state.centre - to_matrix(state.orientation) * body.local_centre, state.orientation};
 }
+template <class S> Pose<S> BodyMap<S>::centre_pose(const Pose<S>& origin, Vec3<S> local_centre) {
+  return {origin.position + to_matrix(origin.orientation) * local_centre, origin.orientation};
+}
 template <class S> Pose<S> BodyMap<S>::origin_pose_at(std::uint32_t slot) const {
   return origin_pose(state_at(locations_[slot]), properties_at(locations_[slot]));
 }

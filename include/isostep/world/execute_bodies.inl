@@ -90,8 +90,9 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   if (!give_mass({d.density, d.mass, d.inertia}, body)) return {};
 
   BodyState<S> state = {};
-  state.orientation = normalise(d.orientation);
-  state.centre = d.position + to_matrix(state.orientation) * body.local_centre;
+  const Pose<S> centre = BodyMap<S>::centre_pose({d.position, normalise(d.orientation)}, body.local_centre);
+  state.orientation = centre.orientation;
+  state.centre = centre.position;
   if (d.type != BodyType::static_) {
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.angular_velocity = convert<Velocity<S>>(d.angular_velocity);
@@ -162,9 +163,9 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
     return journal_.refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
   const std::uint32_t slot = command.body.slot;
   const Location at = map_.location(slot);
-  const Quat<Unit<S>> orientation = normalise(command.pose.orientation);
-  const Vec3<S> centre = command.pose.position + to_matrix(orientation) * map_.properties_at(at).local_centre;
-  if (!journal_.accept(detail::fault_of_place(centre, "position"))) return false;
+  const Pose<S> centre = BodyMap<S>::centre_pose({command.pose.position, normalise(command.pose.orientation)},
+                                                 map_.properties_at(at).local_centre);
+  if (!journal_.accept(detail::fault_of_place(centre.position, "position"))) return false;
   wake_.wake_touching(slot);
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
   if (at.set != Location::kStatic) wake_.wake_for_change(slot);
@@ -172,8 +173,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   BodySet<S>& set = now.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
   BodyState<S>& state = set.states[now.index];
   const BodyProperties<S>& body = set.properties[now.index];
-  state.orientation = orientation;
-  state.centre = centre;
+  state.orientation = centre.orientation;
+  state.centre = centre.position;
   render_poses_.start_here(state);
   detail::renew_fat_box(map_, state, body, true);
   proxies_.place(state, body, now.set == Location::kAwake);

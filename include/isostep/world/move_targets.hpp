@@ -16,8 +16,7 @@ namespace isostep {
 namespace detail {
 /// Where the centre of mass lies as the target is reached.
 template <class S> ISO_INLINE Pose<S> centre_at(const MoveTarget<S>& target, Vec3<S> local_centre) {
-  const Quat<Unit<S>> orientation = normalise(target.pose.orientation);
-  return {target.pose.position + to_matrix(orientation) * local_centre, orientation};
+  return BodyMap<S>::centre_pose({target.pose.position, normalise(target.pose.orientation)}, local_centre);
 }
 }  // namespace detail
 

@@ -37,13 +37,12 @@ template <class S> template <class Visit> void SensorMounts<S>::for_each(const V
 
 template <class S>
 void SensorMounts<S>::put(BodyState<S>& sensor, const BodyProperties<S>& body, const SensorMount<S>& mount) {
-  const S edge = Limits<S>::position();
   const Pose<S> origin = compose(map_.origin_pose_at(mount.on.slot), mount.frame);
-  const Vec3<S> to = origin.position + to_matrix(origin.orientation) * body.local_centre;
-  const Vec3<S> centre = {clamp(to.x, -edge, edge), clamp(to.y, -edge, edge), clamp(to.z, -edge, edge)};
-  if (sensor.centre == centre && sensor.orientation == origin.orientation) return;
+  const Pose<S> to = BodyMap<S>::centre_pose(origin, body.local_centre);
+  const Vec3<S> centre = held_within(to.position, Limits<S>::position());
+  if (sensor.centre == centre && sensor.orientation == to.orientation) return;
   sensor.centre = centre;
-  sensor.orientation = origin.orientation;
+  sensor.orientation = to.orientation;
   detail::renew_fat_box(map_, sensor, body, false);
   proxies_.place(sensor, body, true);
 }
