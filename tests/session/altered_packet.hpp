@@ -41,4 +41,14 @@ void alter_packet(std::vector<std::uint8_t>& bytes, const HeaderChange& header, 
   bytes.assign(writer.bytes().begin(), writer.bytes().end());
 }
 
+/// Everything else that the datagram says stays.
+inline void drop_inputs_of(int player, std::vector<std::uint8_t>& bytes) {
+  const std::vector<std::uint8_t> original = bytes;
+  const Result<Packet> read = read_packet(original);
+  if (!read || read.value().slice_count != 1 || read.value().slices[0].player != player) return;
+  std::uint8_t buffer[kDatagramCap];
+  const PacketWriter writer(read.value().header, buffer);
+  bytes.assign(writer.bytes().begin(), writer.bytes().end());
+}
+
 }  // namespace isostep::test

@@ -20,6 +20,7 @@ SessionConfig config_of(Pcg32& random) {
   config.hz = random.next() % 4 == 0 ? 30 : 60;
   config.patience = (1 + random.next() % 3) * kSecond;
   config.silence = (2 + random.next() % 3) * kSecond;
+  config.exclusion = random.next() % 4 * kSecond;
   return config;
 }
 

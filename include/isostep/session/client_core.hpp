@@ -30,6 +30,7 @@ class ClientCore : public PeerCore {
   void before_steps(Time now) override;
   void observe_delay() override;
   void paused(Time now) override { forgive_own_pause(now); }
+  void blocked(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
  private:

@@ -29,11 +29,12 @@ struct SessionConfig {
   Frame least_delay = 0;  // it adapts between these; equal: it does not
   Frame most_delay = 20;
 
-  Time silence = 5 * kSecond;   // [us] without a word from a peer until it counts as lost
-  Time patience = 5 * kSecond;  // [us] that the host waits for one player's inputs before it goes on without them
-  Frame kept = 64;              // states kept to find the cause of a divergence in, more than window, delay and latency
-  Frame history = 1200;         // frames of inputs kept: how long a snapshot may take to reach a late joiner
-  int max_peers = 16;           // connections that the host serves: players and spectators
+  Time silence = 4 * kSecond;     // [us] without a word from a peer until it counts as lost
+  Time patience = 5 * kSecond;    // [us] that one player may make the others wait within a minute; then it is left out
+  Time exclusion = 60 * kSecond;  // [us] for so long: it watches meanwhile
+  Frame kept = 64;       // states kept to find the cause of a divergence in, more than window, delay and latency
+  Frame history = 1200;  // frames of inputs kept: how long a snapshot may take to reach a late joiner
+  int max_peers = 16;    // connections that the host serves: players and spectators
   std::uint32_t snapshot_cap = 64u << 20;  // [bytes] of a portable snapshot that a client accepts
   std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread
 

@@ -44,7 +44,7 @@ struct SessionEvent {
     started,       // frame: the first
     joined,        // player plays from frame on: reported when that is final, alike on all peers
     left,          // player is gone from frame on: as well
-    waiting_for,   // players (a bit each) whose inputs are missing hold the match up
+    waiting_for,   // players (a bit each) hold the match up, their inputs are missing; none: the host is silent
     resumed,       // it goes on
     slowed_by,     // all step as slowly as player's machine can: told when that begins, and when it is another's
     full_speed,    // no longer

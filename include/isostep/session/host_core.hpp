@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/session/peer_core.hpp"
+#include "isostep/session/stall_budget.hpp"
 
 namespace isostep {
 
@@ -37,7 +38,8 @@ class HostCore : public PeerCore {
     int link = -1;  // -1: its player is away
     std::uint64_t token = 0;
     bool is_open = false;  // inputs are awaited
-    Time owed = 0;         // [us] see charge()
+    StallBudget lost;      // time that others waited for it
+    Time shut_until = 0;   // [us] its player watches
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
@@ -45,6 +47,7 @@ class HostCore : public PeerCore {
     Stage stage = Stage::connected;
     int player = -1;  // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
+    bool is_ready = false;  // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
     Frame opens = kNoFrame;
@@ -63,13 +66,12 @@ class HostCore : public PeerCore {
   void go_live(Guest& guest, Frame start);
   void take_packet(Guest& guest, const Packet& packet, Time now);
   void take_inputs(Guest& guest, const InputSlice& slice, Time now);
-  void open_seat(Guest& guest);
+  void open_seat(Guest& guest, Time now);
   void close_seat(int player);
   /// Its player's seat is free for who comes next.
   void unseat(Guest& guest);
   void drop(Guest& guest);
-  /// Who holds the match up pays with patience, and earns it back while the match goes on: so inputs that come just in
-  /// time, again and again, do not hold it up for ever.
+  /// Who holds the match up spends its patience of a minute, whether at once or bit by bit, and then watches.
   void charge(Time now);
   /// Nobody plays on seats that are not open, up to the horizon.
   void fill_absent();
@@ -101,9 +103,8 @@ class HostCore : public PeerCore {
   std::uint64_t secrets_ = 0;  // given out
   std::uint64_t match_;
   Time blocked_since_ = 0;
-  Time charged_at_ = 0;  // [us]
-  Frame charged_frame_ = 0;
-  bool told_blocked_ = false;
+  Time charged_at_ = 0;         // [us]
+  Time began_ = 0;              // [us]
   Time reports_from_ = 0;       // [us] before that, what guests say of lateness speaks of a pause of ours
   bool reports_count_ = false;  // in this turn
 

@@ -10,7 +10,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 2;
+inline constexpr std::uint16_t kSessionProtocol = 3;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
@@ -30,6 +30,7 @@ struct PacketHeader {
   bool is_far = false;           // host: the receiver's line is one for which the others do not wait
   std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
   std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
+  std::uint8_t waits_for = 0;    // host: players, a bit each, who hold the match up
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none

@@ -62,6 +62,12 @@ class PeerCore : public SessionCore {
   /// All frames take longer by `stretch`, for `player`'s machine: tells the caller when that changes.
   void go_at_pace_of(int player, int stretch);
   int slowest() const { return slowest_; }
+  /// The match stands, for these players (a bit each) or for the host's machine: tells the caller when that changes.
+  void stands_for(std::uint32_t players);
+  void goes_on();
+  /// As last told; 0: nobody.
+  std::uint8_t waits_for() const { return static_cast<std::uint8_t>(stands_ ? waits_for_ : 0); }
+  static constexpr Time kTellBlocked = kSecond / 5;  // [us] before a wait is worth an event
   /// [1/256 period] 40 frames a second where there should be 60: who cannot do so many does not play.
   static constexpr int kMostStretch = 128;
   /// After a pause of ours: reports speak of our being late and not of the line.
@@ -110,6 +116,8 @@ class PeerCore : public SessionCore {
   Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before
   bool has_turned_ = false;
   int slowest_ = 0xff;  // as last told
+  bool stands_ = false;
+  std::uint32_t waits_for_ = 0;
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

@@ -51,9 +51,11 @@ struct PeerLink {
   bool has_more = false;                // something did not fit
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
   std::uint8_t reported_mask = 0;       // players of whom it did
-  Frame newest_frame = 0;               // of which the datagram is that said this:
+  Frame newest_frame = 0;               // of which the datagram is that said this,
+  std::uint16_t newest_time = 0;        // and when [ms] by the peer's clock:
   int stretch = 0;                      // [1/256 period] by which its frames are longer,
   std::uint8_t slowest = 0xff;          // and for whom
+  std::uint8_t waits_for = 0;           // who holds the match up
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
 
@@ -69,6 +71,11 @@ struct PeerLink {
   /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {
     return now >= next_send || continues_burst(now) || (sent_frame != current && now + period / 2 >= next_send);
+  }
+  /// Said after all that was heard before? Of a frame that stands many datagrams come.
+  bool is_newest(const PacketHeader& header) const {
+    if (header.frame != newest_frame) return header.frame > newest_frame;
+    return static_cast<std::uint16_t>(header.time - newest_time) < 0x8000;
   }
   void set_clock(const PacketHeader& header, Time now) {
     has_clock = true;

@@ -22,6 +22,8 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   }
   if (runs_) {
     go_at_pace_of(host_.slowest, host_.stretch);
+    if (host_.waits_for != 0) stands_for(host_.waits_for);
+    else goes_on();
     lean(now);
   }
   take_hash(kHostMachine, header.report);
@@ -124,6 +126,11 @@ void ClientCore::before_steps(Time now) {
   } else if (!is_open_ && !asked_ready_ && is_near && pace_.stretch() <= kMostStretch && is_vouched_for(now)) {
     asked_ready_ = must_ready_ = true;
   }
+}
+
+void ClientCore::blocked(Time now) {
+  // Whose inputs are missing the host knows; that nothing comes of the host itself we see.
+  if (now - host_.heard >= kTellBlocked) stands_for((1u << welcome_.host_players) - 1);
 }
 
 Frame ClientCore::worst_slack() const {

@@ -5,8 +5,8 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kMostAhead = 128;           // [frames] beyond ours that a client's input may lie
-constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an event
+constexpr Frame kMostAhead = 128;        // [frames] beyond ours that a client's input may lie
+constexpr Time kSettling = 5 * kSecond;  // [us] of a match, in which delays find out how long the lines are
 
 }  // namespace
 
@@ -31,6 +31,7 @@ void HostCore::disconnected(PeerId peer, Time) {
 
 void HostCore::begin(Time now) {
   started_ = true;
+  began_ = now;
   clock_.start(now);
   phase_ = config_.local_players > 0 ? SessionPhase::playing : SessionPhase::watching;
   for (int p = 0; p < players(); ++p) {
@@ -76,7 +77,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     guest.heard = now;  // of the last pieces
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
-    open_seat(guest);
+    guest.is_ready = true;
   } else {
     ++stats_.refused;
   }
@@ -145,9 +146,10 @@ void HostCore::before_steps(Time now) {
       if (guest.player >= 0) close_seat(guest.player);
       guest.stage = Guest::Stage::needs_snapshot;
       guest.must_welcome = true;
-      guest.must_open = false;
+      guest.must_open = guest.is_ready = false;
       guest.opens = kNoFrame;
     }
+    if (guest.is_ready) open_seat(guest, now);
   }
   reports_count_ = now >= reports_from_;
   judge_lines();
@@ -166,42 +168,36 @@ void HostCore::fill_absent() {
 
 void HostCore::blocked(Time now) {
   if (blocked_since_ == 0) blocked_since_ = charged_at_ = now;
-  const Time waited = now - blocked_since_;
   std::uint32_t missing = 0;
   for (int p = 0; p < players(); ++p) {
     if (streams_[static_cast<std::size_t>(p)].end() == known_end()) missing |= 1u << p;
   }
-  if (waited >= kTellBlocked && !told_blocked_) {
-    told_blocked_ = true;
-    SessionEvent event{.kind = SessionEvent::Kind::waiting_for};
-    event.players = missing;
-    event.frame = current();
-    tell(event);
-  }
+  if (now - blocked_since_ >= kTellBlocked) stands_for(missing);
   charge(now);
 }
 
 void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
-  const Time ran = static_cast<Time>(current() - charged_frame_) * clock_.period();
   charged_at_ = now;
-  charged_frame_ = current();
+  if (now - began_ < kSettling) return;
+  const auto is_missing = [&](int p) {
+    return seats_[p].is_open && streams_[static_cast<std::size_t>(p)].end() <= current();
+  };
+  Time missing = 0;
+  for (int p = 0; p < players(); ++p) missing += is_missing(p) ? 1 : 0;
   for (int p = config_.local_players; p < players(); ++p) {
-    Time& owed = seats_[p].owed;
-    owed = owed > ran ? owed - ran : 0;
-    if (!seats_[p].is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
-    owed += passed;
-    if (owed >= config_.patience) close_seat(p);
+    if (!is_missing(p)) continue;
+    Seat& seat = seats_[p];
+    seat.lost.spend(passed / missing, now);  // so that all charges together are the time that was lost
+    if (seat.lost.spent(now) < config_.patience) continue;
+    close_seat(p);
+    seat.shut_until = now + config_.exclusion;
   }
 }
 
 void HostCore::unblocked(Time) {
   blocked_since_ = 0;
-  if (!told_blocked_) return;
-  told_blocked_ = false;
-  SessionEvent event{.kind = SessionEvent::Kind::resumed};
-  event.frame = current();
-  tell(event);
+  goes_on();
 }
 
 }  // namespace isostep

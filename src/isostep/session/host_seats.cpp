@@ -73,7 +73,7 @@ void HostCore::greet(Guest& guest, Bytes message) {
       unseat(old);
       old.must_close = true;
     }
-    seat = {true, static_cast<int>(guest.peer), secret() | 1u, false, seat.owed};
+    seat = {true, static_cast<int>(guest.peer), secret() | 1u, false, seat.lost, seat.shut_until};
     guest.player = player;
   }
   guest.must_welcome = true;
@@ -97,8 +97,10 @@ void HostCore::go_live(Guest& guest, Frame start) {
   for (Frame& acked : guest.acked) acked = start;
 }
 
-void HostCore::open_seat(Guest& guest) {
-  if (guest.player < 0 || seats_[guest.player].is_open || !started_) return;
+void HostCore::open_seat(Guest& guest, Time now) {
+  if (!started_ || (guest.player >= 0 && now < seats_[guest.player].shut_until)) return;  // later
+  guest.is_ready = false;
+  if (guest.player < 0 || seats_[guest.player].is_open) return;
   InputStream& stream = streams_[static_cast<std::size_t>(guest.player)];
   const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
   // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.

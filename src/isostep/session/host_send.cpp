@@ -108,6 +108,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.is_far = guest.is_far;
   header.stretch = static_cast<std::uint8_t>(stats_.stretch);
   header.slowest = static_cast<std::uint8_t>(slowest());
+  header.waits_for = waits_for();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   if (guest.player >= 0 && seats_[guest.player].is_open) {
     const auto p = static_cast<std::size_t>(guest.player);

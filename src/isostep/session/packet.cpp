@@ -1,8 +1,8 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u64 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | frame varint
-//         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
+// Layout: kind u8 | match u64 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for u8]
+//         | frame varint | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | ack mask u8 | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
 constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
-                       kKnownFlags = 63;
+                       kWaits = 64, kKnownFlags = 127;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -83,12 +83,14 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.fixed(header.time);
   writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
                                         (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0) |
-                                        (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0)));
+                                        (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
+                                        (header.waits_for != 0 ? kWaits : 0)));
   if (header.has_echo) writer.fixed(header.echo);
   if (header.stretch > 0) {
     writer.byte(header.stretch);
     writer.byte(header.slowest);
   }
+  if (header.waits_for != 0) writer.byte(header.waits_for);
   writer.number(static_cast<std::uint32_t>(header.frame));
   if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
@@ -167,6 +169,10 @@ Result<Packet> read_packet(Bytes bytes) {
     header.slowest = reader.byte();
     if (header.stretch == 0) return refuse("slow by nothing");
     if (header.slowest >= kMaxPlayers && header.slowest != 0xff) return refuse("slowed by no player");
+  }
+  if ((flags & kWaits) != 0) {
+    header.waits_for = reader.byte();
+    if (header.waits_for == 0) return refuse("waits for nobody");
   }
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");

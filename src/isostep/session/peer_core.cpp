@@ -259,10 +259,12 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
   link.position.heard(header.frame, now);
   if (!link.position.is_near(link.newest_frame, now, clock_.period())) link.newest_frame = 0;
   if (is_current && !is_after_pause(now)) link.set_clock(header, now);
-  if (is_current && header.frame >= link.newest_frame) {
+  if (is_current && link.is_newest(header)) {
     link.newest_frame = header.frame;
+    link.newest_time = header.time;
     link.stretch = header.stretch;
     link.slowest = header.slowest;
+    link.waits_for = header.waits_for;
   }
   for (int p = 0; p < players(); ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;

@@ -36,6 +36,24 @@ void PeerCore::go_at_pace_of(int player, int stretch) {
   tell(event);
 }
 
+void PeerCore::stands_for(std::uint32_t players) {
+  if (stands_ && players == waits_for_) return;
+  stands_ = true;
+  waits_for_ = players;
+  SessionEvent event{.kind = SessionEvent::Kind::waiting_for};
+  event.players = players;
+  event.frame = current();
+  tell(event);
+}
+
+void PeerCore::goes_on() {
+  if (!stands_) return;
+  stands_ = false;
+  SessionEvent event{.kind = SessionEvent::Kind::resumed};
+  event.frame = current();
+  tell(event);
+}
+
 void PeerCore::note_arrival(int player, Time now) {
   if (is_after_pause(now)) return;
   const Frame end = streams_[static_cast<std::size_t>(player)].end();
