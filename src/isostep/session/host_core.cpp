@@ -6,7 +6,7 @@ namespace isostep {
 namespace {
 
 constexpr Frame kMostAhead = 128;        // [frames] beyond ours that a client's input may lie
-constexpr Time kSettling = 5 * kSecond;  // [us] of a match, in which delays find out how long the lines are
+constexpr Time kFreeStart = 5 * kSecond;  // [us] of a match, in which delays find out how long the lines are
 
 }  // namespace
 
@@ -179,7 +179,7 @@ void HostCore::blocked(Time now) {
 void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
-  if (now - began_ < kSettling) return;
+  if (now - began_ < kFreeStart) return;
   const auto is_missing = [&](int p) {
     return seats_[p].is_open && streams_[static_cast<std::size_t>(p)].end() <= current();
   };

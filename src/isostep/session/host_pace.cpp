@@ -6,7 +6,8 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kLateBeyond = 4;        // [frames] that an input is late beyond its way: two losses and jitter
+constexpr Frame kLateBeyond = 2;        // [frames] that an input is late beyond its way: two losses, or jitter
+constexpr Frame kLateWhenSlow = 3;      // [frames] while a machine is at its limit, and sends less evenly
 constexpr Frame kMostSpread = 8;        // [frames] more, of who comes in bursts itself
 constexpr int kCatchingUp = 16;         // [1/256 period] that a client adds to what it needs
 constexpr int kAsSlow = 8;              // [1/256 period] by which machines differ that are as slow
@@ -46,6 +47,7 @@ Frame HostCore::slack_of(int player) const {
   Frame least = is_local(player) ? RecentLeast::kNothing : here;
   if (here == RecentLeast::kNothing || !reports_count_) return least;
   const Time farthest = farthest_that_counts();
+  const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
   for (const Guest& guest : guests_) {
     if (!is_in_match(guest) || guest.player == player || (guest.reported_mask >> player & 1) == 0) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
@@ -53,7 +55,7 @@ Frame HostCore::slack_of(int player) const {
     const Time trip = guest.round_trip < farthest ? guest.round_trip : farthest;
     const Frame way = static_cast<Frame>(trip / 2 / clock_.period());
     const Frame spread = guest.is_far ? 0 : slack_[guest.player].spread();
-    const Frame plausible = here - way - kLateBeyond - (spread < kMostSpread ? spread : kMostSpread);
+    const Frame plausible = here - way - beyond - (spread < kMostSpread ? spread : kMostSpread);
     const Frame said = guest.slack[player] < plausible ? plausible : guest.slack[player];
     if (said < least) least = said;
   }
