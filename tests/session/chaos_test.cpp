@@ -21,6 +21,7 @@ SessionConfig config_of(Pcg32& random) {
   config.patience = (1 + random.next() % 3) * kSecond;
   config.silence = (2 + random.next() % 3) * kSecond;
   config.exclusion = random.next() % 4 * kSecond;
+  config.deadline = random.next() % 3 == 0 ? 1 + static_cast<Frame>(random.next() % 12) : 0;
   return config;
 }
 

@@ -87,7 +87,13 @@ template <class Game> struct Machine {
     drive(session, *game, now, *this);
     while (const std::optional<Outgoing> out = session.poll_send(now)) {
       if (muted) continue;
-      if (!out->bytes.empty()) static_cast<void>(port.send(out->peer, out->channel, out->bytes).ok());
+      Bytes bytes = out->bytes;
+      if (outgoing && !bytes.empty()) {
+        changed.assign(bytes.begin(), bytes.end());
+        outgoing(out->channel, changed);
+        bytes = changed;
+      }
+      if (!bytes.empty()) static_cast<void>(port.send(out->peer, out->channel, bytes).ok());
       if (out->close) port.disconnect(out->peer);
     }
     while (const std::optional<SessionEvent> event = session.poll_event()) events.push_back(*event);
@@ -126,7 +132,7 @@ template <class Game> struct Machine {
   Session<Game> session;
   std::unique_ptr<Game> game;
   std::function<void(Game&, Frame)> tamper;                         // before a step: a fault to be found
-  std::function<void(Channel, std::vector<std::uint8_t>&)> middle;  // alters what arrives
+  std::function<void(Channel, std::vector<std::uint8_t>&)> middle, outgoing;  // alter what arrives, and what is sent
   // What the observer sees, and the end of every turn.
   std::function<void(Frame)> will_step;
   std::function<void(const Game&, Frame)> stepped;

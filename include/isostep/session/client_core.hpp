@@ -22,13 +22,16 @@ class ClientCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return is_open_ && player == player_; }
-  bool sends(int player, const PeerLink&) const override { return is_local(player); }
+  Frame sends_until(int player, const PeerLink&) const override {
+    return is_local(player) ? streams_[static_cast<std::size_t>(player)].end() : 0;
+  }
   bool running() const override { return runs_; }
   Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
   Frame final_limit() const override;
   bool hurries(Time now) const override;
   void before_steps(Time now) override;
   void observe_delay() override;
+  Frame early(int player) const override;
   void paused(Time now) override { forgive_own_pause(now); }
   void blocked(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
@@ -43,6 +46,8 @@ class ClientCore : public PeerCore {
   void take_inputs(const InputSlice& slice, Time now);
   /// The host went on without us from this frame.
   void cut_out(Frame frame);
+  /// What counts as our input of the first frame that is not accepted: our own, or the guess where that came too late.
+  void take_own(const InputEntry& entry);
   void begin_at(const HashReport& start);
   void open(Frame first);
   void lean(Time now);

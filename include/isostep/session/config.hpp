@@ -28,6 +28,9 @@ struct SessionConfig {
   Frame delay = 2;        // [frames] an input waits at first
   Frame least_delay = 0;  // it adapts between these; equal: it does not
   Frame most_delay = 20;
+  /// [frames] Host: an input that is late by so many is replaced by the guess, and nobody is sent what others do in a
+  /// frame before the host has its own input of it: who waits to see it waits in vain. 0: none.
+  Frame deadline = 0;
 
   Time silence = 4 * kSecond;     // [us] without a word from a peer until it counts as lost
   Time patience = 5 * kSecond;    // [us] that one player may make the others wait within a minute; then it is left out

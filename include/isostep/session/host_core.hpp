@@ -22,7 +22,7 @@ class HostCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return player < config_.local_players; }
-  bool sends(int player, const PeerLink& link) const override;
+  Frame sends_until(int player, const PeerLink& link) const override;
   bool running() const override { return started_; }
   void before_steps(Time now) override;
   void before_frame(Time now) override;
@@ -37,9 +37,11 @@ class HostCore : public PeerCore {
     bool is_taken = false;
     int link = -1;  // -1: its player is away
     std::uint64_t token = 0;
-    bool is_open = false;  // inputs are awaited
-    StallBudget lost;      // time that others waited for it
-    Time shut_until = 0;   // [us] its player watches
+    bool is_open = false;                  // inputs are awaited
+    StallBudget lost;                      // time that others waited for it
+    Time shut_until = 0;                   // [us] its player watches
+    Frame replaced = 0, replaced_end = 0;  // inputs from .. until, of which its player does not know yet; 0: none
+    bool is_late = false;                  // the newest input was replaced
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
@@ -47,9 +49,11 @@ class HostCore : public PeerCore {
     Stage stage = Stage::connected;
     int player = -1;  // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
-    bool is_ready = false;  // asked to play
+    bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
+    // Our frame when it was last not sent all inputs of a player.
+    Frame held_back[kMaxPlayers] = {kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame};
     Frame opens = kNoFrame;
     Frame start = 0;                                // the state from which it goes on
     std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
@@ -85,6 +89,15 @@ class HostCore : public PeerCore {
   void judge_lines();
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
+  /// Inputs after the deadline: the guess is final.
+  void replace_late(Time now);
+  /// Inputs of others before this frame are shown to it.
+  Frame shown_until(const Guest& guest) const;
+  void note_held_back(Guest& guest);
+  /// Lately: then what it says of that player's inputs speaks of its own.
+  bool was_held_back(const Guest& guest, int player) const;
+  /// How early its inputs come, as it should know it.
+  Frame told_slack(const Guest& guest) const;
   /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
   Frame slack_of(int player) const;
   /// Another number that only who knows the seed can guess.
@@ -105,6 +118,7 @@ class HostCore : public PeerCore {
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
   Time began_ = 0;              // [us]
+  Time due_from_ = 0;           // [us] nobody is late before that
   Time reports_from_ = 0;       // [us] before that, what guests say of lateness speaks of a pause of ours
   bool reports_count_ = false;  // in this turn
 

@@ -40,6 +40,8 @@ class InputStream {
   void append_absent_until(Frame end);
   /// Forgets `end` and what follows.
   void truncate(Frame end);
+  /// contains(frame): becomes its input. False and nothing happens when it is too long.
+  bool replace(Frame frame, const InputEntry& entry);
   /// contains(frame).
   InputEntry at(Frame frame) const;
   /// The newest entry; absent when there is none.

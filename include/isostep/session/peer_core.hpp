@@ -20,10 +20,12 @@ class PeerCore : public SessionCore {
   Time wait(Time now) const override;
 
  protected:
+  /// What is taken for the input after the stream's newest; valid until `buffer` is written to.
+  Bytes guess_next(const InputStream& stream, std::uint8_t (&buffer)[kInputCap]) const;
   /// Is it a player of ours, in the match?
   virtual bool is_local(int player) const = 0;
-  /// Inputs of this player travel to that peer.
-  virtual bool sends(int player, const PeerLink& link) const = 0;
+  /// Inputs of this player travel to that peer before this frame; 0: none.
+  virtual Frame sends_until(int player, const PeerLink& link) const = 0;
   virtual bool running() const = 0;
   /// How many frames may be stepped on guesses.
   virtual Frame window() const { return config_.mode == SessionMode::rollback ? config_.window : 0; }
@@ -36,6 +38,10 @@ class PeerCore : public SessionCore {
   virtual void after_steps() {}
   /// Once a frame of time: tells delay_ how early our inputs reach the others.
   virtual void observe_delay() = 0;
+  /// [frames] by which this player's inputs come before they are needed; 0 where nothing is known of it.
+  virtual Frame early(int player) const {
+    return slack_[player].value() == RecentLeast::kNothing ? 0 : slack_[player].value();
+  }
   virtual void blocked(Time) {}
   virtual void unblocked(Time) {}
   /// No turn was taken for so long that what happened meanwhile says nothing of the others.

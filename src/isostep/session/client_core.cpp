@@ -62,7 +62,8 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
       ++stats_.refused;
       return;
     }
-    if (is_own && is_open_ && entry.absent && frame >= opens_ && frame >= accepted_) cut_out(frame);
+    // In order: what the host took for our inputs before we know of it up to here.
+    if (is_own && is_open_ && frame == accepted_) take_own(entry);
     if (frame < stream.end()) continue;
     if (is_own && !entry.absent && is_open_) continue;
     if (frame > current() + config_.history / 2) return;
@@ -71,6 +72,21 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
     stream.append(entry);
   }
   if (reader.failed()) ++stats_.refused;
+}
+
+void ClientCore::take_own(const InputEntry& entry) {
+  InputStream& stream = streams_[static_cast<std::size_t>(player_)];
+  if (entry.absent) {
+    cut_out(accepted_);
+    return;
+  }
+  if (accepted_ == stream.end()) {
+    stream.append(entry);
+  } else if (!same_input(stream.at(accepted_), entry)) {
+    stream.replace(accepted_, entry);
+    timeline_.recheck(player_, accepted_);
+  }
+  host_.acked[player_] = ++accepted_;
 }
 
 void ClientCore::cut_out(Frame frame) {
@@ -150,6 +166,11 @@ void ClientCore::observe_delay() {
   if (!is_far_ || worst == RecentLeast::kNothing) return;
   lag_.observe(worst);
   if (lag_.frames() > before) delay_.grow(lag_.frames() - before);
+}
+
+Frame ClientCore::early(int player) const {
+  if (player != player_) return PeerCore::early(player);
+  return host_.slack[player] == RecentLeast::kNothing ? 0 : host_.slack[player];
 }
 
 int ClientCore::needed_stretch() const {

@@ -5,14 +5,14 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kMostAhead = 128;        // [frames] beyond ours that a client's input may lie
+constexpr Frame kMostAhead = 128;         // [frames] beyond ours that a client's input may lie
 constexpr Time kFreeStart = 5 * kSecond;  // [us] of a match, in which delays find out how long the lines are
 
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers)), match_(secret()) {
-  for (int p = 0; p < config.local_players; ++p) seats_[p] = {true, -1, 0, true};
+  for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
 
@@ -111,6 +111,7 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
     if (frame >= current() + bounded(kMostAhead)) return;
     if (!noted) note_arrival(slice.player, now);
     noted = true;
+    seats_[slice.player].is_late = false;
     stream.append(entry);
   }
   if (reader.failed()) ++stats_.refused;
@@ -118,9 +119,11 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
 
 Frame HostCore::horizon() const { return config_.local_players > 0 ? streams_[0].end() : current() + 1; }
 
-bool HostCore::sends(int player, const PeerLink& link) const {
+Frame HostCore::sends_until(int player, const PeerLink& link) const {
   const Guest& guest = static_cast<const Guest&>(link);
-  return player != guest.player || !seats_[player].is_open;
+  const Frame end = streams_[static_cast<std::size_t>(player)].end(), shown = shown_until(guest);
+  if (player == guest.player) return seats_[player].is_open ? seats_[player].replaced_end : end;
+  return shown < end ? shown : end;
 }
 
 void HostCore::before_steps(Time now) {
@@ -155,10 +158,16 @@ void HostCore::before_steps(Time now) {
   judge_lines();
   choose_pace(now);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
-  if (started_) fill_absent();
+  if (started_) {
+    fill_absent();
+    replace_late(now);
+  }
 }
 
-void HostCore::before_frame(Time) { fill_absent(); }
+void HostCore::before_frame(Time now) {
+  fill_absent();
+  replace_late(now);
+}
 
 void HostCore::fill_absent() {
   for (int p = config_.local_players; p < players(); ++p) {

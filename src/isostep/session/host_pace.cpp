@@ -19,6 +19,7 @@ constexpr Time kAsGood = 2;             // [frames] by which round trips differ 
 void HostCore::paused(Time now) {
   // What passes through us was late for everybody, whoever said it.
   reports_from_ = now + InputDelay::kSettling * clock_.period();
+  due_from_ = now + static_cast<Time>(config_.deadline) * clock_.period();
   forgive_own_pause(now);
 }
 
@@ -50,6 +51,7 @@ Frame HostCore::slack_of(int player) const {
   const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
   for (const Guest& guest : guests_) {
     if (!is_in_match(guest) || guest.player == player || (guest.reported_mask >> player & 1) == 0) continue;
+    if (was_held_back(guest, player)) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
     // is said.
     const Time trip = guest.round_trip < farthest ? guest.round_trip : farthest;

@@ -73,7 +73,9 @@ void HostCore::greet(Guest& guest, Bytes message) {
       unseat(old);
       old.must_close = true;
     }
-    seat = {true, static_cast<int>(guest.peer), secret() | 1u, false, seat.lost, seat.shut_until};
+    seat.is_taken = true;
+    seat.link = static_cast<int>(guest.peer);
+    seat.token = secret() | 1u;
     guest.player = player;
   }
   guest.must_welcome = true;
@@ -115,6 +117,8 @@ void HostCore::close_seat(int player) {
   Seat& seat = seats_[player];
   if (!seat.is_open) return;
   seat.is_open = false;
+  seat.replaced_end = 0;
+  seat.is_late = false;
   if (!started_) return;
   slack_[player] = RecentLeast{};
 }

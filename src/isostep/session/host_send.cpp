@@ -113,8 +113,11 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   if (guest.player >= 0 && seats_[guest.player].is_open) {
     const auto p = static_cast<std::size_t>(guest.player);
     header.ack_mask = static_cast<std::uint8_t>(1u << p);
-    header.ack[p] = streams_[p].end();
-    header.slack[p] = static_cast<std::int8_t>(slack_of(guest.player));
+    Seat& seat = seats_[p];
+    // What took the place of its own inputs it has to know before they count as had.
+    if (guest.acked[p] >= seat.replaced_end) seat.replaced_end = 0;
+    header.ack[p] = seat.replaced_end > 0 ? seat.replaced : streams_[p].end();
+    header.slack[p] = static_cast<std::int8_t>(told_slack(guest));
   }
   // One other machine's word on its states with every datagram, in turns.
   for (std::size_t i = 0; i < guests_.size(); ++i) {
@@ -125,6 +128,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     header.passed_on = other.report;
     break;
   }
+  note_held_back(guest);
   return Outgoing{guest.peer, Channel::datagram, compose(guest, header, now)};
 }
 

@@ -17,11 +17,16 @@ InputStream::InputStream(Frame capacity, std::size_t input_cap)
 
 void InputStream::reset(Frame first) { begin_ = end_ = first; }
 
-bool InputStream::append(const InputEntry& entry) {
+bool InputStream::replace(Frame frame, const InputEntry& entry) {
   if (entry.bytes.size() > input_cap_) return false;
-  const std::size_t place = slot(end_);
+  const std::size_t place = slot(frame);
   sizes_[place] = entry.absent ? kAbsent : static_cast<std::uint16_t>(entry.bytes.size());
   if (!entry.bytes.empty()) std::memcpy(&bytes_[place * input_cap_], entry.bytes.data(), entry.bytes.size());
+  return true;
+}
+
+bool InputStream::append(const InputEntry& entry) {
+  if (!replace(end_, entry)) return false;
   ++end_;
   if (end_ - begin_ > capacity_) begin_ = end_ - capacity_;
   return true;

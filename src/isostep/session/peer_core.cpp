@@ -91,7 +91,10 @@ void PeerCore::plan(Time now) {
   if (now >= next_observation_) {
     next_observation_ = now + clock_.period();
     observe_delay();
-    for (RecentLeast& slack : slack_) slack.tick(kSlackBucket);
+    for (int p = 0; p < players(); ++p) {
+      slack_[p].tick(kSlackBucket);
+      stats_.players[p].early = early(p);
+    }
   }
   const int most = pace_.most_steps(kMostSteps);
   int steps = 0;
@@ -145,6 +148,12 @@ void PeerCore::go_back(Frame state) {
   hashes_.forget_from(state + 1);
 }
 
+Bytes PeerCore::guess_next(const InputStream& stream, std::uint8_t (&buffer)[kInputCap]) const {
+  const InputEntry last = stream.last();
+  const Bytes before = last.absent ? Bytes(rules_.neutral, rules_.neutral_size) : last.bytes;
+  return {buffer, rules_.predict(before, 1, buffer)};
+}
+
 void PeerCore::sample_local_inputs() {
   for (int p = 0; p < players(); ++p) {
     InputStream& stream = streams_[static_cast<std::size_t>(p)];
@@ -152,12 +161,10 @@ void PeerCore::sample_local_inputs() {
     if (!is_local(p) || stream.end() >= wanted) continue;
     Pending& pending = pending_[p];
     while (stream.end() < wanted) {
-      std::uint8_t guess[kInputCap];
-      const InputEntry last = stream.last();
-      const Bytes before = last.absent ? Bytes(rules_.neutral, rules_.neutral_size) : last.bytes;
-      const std::size_t size = rules_.predict(before, 1, guess);
+      std::uint8_t buffer[kInputCap];
+      const Bytes guess = guess_next(stream, buffer);
       const bool is_newest = stream.end() == wanted - 1;
-      stream.append({false, is_newest && pending.is_set ? Bytes(pending.bytes, pending.size) : Bytes(guess, size)});
+      stream.append({false, is_newest && pending.is_set ? Bytes(pending.bytes, pending.size) : guess});
     }
     pending.is_set = false;
   }
@@ -291,13 +298,13 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
   Frame added = 0;
   for (int i = 0; i < players(); ++i) {
     const int p = (i + current()) % players();
-    if (!sends(p, link)) continue;
+    const Frame until = sends_until(p, link);
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     const Frame first = continues && link.burst_end[p] > link.acked[p] ? link.burst_end[p] : link.acked[p];
-    const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first);
+    const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first, until);
     link.burst_end[p] = first + count;
     added += count;
-    is_left = is_left || link.burst_end[p] < stream.end();
+    is_left = is_left || link.burst_end[p] < until;
   }
   link.has_more = is_left && added > 0;
   if (!continues) link.next_send = now + clock_.period();

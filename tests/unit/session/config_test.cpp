@@ -50,6 +50,8 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.most_delay = 61), "least_delay, most_delay"));
   EXPECT_TRUE(names(PROBLEM(c.delay = 21), "delay"));
   EXPECT_TRUE(names(PROBLEM(c.least_delay = 3), "delay"));
+  EXPECT_TRUE(names(PROBLEM(c.deadline = -1), "deadline"));
+  EXPECT_TRUE(names(PROBLEM(c.deadline = 61), "deadline"));
   EXPECT_TRUE(names(PROBLEM(c.kept = 39), "kept"));
   EXPECT_TRUE(names(PROBLEM(c.kept = 4097; c.history = 10000), "kept"));
   EXPECT_TRUE(names(PROBLEM(c.history = 127), "history"));

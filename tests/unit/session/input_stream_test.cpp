@@ -37,6 +37,20 @@ TEST(InputStream, WhatIsTooLongIsNotTaken) {
   EXPECT_EQ(stream.end(), 0);
 }
 
+TEST(InputStream, ReplacesOneFrameAndNoOther) {
+  InputStream stream(4, 2);
+  for (std::uint8_t i = 0; i < 6; ++i) stream.append({false, Buffer{i}});
+  EXPECT_TRUE(stream.replace(3, {false, Buffer{8, 9}}));
+  EXPECT_TRUE(stream.replace(4, {true, {}}));
+  EXPECT_FALSE(stream.replace(5, {false, Buffer{1, 2, 3}}));
+  EXPECT_EQ(stream.begin(), 2);
+  EXPECT_EQ(stream.end(), 6);
+  EXPECT_TRUE(same_input(stream.at(2), {false, Buffer{2}}));
+  EXPECT_TRUE(same_input(stream.at(3), {false, Buffer{8, 9}}));
+  EXPECT_TRUE(stream.at(4).absent);
+  EXPECT_TRUE(same_input(stream.at(5), {false, Buffer{5}}));
+}
+
 TEST(InputStream, TheOldestFallsOut) {
   InputStream stream(4, 1);
   for (std::uint8_t i = 0; i < 10; ++i) stream.append({false, Buffer{i}});

@@ -28,6 +28,7 @@ PacketHeader any_header(Pcg32& random) {
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
   header.started = random.next() % 2 == 0;
   header.is_far = random.next() % 2 == 0;
+  if (random.next() % 4 == 0) header.waits_for = static_cast<std::uint8_t>(random.next());
   if (random.next() % 2 == 0) {
     header.stretch = static_cast<std::uint8_t>(random.next() % 255 + 1);
     header.slowest = static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % kMaxPlayers);
@@ -50,7 +51,7 @@ PacketHeader any_header(Pcg32& random) {
 PacketHeader largest_header() {
   PacketHeader header;
   header.has_echo = header.started = header.is_far = true;
-  header.stretch = 255;
+  header.stretch = header.waits_for = 255;
   header.frame = kLastFrame;
   header.report = header.passed_on = {0, ~std::uint64_t{0}};
   header.reporter = 7;
@@ -82,6 +83,7 @@ void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.is_far, b.is_far);
   ASSERT_EQ(a.stretch, b.stretch);
   ASSERT_EQ(a.slowest, b.slowest);
+  ASSERT_EQ(a.waits_for, b.waits_for);
   ASSERT_EQ(a.frame, b.frame);
   ASSERT_EQ(a.report.frame, b.report.frame);
   ASSERT_EQ(a.report.chain, b.report.chain);
@@ -210,7 +212,9 @@ TEST(Packet, FramesThatAStreamHasNotAreNotSent) {
   const std::size_t before = writer.bytes().size();
   for (const Frame first : {0, 59, 70, 71, kLastFrame}) EXPECT_EQ(writer.add_slice(0, stream, first), 0);
   EXPECT_EQ(writer.bytes().size(), before);
-  EXPECT_EQ(writer.add_slice(0, stream, 60), 10);
+  EXPECT_EQ(writer.add_slice(0, stream, 60, 60), 0) << "nothing before the end that is asked for";
+  EXPECT_EQ(writer.add_slice(0, stream, 61, 64), 3);
+  EXPECT_EQ(writer.add_slice(1, stream, 60), 10);
 }
 
 TEST(Packet, CutAnywhereItIsRefusedOrAWholeNumberOfSlices) {
@@ -249,8 +253,21 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(reads(buffer, head(buffer, 0, kLastFrame)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, kLastFrame + 1u)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, 0xffffffffu)));
-  for (unsigned flag = 64; flag < 256; flag *= 2)
-    EXPECT_FALSE(reads(buffer, head(buffer, static_cast<std::uint8_t>(flag))));
+  EXPECT_FALSE(reads(buffer, head(buffer, 128))) << "no flag";
+  const auto waiting = [&](std::uint8_t players) {
+    WireWriter writer(buffer, kDatagramCap);
+    writer.byte(0xd1);
+    writer.fixed(std::uint64_t{1});
+    writer.fixed(std::uint16_t{2});
+    writer.byte(64);
+    writer.byte(players);
+    writer.number(7);
+    writer.byte(0);
+    return reads(buffer, writer);
+  };
+  EXPECT_TRUE(waiting(1));
+  EXPECT_TRUE(waiting(255));
+  EXPECT_FALSE(waiting(0)) << "waiting for nobody is not said";
   const auto slow = [&](std::uint8_t stretch, std::uint8_t player) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);

@@ -1,0 +1,50 @@
+// The host's deadline: inputs that come too late are replaced, and who waits to see what others do waits in vain.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/host_core.hpp"
+
+namespace isostep {
+
+void HostCore::replace_late(Time now) {
+  if (config_.deadline == 0 || now < due_from_) return;
+  const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
+  for (int p = config_.local_players; p < players(); ++p) {
+    Seat& seat = seats_[p];
+    InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    // Nobody waits for the next input of a player of whom one was replaced and nothing came since.
+    while (seat.is_open && due - stream.end() >= (seat.is_late ? 0 : config_.deadline)) {
+      std::uint8_t buffer[kInputCap];
+      slack_[p].add(stream.end() - due < -127 ? -127 : stream.end() - due);
+      if (seat.replaced_end == 0) seat.replaced = stream.end();
+      stream.append({false, guess_next(stream, buffer)});
+      seat.replaced_end = stream.end();
+      seat.is_late = true;
+      ++stats_.players[p].replaced;
+    }
+  }
+}
+
+Frame HostCore::shown_until(const Guest& guest) const {
+  if (config_.deadline == 0) return kLastFrame + 1;
+  // Who does not play may sit beside one who does.
+  return is_in_match(guest) ? streams_[static_cast<std::size_t>(guest.player)].end() : known_end();
+}
+
+void HostCore::note_held_back(Guest& guest) {
+  for (int p = 0; p < players(); ++p) {
+    if (shown_until(guest) < streams_[static_cast<std::size_t>(p)].end()) guest.held_back[p] = current();
+  }
+}
+
+bool HostCore::was_held_back(const Guest& guest, int player) const {
+  return guest.held_back[player] != kNoFrame && current() - guest.held_back[player] < InputDelay::kSettling;
+}
+
+Frame HostCore::told_slack(const Guest& guest) const {
+  const Frame slack = slack_of(guest.player);
+  if (config_.deadline == 0 || slack == RecentLeast::kNothing) return slack;
+  // What others do in a frame is sent when its own input is here: that has to come earlier by the way back.
+  const Frame told = slack - static_cast<Frame>(guest.round_trip / 2 / clock_.period()) - 1;
+  return told < -127 ? -127 : told;
+}
+
+}  // namespace isostep
