@@ -10,7 +10,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 2;
+inline constexpr std::uint16_t kSessionProtocol = 3;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
@@ -56,8 +56,8 @@ struct Packet {
 class PacketWriter {
  public:
   PacketWriter(const PacketHeader& header, std::uint8_t* buffer);
-  /// As many frames from `first` on as the stream has and the datagram takes; how many that was.
-  Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first);
+  /// As many frames from `first` on as the stream has and the datagram takes, at most `most`; how many that was.
+  Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame most = kSliceFrames);
   Bytes bytes() const { return {buffer_, size_}; }
 
  private:

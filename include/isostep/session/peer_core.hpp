@@ -49,8 +49,8 @@ class PeerCore : public SessionCore {
   /// Everything up to here; goes on from there with the same state.
   void go_back(Frame state);
 
-  /// The datagram for this peer, in buffer_.
-  Bytes compose(PeerLink& link, PacketHeader header, Time now);
+  /// The datagram for this peer, in buffer_, with at most `most` frames of a player.
+  Bytes compose(PeerLink& link, PacketHeader header, Time now, Frame most = kSliceFrames);
   /// Counts, guards against floods, reads; false: to be ignored.
   bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);
