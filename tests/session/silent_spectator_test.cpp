@@ -209,5 +209,19 @@ TEST(BadLines, ArePutUpWithHoweverLongTheyPause) {
   }
 }
 
+// It falls behind by fifteen frames a second: when it has no more room for inputs, it acknowledges as fast as it steps.
+TEST(SlowSpectators, ArePutUpWith) {
+  ToyMatch match(config_of(2, SessionMode::rollback), kGoodLine);
+  SessionConfig watcher = config_of(2, SessionMode::spectator);
+  watcher.local_players = 0;
+  Machine<Toy>& slow = match.add(profile(kGoodLine), watcher);
+  slow.step_time = 22000;
+  match.pass(300 * kSecond);
+  EXPECT_GT(match.host().end() - slow.end(), match.host().session.config().history / 2);
+  EXPECT_EQ(match.host().session.stats().put_out, 0u);
+  EXPECT_EQ(slow.count(SessionEvent::Kind::lost_host), 0);
+  expect_one_history(match);
+}
+
 }  // namespace
 }  // namespace isostep::test

@@ -44,7 +44,11 @@ void HostCore::judge_acknowledgements(Guest& guest, Time now) {
   for (int p = 0; p < players(); ++p) is_due = is_due || (sends(p, guest) && guest.acked[p] < guest.due[p]);
   if (!is_due) {
     guest.due_since = now;
-    for (int p = 0; p < players(); ++p) guest.due[p] = guest.burst_end[p];
+    // A second of the match: who needs the whole silence for that falls behind for ever. Who steps slowly may.
+    for (int p = 0; p < players(); ++p) {
+      const Frame second = guest.acked[p] + config_.hz;
+      guest.due[p] = guest.burst_end[p] < second ? guest.burst_end[p] : second;
+    }
   }
   // After a pause of its own, or of its line, it has what was sent before, and must be given the time to say so.
   const bool is_back = !is_unproven(guest) && guest.back_at != 0 && now - guest.back_at <= kToRecover;
