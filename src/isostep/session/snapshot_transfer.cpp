@@ -56,8 +56,9 @@ void SnapshotTransfer::measured(Time trip, Time now) {
   const bool is_free = trip_ <= shortest_ + kQueue / 2;
   if (!is_free) grows_at_ = now + kQueueStays;
   if (is_free && now < grows_at_) return;
-  // Half as much again while nothing waits; then what makes the queue kQueue long.
-  const std::uint64_t more = std::uint64_t{window_} * 3 / 2;
+  // Half as much again until something waits, then an eighth; or what makes the queue kQueue long. Steps are small
+  // then, for transports take a sudden delay for a loss and send all that is under way again.
+  const std::uint64_t more = window_ + std::uint64_t{window_} / (grows_at_ == 0 ? 2 : 8);
   const std::uint64_t wanted = is_free ? more : std::uint64_t{window_} * (shortest_ + kQueue) / trip_;
   window_ = static_cast<std::uint32_t>(bounded(wanted < more ? wanted : more, kLeast, kSnapshotFlight));
 }
