@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 
 /// What a silent spectator sends beside its greeting.
-enum class Chatter { headers, rubbish };
+enum class Chatter { headers, rubbish, one_frame };
 
 /// Greets, sends one small datagram a second, and acknowledges nothing. It comes again as soon as it is put out.
 class SilentSpectator {
@@ -73,10 +73,15 @@ class SilentSpectator {
     PacketHeader header;
     header.match = match_number_;
     header.frame = match_.host().session.current();
+    if (chatter_ == Chatter::one_frame) {  // one more each time
+      header.ack_mask = 0xff;
+      for (Frame& ack : header.ack) ack = acknowledged_;
+      ++acknowledged_;
+    }
     std::uint8_t buffer[kDatagramCap] = {0};
     const Bytes said = PacketWriter(header, buffer).bytes();
     const Bytes rubbish(buffer, 1);
-    static_cast<void>(port_.send(0, Channel::datagram, chatter_ == Chatter::headers ? said : rubbish).ok());
+    static_cast<void>(port_.send(0, Channel::datagram, chatter_ == Chatter::rubbish ? rubbish : said).ok());
   }
 
   ToyMatch& match_;
@@ -88,6 +93,7 @@ class SilentSpectator {
   std::uint64_t match_number_ = 0;
   Time came_ = 0, next_ = 0, longest_stay_ = 0;
   int visits_ = 0;
+  Frame acknowledged_ = 1;
 };
 
 void pass(ToyMatch& match, std::deque<SilentSpectator>& silent, Time time) {
@@ -129,6 +135,25 @@ TEST_P(Silent, SpectatorCostsLittleAndIsOutWithinTheSilence) {
                 double(silent[0].longest_stay()) / kSecond);
     expect_one_history(match);
   }
+}
+
+// It acknowledges a frame a second.
+TEST(SilentSpectators, WhoAcknowledgesNextToNothingIsOutAsWell) {
+  ToyMatch match(config_of(8, SessionMode::rollback), kGoodLine);
+  match.pass(15 * kSecond);
+  std::deque<SilentSpectator> silent;
+  silent.emplace_back(match, Chatter::one_frame, false, false);
+  const Time before = match.now();
+  match.run(20 * kSecond, [&] {
+    silent[0].tick();
+    return silent[0].is_out();
+  });
+  EXPECT_TRUE(silent[0].is_out());
+  EXPECT_LE(silent[0].longest_stay(), 2 * match.host().session.config().silence);
+  EXPECT_LE(silent[0].cost(), 10000 * (match.now() - before) / kSecond);
+  std::printf("one frame a second: %u bytes/s for %.2f s\n",
+              unsigned(silent[0].cost() * kSecond / (match.now() - before)),
+              double(silent[0].longest_stay()) / kSecond);
 }
 
 // One machine hosts four players for a minute.

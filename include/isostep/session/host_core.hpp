@@ -58,13 +58,15 @@ class HostCore : public PeerCore {
     HashReport report;
     std::size_t next_reporter = 0;  // whose report it hears of next
 
-    bool has_spoken = false;         // it says something that is for this match
-    Frame due[kMaxPlayers] = {};     // what it has to acknowledge before more is due: first frames beyond
-    Time due_since = 0;              // [us]
-    Time had_all_at = 0;             // [us] when it lacked nothing, or came
-    Time back_at = 0;                // [us] when it was heard again after a long silence
-    Time more_at = 0;                // [us] before that it is sent nothing more
-    Time probe_every = kFirstProbe;  // [us] kept when it goes: its place may be taken by who is no better
+    bool has_spoken = false;            // it says something that is for this match
+    Frame due[kMaxPlayers] = {};        // what it has to acknowledge before more is due: first frames beyond
+    Time due_since = 0;                 // [us]
+    Time had_all_at = 0;                // [us] when it lacked nothing, or came
+    Time back_at = 0;                   // [us] when it was heard again after a long silence
+    Time more_at = 0;                   // [us] who does not acknowledge is sent nothing before
+    Frame first_end[kMaxPlayers] = {};  // what the last period's first datagram left out
+    bool takes_bursts = false;          // it had the one before that when it was sent
+    Time probe_every = kFirstProbe;     // [us] kept when it goes: its place may be taken by who is no better
   };
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
@@ -102,6 +104,9 @@ class HostCore : public PeerCore {
   bool lacks_inputs(const Guest& guest) const;
   bool is_unproven(const Guest& guest) const;
   bool acknowledges(const Guest& guest, Time now) const;
+  /// It has acknowledged all of the datagram with which a period began. A spectator that is far behind is sent more
+  /// only then, and costs no more than four times what it acknowledges and kStalledRate; a player's inputs are urgent.
+  bool has_first(const Guest& guest) const;
   /// Puts out who acknowledges nothing for too long.
   void judge_acknowledgements(Guest& guest, Time now);
   /// How many frames of each player the next datagram may bring; 0: none is due.

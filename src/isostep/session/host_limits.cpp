@@ -60,7 +60,17 @@ void HostCore::judge_acknowledgements(Guest& guest, Time now) {
 
 Frame HostCore::most_frames(const Guest& guest, Time now) const {
   if (is_unproven(guest) && lacks_inputs(guest)) return guest.has_spoken && now >= guest.more_at ? 1 : 0;
-  return acknowledges(guest, now) || now >= guest.more_at ? kSliceFrames : 0;
+  const bool is_far_behind = guest.player < 0 && guest.has_more;
+  if (is_far_behind && guest.continues_burst(now)) return guest.takes_bursts ? kSliceFrames : 0;
+  const bool is_free = acknowledges(guest, now) && (!is_far_behind || has_first(guest));
+  return is_free || now >= guest.more_at ? kSliceFrames : 0;
+}
+
+bool HostCore::has_first(const Guest& guest) const {
+  for (int p = 0; p < players(); ++p) {
+    if (sends(p, guest) && guest.acked[p] < guest.first_end[p]) return false;
+  }
+  return true;
 }
 
 void HostCore::was_sent(Guest& guest, std::size_t bytes, Time now) {
@@ -73,7 +83,10 @@ void HostCore::was_sent(Guest& guest, std::size_t bytes, Time now) {
     return;
   }
   guest.probe_every = kFirstProbe;
-  guest.more_at = acknowledges(guest, now) ? now : now + bytes * kSecond / kStalledRate;
+  if (guest.burst > 1) return;
+  guest.takes_bursts = has_first(guest);
+  for (int p = 0; p < players(); ++p) guest.first_end[p] = guest.burst_end[p];
+  guest.more_at = now + bytes * kSecond / kStalledRate;
 }
 
 }  // namespace isostep

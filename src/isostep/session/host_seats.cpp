@@ -97,10 +97,10 @@ void HostCore::greet(Guest& guest, Bytes message) {
 void HostCore::go_live(Guest& guest, Frame start) {
   guest.stage = Guest::Stage::live;
   guest.start = start;
-  for (int p = 0; p < players(); ++p) guest.acked[p] = guest.burst_end[p] = guest.due[p] = start;
+  for (int p = 0; p < players(); ++p) guest.acked[p] = guest.burst_end[p] = guest.first_end[p] = guest.due[p] = start;
   guest.due_since = guest.had_all_at = guest.heard;
   guest.acked_at = guest.more_at = 0;
-  guest.has_spoken = false;
+  guest.has_spoken = guest.has_more = false;
 }
 
 void HostCore::open_seat(Guest& guest) {
