@@ -249,6 +249,8 @@ void attack_host(Script& script) {
         hello.spectator = (how & 1) != 0;
         if ((how & 2) != 0) hello.token = tokens[1 + (how >> 7)];
         if ((how & 4) != 0) hello.have = {script.frame(host.session.current()), script.byte()};
+        if ((how & 8) != 0) hello.partial = {script.frame(host.session.current()), script.byte()};
+        if ((how & 8) != 0) hello.partial_size = script.word();
         host.session.connected(peer, now);
         Buffer bytes;
         write_hello(hello, bytes);
@@ -326,6 +328,7 @@ void attack_client(Script& script) {
         welcome.hash = script.byte() % 2 == 0 ? Game{}.hash() : 1;
         welcome.opens = script.byte() % 2 == 0 ? kNoFrame : script.frame(here);
         if (op >= 160) welcome.snapshot_size = script.byte() < 128 ? 2 * script.byte() : script.word();
+        if (op >= 224) welcome.snapshot_from = script.byte() < 128 ? script.byte() : script.word();
         if (op >= 240) {
           Writer state(bytes);
           Game{}.write_portable(state);

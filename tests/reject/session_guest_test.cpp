@@ -119,6 +119,8 @@ TEST(HostileGuest, WhoComesAndGoesDoesNotPushTheMatchOutOfItsLog) {
       header.match = rogue->welcome.match;
       header.has_echo = true;
       header.echo = static_cast<std::uint16_t>(scene.match.now() / 1000 - 32000);
+      header.ack_mask = 7;  // who acknowledges nothing is put out
+      for (const int p : {0, 1, 2}) header.ack[p] = rogue->ends[p];
       std::uint8_t buffer[kDatagramCap];
       const Bytes bytes = PacketWriter(header, buffer).bytes();
       rogue->say(Channel::datagram, Buffer(bytes.begin(), bytes.end()));

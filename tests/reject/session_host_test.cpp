@@ -185,7 +185,8 @@ TEST(HostileHost, ASpectatorIsNeverSeated) {
 }
 
 TEST(HostileHost, OpeningsThatMakeNoSenseAreRefused) {
-  for (const Frame first : {Frame{-1}, Frame{601}, Frame{100000}, kLastFrame, kLastFrame + 1, Frame{0x7fffffff}}) {
+  const Frame last = SessionConfig{}.history / 2;
+  for (const Frame first : {Frame{-1}, last + 1, Frame{100000}, kLastFrame, kLastFrame + 1, Frame{0x7fffffff}}) {
     Victim victim;
     Welcome welcome = Victim::first_welcome();
     welcome.opens = kNoFrame;
@@ -197,7 +198,7 @@ TEST(HostileHost, OpeningsThatMakeNoSenseAreRefused) {
     victim.hear(open);
     EXPECT_EQ(victim.session.stats().refused, before + 1) << first;
     EXPECT_FALSE(victim.session.wants_input(1));
-    write_open(600, open);
+    write_open(last, open);
     victim.hear(open);
     EXPECT_TRUE(victim.session.wants_input(1));
     victim.hear(open);

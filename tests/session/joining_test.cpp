@@ -78,7 +78,7 @@ TEST_P(LateJoin, BringsASnapshotInPiecesWhenTheFirstInputsAreGone) {
     pieces += channel == Channel::reliable && kind && kind.value() == MessageKind::piece ? 1 : 0;
   };
   ASSERT_TRUE(match.run_to(1500, 60 * kSecond));
-  EXPECT_EQ(pieces, 3);
+  EXPECT_GT(pieces, 3);
   EXPECT_EQ(joiner.restarts, 1);
   EXPECT_GE(joiner.first, 590);
   expect_joined(match, joiner, players - 1, 600);
@@ -134,6 +134,16 @@ TEST(LateJoin, SucceedsOnALineThatLosesAndReorders) {
 
 // --- snapshots that are not what the host says they are ---
 
+/// Changes byte `at` of a snapshot when this message is the piece that holds it.
+bool alter_snapshot(Channel channel, std::vector<std::uint8_t>& bytes, std::size_t at, std::uint8_t bits) {
+  const Result<MessageKind> kind = message_kind(bytes);
+  if (channel != Channel::reliable || !kind || kind.value() != MessageKind::piece) return false;
+  const Piece piece = read_piece(bytes).value();
+  if (at < piece.offset || at - piece.offset >= piece.bytes.size()) return false;
+  bytes[bytes.size() - piece.bytes.size() + (at - piece.offset)] ^= bits;
+  return true;
+}
+
 TEST(TamperedSnapshot, IsRefusedWhicheverByteChangedOnTheWay) {
   for (const std::size_t at : {0u, 7u, 8u, 100u, 135u, 136u, 1000u, 16000u}) {
     SCOPED_TRACE(at);
@@ -142,10 +152,7 @@ TEST(TamperedSnapshot, IsRefusedWhicheverByteChangedOnTheWay) {
     Machine<Toy>& joiner = match.add(profile("lan"));
     bool done = false;
     joiner.middle = [&](Channel channel, std::vector<std::uint8_t>& bytes) {
-      const Result<MessageKind> kind = message_kind(bytes);
-      if (done || channel != Channel::reliable || !kind || kind.value() != MessageKind::piece) return;
-      bytes[1 + 4 + 4 + at] ^= 0x10;  // kind, offset, count
-      done = true;
+      done = done || alter_snapshot(channel, bytes, at, 0x10);
     };
     ASSERT_TRUE(match.run(20 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::bad_snapshot); }));
     EXPECT_TRUE(done);
@@ -171,11 +178,7 @@ TEST(TamperedSnapshot, OfAWorldIsRefused) {
     Machine<Game>& joiner = match.add(profile("lan"));
     bool done = false;
     joiner.middle = [&](Channel channel, std::vector<std::uint8_t>& bytes) {
-      const Result<MessageKind> kind = message_kind(bytes);
-      if (done || channel != Channel::reliable || !kind || kind.value() != MessageKind::piece) return;
-      ASSERT_GT(bytes.size(), 9 + at);
-      bytes[9 + at] ^= 0x01;
-      done = true;
+      done = done || alter_snapshot(channel, bytes, at, 0x01);
     };
     EXPECT_TRUE(match.run(20 * kSecond, [&] { return joiner.heard(SessionEvent::Kind::bad_snapshot); }));
     EXPECT_TRUE(done);

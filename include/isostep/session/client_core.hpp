@@ -19,6 +19,10 @@ class ClientCore : public PeerCore {
   void restored(bool ok) override;
   int local_player() const override { return player_; }
   std::uint64_t token() const override { return token_; }
+  SnapshotProgress snapshot_progress(PeerId) const override {
+    if (!is_restoring_) return {};
+    return {static_cast<std::uint32_t>(portable_.size()), welcome_.snapshot_size};
+  }
 
  protected:
   bool is_local(int player) const override { return is_open_ && player == player_; }
@@ -74,7 +78,9 @@ class ClientCore : public PeerCore {
   Welcome welcome_;
   bool is_restoring_ = false;
   bool must_begin_ = false;  // from welcome_.start, in the next plan
+  HashReport partial_;       // the snapshot of which portable_ has the first bytes; kNoFrame: of none
   std::uint32_t told_ = 0;   // [bytes] of the snapshot that the host knows to have arrived
+  Time next_progress_ = 0;   // [us] when it is told again
   bool is_spoiled_ = false;  // a snapshot was bad: the game may be in no state of this match
   Time near_since_ = 0;      // [us] when we first had nearly caught up; 0: not yet
   Frame base_ = 0;           // the state with which our part of the match began

@@ -10,6 +10,7 @@
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
+#include "isostep/session/snapshot_transfer.hpp"
 #include "isostep/session/timeline.hpp"
 
 namespace isostep {
@@ -85,6 +86,7 @@ struct SessionStats {
   std::uint64_t bytes_out = 0, bytes_in = 0;  // datagrams' and messages' own, without UDP/IP
   std::uint64_t refused = 0;                  // datagrams and messages that were malformed or not for us
   std::uint64_t flooded = 0;                  // dropped unread
+  std::uint64_t put_out = 0;                  // host: peers that did not acknowledge what they were sent
   std::uint64_t events_lost = 0;              // the caller did not take them in time
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
   int peers = 0;                              // connected
@@ -140,6 +142,8 @@ class SessionCore {
 
   SessionPhase phase() const { return phase_; }
   virtual std::uint64_t token() const { return 0; }
+  /// Of the snapshot that is under way: to us, or on a host to `peer`.
+  virtual SnapshotProgress snapshot_progress(PeerId) const { return {}; }
   /// The first player of this machine; -1: none, or none yet.
   virtual int local_player() const { return -1; }
   const SessionConfig& config() const { return config_; }

@@ -19,6 +19,7 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> poll_send(Time now) override;
   void start(Time) override { must_start_ = true; }
   int local_player() const override { return config_.local_players > 0 ? 0 : -1; }
+  SnapshotProgress snapshot_progress(PeerId peer) const override;
 
  protected:
   bool is_local(int player) const override { return player < config_.local_players; }
@@ -55,13 +56,26 @@ class HostCore : public PeerCore {
     // Our frame when it was last not sent all inputs of a player.
     Frame held_back[kMaxPlayers] = {kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame};
     Frame opens = kNoFrame;
-    Frame start = 0;                                // the state from which it goes on
-    std::uint64_t start_chain = 0;                  // without a snapshot: as it said itself
-    std::uint32_t sent = 0, arrived = 0, size = 0;  // [bytes] of the snapshot
+    Frame start = 0;                 // the state from which it goes on
+    std::uint64_t start_chain = 0;   // without a snapshot: as it said itself
+    HashReport partial;              // the snapshot of which it has some bytes from before; kNoFrame: of none
+    std::uint32_t partial_size = 0;  // [bytes]
+    SnapshotTransfer transfer;
     Refusal refusal{};
     HashReport report;
     std::size_t next_reporter = 0;  // whose report it hears of next
+
+    bool has_spoken = false;            // it says something that is for this match
+    Frame due[kMaxPlayers] = {};        // what it has to acknowledge before more is due: first frames beyond
+    Time due_since = 0;                 // [us]
+    Time had_all_at = 0;                // [us] when it lacked nothing, or came
+    Time back_at = 0;                   // [us] when it was heard again after a long silence
+    Time more_at = 0;                   // [us] who does not acknowledge is sent nothing before
+    Frame first_end[kMaxPlayers] = {};  // what the last period's first datagram left out
+    bool takes_bursts = false;          // it had the one before that when it was sent
+    Time probe_every = kFirstProbe;     // [us] kept when it goes: its place may be taken by who is no better
   };
+  static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
   void begin(Time now);
   void greet(Guest& guest, Bytes message);
@@ -80,6 +94,30 @@ class HostCore : public PeerCore {
   /// Nobody plays on seats that are not open, up to the horizon.
   void fill_absent();
   void serve_snapshots();
+  /// Can the snapshot that we have be sent to one more? Makes room for a newer one where that is fair.
+  bool may_share_snapshot();
+  /// Of the same snapshot, from before it was cut off.
+  bool has_part(const Guest& guest) const {
+    return guest.partial.frame == snapshot_.frame && guest.partial.chain == snapshot_.chain;
+  }
+  void take_progress(Guest& guest, Bytes message, Time now);
+  /// While a snapshot is under way datagrams only measure the line.
+  void measure(Guest& guest, const PacketHeader& header, Time now);
+  void begin_transfer(Guest& guest);
+  std::optional<Outgoing> next_piece(Guest& guest, Time now);
+  void clear(Guest& guest);
+  /// Inputs that it has not acknowledged.
+  bool lacks_inputs(const Guest& guest) const;
+  bool is_unproven(const Guest& guest) const;
+  bool acknowledges(const Guest& guest, Time now) const;
+  /// It has acknowledged all of the datagram with which a period began. A spectator that is far behind is sent more
+  /// only then, and costs no more than four times what it acknowledges and kStalledRate; a player's inputs are urgent.
+  bool has_first(const Guest& guest) const;
+  /// Puts out who acknowledges nothing for too long.
+  void judge_acknowledgements(Guest& guest, Time now);
+  /// How many frames of each player the next datagram may bring; 0: none is due.
+  Frame most_frames(const Guest& guest, Time now) const;
+  void was_sent(Guest& guest, std::size_t bytes, Time now);
   /// A player in its seat, whose inputs are awaited.
   bool is_in_match(const Guest& guest) const {
     return guest.stage == Guest::Stage::live && guest.player >= 0 && seats_[guest.player].is_open;
@@ -106,7 +144,7 @@ class HostCore : public PeerCore {
   Frame horizon() const;
   /// What lies ahead of us takes the place of what others may still lack: of a short log little.
   Frame bounded(Frame ahead) const { return ahead < config_.history / 4 ? ahead : config_.history / 4; }
-  std::optional<Outgoing> next_message(Guest& guest);
+  std::optional<Outgoing> next_message(Guest& guest, Time now);
   std::optional<Outgoing> next_datagram(Guest& guest, Time now);
   void refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
 
@@ -125,6 +163,7 @@ class HostCore : public PeerCore {
   // The one snapshot that is being sent; whoever needs another waits until nobody needs this one.
   HashReport snapshot_;
   std::uint64_t snapshot_hash_ = 0;
+  Frame held_until_ = 0;  // who was cut off while it arrived may come back for the rest
   std::size_t next_guest_ = 0;
 };
 

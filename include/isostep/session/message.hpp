@@ -17,6 +17,8 @@ struct Hello {
   bool spectator = false;
   std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
   HashReport have;
+  HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
+  std::uint32_t partial_size = 0;  // [bytes] so many; 0: of none
   ReplayHeader identity;
 };
 
@@ -30,13 +32,12 @@ struct Welcome {
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
+  std::uint32_t snapshot_from = 0;  // [bytes] that the client has: the pieces begin there
   Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
 };
 
 /// Why not: the first field that differs, or a key alone ("full", "protocol").
 using Refusal = HeaderMismatch;
-
-inline constexpr std::uint32_t kSnapshotFlight = 256 << 10;  // [bytes]
 
 struct Piece {
   std::uint32_t offset;  // [bytes] into the snapshot
@@ -48,7 +49,7 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out);
 void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out);
 void write_refusal(const Refusal& refusal, std::vector<std::uint8_t>& out);
 void write_piece(const Piece& piece, std::vector<std::uint8_t>& out);
-/// So many bytes of the snapshot have arrived: the host keeps only kSnapshotFlight under way.
+/// So many bytes of the snapshot have arrived.
 void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out);
 /// The client has caught up, and at least two peers agree with its states: it may play.
 void write_ready(std::vector<std::uint8_t>& out);

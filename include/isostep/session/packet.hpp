@@ -57,8 +57,8 @@ struct Packet {
 class PacketWriter {
  public:
   PacketWriter(const PacketHeader& header, std::uint8_t* buffer);
-  /// As many frames from `first` on, and before `end`, as the stream has and the datagram takes; how many that was.
-  Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame end = kLastFrame + 1);
+  /// As many frames from `first` on as the stream has and the datagram takes, at most `most`; how many that was.
+  Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame most = kSliceFrames);
   Bytes bytes() const { return {buffer_, size_}; }
 
  private:

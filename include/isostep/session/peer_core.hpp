@@ -26,6 +26,7 @@ class PeerCore : public SessionCore {
   virtual bool is_local(int player) const = 0;
   /// Inputs of this player travel to that peer before this frame; 0: none.
   virtual Frame sends_until(int player, const PeerLink& link) const = 0;
+  bool sends(int player, const PeerLink& link) const { return sends_until(player, link) > 0; }
   virtual bool running() const = 0;
   /// How many frames may be stepped on guesses.
   virtual Frame window() const { return config_.mode == SessionMode::rollback ? config_.window : 0; }
@@ -55,8 +56,8 @@ class PeerCore : public SessionCore {
   /// Everything up to here; goes on from there with the same state.
   void go_back(Frame state);
 
-  /// The datagram for this peer, in buffer_.
-  Bytes compose(PeerLink& link, PacketHeader header, Time now);
+  /// The datagram for this peer, in buffer_, with at most `most` frames of a player.
+  Bytes compose(PeerLink& link, PacketHeader header, Time now, Frame most = kSliceFrames);
   /// Counts, guards against floods, reads; false: to be ignored.
   bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);

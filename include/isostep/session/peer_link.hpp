@@ -49,6 +49,8 @@ struct PeerLink {
   Frame burst_end[kMaxPlayers] = {};    // first frame of each that this period's datagrams left out
   int burst = 0;                        // datagrams of this period
   bool has_more = false;                // something did not fit
+  bool may_burst = true;                // it acknowledged something new since the last datagram but a period's first
+  Time acked_at = 0;                    // [us] when it last acknowledged something new; 0: never
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
   std::uint8_t reported_mask = 0;       // players of whom it did
   Frame newest_frame = 0;               // of which the datagram is that said this,
@@ -65,9 +67,12 @@ struct PeerLink {
     datagrams.start(now);
     messages.start(now);
   }
-  /// A period's first datagram begins with what is not acknowledged; what does not fit goes into up to three more.
+  /// A period's first datagram begins with what is not acknowledged; what does not fit goes into up to three more, but
+  /// only to who acknowledges: who is far behind gets the same again no sooner than it can have it.
   static constexpr int kBurst = 4;
-  bool continues_burst(Time now) const { return has_more && burst < kBurst && now < next_send; }
+  bool continues_burst(Time now) const {
+    return has_more && burst < kBurst && now < next_send && (burst > 1 || may_burst);
+  }
   /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {
     return now >= next_send || continues_burst(now) || (sent_frame != current && now + period / 2 >= next_send);

@@ -113,6 +113,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   SessionPhase phase() const { return core_->phase(); }
   /// Says who we are after a crash: see SessionConfig::token. 0: not seated yet.
   std::uint64_t token() const { return core_->token(); }
+  /// Of the snapshot that is under way: on a client the one that it waits for, on a host the one that `peer` is sent.
+  SnapshotProgress snapshot_progress(PeerId peer = 0) const { return core_->snapshot_progress(peer); }
   /// The first player of this machine; -1: none, or none yet.
   int local_player() const { return core_->local_player(); }
   const SessionConfig& config() const { return core_->config(); }

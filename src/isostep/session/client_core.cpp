@@ -199,11 +199,18 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     hello.spectator = config_.mode == SessionMode::spectator;
     hello.token = token_;
     hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
+    if (partial_.frame != kNoFrame) {
+      hello.partial = partial_;
+      hello.partial_size = static_cast<std::uint32_t>(portable_.size());
+    }
     hello.identity = config_.identity;
     write_hello(hello, message_);
     return message();
   }
-  if (is_restoring_ && portable_.size() >= told_ + kSnapshotFlight / 4) {
+  // Often, for the host sends as arrives; but the host allows a peer only so many messages.
+  const bool is_whole = portable_.size() == welcome_.snapshot_size;
+  if (is_greeted_ && told_ < portable_.size() && (is_whole || now >= next_progress_)) {
+    next_progress_ = now + clock_.period();
     told_ = static_cast<std::uint32_t>(portable_.size());
     write_progress(told_, message_);
     return message();
@@ -213,7 +220,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     write_ready(message_);
     return message();
   }
-  if (!is_greeted_ || is_restoring_ || must_begin_) return std::nullopt;
+  if (!is_greeted_ || must_begin_) return std::nullopt;
   if (!host_.may_send(current(), clock_.period(), now)) return std::nullopt;
   PacketHeader header;
   header.match = welcome_.match;

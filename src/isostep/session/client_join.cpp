@@ -65,6 +65,7 @@ void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
       return;
     }
     host_.heard = now;
+    if (is_restoring_) host_.set_clock(packet.header, now);
     if (!is_restoring_ && !must_begin_) take_packet(packet, now);
     return;
   }
@@ -120,7 +121,11 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
   const HashReport have = hashes_.settled();
   const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;
-  const bool fits = welcome.players == players() && welcome.snapshot_size <= config_.snapshot_cap &&
+  // Pieces go on where those end that we have, or begin anew.
+  const bool goes_on = welcome.snapshot_from == portable_.size() && welcome.start.frame == partial_.frame &&
+                       welcome.start.chain == partial_.chain;
+  const bool fits = (welcome.snapshot_from == 0 || goes_on) && welcome.players == players() &&
+                    welcome.snapshot_size <= config_.snapshot_cap &&
                     (welcome.player != 0xff) == (config_.mode != SessionMode::spectator);
   if (!fits || (welcome.snapshot_size == 0 && !has_start)) {
     runs_ = is_greeted_ = is_restoring_ = must_begin_ = false;
@@ -134,10 +139,11 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   token_ = welcome.token;
   phase_ = SessionPhase::joining;
-  told_ = 0;
+  told_ = welcome.snapshot_from;
   is_restoring_ = welcome.snapshot_size > 0;
-  must_begin_ = !is_restoring_;
-  portable_.clear();
+  must_begin_ = told_ == welcome.snapshot_size;
+  partial_ = is_restoring_ ? welcome.start : HashReport{};
+  if (told_ == 0) portable_.clear();
 }
 
 void ClientCore::take_piece(const Piece& piece) {
@@ -154,6 +160,7 @@ void ClientCore::restored(bool ok) {
   if (ok) return;
   is_restoring_ = runs_ = is_greeted_ = false;
   is_spoiled_ = must_close_ = true;
+  partial_ = HashReport{};
   fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
 }
 
@@ -164,6 +171,7 @@ void ClientCore::hash_known(Frame state, std::uint64_t hash) {
       return;
     }
     is_restoring_ = is_spoiled_ = false;
+    partial_ = HashReport{};
     hashes_.restart(welcome_.start, hash);
     confirmed_state_ = state;
     return;

@@ -73,6 +73,7 @@ const char* problem_of(const SessionConfig& config) {
     return "kept: 2 * window + most_delay + 4 states or more, up to 4096";
   }
   if (config.history < 2 * config.kept || config.history > 1 << 20) return "history: 2 * kept frames or more";
+  if (config.most_replayed < 0) return "most_replayed: 0 frames or more";
   if (config.max_peers < 1 || config.max_peers > 256) return "max_peers: 1 to 256";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
   const bool is_match = config.mode != SessionMode::sync_test && config.mode != SessionMode::replay;

@@ -20,8 +20,7 @@ void HostCore::connected(PeerId peer, Time now) {
   if (peer >= guests_.size()) return;
   Guest& guest = guests_[peer];
   if (guest.is_connected) drop(guest);
-  guest = Guest{};
-  guest.peer = peer;
+  clear(guest);
   guest.connect(now);
 }
 
@@ -50,11 +49,17 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   if (channel == Channel::datagram) {
     Packet packet;
     if (!accept_datagram(guest, bytes, now, packet)) return;
+    if (guest.stage == Guest::Stage::receives_snapshot && packet.header.match == match_) {
+      measure(guest, packet.header, now);
+      return;
+    }
     if (guest.stage != Guest::Stage::live || packet.header.match != match_) {
       ++stats_.refused;
       return;
     }
+    if (now - guest.heard > config_.silence / 2) guest.back_at = now;
     guest.heard = now;
+    guest.has_spoken = true;
     take_packet(guest, packet, now);
     return;
   }
@@ -66,15 +71,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     guest.heard = now;
     greet(guest, bytes);
   } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::receives_snapshot) {
-    const Result<std::uint32_t> arrived = read_progress(bytes);
-    if (arrived && arrived.value() > guest.arrived && arrived.value() <= guest.sent) {
-      guest.arrived = arrived.value();
-      guest.heard = now;
-    } else {
-      ++stats_.refused;
-    }
-  } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::live) {
-    guest.heard = now;  // of the last pieces
+    take_progress(guest, bytes, now);
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
@@ -138,6 +135,7 @@ void HostCore::before_steps(Time now) {
       guest.must_close = true;
       if (guest.player >= 0) close_seat(guest.player);
     }
+    judge_acknowledgements(guest, now);
     const bool receives = guest.stage == Guest::Stage::receives_snapshot;
     bool lags = false;  // inputs that it lacks have fallen out of the log
     for (int p = 0; p < players(); ++p) {

@@ -83,6 +83,7 @@ void HostCore::greet(Guest& guest, Bytes message) {
   // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
   const bool is_ahead = started_ && have > hashes_.settled().frame && have <= known_end();
   bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == hello.have.chain);
+  has_inputs = has_inputs && current() - have <= config_.most_replayed;
   for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
   if (has_inputs) {
     go_live(guest, have);
@@ -90,13 +91,18 @@ void HostCore::greet(Guest& guest, Bytes message) {
     if (!started_ && guest.player >= 0) guest.opens = 0;
   } else {
     guest.stage = Guest::Stage::needs_snapshot;
+    guest.partial = hello.partial_size > 0 ? hello.partial : HashReport{};
+    guest.partial_size = hello.partial_size;
   }
 }
 
 void HostCore::go_live(Guest& guest, Frame start) {
   guest.stage = Guest::Stage::live;
   guest.start = start;
-  for (Frame& acked : guest.acked) acked = start;
+  for (int p = 0; p < players(); ++p) guest.acked[p] = guest.burst_end[p] = guest.first_end[p] = guest.due[p] = start;
+  guest.due_since = guest.had_all_at = guest.heard;
+  guest.acked_at = guest.more_at = 0;
+  guest.has_spoken = guest.has_more = false;
 }
 
 void HostCore::open_seat(Guest& guest, Time now) {
@@ -134,9 +140,10 @@ void HostCore::unseat(Guest& guest) {
 
 void HostCore::drop(Guest& guest) {
   unseat(guest);
-  const PeerId peer = guest.peer;
-  guest = Guest{};
-  guest.peer = peer;
+  if (guest.stage == Guest::Stage::receives_snapshot) {
+    held_until_ = current() + static_cast<Frame>(config_.silence / clock_.period());
+  }
+  clear(guest);
 }
 
 }  // namespace isostep

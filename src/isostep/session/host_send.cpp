@@ -3,42 +3,13 @@
 #include "isostep/session/host_core.hpp"
 
 namespace isostep {
-namespace {
-
-constexpr std::size_t kPiece = kReliableCap - 64;  // [bytes] of a snapshot in one message
-
-}  // namespace
-
-void HostCore::serve_snapshots() {
-  bool wanted = false, in_use = false;
-  for (const Guest& guest : guests_) {
-    wanted = wanted || guest.stage == Guest::Stage::needs_snapshot;
-    in_use = in_use || guest.stage == Guest::Stage::receives_snapshot;
-  }
-  if (!wanted) return;
-  // One of this second serves everybody: who comes again and again costs no more than that.
-  const HashReport now = hashes_.settled();
-  if (snapshot_.frame == kNoFrame || now.frame - snapshot_.frame > bounded(config_.hz)) {
-    if (in_use) return;
-    // A state that is final: the present one may rest on guesses.
-    snapshot_ = now;
-    snapshot_hash_ = hashes_.hash(now.frame);
-    act(RequestKind::capture, now.frame);
-  }
-  for (Guest& guest : guests_) {
-    if (guest.stage != Guest::Stage::needs_snapshot) continue;
-    guest.stage = Guest::Stage::receives_snapshot;
-    guest.start = snapshot_.frame;
-    guest.sent = guest.arrived = 0;
-  }
-}
 
 std::optional<Outgoing> HostCore::poll_send(Time now) {
   for (std::size_t i = 0; i < guests_.size(); ++i) {
     Guest& guest = guests_[next_guest_];
     next_guest_ = (next_guest_ + 1) % guests_.size();
     if (!guest.is_connected) continue;
-    if (std::optional<Outgoing> out = next_message(guest)) {
+    if (std::optional<Outgoing> out = next_message(guest, now)) {
       next_guest_ = guest.peer;  // all of its messages, in order
       return out;
     }
@@ -47,7 +18,7 @@ std::optional<Outgoing> HostCore::poll_send(Time now) {
   return std::nullopt;
 }
 
-std::optional<Outgoing> HostCore::next_message(Guest& guest) {
+std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
   const auto message = [&] {
     stats_.bytes_out += message_.size();
     return Outgoing{guest.peer, Channel::reliable, message_};
@@ -66,7 +37,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest) {
   if (sending && portable_.empty()) {  // the game has no portable form
     unseat(guest);
     refuse(guest, "snapshot", "needed", "none");
-    return next_message(guest);
+    return next_message(guest, now);
   }
   if (guest.must_welcome && (sending || guest.stage == Guest::Stage::live)) {
     guest.must_welcome = false;
@@ -78,18 +49,18 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest) {
     welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
     welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};
     welcome.hash = sending ? snapshot_hash_ : 0;  // it has that state
-    guest.size = welcome.snapshot_size = sending ? static_cast<std::uint32_t>(portable_.size()) : 0;
+    if (sending) {
+      begin_transfer(guest);
+      welcome.snapshot_size = guest.transfer.progress().size;
+      welcome.snapshot_from = guest.transfer.progress().arrived;
+      if (guest.transfer.is_complete()) go_live(guest, guest.start);
+    }
     welcome.opens = guest.opens;
     write_welcome(welcome, message_);
     return message();
   }
-  if (sending && guest.sent < guest.size && guest.sent - guest.arrived < kSnapshotFlight) {
-    const std::size_t rest = guest.size - guest.sent;
-    const Bytes bytes = Bytes(portable_).subspan(guest.sent, rest < kPiece ? rest : kPiece);
-    write_piece({guest.sent, bytes}, message_);
-    guest.sent += static_cast<std::uint32_t>(bytes.size());
-    if (guest.sent == guest.size) go_live(guest, guest.start);
-    return message();
+  if (sending) {
+    if (std::optional<Outgoing> out = next_piece(guest, now)) return out;
   }
   if (guest.must_open) {
     guest.must_open = false;
@@ -100,8 +71,10 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest) {
 }
 
 std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
-  if (guest.stage != Guest::Stage::live) return std::nullopt;
-  if (!guest.may_send(current(), clock_.period(), now)) return std::nullopt;
+  const bool sending = guest.stage == Guest::Stage::receives_snapshot;
+  if (guest.stage != Guest::Stage::live && !(sending && guest.transfer.is_answered())) return std::nullopt;
+  const Frame most = sending ? 0 : most_frames(guest, now);
+  if ((most == 0 && !sending) || !guest.may_send(current(), clock_.period(), now)) return std::nullopt;
   PacketHeader header;
   header.match = match_;
   header.started = started_;
@@ -129,7 +102,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     break;
   }
   note_held_back(guest);
-  return Outgoing{guest.peer, Channel::datagram, compose(guest, header, now)};
+  const Bytes bytes = compose(guest, header, now, most);
+  if (!sending) was_sent(guest, bytes.size(), now);
+  return Outgoing{guest.peer, Channel::datagram, bytes};
 }
 
 }  // namespace isostep

@@ -47,6 +47,8 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(hello.spectator);
   writer.write(hello.token);
   write_report(writer, hello.have);
+  write_report(writer, hello.partial);
+  writer.write(hello.partial_size);
   writer.write_bytes(identity);
 }
 
@@ -60,6 +62,8 @@ Result<Hello> read_hello(Bytes message) {
   reader.read(hello.spectator);
   reader.read(hello.token);
   hello.have = read_report(reader);
+  hello.partial = read_report(reader);
+  reader.read(hello.partial_size);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
   const Result<Hello> whole = finish(reader, "hello", hello);
   if (!whole) return whole;
@@ -79,6 +83,7 @@ void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
   write_report(writer, welcome.start);
   writer.write(welcome.hash);
   writer.write(welcome.snapshot_size);
+  writer.write(welcome.snapshot_from);
   writer.write(welcome.opens);
 }
 
@@ -93,11 +98,13 @@ Result<Welcome> read_welcome(Bytes message) {
   welcome.start = read_report(reader);
   reader.read(welcome.hash);
   reader.read(welcome.snapshot_size);
+  reader.read(welcome.snapshot_from);
   reader.read(welcome.opens);
   if (welcome.players < 1 || welcome.players > kMaxPlayers || welcome.host_players > welcome.players ||
       (welcome.player >= welcome.players && welcome.player != 0xff)) {
     reader.fail(ErrorCode::invalid, "players out of range");
   }
+  if (welcome.snapshot_from > welcome.snapshot_size) reader.fail(ErrorCode::invalid, "snapshot_from out of range");
   const bool plays = welcome.player != 0xff;
   if (welcome.opens < kNoFrame || welcome.opens > kLastFrame || (welcome.opens != kNoFrame && !plays)) {
     reader.fail(ErrorCode::invalid, "opens out of range");

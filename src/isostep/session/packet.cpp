@@ -106,9 +106,8 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   size_ = writer.size();
 }
 
-Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame end) {
-  if (end > stream.end()) end = stream.end();
-  if (!stream.contains(first) || first >= end) return 0;
+Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame most) {
+  if (!stream.contains(first)) return 0;
   // The slice's own header is written last, for it holds the tokens' size: 12 bytes are its most.
   constexpr std::size_t kSliceHeader = 12;
   if (size_ + kSliceHeader >= kDatagramCap) return 0;
@@ -117,11 +116,12 @@ Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Fr
   std::size_t whole = 0;
   Frame count = 0;
   Bytes previous;
-  for (Frame frame = first; frame < end && count < kSliceFrames;) {
+  for (Frame frame = first; frame < stream.end() && count < most;) {
     const InputEntry entry = stream.at(frame);
     const bool repeats = !entry.absent && frame > first && same_input(entry, {false, previous});
     Frame run = 1;
-    while (run < kRun && count + run < kSliceFrames && frame + run < end && same_input(stream.at(frame + run), entry)) {
+    while (run < kRun && count + run < most && frame + run < stream.end() &&
+           same_input(stream.at(frame + run), entry)) {
       ++run;
     }
     if (entry.absent) {

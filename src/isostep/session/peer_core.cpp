@@ -277,14 +277,20 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
     if ((header.ack_mask >> p & 1) == 0) continue;
     // Nobody has what was never sent; and what was had once stays had.
     const Frame ack = header.ack[p];
-    if (ack > link.acked[p] && ack <= streams_[static_cast<std::size_t>(p)].end()) link.acked[p] = ack;
+    if (ack > link.acked[p] && ack <= streams_[static_cast<std::size_t>(p)].end()) {
+      link.acked[p] = ack;
+      if (sends(p, link)) {
+        link.acked_at = now;
+        link.may_burst = true;
+      }
+    }
     if (!is_current) continue;
     link.slack[p] = header.slack[p];
     link.reported_mask = static_cast<std::uint8_t>(link.reported_mask | 1u << p);
   }
 }
 
-Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
+Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now, Frame most) {
   header.time = static_cast<std::uint16_t>(now / 1000);
   header.has_echo = link.has_clock;
   header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);
@@ -293,6 +299,7 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
   PacketWriter writer(header, buffer_);
   const bool continues = link.continues_burst(now);
   link.burst = continues ? link.burst + 1 : 1;
+  if (continues) link.may_burst = false;
   // In turns, so that one player's long inputs cannot keep another's out for ever.
   bool is_left = false;
   Frame added = 0;
@@ -301,7 +308,8 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now) {
     const Frame until = sends_until(p, link);
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     const Frame first = continues && link.burst_end[p] > link.acked[p] ? link.burst_end[p] : link.acked[p];
-    const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first, until);
+    const Frame few = until - first < most ? until - first : most;
+    const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, first, few);
     link.burst_end[p] = first + count;
     added += count;
     is_left = is_left || link.burst_end[p] < until;

@@ -56,6 +56,7 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.kept = 4097; c.history = 10000), "kept"));
   EXPECT_TRUE(names(PROBLEM(c.history = 127), "history"));
   EXPECT_TRUE(names(PROBLEM(c.history = (1 << 20) + 1), "history"));
+  EXPECT_TRUE(names(PROBLEM(c.most_replayed = -1), "most_replayed"));
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 0), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 257), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.most_packets = 119), "most_packets"));

@@ -106,6 +106,7 @@ struct Rogue {
   Frame opens = kNoFrame;
   std::size_t pieces = 0;
   Frame host_frame = 0;
+  Frame ends[kMaxPlayers] = {};  // of the inputs that came last
   HashReport host_report;
 
   Rogue(Match& match, const transport::NetworkProfile& profile)
@@ -119,8 +120,13 @@ struct Rogue {
       if (arrival->kind != transport::ArrivalKind::message) continue;
       if (arrival->channel == Channel::datagram) {
         const Result<Packet> packet = read_packet(arrival->bytes);
-        if (packet) host_frame = packet.value().header.frame;
-        if (packet) host_report = packet.value().header.report;
+        if (!packet) continue;
+        host_frame = packet.value().header.frame;
+        host_report = packet.value().header.report;
+        for (std::uint8_t i = 0; i < packet.value().slice_count; ++i) {
+          const InputSlice& slice = packet.value().slices[i];
+          ends[slice.player] = slice.first + slice.count;
+        }
         continue;
       }
       const Result<MessageKind> kind = message_kind(arrival->bytes);

@@ -17,6 +17,8 @@ Hello hello() {
   hello.spectator = true;
   hello.token = 0x1122334455667788u;
   hello.have = {1234, 0xabcdef};
+  hello.partial = {1200, 0xfedcba};
+  hello.partial_size = 70000;
   hello.identity.set("scene", "arena", true);
   hello.identity.set("compiler", "any", false);
   return hello;
@@ -30,6 +32,7 @@ Welcome welcome() {
           .start = {kLastFrame, 9},
           .hash = 10,
           .snapshot_size = 0xffffffffu,
+          .snapshot_from = 0xfffffffeu,
           .opens = 77};
 }
 
@@ -42,6 +45,9 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(read.token, hello().token);
   EXPECT_EQ(read.have.frame, 1234);
   EXPECT_EQ(read.have.chain, 0xabcdefu);
+  EXPECT_EQ(read.partial.frame, 1200);
+  EXPECT_EQ(read.partial.chain, 0xfedcbau);
+  EXPECT_EQ(read.partial_size, 70000u);
   EXPECT_TRUE(compare_headers(read.identity, hello().identity).key.empty());
 
   write_welcome(welcome(), bytes);
@@ -56,6 +62,7 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(there.start.chain, 9u);
   EXPECT_EQ(there.hash, 10u);
   EXPECT_EQ(there.snapshot_size, 0xffffffffu);
+  EXPECT_EQ(there.snapshot_from, 0xfffffffeu);
   EXPECT_EQ(there.opens, 77);
 
   write_refusal({"solver", "a", "b"}, bytes);
@@ -118,6 +125,7 @@ TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xfe; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.start.frame = kNoFrame; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.start.frame = kLastFrame + 1; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.snapshot_size = w.snapshot_from - 1; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.opens = -2; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.opens = kLastFrame + 1; }));
 }
