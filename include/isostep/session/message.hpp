@@ -12,11 +12,17 @@ namespace isostep {
 
 enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progress, ready, open };
 
-/// A client's first word. `have` is a state that it holds with its history: frame 0, or where it was cut off.
-struct Hello {
+/// As what a client comes.
+struct Application {
   bool spectator = false;
+  int seat = -1;            // this one or none; -1: any
   std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
-  HashReport have;
+  HashReport have;          // a state that it holds with its history: frame 0, or where it was cut off
+};
+
+/// A client's first word.
+struct Hello : Application {
+  Bytes credential;  // for the host's game
   ReplayHeader identity;
 };
 
@@ -33,7 +39,7 @@ struct Welcome {
   Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
 };
 
-/// Why not: the first field that differs, or a key alone ("full", "protocol").
+/// Why not: the first field that differs, or a key of the session's own ("protocol", "seats", "admission", "kicked").
 using Refusal = HeaderMismatch;
 
 inline constexpr std::uint32_t kSnapshotFlight = 256 << 10;  // [bytes]

@@ -11,13 +11,17 @@ constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an ev
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers)), match_(secret()) {
-  for (int p = 0; p < config.local_players; ++p) seats_[p] = {true, -1, 0, true};
+    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
+      match_(draw(Purpose::match, 0)) {
+  for (int p = 0; p < config.local_players; ++p) seats_[p] = {.is_taken = true, .is_open = true};
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
 
 void HostCore::connected(PeerId peer, Time now) {
-  if (peer >= guests_.size()) return;
+  if (peer >= guests_.size()) {
+    ++stats_.refused;
+    return;
+  }
   Guest& guest = guests_[peer];
   if (guest.is_connected) drop(guest);
   guest = Guest{};
@@ -83,6 +87,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 }
 
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
+  keep_seat(guest);
   take_header(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
@@ -123,6 +128,7 @@ bool HostCore::sends(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
+  tend_places(now);
   bool all_taken = true;
   for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
   if (!started_ && (all_taken || must_start_)) begin(now);
