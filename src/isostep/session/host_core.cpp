@@ -11,7 +11,8 @@ constexpr Time kTellBlocked = kSecond / 4;  // [us] before a wait is worth an ev
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
+    : PeerCore(config, rules),
+      guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
       match_(draw(Purpose::match, 0)) {
   for (int p = 0; p < config.local_players; ++p) seats_[p] = {.is_taken = true, .is_open = true};
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);

@@ -23,8 +23,8 @@ TEST(SipHash, GivesTheValuesOfItsReferenceImplementation) {
   const struct {
     std::size_t size;
     std::uint64_t value;
-  } vectors[] = {{0, 0x726fdb47dd0e0e31u},  {1, 0x74f839c593dc67fdu},  {7, 0xab0200f58b01d137u},
-                 {8, 0x93f5f5799a932462u},  {9, 0x9e0082df0ba9e4b0u},  {15, 0xa129ca6149be45e5u},
+  } vectors[] = {{0, 0x726fdb47dd0e0e31u},  {1, 0x74f839c593dc67fdu}, {7, 0xab0200f58b01d137u},
+                 {8, 0x93f5f5799a932462u},  {9, 0x9e0082df0ba9e4b0u}, {15, 0xa129ca6149be45e5u},
                  {16, 0x3f2acc7f57c29bdbu}, {63, 0x958a324ceb064572u}};
   for (const auto& vector : vectors) EXPECT_EQ(of_first_bytes(vector.size), vector.value) << vector.size;
 }
