@@ -19,8 +19,9 @@ using Player = Machine<hostile::Game>;
 inline constexpr const char* kLine = "latency=30,jitter=5,loss=0.5";
 
 /// A host who plays, and clients on good lines who come back when their line drops.
-struct House {
-  explicit House(const SessionConfig& its_config) : config(its_config), match(hostile::make_match(its_config, 100)) {
+struct OpenMatch {
+  explicit OpenMatch(const SessionConfig& its_config)
+      : config(its_config), match(hostile::make_match(its_config, 100)) {
     client = config;
     client.local_players = 0;
     client.asks_admission = false;
@@ -75,15 +76,15 @@ struct House {
   hostile::Match match;
 };
 
-inline SessionConfig house_of(int players) {
+inline SessionConfig players_of(int players) {
   SessionConfig config;
   config.players = players;
   return config;
 }
 
 /// Everybody plays.
-struct FullHouse : House {
-  explicit FullHouse(const SessionConfig& its_config) : House(its_config) {
+struct FullMatch : OpenMatch {
+  explicit FullMatch(const SessionConfig& its_config) : OpenMatch(its_config) {
     for (int p = 1; p < its_config.players; ++p) players.push_back(&come());
     EXPECT_TRUE(match.run_to(300, 20 * kSecond));
   }

@@ -8,15 +8,15 @@ namespace {
 // --- the game decides ---
 
 SessionConfig asking(int players) {
-  SessionConfig config = house_of(players);
+  SessionConfig config = players_of(players);
   config.asks_admission = true;
   return config;
 }
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
 
 /// A host's game with a list of those whom it lets in.
-struct Lobby : House {
-  explicit Lobby(const SessionConfig& its_config) : House(its_config) {
+struct Lobby : OpenMatch {
+  explicit Lobby(const SessionConfig& its_config) : OpenMatch(its_config) {
     match.host().after_turn = [this] {
       while (answers) {
         const std::optional<Applicant> applicant = host().poll_applicant();
@@ -126,116 +126,116 @@ TEST(Admission, OfWhoHasGoneIsNotThatOfWhoComesNext) {
 // --- seats ---
 
 TEST(Seats, AreThoseThatWereAskedForOrNone) {
-  House house(house_of(4));
-  Player& third = house.come(house.with_seat(3));
-  Player& first = house.come(house.with_seat(1));
-  house.pass(kSecond);
-  Player& late = house.come(house.with_seat(3));
-  EXPECT_EQ(house.refusal_of(late), "seat: taken");
+  OpenMatch scene(players_of(4));
+  Player& third = scene.come(scene.with_seat(3));
+  Player& first = scene.come(scene.with_seat(1));
+  scene.pass(kSecond);
+  Player& late = scene.come(scene.with_seat(3));
+  EXPECT_EQ(scene.refusal_of(late), "seat: taken");
   EXPECT_EQ(late.last(Kind::refused).field.in_file.view(), "3");
-  Player& hosts = house.come(house.with_seat(0));
-  EXPECT_EQ(house.refusal_of(hosts), "seat: taken");
-  Player& any = house.come();
-  ASSERT_TRUE(house.plays(any, 2 * kSecond));
+  Player& hosts = scene.come(scene.with_seat(0));
+  EXPECT_EQ(scene.refusal_of(hosts), "seat: taken");
+  Player& any = scene.come();
+  ASSERT_TRUE(scene.plays(any, 2 * kSecond));
   EXPECT_EQ(any.session.local_player(), 2);
   EXPECT_EQ(third.session.local_player(), 3);
   EXPECT_EQ(first.session.local_player(), 1);
-  house.pass(kSecond);
-  house.drop(third);
-  house.pass(kSecond);
-  Player& again = house.come(house.with_seat(3));
-  EXPECT_EQ(house.refusal_of(again), "seat: reserved");
-  Player& other = house.come(house.with_token(any.session.token()));
-  EXPECT_TRUE(house.plays(other, 2 * kSecond));
-  SessionConfig both = house.with_token(other.session.token());
+  scene.pass(kSecond);
+  scene.drop(third);
+  scene.pass(kSecond);
+  Player& again = scene.come(scene.with_seat(3));
+  EXPECT_EQ(scene.refusal_of(again), "seat: reserved");
+  Player& other = scene.come(scene.with_token(any.session.token()));
+  EXPECT_TRUE(scene.plays(other, 2 * kSecond));
+  SessionConfig both = scene.with_token(other.session.token());
   both.seat = 1;
-  Player& undecided = house.come(both);
-  EXPECT_EQ(house.refusal_of(undecided), "seat: another is yours");
+  Player& undecided = scene.come(both);
+  EXPECT_EQ(scene.refusal_of(undecided), "seat: another is yours");
 }
 
 TEST(Seats, AreLookedUpByTheirPlayers) {
-  FullHouse house(house_of(3));
-  const std::optional<PeerId> first = house.host().peer_of(1), second = house.host().peer_of(2);
+  FullMatch scene(players_of(3));
+  const std::optional<PeerId> first = scene.host().peer_of(1), second = scene.host().peer_of(2);
   ASSERT_TRUE(first && second);
   EXPECT_NE(*first, *second);
-  for (const int nobody : {-1, 0, 3, 1000}) EXPECT_FALSE(house.host().peer_of(nobody).has_value()) << nobody;
-  house.drop(house.player(2));
-  house.pass(kSecond);
-  EXPECT_FALSE(house.host().peer_of(2).has_value());
-  EXPECT_EQ(house.host().peer_of(1), first);
+  for (const int nobody : {-1, 0, 3, 1000}) EXPECT_FALSE(scene.host().peer_of(nobody).has_value()) << nobody;
+  scene.drop(scene.player(2));
+  scene.pass(kSecond);
+  EXPECT_FALSE(scene.host().peer_of(2).has_value());
+  EXPECT_EQ(scene.host().peer_of(1), first);
 }
 
 // --- kicks ---
 
 /// `left` of this player was told by all in the same frame.
-void expect_left_alike(FullHouse& house, int player, std::initializer_list<Player*> others) {
-  const SessionEvent told = house.match.host().last(Kind::left, player);
+void expect_left_alike(FullMatch& scene, int player, std::initializer_list<Player*> others) {
+  const SessionEvent told = scene.match.host().last(Kind::left, player);
   EXPECT_NE(told.frame, kNoFrame);
   for (const Player* other : others) EXPECT_EQ(other->last(Kind::left, player).frame, told.frame);
 }
 
 TEST(Kick, EndsAPlayersPartInTheMatchAndTellsWhy) {
   for (const SessionMode mode : {SessionMode::lockstep, SessionMode::rollback}) {
-    SessionConfig config = house_of(3);
+    SessionConfig config = players_of(3);
     config.mode = mode;
-    FullHouse house(config);
-    Player &kicked = house.player(2), &stays = house.player(1);
+    FullMatch scene(config);
+    Player &kicked = scene.player(2), &stays = scene.player(1);
     const std::uint64_t token = kicked.session.token();
-    const Frame before = house.host().current();
-    EXPECT_TRUE(house.host().kick(2, "insults"));
-    EXPECT_FALSE(house.host().peer_of(2).has_value());
-    house.pass(kSecond);
-    EXPECT_EQ(house.refusal_of(kicked), "kicked: insults");
+    const Frame before = scene.host().current();
+    EXPECT_TRUE(scene.host().kick(2, "insults"));
+    EXPECT_FALSE(scene.host().peer_of(2).has_value());
+    scene.pass(kSecond);
+    EXPECT_EQ(scene.refusal_of(kicked), "kicked: insults");
     EXPECT_EQ(kicked.session.phase(), SessionPhase::refused);
     EXPECT_TRUE(kicked.is_offline);
-    EXPECT_GT(house.host().current(), before + 55) << "nobody waits for it";
-    expect_left_alike(house, 2, {&stays});
-    Player& again = house.come(house.with_token(token));
-    const std::uint64_t refused = house.host().stats().refused;
-    EXPECT_TRUE(house.plays(again, 2 * kSecond)) << "as anybody: whom it lets in is for the game to say";
-    EXPECT_EQ(house.host().stats().refused, refused + 1) << "the token is void";
+    EXPECT_GT(scene.host().current(), before + 55) << "nobody waits for it";
+    expect_left_alike(scene, 2, {&stays});
+    Player& again = scene.come(scene.with_token(token));
+    const std::uint64_t refused = scene.host().stats().refused;
+    EXPECT_TRUE(scene.plays(again, 2 * kSecond)) << "as anybody: whom it lets in is for the game to say";
+    EXPECT_EQ(scene.host().stats().refused, refused + 1) << "the token is void";
     EXPECT_EQ(again.session.local_player(), 2);
-    house.pass(kSecond);
-    expect_one_history(house.match);
+    scene.pass(kSecond);
+    expect_one_history(scene.match);
   }
 }
 
 TEST(Kick, FreesTheSeatOfWhoIsAway) {
-  FullHouse house(house_of(2));
-  house.drop(house.player(1));
-  house.pass(kSecond);
-  EXPECT_EQ(house.refusal_of(house.come()), "seats: reserved");
-  EXPECT_TRUE(house.host().kick(1, "away"));
-  EXPECT_FALSE(house.host().kick(1, "away")) << "nobody's";
-  EXPECT_TRUE(house.plays(house.come(), 2 * kSecond));
+  FullMatch scene(players_of(2));
+  scene.drop(scene.player(1));
+  scene.pass(kSecond);
+  EXPECT_EQ(scene.refusal_of(scene.come()), "seats: reserved");
+  EXPECT_TRUE(scene.host().kick(1, "away"));
+  EXPECT_FALSE(scene.host().kick(1, "away")) << "nobody's";
+  EXPECT_TRUE(scene.plays(scene.come(), 2 * kSecond));
 }
 
 TEST(Kick, IsOfSpectatorsByTheirConnection) {
-  FullHouse house(house_of(2));
-  Player& watcher = house.come(house.as_spectator());
-  house.pass(kSecond);
+  FullMatch scene(players_of(2));
+  Player& watcher = scene.come(scene.as_spectator());
+  scene.pass(kSecond);
   ASSERT_EQ(watcher.session.phase(), SessionPhase::watching);
-  const PeerId peer = house.host().peer_of(1) == PeerId{0} ? 1 : 0;
-  EXPECT_FALSE(house.host().kick_peer(40, "nobody"));
-  EXPECT_FALSE(house.host().kick_peer(9999, "nobody"));
-  EXPECT_TRUE(house.host().kick_peer(peer, "the match is private"));
-  EXPECT_EQ(house.refusal_of(watcher), "kicked: the match is private");
-  EXPECT_TRUE(house.host().kick_peer(*house.host().peer_of(1), "and so is this"));
-  EXPECT_EQ(house.refusal_of(house.player(1)), "kicked: and so is this");
-  house.pass(kSecond);
-  EXPECT_TRUE(house.match.host().heard(Kind::left, 1));
+  const PeerId peer = scene.host().peer_of(1) == PeerId{0} ? 1 : 0;
+  EXPECT_FALSE(scene.host().kick_peer(40, "nobody"));
+  EXPECT_FALSE(scene.host().kick_peer(9999, "nobody"));
+  EXPECT_TRUE(scene.host().kick_peer(peer, "the match is private"));
+  EXPECT_EQ(scene.refusal_of(watcher), "kicked: the match is private");
+  EXPECT_TRUE(scene.host().kick_peer(*scene.host().peer_of(1), "and so is this"));
+  EXPECT_EQ(scene.refusal_of(scene.player(1)), "kicked: and so is this");
+  scene.pass(kSecond);
+  EXPECT_TRUE(scene.match.host().heard(Kind::left, 1));
 }
 
 TEST(Kick, NeedsAPlayerAndAReasonThatCanBeRead) {
-  FullHouse house(house_of(2));
-  EXPECT_FALSE(house.host().kick(0, "the host itself"));
-  EXPECT_FALSE(house.host().kick(-1, "nobody"));
-  EXPECT_FALSE(house.host().kick(2, "nobody"));
-  EXPECT_FALSE(house.host().kick(1, "\x1b[2J"));
-  EXPECT_FALSE(house.host().kick(1, std::string(kReplayValueCap + 1, 'x')));
-  EXPECT_FALSE(house.player(1).session.kick(0, "a client kicks nobody"));
-  EXPECT_TRUE(house.host().peer_of(1).has_value());
-  EXPECT_TRUE(house.host().kick(1, ""));
+  FullMatch scene(players_of(2));
+  EXPECT_FALSE(scene.host().kick(0, "the host itself"));
+  EXPECT_FALSE(scene.host().kick(-1, "nobody"));
+  EXPECT_FALSE(scene.host().kick(2, "nobody"));
+  EXPECT_FALSE(scene.host().kick(1, "\x1b[2J"));
+  EXPECT_FALSE(scene.host().kick(1, std::string(kReplayValueCap + 1, 'x')));
+  EXPECT_FALSE(scene.player(1).session.kick(0, "a client kicks nobody"));
+  EXPECT_TRUE(scene.host().peer_of(1).has_value());
+  EXPECT_TRUE(scene.host().kick(1, ""));
 }
 
 }  // namespace

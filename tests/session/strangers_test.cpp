@@ -16,14 +16,14 @@ struct Stranger : hostile::Rogue {
   int connections = 0;
   bool was_connected = false;
 
-  Stranger(House& house, Way its_way, Time its_stay, const transport::NetworkProfile& line)
-      : Rogue(house.match, line), way(its_way), stays(its_stay) {}
-  void turn(const House& house, Time now) {
+  Stranger(OpenMatch& scene, Way its_way, Time its_stay, const transport::NetworkProfile& line)
+      : Rogue(scene.match, line), way(its_way), stays(its_stay) {}
+  void turn(const OpenMatch& scene, Time now) {
     listen();
     if (is_connected && !was_connected) {
       since = now;
       ++connections;
-      Hello hello = hostile::hello_of(house.config);
+      Hello hello = hostile::hello_of(scene.config);
       hello.spectator = way == Way::watches;
       if (way == Way::guesses) hello.token = now * 0x9e3779b97f4a7c15u | 1u;
       if (way != Way::silent) greet(hello);
@@ -40,8 +40,8 @@ struct Stranger : hostile::Rogue {
 using Ways = std::vector<Stranger::Way>;
 
 /// Players, and strangers of these ways in turns.
-struct Besieged : FullHouse {
-  Besieged(const SessionConfig& its_config, std::size_t count, const Ways& ways) : FullHouse(its_config) {
+struct CrowdedMatch : FullMatch {
+  CrowdedMatch(const SessionConfig& its_config, std::size_t count, const Ways& ways) : FullMatch(its_config) {
     for (std::size_t i = 0; i < count; ++i) {
       // Some stay until they are sent away, others come and go ten times a second.
       const Time stays = i % 3 == 0 ? kSecond / 10 : 100 * kSecond;
@@ -64,7 +64,7 @@ struct Besieged : FullHouse {
 class Strangers : public testing::TestWithParam<SessionMode> {
  protected:
   SessionConfig config_of(int players) const {
-    SessionConfig config = house_of(players);
+    SessionConfig config = players_of(players);
     config.mode = GetParam();
     return config;
   }
@@ -72,22 +72,22 @@ class Strangers : public testing::TestWithParam<SessionMode> {
 INSTANTIATE_TEST_SUITE_P(Modes, Strangers, testing::Values(SessionMode::lockstep, SessionMode::rollback));
 
 /// [us] from the moment at which its line is there again to its first frame.
-Time time_to_come_back(Besieged& house, bool as_another_process) {
-  Player& owner = house.player(2);
-  house.drop(owner);
-  house.pass(kSecond);
-  EXPECT_FALSE(house.host().peer_of(2).has_value());
+Time time_to_come_back(CrowdedMatch& scene, bool as_another_process) {
+  Player& owner = scene.player(2);
+  scene.drop(owner);
+  scene.pass(kSecond);
+  EXPECT_FALSE(scene.host().peer_of(2).has_value());
   Player* back = &owner;
   if (as_another_process) {
     owner.plays = false;
-    back = &house.come(house.with_token(owner.session.token()));
+    back = &scene.come(scene.with_token(owner.session.token()));
   } else {
     owner.returns = true;
   }
-  const Time from = house.match.now();
-  EXPECT_TRUE(house.run(10 * kSecond, [&] { return back->session.phase() == SessionPhase::playing; }));
+  const Time from = scene.match.now();
+  EXPECT_TRUE(scene.run(10 * kSecond, [&] { return back->session.phase() == SessionPhase::playing; }));
   EXPECT_EQ(back->session.local_player(), 2);
-  return house.match.now() - from;
+  return scene.match.now() - from;
 }
 
 TEST_P(Strangers, FortyOfThemKeepNoOwnerOutOfItsSeat) {
@@ -96,15 +96,15 @@ TEST_P(Strangers, FortyOfThemKeepNoOwnerOutOfItsSeat) {
   for (const Ways& ways : {Ways{silent}, Ways{watches}, Ways{silent, watches, plays, guesses}}) {
     for (const int offset : {0, 170000, 340000, 510000}) {  // [us] when in the strangers' rounds the line drops
       SCOPED_TRACE(std::to_string(ways.size()) + " ways, " + std::to_string(offset));
-      Besieged house(config_of(3), 40, ways);
-      house.pass(3 * kSecond + static_cast<Time>(offset));
-      worst = std::max(worst, time_to_come_back(house, offset % 340000 != 0));
-      house.pass(2 * kSecond);
-      EXPECT_EQ(house.player(1).session.phase(), SessionPhase::playing);
-      EXPECT_FALSE(house.match.host().heard(Kind::waiting_for)) << "nobody else notices";
-      EXPECT_EQ(house.host().stats().events_lost, 0u);
+      CrowdedMatch scene(config_of(3), 40, ways);
+      scene.pass(3 * kSecond + static_cast<Time>(offset));
+      worst = std::max(worst, time_to_come_back(scene, offset % 340000 != 0));
+      scene.pass(2 * kSecond);
+      EXPECT_EQ(scene.player(1).session.phase(), SessionPhase::playing);
+      EXPECT_FALSE(scene.match.host().heard(Kind::waiting_for)) << "nobody else notices";
+      EXPECT_EQ(scene.host().stats().events_lost, 0u);
       int connections = 0;
-      for (const auto& stranger : house.strangers) connections += stranger->connections;
+      for (const auto& stranger : scene.strangers) connections += stranger->connections;
       EXPECT_GT(connections, 200) << "they come again and again";
     }
   }
@@ -113,29 +113,29 @@ TEST_P(Strangers, FortyOfThemKeepNoOwnerOutOfItsSeat) {
 }
 
 TEST_P(Strangers, WhoDoNotGreetAreSentAwayAfterTwoSeconds) {
-  FullHouse house(config_of(2));
-  Stranger silent(house, Stranger::Way::silent, 100 * kSecond, profile("loopback"));
-  house.match.run(kSecond, [&] { return silent.listen(), silent.is_connected; });
-  const Time from = house.match.now();
-  const std::uint64_t before = house.host().stats().refused;
-  EXPECT_TRUE(house.match.run(4 * kSecond, [&] { return silent.listen(), !silent.is_connected; }));
-  EXPECT_GE(house.match.now() - from, 2 * kSecond - 10000);
-  EXPECT_LE(house.match.now() - from, 2 * kSecond + 100000);
-  EXPECT_EQ(house.host().stats().refused, before + 1);
+  FullMatch scene(config_of(2));
+  Stranger silent(scene, Stranger::Way::silent, 100 * kSecond, profile("loopback"));
+  scene.match.run(kSecond, [&] { return silent.listen(), silent.is_connected; });
+  const Time from = scene.match.now();
+  const std::uint64_t before = scene.host().stats().refused;
+  EXPECT_TRUE(scene.match.run(4 * kSecond, [&] { return silent.listen(), !silent.is_connected; }));
+  EXPECT_GE(scene.match.now() - from, 2 * kSecond - 10000);
+  EXPECT_LE(scene.match.now() - from, 2 * kSecond + 100000);
+  EXPECT_EQ(scene.host().stats().refused, before + 1);
 }
 
 TEST_P(Strangers, AsSpectatorsLeaveThePlacesOfPlayers) {
   SessionConfig config = config_of(4);
   config.max_peers = 8;
-  House house(config);
-  Player& first = house.come();
-  house.pass(kSecond);
-  house.host().start(house.match.now());
-  ASSERT_TRUE(house.plays(first, 2 * kSecond));
+  OpenMatch scene(config);
+  Player& first = scene.come();
+  scene.pass(kSecond);
+  scene.host().start(scene.match.now());
+  ASSERT_TRUE(scene.plays(first, 2 * kSecond));
   std::vector<Player*> watchers;
   for (int i = 0; i < 8; ++i) {
-    watchers.push_back(&house.come(house.as_spectator()));
-    house.pass(kSecond / 2);
+    watchers.push_back(&scene.come(scene.as_spectator()));
+    scene.pass(kSecond / 2);
   }
   int watching = 0;
   for (const Player* watcher : watchers) {
@@ -144,12 +144,12 @@ TEST_P(Strangers, AsSpectatorsLeaveThePlacesOfPlayers) {
     EXPECT_EQ(watcher->last(Kind::refused).field.key.view(), "spectators");
   }
   EXPECT_EQ(watching, 8 - 3);
-  for (int p = 2; p < 4; ++p) EXPECT_TRUE(house.plays(house.come(), 3 * kSecond)) << p;
+  for (int p = 2; p < 4; ++p) EXPECT_TRUE(scene.plays(scene.come(), 3 * kSecond)) << p;
   // Who leaves makes room.
-  house.drop(*watchers[0]);
-  house.pass(kSecond);
-  Player& next = house.come(house.as_spectator());
-  EXPECT_TRUE(house.match.run(2 * kSecond, [&] { return next.session.phase() == SessionPhase::watching; }));
+  scene.drop(*watchers[0]);
+  scene.pass(kSecond);
+  Player& next = scene.come(scene.as_spectator());
+  EXPECT_TRUE(scene.match.run(2 * kSecond, [&] { return next.session.phase() == SessionPhase::watching; }));
 }
 
 TEST_P(Strangers, BeyondThePlacesOfASessionAreCountedAndNotServed) {

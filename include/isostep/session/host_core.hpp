@@ -45,7 +45,7 @@ class HostCore : public PeerCore {
     /// What its player came back with, while it may not have read the new one: the connection may end before.
     std::uint64_t former_token = 0;
     bool is_kept = false;  // it was played on, and its player knows a token: it is reserved for that
-    Time open_until = 0;   // [us] when it was open last, or else taken
+    Time idle = 0;         // [us] since it was open, or else taken, in turns of ours
     bool is_open = false;  // inputs are awaited
     Time owed = 0;         // [us] see charge()
   };
@@ -89,7 +89,7 @@ class HostCore : public PeerCore {
   void send_away(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
   /// Spectators leave room for the players.
   bool has_room_for_spectator() const;
-  /// Once a turn: how long seats are not played on, and who does not greet.
+  /// Once a turn: for how long seats are not played on, and who does not greet.
   void tend_places(Time now);
   /// A player who acts on the welcome has read the token in it.
   void keep_seat(Guest& guest);

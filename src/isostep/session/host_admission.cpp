@@ -10,6 +10,11 @@ namespace {
 /// [us] from the connection to the hello, which is one way of the line: a second for it to be sent again, and one more.
 constexpr Time kGreeting = 2 * kSecond;
 
+/// [us] for who has a connection to have a state and others who agree with it, before its seat is anybody's.
+constexpr Time kJoining = 30 * kSecond;
+/// [us] that count of one turn: nobody can come back while our own process stands still.
+constexpr Time kLongestTurn = kSecond;
+
 /// 1 when they are equal, without a branch that would tell how.
 constexpr std::uint32_t equals(std::uint64_t a, std::uint64_t b) {
   const std::uint64_t difference = a ^ b;
@@ -27,10 +32,9 @@ bool is_reason(std::string_view text) {
 }  // namespace
 
 void HostCore::tend_places(Time now) {
+  const Time passed = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
   turn_at_ = now;
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (!started_ || seats_[p].is_open) seats_[p].open_until = now;
-  }
+  for (Seat& seat : seats_) seat.idle = !started_ || seat.is_open ? 0 : seat.idle + passed;
   for (Guest& guest : guests_) {
     const bool is_silent = guest.is_connected && guest.stage == Guest::Stage::connected && !guest.must_close;
     if (!is_silent || now - guest.heard <= kGreeting) continue;
@@ -106,8 +110,9 @@ int HostCore::player_of(std::uint64_t token) const {
 bool HostCore::is_free(int player) const {
   if (player < config_.local_players || player >= players()) return false;
   const Seat& seat = seats_[player];
+  if (!seat.is_taken || !started_ || seat.is_open) return !seat.is_taken;
   // Who has a connection and does not play loses the seat as well: else whoever comes first keeps it for nothing.
-  return !seat.is_taken || (started_ && !seat.is_open && turn_at_ - seat.open_until >= config_.reservation);
+  return seat.idle >= config_.reservation && (seat.link < 0 || seat.idle >= kJoining);
 }
 
 bool HostCore::is_away(int player) const {
@@ -150,7 +155,6 @@ void HostCore::take_seat(Guest& guest, int player) {
                     .token = draw(Purpose::token, tokens_++),
                     .former_token = is_owner ? guest.wish.token : 0,
                     .is_kept = is_owner && before.is_kept,
-                    .open_until = turn_at_,
                     .owed = before.owed};
   guest.player = player;
 }
