@@ -123,6 +123,26 @@ TEST(Admission, OfWhoHasGoneIsNotThatOfWhoComesNext) {
   EXPECT_EQ(lobby.refusal_of(next), "admission: " + std::string(kReplayValueCap, 'x'));
 }
 
+/// Its process started again without anything of the former one but what its lobby knows.
+TEST(Admission, OfWhoLostItsTokenIsToItsOwnSeatAfterAKick) {
+  Lobby lobby(asking(2));
+  Player& former = lobby.come(lobby.carrying("invited"));
+  ASSERT_TRUE(lobby.plays(former, 2 * kSecond));
+  lobby.pass(kSecond);
+  lobby.crash(former);
+  lobby.answers = false;
+  Player& again = lobby.come(lobby.carrying("invited"));
+  std::optional<Applicant> applicant;
+  lobby.match.run(kSecond, [&] { return (applicant = lobby.host().poll_applicant()).has_value(); });
+  ASSERT_TRUE(applicant.has_value());
+  EXPECT_EQ(applicant->player, -1);
+  EXPECT_TRUE(lobby.host().kick(1, "comes again"));
+  EXPECT_TRUE(lobby.host().admit(applicant->id));
+  EXPECT_TRUE(lobby.plays(again, 2 * kSecond));
+  EXPECT_EQ(again.session.local_player(), 1);
+  EXPECT_EQ(lobby.host().peer_of(1), applicant->peer);
+}
+
 // --- seats ---
 
 TEST(Seats, AreThoseThatWereAskedForOrNone) {
@@ -224,6 +244,19 @@ TEST(Kick, IsOfSpectatorsByTheirConnection) {
   EXPECT_EQ(scene.refusal_of(scene.player(1)), "kicked: and so is this");
   scene.pass(kSecond);
   EXPECT_TRUE(scene.match.host().heard(Kind::left, 1));
+}
+
+TEST(Kick, FreesTheSeatBeforeTheMatchBeginsToo) {
+  OpenMatch scene(players_of(3));
+  Player& kicked = scene.come(scene.with_seat(1));
+  scene.pass(kSecond);
+  EXPECT_TRUE(scene.host().kick(1, "not yet"));
+  EXPECT_EQ(scene.refusal_of(kicked), "kicked: not yet");
+  Player &first = scene.come(scene.with_seat(1)), &second = scene.come(scene.with_seat(2));
+  EXPECT_TRUE(scene.plays(first, 2 * kSecond));
+  EXPECT_TRUE(scene.plays(second, 2 * kSecond));
+  scene.pass(kSecond);
+  EXPECT_EQ(scene.match.host().last(Kind::joined, 1).frame, 0);
 }
 
 TEST(Kick, NeedsAPlayerAndAReasonThatCanBeRead) {
