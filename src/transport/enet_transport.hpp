@@ -13,7 +13,7 @@
 namespace isostep::transport {
 
 struct EnetSettings {
-  PeerId max_peers = 16;             // of a host, those connecting included
+  PeerId max_peers = 64;             // of a host, those connecting included: the session's max_peers + max_strangers
   PeerId max_peers_an_address = 16;  // of a host: players behind one router share its address
   std::string bind_address = {};     // of a host; empty: every interface
   /// [us] A peer that acknowledges nothing is given up after this, at the next repetition due: at the latest after

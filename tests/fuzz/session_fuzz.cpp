@@ -98,6 +98,8 @@ SessionConfig small_config(std::uint8_t options) {
   config.kept = 32;
   config.history = (options & 2) != 0 ? 64 : 600;
   config.max_peers = 4;
+  config.max_strangers = 0;
+  config.reservation = kSecond;
   config.silence = config.patience = kSecond / 2;
   config.most_packets = (options & 4) != 0 ? 120 : 1000000;
   return config;
@@ -182,6 +184,7 @@ void attack_host(Script& script) {
   client_config.local_players = 0;
   config.host = true;
   config.seed = 1;
+  config.asks_admission = (options & 16) != 0;
   Side host(config), client(client_config);
   Time now = 1000;
   std::deque<std::pair<Channel, Buffer>> up, down;
@@ -223,6 +226,10 @@ void attack_host(Script& script) {
         for (int turns = 1 + (op >> 5); turns > 0; --turns) {
           now += op % 10 == 2 ? 17000 : 4000;
           host.turn(now, to_client);
+          while (const auto applicant = host.session.poll_applicant()) {
+            require(applicant->player < 3 && applicant->seat < 3 && applicant->peer < 4);
+            if (applicant->peer == 0 || script.byte() < 200) (void)host.session.admit(applicant->id);
+          }
           client.turn(now, to_host);
           for (; !up.empty(); up.pop_front()) host.session.receive(0, up.front().first, up.front().second, now);
           for (; !down.empty(); down.pop_front())
@@ -248,6 +255,7 @@ void attack_host(Script& script) {
         const std::uint8_t how = script.byte();
         hello.spectator = (how & 1) != 0;
         if ((how & 2) != 0) hello.token = tokens[1 + (how >> 7)];
+        if ((how & 8) != 0) hello.seat = static_cast<int>(how >> 4 & 3) - 1;
         if ((how & 4) != 0) hello.have = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial_size = script.word();
@@ -260,7 +268,8 @@ void attack_host(Script& script) {
       case 8: {
         Buffer bytes;
         const std::uint8_t how = script.byte();
-        if (how % 4 == 0) host.session.disconnected(peer, now);
+        if (how % 8 == 0) host.session.disconnected(peer, now);
+        if (how % 8 == 4) (void)host.session.kick_peer(peer, "");
         if (how % 4 == 1) write_progress(script.word(), bytes);
         if (how % 4 > 1) write_ready(bytes);
         host.session.receive(peer, Channel::reliable, bytes, now);
@@ -275,6 +284,8 @@ void attack_host(Script& script) {
       }
     }
     require(host.session.confirmed() >= settled);
+    const auto first = host.session.peer_of(1), second = host.session.peer_of(2);
+    require(!first || !second || *first != *second);
     settled = host.session.confirmed();
   }
   // The honest never differ, and neither is told so of the other.

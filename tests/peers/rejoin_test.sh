@@ -8,7 +8,7 @@ tool=$1
 
 match="$endless --scalar float"
 # Word splitting is wanted.
-start_host host $match --bot 1 --hashes "$dir/host.txt" --record "$dir/host.replay"
+start_host host $match --reservation 0 --bot 1 --hashes "$dir/host.txt" --record "$dir/host.replay"
 # join NAME WORDS...: sets `joined` to its process.
 join() {
   name=$1

@@ -229,11 +229,13 @@ TEST_P(Leaving, AMatchWhoseSeatsAreAllTakenRefusesByThatName) {
   EXPECT_EQ(differences(match.machine(1), match.host(), match.straight(match.host().end())), 0u);
 }
 
-TEST_P(Leaving, AnAwayPlayersSeatGoesToANewcomerAndIsThenTaken) {
-  Match match(config_of(2), "lan");
+TEST_P(Leaving, AnAwayPlayersSeatGoesToANewcomerAfterItsReservationAndIsThenTaken) {
+  SessionConfig config = config_of(2);
+  config.reservation = 2 * kSecond;
+  Match match(config, "lan");
   ASSERT_TRUE(match.run_to(100, 60 * kSecond));
   kill(match, 1);
-  pass(match, 8 * kSecond);
+  pass(match, 8 * kSecond);  // the patience, and then the reservation
   match.add(profile("lan"));
   ASSERT_TRUE(match.run_to(match.host().end() + 120, 60 * kSecond));
   EXPECT_EQ(match.machine(2).seat, 1);

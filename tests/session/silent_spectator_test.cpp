@@ -204,7 +204,9 @@ TEST(SilentSpectators, WhoComeAgainAndAgainCostTheHostNoMore) {
 void expect_nobody_is_put_out(SessionMode mode, int loss) {
   SCOPED_TRACE(loss);
   const std::string line = "latency=150,jitter=50,loss=" + std::to_string(loss);
-  ToyMatch match(config_of(3, mode), kGoodLine);
+  SessionConfig config = config_of(3, mode);
+  config.patience = 60 * kSecond;  // the pauses are many, and the others wait for a player's
+  ToyMatch match(config, kGoodLine);
   match.network().set_profile(match.machine(2).endpoint, profile(line));
   SessionConfig watcher = config_of(3, SessionMode::spectator);
   watcher.local_players = 0;

@@ -166,7 +166,10 @@ template <class Game> struct Machine {
 template <class Game> class VirtualMatch {
  public:
   VirtualMatch(const SessionConfig& config, Maker<Game> maker, Bot<Game> bot, std::uint64_t seed = 1)
-      : config_(config), network_({.seed = seed, .max_peers = 16}), maker_(std::move(maker)), bot_(std::move(bot)) {
+      : config_(config),
+        network_({.seed = seed, .max_peers = static_cast<PeerId>(config.max_peers + config.max_strangers)}),
+        maker_(std::move(maker)),
+        bot_(std::move(bot)) {
     SessionConfig host = config;
     host.host = true;
     host.seed = seed;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "isostep/session/frame.hpp"
 #include "isostep/state/replay_header.hpp"
@@ -16,6 +18,8 @@ enum class SessionMode : std::uint8_t {
   sync_test,  // one machine: every frame is rolled back, stepped again and compared
   replay      // plays a recorded match
 };
+
+inline constexpr std::size_t kCredentialCap = 256;  // [bytes] a signature of 64 and what it signs
 
 struct SessionConfig {
   SessionMode mode = SessionMode::rollback;
@@ -41,16 +45,24 @@ struct SessionConfig {
   Frame history = 7200;
   /// Whose state is at most so many frames old steps them all; who has an older one is sent a snapshot.
   Frame most_replayed = 1200;
-  int max_peers = 16;                      // connections that the host serves: players and spectators
+  int max_peers = 16;           // whom the host serves: the players, and as many spectators as they leave room for
+  /// Host: connections beside those, of who has not greeted yet or is refused. PeerIds are below the sum of both, which
+  /// the transport's own limit has to be: a longer line of strangers keeps players out before a session hears of them.
+  int max_strangers = 48;
   std::uint32_t snapshot_cap = 64u << 20;  // [bytes] of a portable snapshot that a client accepts
   std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread
 
-  /// Host: of match number and tokens, by which what was said in another match is known. Draw it anew for every match
-  /// from the system's source of random numbers; a session has none. 0, the default, is refused.
+  /// Host: the secret that match number and tokens are computed with. Draw all its bits anew for every match from the
+  /// system's source of random numbers, for a session has none: who can guess it, as that of a clock, has every
+  /// player's token. 0, the default, is refused.
   std::uint64_t seed = 0;
+  Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
+  bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
   /// its seat is ours again. 0: a new player.
   std::uint64_t token = 0;
+  int seat = -1;                         // client: this seat or none; -1: any
+  std::vector<std::uint8_t> credential;  // client: for the host's game, at most kCredentialCap
   /// What must be equal on all peers, by name: make_replay_header(identity_of_world(...)) and what the game adds. The
   /// layout of the input is added by the session.
   ReplayHeader identity;

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "isostep/session/applicant.hpp"
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
@@ -49,7 +51,7 @@ struct SessionEvent {
     resumed,       // it goes on
     slowed_by,     // all step as slowly as player's machine can: told when that begins, and when it is another's
     full_speed,    // no longer
-    refused,       // field, theirs, ours: which field differs; the host reports it too
+    refused,       // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
     lost_host,     // nothing was heard of it for too long, or the connection ended
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
     bad_snapshot,  // the state that arrived does not have the host's hash, or was refused: error
@@ -129,6 +131,15 @@ class SessionCore {
   virtual void unhashed(Frame, std::size_t) {}
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
+
+  // Host: see Session.
+  virtual std::optional<Applicant> poll_applicant() { return std::nullopt; }
+  virtual bool admit(std::uint64_t) { return false; }
+  virtual bool refuse(std::uint64_t, std::string_view) { return false; }
+  virtual bool kick(int, std::string_view) { return false; }
+  virtual bool kick_peer(PeerId, std::string_view) { return false; }
+  virtual std::optional<PeerId> peer_of(int) const { return std::nullopt; }
+
   /// The next frame takes the input that is added now: a game of orders keeps them until then.
   virtual bool wants_input(int player) const = 0;
 

@@ -20,6 +20,12 @@ class HostCore : public PeerCore {
   void start(Time) override { must_start_ = true; }
   int local_player() const override { return config_.local_players > 0 ? 0 : -1; }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
+  std::optional<Applicant> poll_applicant() override;
+  bool admit(std::uint64_t applicant) override;
+  bool refuse(std::uint64_t applicant, std::string_view reason) override;
+  bool kick(int player, std::string_view reason) override;
+  bool kick_peer(PeerId peer, std::string_view reason) override;
+  std::optional<PeerId> peer_of(int player) const override;
 
  protected:
   bool is_local(int player) const override { return player < config_.local_players; }
@@ -38,6 +44,10 @@ class HostCore : public PeerCore {
     bool is_taken = false;
     int link = -1;  // -1: its player is away
     std::uint64_t token = 0;
+    /// What its player came back with, while it may not have read the new one: the connection may end before.
+    std::uint64_t former_token = 0;
+    bool is_kept = false;  // it was played on, and its player knows a token: it is reserved for that
+    Time idle = 0;         // [us] since it was open, or else taken, in turns of ours
     bool is_open = false;                  // inputs are awaited
     StallBudget lost;                      // time that others waited for it
     Time shut_until = 0;                   // [us] its player watches
@@ -46,8 +56,12 @@ class HostCore : public PeerCore {
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
-    enum class Stage : std::uint8_t { connected, needs_snapshot, receives_snapshot, live, refused };
+    enum class Stage : std::uint8_t { connected, applies, needs_snapshot, receives_snapshot, live, refused };
     Stage stage = Stage::connected;
+    Application wish;
+    std::uint64_t applicant = 0;  // its number, while the game decides
+    bool is_shown = false;        // to the game
+    std::vector<std::uint8_t> credential;
     int player = -1;  // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
     bool is_ready = false;    // asked to play
@@ -80,7 +94,26 @@ class HostCore : public PeerCore {
   void begin(Time now);
   void greet(Guest& guest, Bytes message);
   bool is_refused(Guest& guest, const Hello& hello);
-  int find_seat(const Hello& hello) const;
+  /// As a spectator or to a seat, if there is room; else it is refused.
+  bool let_in(Guest& guest);
+  Guest* applicant_of(std::uint64_t number);
+  /// Whose token this is; -1: nobody's.
+  int player_of(std::uint64_t token) const;
+  /// -1: none, and the guest is refused.
+  int find_seat(Guest& guest);
+  /// Of a client's player that is neither there nor expected to come back.
+  bool is_free(int player) const;
+  bool is_away(int player) const;
+  void take_seat(Guest& guest, int player);
+  void free_seat(int player);
+  /// What it says is heard no more; it is told why, and its connection ends.
+  void send_away(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
+  /// Spectators leave room for the players.
+  bool has_room_for_spectator() const;
+  /// Once a turn: for how long seats are not played on, and who does not greet.
+  void tend_places(Time now);
+  /// A player who acts on the welcome has read the token in it.
+  void keep_seat(Guest& guest);
   void go_live(Guest& guest, Frame start);
   void take_packet(Guest& guest, const Packet& packet, Time now);
   void take_inputs(Guest& guest, const InputSlice& slice, Time now);
@@ -138,8 +171,10 @@ class HostCore : public PeerCore {
   Frame told_slack(const Guest& guest) const;
   /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
   Frame slack_of(int player) const;
-  /// Another number that only who knows the seed can guess.
-  std::uint64_t secret();
+  /// What the numbers that are drawn are for: those of one purpose tell nothing of another's.
+  enum class Purpose : std::uint64_t { match, token };
+  /// The n-th number for `purpose`, which only who knows the seed can compute. Never 0.
+  std::uint64_t draw(Purpose purpose, std::uint64_t n) const;
   /// Inputs of absent players are final up to here.
   Frame horizon() const;
   /// What lies ahead of us takes the place of what others may still lack: of a short log little.
@@ -151,7 +186,8 @@ class HostCore : public PeerCore {
   bool started_ = false, must_start_ = false;
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
-  std::uint64_t secrets_ = 0;  // given out
+  std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
+  Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]

@@ -12,13 +12,19 @@ namespace isostep {
 
 enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progress, ready, open };
 
-/// A client's first word. `have` is a state that it holds with its history: frame 0, or where it was cut off.
-struct Hello {
+/// As what a client comes.
+struct Application {
   bool spectator = false;
+  int seat = -1;            // this one or none; -1: any
   std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
-  HashReport have;
+  HashReport have;          // a state that it holds with its history: frame 0, or where it was cut off
   HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
   std::uint32_t partial_size = 0;  // [bytes] so many; 0: of none
+};
+
+/// A client's first word.
+struct Hello : Application {
+  Bytes credential;  // for the host's game
   ReplayHeader identity;
 };
 
@@ -36,7 +42,7 @@ struct Welcome {
   Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
 };
 
-/// Why not: the first field that differs, or a key alone ("full", "protocol").
+/// Why not: the first field that differs, or a key of the session's own ("protocol", "seats", "admission", "kicked").
 using Refusal = HeaderMismatch;
 
 struct Piece {

@@ -70,6 +70,20 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// Host: begins although seats are empty.
   void start(Time now) { core_->start(latest(now)); }
 
+  /// Host with SessionConfig::asks_admission: who waits for an answer, each once. One that comes after `silence` is too
+  /// late. False: it has gone, or is refused all the same, for there is no seat.
+  std::optional<Applicant> poll_applicant() { return core_->poll_applicant(); }
+  bool admit(std::uint64_t applicant) { return core_->admit(applicant); }
+  /// The reason is text for people, printable ASCII of at most kReplayValueCap characters; false: it is not.
+  bool refuse(std::uint64_t applicant, std::string_view reason) { return core_->refuse(applicant, reason); }
+  /// Host: ends the player's connection, if it has one, with that reason. Its token is void and its seat free. False: a
+  /// seat of nobody or of the host's own, or no reason as above.
+  bool kick(int player, std::string_view reason) { return core_->kick(player, reason); }
+  /// Likewise of a connection: a spectator's as well.
+  bool kick_peer(PeerId peer, std::string_view reason) { return core_->kick_peer(peer, reason); }
+  /// Host: who has this seat now. Nobody, while it is kept for a player who is away, and for the host's own players.
+  std::optional<PeerId> peer_of(int player) const { return core_->peer_of(player); }
+
   /// What to do now, in order and all of it: the low level under drive().
   std::span<const Request<Input>> advance(Time now) {
     requests_.clear();

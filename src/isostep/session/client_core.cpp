@@ -197,12 +197,14 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     must_greet_ = false;
     Hello hello;
     hello.spectator = config_.mode == SessionMode::spectator;
+    hello.seat = config_.seat;
     hello.token = token_;
     hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
     if (partial_.frame != kNoFrame) {
       hello.partial = partial_;
       hello.partial_size = static_cast<std::uint32_t>(portable_.size());
     }
+    hello.credential = config_.credential;
     hello.identity = config_.identity;
     write_hello(hello, message_);
     return message();

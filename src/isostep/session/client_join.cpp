@@ -202,6 +202,7 @@ void ClientCore::begin_at(const HashReport& start) {
 
 void ClientCore::open(Frame first) {
   InputStream& own = streams_[static_cast<std::size_t>(player_)];
+  asked_ready_ = false;  // where the host has closed the seat again before this came, we ask once more
   if (is_open_ || first < own.end() || first > own.end() + config_.history / 2) {
     ++stats_.refused;
     return;
@@ -209,7 +210,6 @@ void ClientCore::open(Frame first) {
   own.append_absent_until(first);
   is_open_ = true;
   opens_ = accepted_ = host_.acked[player_] = first;
-  asked_ready_ = false;
 }
 
 bool ClientCore::is_vouched_for(Time now) const {

@@ -4,7 +4,8 @@
 
 namespace isostep {
 namespace {
-constexpr std::size_t kEvents = 64;  // between two polls
+// Between two polls: a refusal of every connection that the defaults allow for, and as many of the match.
+constexpr std::size_t kEvents = 128;
 }
 
 SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
@@ -75,6 +76,9 @@ const char* problem_of(const SessionConfig& config) {
   if (config.history < 2 * config.kept || config.history > 1 << 20) return "history: 2 * kept frames or more";
   if (config.most_replayed < 0) return "most_replayed: 0 frames or more";
   if (config.max_peers < 1 || config.max_peers > 256) return "max_peers: 1 to 256";
+  if (config.max_strangers < 0 || config.max_strangers > 1024) return "max_strangers: 0 to 1024";
+  if (config.seat < -1 || config.seat >= config.players) return "seat: below players, or -1";
+  if (config.credential.size() > kCredentialCap) return "credential: 256 bytes or fewer";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
   const bool is_match = config.mode != SessionMode::sync_test && config.mode != SessionMode::replay;
   if (config.host && is_match && config.seed == 0) return "seed: of a host, a random number other than 0";

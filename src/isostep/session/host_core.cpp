@@ -11,13 +11,18 @@ constexpr Time kFreeStart = 5 * kSecond;  // [us] of a match, in which delays fi
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), guests_(static_cast<std::size_t>(config.max_peers)), match_(secret()) {
+    : PeerCore(config, rules),
+      guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
+      match_(draw(Purpose::match, 0)) {
   for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
 }
 
 void HostCore::connected(PeerId peer, Time now) {
-  if (peer >= guests_.size()) return;
+  if (peer >= guests_.size()) {
+    ++stats_.refused;
+    return;
+  }
   Guest& guest = guests_[peer];
   if (guest.is_connected) drop(guest);
   clear(guest);
@@ -81,6 +86,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 }
 
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
+  keep_seat(guest);
   take_header(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
@@ -124,6 +130,7 @@ Frame HostCore::sends_until(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
+  tend_places(now);
   bool all_taken = true;
   for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
   if (!started_ && (all_taken || must_start_)) begin(now);

@@ -1,6 +1,7 @@
 // The host's seats: who may take part, who sits where, who is in the match.
 // SPDX-License-Identifier: MIT
 #include "isostep/session/host_core.hpp"
+#include "isostep/session/siphash.hpp"
 
 namespace isostep {
 namespace {
@@ -9,16 +10,18 @@ constexpr Frame kNotice = 30;  // [frames] between a seat's opening and its firs
 
 }  // namespace
 
-std::uint64_t HostCore::secret() {
-  HashCombiner number;
-  number.add(config_.seed);
-  number.add(secrets_++);
-  return number.value();
+std::uint64_t HostCore::draw(Purpose purpose, std::uint64_t n) const {
+  std::uint8_t words[24] = {};
+  store_le(words, static_cast<std::uint64_t>(purpose));
+  store_le(words + 8, n);
+  for (std::uint64_t again = 0;; ++again) {
+    store_le(words + 16, again);
+    if (const std::uint64_t number = siphash_2_4({config_.seed, 0}, words)) return number;
+  }
 }
 
 void HostCore::refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
-  guest.stage = Guest::Stage::refused;
-  guest.refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(theirs), ShortText<kReplayValueCap>(ours)};
+  send_away(guest, key, theirs, ours);
   ++stats_.refused;
   SessionEvent event{.kind = SessionEvent::Kind::refused};
   event.field = guest.refusal;
@@ -37,24 +40,7 @@ bool HostCore::is_refused(Guest& guest, const Hello& hello) {
     refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(hashes_.chain(0)).view());
     return true;
   }
-  if (!hello.spectator && find_seat(hello) < 0) {
-    refuse(guest, "seats", "one more", "all taken");
-    return true;
-  }
   return false;
-}
-
-int HostCore::find_seat(const Hello& hello) const {
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (hello.token != 0 && seats_[p].is_taken && seats_[p].token == hello.token) return p;
-  }
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (!seats_[p].is_taken) return p;
-  }
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (seats_[p].link < 0) return p;  // its player is away
-  }
-  return -1;
 }
 
 void HostCore::greet(Guest& guest, Bytes message) {
@@ -65,35 +51,45 @@ void HostCore::greet(Guest& guest, Bytes message) {
   }
   const Hello& hello = read.value();
   if (is_refused(guest, hello)) return;
-  if (!hello.spectator) {
-    const int player = find_seat(hello);
-    Seat& seat = seats_[player];
-    if (seat.link >= 0) {  // the same player, from a new address
-      Guest& old = guests_[static_cast<std::size_t>(seat.link)];
-      unseat(old);
-      old.must_close = true;
+  guest.wish = hello;
+  if (!config_.asks_admission) {
+    let_in(guest);
+    return;
+  }
+  guest.stage = Guest::Stage::applies;
+  guest.applicant = ++applicants_;
+  guest.credential.assign(hello.credential.begin(), hello.credential.end());
+}
+
+bool HostCore::let_in(Guest& guest) {
+  if (guest.wish.spectator) {
+    if (!has_room_for_spectator()) {
+      refuse(guest, "spectators", "one more", "no room");
+      return false;
     }
-    seat.is_taken = true;
-    seat.link = static_cast<int>(guest.peer);
-    seat.token = secret() | 1u;
-    guest.player = player;
+  } else {
+    const int player = find_seat(guest);
+    if (player < 0) return false;
+    take_seat(guest, player);
   }
   guest.must_welcome = true;
-  const Frame have = hello.have.frame;
+  const HashReport& has = guest.wish.have;
+  const Frame have = has.frame;
   // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
   const bool is_ahead = started_ && have > hashes_.settled().frame && have <= known_end();
-  bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == hello.have.chain);
+  bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == has.chain);
   has_inputs = has_inputs && current() - have <= config_.most_replayed;
   for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
   if (has_inputs) {
     go_live(guest, have);
-    guest.start_chain = hello.have.chain;
+    guest.start_chain = has.chain;
     if (!started_ && guest.player >= 0) guest.opens = 0;
   } else {
     guest.stage = Guest::Stage::needs_snapshot;
-    guest.partial = hello.partial_size > 0 ? hello.partial : HashReport{};
-    guest.partial_size = hello.partial_size;
+    guest.partial = guest.wish.partial_size > 0 ? guest.wish.partial : HashReport{};
+    guest.partial_size = guest.wish.partial_size;
   }
+  return true;
 }
 
 void HostCore::go_live(Guest& guest, Frame start) {
@@ -134,7 +130,7 @@ void HostCore::unseat(Guest& guest) {
   close_seat(guest.player);
   seats_[guest.player].link = -1;
   views_[guest.player] = View{};
-  if (!started_) seats_[guest.player] = Seat{};
+  if (!seats_[guest.player].is_kept) free_seat(guest.player);
   guest.player = -1;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/message.hpp"
 
+#include "isostep/session/config.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/replay_format.hpp"
 
@@ -45,10 +46,12 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(kMagic);
   writer.write(kSessionProtocol);
   writer.write(hello.spectator);
+  writer.write(static_cast<std::int8_t>(hello.seat));
   writer.write(hello.token);
   write_report(writer, hello.have);
   write_report(writer, hello.partial);
   writer.write(hello.partial_size);
+  writer.write_bytes(hello.credential);
   writer.write_bytes(identity);
 }
 
@@ -60,10 +63,15 @@ Result<Hello> read_hello(Bytes message) {
   if (!reader.ok() || magic != kMagic) return Error{ErrorCode::corrupt, "no greeting of a session", "hello"};
   if (protocol != kSessionProtocol) return Error{ErrorCode::incompatible, "another session protocol", "protocol"};
   reader.read(hello.spectator);
+  hello.seat = reader.read<std::int8_t>();
+  if (hello.seat < -1 || hello.seat >= static_cast<int>(kMaxPlayers)) {
+    reader.fail(ErrorCode::invalid, "a seat out of range");
+  }
   reader.read(hello.token);
   hello.have = read_report(reader);
   hello.partial = read_report(reader);
   reader.read(hello.partial_size);
+  hello.credential = reader.read_bytes(kCredentialCap);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
   const Result<Hello> whole = finish(reader, "hello", hello);
   if (!whole) return whole;

@@ -66,6 +66,8 @@ class DemoCommands {
     command
         ->add_option("--patience", peer_.patience, "seconds until a silent peer is lost [5], no host is given up [20]")
         ->check(CLI::Range(1, 3600));
+    command->add_option("--reservation", peer_.reservation, "seconds that a host keeps a seat for who is gone [60]")
+        ->check(CLI::Range(0, 3600));
     command->add_flag("--json", peer_.json, "one JSON object");
     command->footer("Exits with 0, or 1 after a desync, or 66 when there is no host.");
   }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <thread>
 
@@ -18,6 +19,14 @@ constexpr Time kTryAgain = kSecond / 2;   // [us] between attempts to reach a ho
 constexpr Time kPatience = 20 * kSecond;  // [us] without a host, or that a host which is done stays for the others
 constexpr Time kGoodbye = kSecond;        // [us] in which a leaving client's last word may be repeated
 constexpr Time kLongestSleep = 10000;     // [us]
+
+/// From the system: nobody else can know it.
+std::uint64_t secret_seed() {
+  std::random_device random;
+  std::uint64_t seed = 0;
+  while (seed == 0) seed = std::uint64_t{random()} << 32 | random();
+  return seed;
+}
 
 Time patience_of(const PeerOptions& options) {
   return options.patience == 0 ? kPatience : static_cast<Time>(options.patience) * kSecond;
@@ -103,7 +112,8 @@ template <class S> SessionConfig MatchPeer<S>::config_of(const PeerOptions& opti
   config.window = options.window;
   config.delay = options.delay;
   if (options.patience != 0) config.silence = config.patience = patience_of(options);
-  config.seed = static_cast<std::uint64_t>(steady_now()) | 1u;
+  if (options.reservation >= 0) config.reservation = static_cast<Time>(options.reservation) * kSecond;
+  config.seed = secret_seed();
   config.identity = match_identity(game);
   if (const char* problem = problem_of(config)) throw ToolError(exit_status::kUsage, problem);
   return config;
@@ -146,7 +156,7 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
   if (event.kind == SessionEvent::Kind::refused) {
     line += ": " + std::string(event.field.key.view()) + " is \"" + std::string(event.field.in_file.view()) +
             "\" on the client, \"" + std::string(event.field.here.view()) + "\" on the host";
-    // A seat becomes free when the host notices that its player is gone; nothing else changes by waiting.
+    // A seat becomes free when the host gives up its player, or no longer keeps it; nothing else changes by waiting.
     must_reconnect_ = event.field.key.view() == "seats";
     if (options_.listen < 0 && !must_reconnect_) gave_up_ = true;
   } else if (event.kind == SessionEvent::Kind::waiting_for) {

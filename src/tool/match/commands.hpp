@@ -26,6 +26,7 @@ struct PeerOptions {
   bool trace = false;                  // stage hashes in bundles
   int fault = -1;                      // frame of an injected fault: one bit of one body is flipped
   int patience = 0;                    // [s] that a silent peer is waited for; 0: the session's and the transport's own
+  int reservation = -1;                // [s] that a host keeps a seat for who is gone; -1: the session's own
   bool json = false;
 };
 int command_peer(const PeerOptions& options);

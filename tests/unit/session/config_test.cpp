@@ -59,6 +59,11 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.most_replayed = -1), "most_replayed"));
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 0), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 257), "max_peers"));
+  EXPECT_TRUE(names(PROBLEM(c.max_strangers = -1), "max_strangers"));
+  EXPECT_TRUE(names(PROBLEM(c.max_strangers = 1025), "max_strangers"));
+  EXPECT_TRUE(names(PROBLEM(c.seat = -2), "seat"));
+  EXPECT_TRUE(names(PROBLEM(c.seat = 2), "seat"));
+  EXPECT_TRUE(names(PROBLEM(c.credential.resize(kCredentialCap + 1)), "credential"));
   EXPECT_TRUE(names(PROBLEM(c.most_packets = 119), "most_packets"));
   for (const SessionMode mode : {SessionMode::lockstep, SessionMode::rollback, SessionMode::spectator}) {
     SessionConfig config;
@@ -81,6 +86,11 @@ TEST(SessionConfig, TheEdgesAreFine) {
   EXPECT_EQ(PROBLEM(c.kept = 40; c.history = 80), "");
   EXPECT_EQ(PROBLEM(c.kept = 4096; c.history = 8192), "");
   EXPECT_EQ(PROBLEM(c.max_peers = 256), "");
+  EXPECT_EQ(PROBLEM(c.max_strangers = 0), "");
+  EXPECT_EQ(PROBLEM(c.max_strangers = 1024), "");
+  EXPECT_EQ(PROBLEM(c.seat = 1), "");
+  EXPECT_EQ(PROBLEM(c.reservation = 0), "");
+  EXPECT_EQ(PROBLEM(c.credential.resize(kCredentialCap)), "");
   EXPECT_EQ(PROBLEM(c.most_packets = 120), "");
   EXPECT_EQ(PROBLEM(c.host = true; c.seed = 1), "");
   EXPECT_EQ(PROBLEM(c.host = true; c.mode = SessionMode::sync_test), "");

@@ -101,6 +101,7 @@ struct Rogue {
   transport::EndpointId id;
   transport::SimulatedNetwork::Port port;
   bool is_connected = false, is_refused = false;
+  Refusal refusal;
   Welcome welcome;
   bool is_welcome = false;
   Frame opens = kNoFrame;
@@ -137,7 +138,10 @@ struct Rogue {
         opens = welcome.opens;
       }
       if (kind.value() == MessageKind::open) opens = read_open(arrival->bytes).value();
-      if (kind.value() == MessageKind::refuse) is_refused = true;
+      if (kind.value() == MessageKind::refuse) {
+        is_refused = true;
+        refusal = read_refusal(arrival->bytes).value();
+      }
       if (kind.value() == MessageKind::piece) ++pieces;
     }
   }

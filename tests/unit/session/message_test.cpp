@@ -7,14 +7,20 @@
 #include <functional>
 #include <vector>
 
+#include "isostep/session/config.hpp"
+
 namespace isostep {
 namespace {
 
 using Buffer = std::vector<std::uint8_t>;
 
+const Buffer kCredential(kCredentialCap, 0x81);
+
 Hello hello() {
   Hello hello;
   hello.spectator = true;
+  hello.seat = 7;
+  hello.credential = kCredential;
   hello.token = 0x1122334455667788u;
   hello.have = {1234, 0xabcdef};
   hello.partial = {1200, 0xfedcba};
@@ -42,7 +48,9 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(message_kind(bytes).value(), MessageKind::hello);
   const Hello read = read_hello(bytes).value();
   EXPECT_TRUE(read.spectator);
+  EXPECT_EQ(read.seat, 7);
   EXPECT_EQ(read.token, hello().token);
+  EXPECT_EQ(Buffer(read.credential.begin(), read.credential.end()), kCredential);
   EXPECT_EQ(read.have.frame, 1234);
   EXPECT_EQ(read.have.chain, 0xabcdefu);
   EXPECT_EQ(read.partial.frame, 1200);
@@ -147,6 +155,23 @@ TEST(Message, AHelloOfSomethingElseIsRefusedByName) {
   late.have.frame = kNoFrame;
   write_hello(late, other);
   EXPECT_FALSE(read_hello(other).ok());
+}
+
+TEST(Message, SeatsAndCredentialsOutOfRangeAreRefused) {
+  Buffer bytes;
+  const auto reads = [&](int seat, std::size_t size) {
+    const Buffer credential(size, 1);
+    Hello its = hello();
+    its.seat = seat;
+    its.credential = credential;
+    write_hello(its, bytes);
+    return read_hello(bytes).ok();
+  };
+  for (const int seat : {-128, -2, 8, 127}) EXPECT_FALSE(reads(seat, 3)) << seat;
+  for (const int seat : {-1, 0, 7}) EXPECT_TRUE(reads(seat, 3)) << seat;
+  EXPECT_TRUE(reads(0, 0));
+  EXPECT_TRUE(reads(0, kCredentialCap));
+  EXPECT_FALSE(reads(0, kCredentialCap + 1));
 }
 
 TEST(Message, ARefusalIsTextForPeopleAndNothingElse) {

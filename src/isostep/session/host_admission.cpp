@@ -1,0 +1,193 @@
+// Who gets which seat of the host's match, for whom seats are kept, and what the host's game has to say in that.
+// SPDX-License-Identifier: MIT
+#include <bit>
+
+#include "isostep/session/host_core.hpp"
+
+namespace isostep {
+namespace {
+
+/// [us] from the connection to the hello, which is one way of the line: a second for it to be sent again, and one more.
+constexpr Time kGreeting = 2 * kSecond;
+
+/// [us] for who has a connection to have a state and others who agree with it, before its seat is anybody's.
+constexpr Time kJoining = 30 * kSecond;
+/// [us] that count of one turn: nobody can come back while our own process stands still.
+constexpr Time kLongestTurn = kSecond;
+
+/// 1 when they are equal, without a branch that would tell how.
+constexpr std::uint32_t equals(std::uint64_t a, std::uint64_t b) {
+  const std::uint64_t difference = a ^ b;
+  return static_cast<std::uint32_t>(~(difference | (0 - difference)) >> 63);
+}
+
+/// What the other side reads as a reason: see read_refusal.
+bool is_reason(std::string_view text) {
+  for (const char c : text) {
+    if (c < ' ' || c > '~') return false;
+  }
+  return text.size() <= kReplayValueCap;
+}
+
+}  // namespace
+
+void HostCore::tend_places(Time now) {
+  const Time passed = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
+  turn_at_ = now;
+  for (Seat& seat : seats_) seat.idle = !started_ || seat.is_open ? 0 : seat.idle + passed;
+  for (Guest& guest : guests_) {
+    const bool is_silent = guest.is_connected && guest.stage == Guest::Stage::connected && !guest.must_close;
+    if (!is_silent || now - guest.heard <= kGreeting) continue;
+    guest.must_close = true;  // and not refused: a machine that stood still comes again
+    ++stats_.refused;
+  }
+}
+
+// --- what the game decides ---
+
+HostCore::Guest* HostCore::applicant_of(std::uint64_t number) {
+  for (Guest& guest : guests_) {
+    if (guest.is_connected && guest.stage == Guest::Stage::applies && guest.applicant == number) return &guest;
+  }
+  return nullptr;
+}
+
+std::optional<Applicant> HostCore::poll_applicant() {
+  for (Guest& guest : guests_) {
+    if (!guest.is_connected || guest.stage != Guest::Stage::applies || guest.is_shown) continue;
+    guest.is_shown = true;
+    const Application& wish = guest.wish;
+    return Applicant{guest.applicant, guest.peer, wish.spectator, wish.seat, player_of(wish.token), guest.credential};
+  }
+  return std::nullopt;
+}
+
+bool HostCore::admit(std::uint64_t applicant) {
+  Guest* guest = applicant_of(applicant);
+  return guest != nullptr && let_in(*guest);
+}
+
+bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
+  Guest* guest = applicant_of(applicant);
+  if (guest == nullptr || !is_reason(reason)) return false;
+  refuse(*guest, "admission", {}, reason);
+  return true;
+}
+
+bool HostCore::kick(int player, std::string_view reason) {
+  if (player < config_.local_players || player >= players() || !seats_[player].is_taken) return false;
+  if (!is_reason(reason)) return false;
+  const int link = seats_[player].link;
+  if (link >= 0) send_away(guests_[static_cast<std::size_t>(link)], "kicked", {}, reason);
+  free_seat(player);
+  return true;
+}
+
+bool HostCore::kick_peer(PeerId peer, std::string_view reason) {
+  if (peer >= guests_.size() || !guests_[peer].is_connected) return false;
+  if (guests_[peer].player >= 0) return kick(guests_[peer].player, reason);
+  if (!is_reason(reason)) return false;
+  send_away(guests_[peer], "kicked", {}, reason);
+  return true;
+}
+
+std::optional<PeerId> HostCore::peer_of(int player) const {
+  if (player < config_.local_players || player >= players() || seats_[player].link < 0) return std::nullopt;
+  return static_cast<PeerId>(seats_[player].link);
+}
+
+// --- seats ---
+
+int HostCore::player_of(std::uint64_t token) const {
+  if (token == 0) return -1;
+  std::uint32_t found = 0;  // a bit for each player: how long it takes tells nothing of the tokens
+  for (std::size_t p = 0; p < kMaxPlayers; ++p) {
+    found |= (equals(token, seats_[p].token) | equals(token, seats_[p].former_token)) << p;
+  }
+  return found == 0 ? -1 : std::countr_zero(found);
+}
+
+bool HostCore::is_free(int player) const {
+  if (player < config_.local_players || player >= players()) return false;
+  const Seat& seat = seats_[player];
+  if (!seat.is_taken || !started_ || seat.is_open) return !seat.is_taken;
+  // Who has a connection and does not play loses the seat as well: else whoever comes first keeps it for nothing.
+  return seat.idle >= config_.reservation && (seat.link < 0 || seat.idle >= kJoining);
+}
+
+bool HostCore::is_away(int player) const {
+  return player >= config_.local_players && player < players() && seats_[player].is_taken && seats_[player].link < 0;
+}
+
+int HostCore::find_seat(Guest& guest) {
+  const int own = player_of(guest.wish.token), wanted = guest.wish.seat;
+  // A token that is nobody's any more may come from a player who was away for too long: new, but not refused.
+  if (own < 0 && guest.wish.token != 0) ++stats_.refused;
+  if (own >= 0 && (wanted < 0 || wanted == own)) return own;
+  if (wanted >= 0) {
+    if (own < 0 && is_free(wanted)) return wanted;
+    ShortText<kReplayValueCap> number;
+    number.append_number(static_cast<std::uint64_t>(wanted));
+    refuse(guest, "seat", number.view(), own >= 0 ? "another is yours" : is_away(wanted) ? "reserved" : "taken");
+    return -1;
+  }
+  bool is_reserved = false;
+  for (int p = config_.local_players; p < players(); ++p) {
+    if (!seats_[p].is_taken) return p;
+  }
+  for (int p = config_.local_players; p < players(); ++p) {
+    if (is_free(p)) return p;
+    is_reserved = is_reserved || is_away(p);
+  }
+  refuse(guest, "seats", "one more", is_reserved ? "reserved" : "all taken");
+  return -1;
+}
+
+void HostCore::take_seat(Guest& guest, int player) {
+  const Seat before = seats_[player];
+  const bool is_owner = player_of(guest.wish.token) == player;
+  if (before.link >= 0) {
+    Guest& other = guests_[static_cast<std::size_t>(before.link)];
+    send_away(other, "seat", {}, is_owner ? "taken over from another address" : "not played on for too long");
+  }
+  free_seat(player);
+  Seat& seat = seats_[player];
+  seat.is_taken = true;
+  seat.link = static_cast<int>(guest.peer);
+  seat.token = draw(Purpose::token, tokens_++);
+  seat.former_token = is_owner ? guest.wish.token : 0;
+  seat.is_kept = is_owner && before.is_kept;
+  guest.player = player;
+}
+
+void HostCore::keep_seat(Guest& guest) {
+  if (guest.player < 0 || !seats_[guest.player].is_open) return;
+  seats_[guest.player].is_kept = true;
+  seats_[guest.player].former_token = 0;
+}
+
+void HostCore::free_seat(int player) {
+  // What the seat cost the others stays with it: who leaves and comes again has spent it.
+  Seat empty;
+  empty.lost = seats_[player].lost;
+  empty.shut_until = seats_[player].shut_until;
+  seats_[player] = empty;
+}
+
+void HostCore::send_away(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
+  unseat(guest);
+  guest.stage = Guest::Stage::refused;
+  guest.refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(theirs), ShortText<kReplayValueCap>(ours)};
+}
+
+bool HostCore::has_room_for_spectator() const {
+  int spectators = 0;
+  for (const Guest& guest : guests_) {
+    const bool is_served = guest.stage != Guest::Stage::connected && guest.stage != Guest::Stage::applies &&
+                           guest.stage != Guest::Stage::refused;
+    spectators += guest.is_connected && is_served && guest.player < 0 ? 1 : 0;
+  }
+  return spectators < config_.max_peers - (players() - config_.local_players);
+}
+
+}  // namespace isostep
