@@ -131,7 +131,7 @@ template <class Game> struct Machine {
   Network::Port port;
   Session<Game> session;
   std::unique_ptr<Game> game;
-  std::function<void(Game&, Frame)> tamper;                         // before a step: a fault to be found
+  std::function<void(Game&, Frame)> tamper;                                   // before a step: a fault to be found
   std::function<void(Channel, std::vector<std::uint8_t>&)> middle, outgoing;  // alter what arrives, and what is sent
   // What the observer sees, and the end of every turn.
   std::function<void(Frame)> will_step;

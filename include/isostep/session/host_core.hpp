@@ -46,8 +46,8 @@ class HostCore : public PeerCore {
     std::uint64_t token = 0;
     /// What its player came back with, while it may not have read the new one: the connection may end before.
     std::uint64_t former_token = 0;
-    bool is_kept = false;  // it was played on, and its player knows a token: it is reserved for that
-    Time idle = 0;         // [us] since it was open, or else taken, in turns of ours
+    bool is_kept = false;                  // it was played on, and its player knows a token: it is reserved for that
+    Time idle = 0;                         // [us] since it was open, or else taken, in turns of ours
     bool is_open = false;                  // inputs are awaited
     StallBudget lost;                      // time that others waited for it
     Time shut_until = 0;                   // [us] its player watches

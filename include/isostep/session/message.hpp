@@ -15,9 +15,9 @@ enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progr
 /// As what a client comes.
 struct Application {
   bool spectator = false;
-  int seat = -1;            // this one or none; -1: any
-  std::uint64_t token = 0;  // from an earlier welcome: the same player again; 0: a new one
-  HashReport have;          // a state that it holds with its history: frame 0, or where it was cut off
+  int seat = -1;                   // this one or none; -1: any
+  std::uint64_t token = 0;         // from an earlier welcome: the same player again; 0: a new one
+  HashReport have;                 // a state that it holds with its history: frame 0, or where it was cut off
   HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
   std::uint32_t partial_size = 0;  // [bytes] so many; 0: of none
 };

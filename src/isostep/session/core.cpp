@@ -6,7 +6,7 @@ namespace isostep {
 namespace {
 // Between two polls: a refusal of every connection that the defaults allow for, and as many of the match.
 constexpr std::size_t kEvents = 128;
-}
+}  // namespace
 
 SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
     : config_(config),
