@@ -89,6 +89,8 @@ struct SeatedRogue : Scene {
     header.match = rogue.welcome.match;
     header.frame = rogue.host_frame;
     header.started = true;
+    header.ack_mask = 7;  // who acknowledges nothing is put out
+    for (const int p : {0, 1, 2}) header.ack[p] = rogue.ends[p];
     if (change) change(header);
     std::uint8_t buffer[kDatagramCap];
     PacketWriter writer(header, buffer);

@@ -175,7 +175,7 @@ TEST(Reservation, EndsAfterItsTime) {
 
 TEST(Reservation, IsAlsoOfWhoWasCutOutOfALivingConnection) {
   SessionConfig config = players_of(2);
-  config.patience = kSecond;
+  config.patience = config.exclusion = kSecond;
   config.silence = 10 * kSecond;
   FullMatch scene(config);
   Player& owner = scene.player(1);
@@ -216,6 +216,8 @@ TEST(Reservation, AConnectionThatNeverPlaysKeepsASeatForHalfAMinuteAtLeast) {
         idle.listen();
         PacketHeader header;
         header.match = idle.welcome.match;
+        header.ack_mask = 3;  // who acknowledges nothing is put out
+        for (const int p : {0, 1}) header.ack[p] = idle.ends[p];
         std::uint8_t buffer[kDatagramCap];
         const Bytes bytes = PacketWriter(header, buffer).bytes();
         idle.say(Channel::datagram, {bytes.begin(), bytes.end()});

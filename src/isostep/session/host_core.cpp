@@ -194,15 +194,10 @@ void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
   if (now - began_ < kFreeStart) return;
-  const auto is_missing = [&](int p) {
-    return seats_[p].is_open && streams_[static_cast<std::size_t>(p)].end() <= current();
-  };
-  Time missing = 0;
-  for (int p = 0; p < players(); ++p) missing += is_missing(p) ? 1 : 0;
   for (int p = config_.local_players; p < players(); ++p) {
-    if (!is_missing(p)) continue;
     Seat& seat = seats_[p];
-    seat.lost.spend(passed / missing, now);  // so that all charges together are the time that was lost
+    if (!seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
+    seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
     if (seat.lost.spent(now) < config_.patience) continue;
     close_seat(p);
     seat.shut_until = now + config_.exclusion;
