@@ -331,7 +331,7 @@ void attack_client(Script& script) {
         Welcome welcome;
         welcome.match = 9;
         welcome.players = 3;
-        welcome.host_players = op >> 6;
+        welcome.hosted = op >> 6;
         welcome.player = config.mode == SessionMode::spectator ? 0xff : op >> 4 & 3;
         welcome.start = {client.session.confirmed(), script.byte()};
         if (here == 0) welcome.start = {0, Game{}.hash()};

@@ -41,7 +41,7 @@ struct Victim {
   static Welcome first_welcome() {
     return {.match = 9,
             .players = 3,
-            .host_players = 1,
+            .hosted = 1,
             .player = 1,
             .token = 1,
             .start = {0, Game{}.hash()},

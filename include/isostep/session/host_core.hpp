@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/session/peer_core.hpp"
 #include "isostep/session/stall_budget.hpp"
 
@@ -18,7 +20,7 @@ class HostCore : public PeerCore {
   void receive(PeerId peer, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
   void start(Time) override { must_start_ = true; }
-  int local_player() const override { return config_.local_players > 0 ? 0 : -1; }
+  int local_player() const override { return hosted_ == 0 ? -1 : std::countr_zero(hosted_); }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
   std::optional<Applicant> poll_applicant() override;
   bool admit(std::uint64_t applicant) override;
@@ -28,7 +30,7 @@ class HostCore : public PeerCore {
   std::optional<PeerId> peer_of(int player) const override;
 
  protected:
-  bool is_local(int player) const override { return player < config_.local_players; }
+  bool is_local(int player) const override { return (hosted_ >> player & 1) != 0; }
   Frame sends_until(int player, const PeerLink& link) const override;
   bool running() const override { return started_; }
   void before_steps(Time now) override;
@@ -101,6 +103,8 @@ class HostCore : public PeerCore {
   int player_of(std::uint64_t token) const;
   /// -1: none, and the guest is refused.
   int find_seat(Guest& guest);
+  /// A seat that clients may have.
+  bool is_guests(int player) const { return player >= 0 && player < players() && !is_local(player); }
   /// Of a client's player that is neither there nor expected to come back.
   bool is_free(int player) const;
   bool is_away(int player) const;
@@ -183,6 +187,7 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> next_datagram(Guest& guest, Time now);
   void refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
 
+  std::uint32_t hosted_;  // players of this machine, a bit each
   bool started_ = false, must_start_ = false;
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;

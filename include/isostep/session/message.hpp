@@ -31,9 +31,9 @@ struct Hello : Application {
 /// The host's answer. With a snapshot, pieces of it follow; without, the client goes on from `start`, which it has.
 struct Welcome {
   std::uint64_t match = 0;
-  std::uint8_t players = 0;       // of the match
-  std::uint8_t host_players = 0;  // the first of them play on the host
-  std::uint8_t player = 0xff;     // 0xff: a spectator
+  std::uint8_t players = 0;    // of the match
+  std::uint32_t hosted = 0;    // of them, a bit each: who plays on the host
+  std::uint8_t player = 0xff;  // 0xff: a spectator
   std::uint64_t token = 0;
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`

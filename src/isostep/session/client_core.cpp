@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/client_core.hpp"
 
+#include <bit>
+
 namespace isostep {
 namespace {
 
@@ -39,7 +41,7 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (runs_ && !knows_way_ && host_.round_trip > 0) {
     knows_way_ = true;
     // To the host, and on to the others where there are any.
-    const Time way = welcome_.players > welcome_.host_players + 1 ? host_.round_trip : host_.round_trip / 2;
+    const Time way = welcome_.players > std::popcount(welcome_.hosted) + 1 ? host_.round_trip : host_.round_trip / 2;
     delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
   }
   if (is_far_ && !header.is_far) lag_ = InputDelay(lag_settings(config_));
@@ -146,7 +148,7 @@ void ClientCore::before_steps(Time now) {
 
 void ClientCore::blocked(Time now) {
   // Whose inputs are missing the host knows; that nothing comes of the host itself we see.
-  if (now - host_.heard >= kTellBlocked) stands_for((1u << welcome_.host_players) - 1);
+  if (now - host_.heard >= kTellBlocked) stands_for(welcome_.hosted);
 }
 
 Frame ClientCore::worst_slack() const {

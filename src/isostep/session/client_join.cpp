@@ -218,8 +218,8 @@ bool ClientCore::is_vouched_for(Time now) const {
   if (own.end() == own.begin() || !own.last().absent) return false;
   bool is_contradicted = false;
   int needed = 1, vouching = views_[kHostMachine].agreed >= base_ ? 1 : 0;
-  for (int p = welcome_.host_players; p < players(); ++p) {
-    if (p == player_) continue;
+  for (int p = 0; p < players(); ++p) {
+    if (p == player_ || (welcome_.hosted >> p & 1) != 0) continue;
     if (!streams_[static_cast<std::size_t>(p)].last().absent) needed = 2;
     if (views_[p].agreed >= base_) ++vouching;
     is_contradicted = is_contradicted || views_[p].differs;

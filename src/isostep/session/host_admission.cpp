@@ -75,8 +75,7 @@ bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
 }
 
 bool HostCore::kick(int player, std::string_view reason) {
-  if (player < config_.local_players || player >= players() || !seats_[player].is_taken) return false;
-  if (!is_reason(reason)) return false;
+  if (!is_guests(player) || !seats_[player].is_taken || !is_reason(reason)) return false;
   const int link = seats_[player].link;
   if (link >= 0) send_away(guests_[static_cast<std::size_t>(link)], "kicked", {}, reason);
   free_seat(player);
@@ -92,7 +91,7 @@ bool HostCore::kick_peer(PeerId peer, std::string_view reason) {
 }
 
 std::optional<PeerId> HostCore::peer_of(int player) const {
-  if (player < config_.local_players || player >= players() || seats_[player].link < 0) return std::nullopt;
+  if (!is_guests(player) || seats_[player].link < 0) return std::nullopt;
   return static_cast<PeerId>(seats_[player].link);
 }
 
@@ -108,7 +107,7 @@ int HostCore::player_of(std::uint64_t token) const {
 }
 
 bool HostCore::is_free(int player) const {
-  if (player < config_.local_players || player >= players()) return false;
+  if (!is_guests(player)) return false;
   const Seat& seat = seats_[player];
   if (!seat.is_taken || !started_ || seat.is_open) return !seat.is_taken;
   // Who has a connection and does not play loses the seat as well: else whoever comes first keeps it for nothing.
@@ -116,7 +115,7 @@ bool HostCore::is_free(int player) const {
 }
 
 bool HostCore::is_away(int player) const {
-  return player >= config_.local_players && player < players() && seats_[player].is_taken && seats_[player].link < 0;
+  return is_guests(player) && seats_[player].is_taken && seats_[player].link < 0;
 }
 
 int HostCore::find_seat(Guest& guest) {
@@ -132,10 +131,10 @@ int HostCore::find_seat(Guest& guest) {
     return -1;
   }
   bool is_reserved = false;
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (!seats_[p].is_taken) return p;
+  for (int p = 0; p < players(); ++p) {
+    if (is_guests(p) && !seats_[p].is_taken) return p;
   }
-  for (int p = config_.local_players; p < players(); ++p) {
+  for (int p = 0; p < players(); ++p) {
     if (is_free(p)) return p;
     is_reserved = is_reserved || is_away(p);
   }
@@ -187,7 +186,7 @@ bool HostCore::has_room_for_spectator() const {
                            guest.stage != Guest::Stage::refused;
     spectators += guest.is_connected && is_served && guest.player < 0 ? 1 : 0;
   }
-  return spectators < config_.max_peers - (players() - config_.local_players);
+  return spectators < config_.max_peers - (players() - std::popcount(hosted_));
 }
 
 }  // namespace isostep

@@ -12,6 +12,7 @@ constexpr Time kFreeStart = 5 * kSecond;  // [us] of a match, in which delays fi
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules),
+      hosted_(static_cast<std::uint32_t>((std::uint64_t{1} << config.local_players) - 1)),
       guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
       match_(draw(Purpose::match, 0)) {
   for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
@@ -37,7 +38,7 @@ void HostCore::begin(Time now) {
   started_ = true;
   began_ = now;
   clock_.start(now);
-  phase_ = config_.local_players > 0 ? SessionPhase::playing : SessionPhase::watching;
+  phase_ = hosted_ != 0 ? SessionPhase::playing : SessionPhase::watching;
   for (int p = 0; p < players(); ++p) {
     if (seats_[p].is_taken) seats_[p].is_open = true;
   }
@@ -120,7 +121,9 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
   if (reader.failed()) ++stats_.refused;
 }
 
-Frame HostCore::horizon() const { return config_.local_players > 0 ? streams_[0].end() : current() + 1; }
+Frame HostCore::horizon() const {
+  return hosted_ == 0 ? current() + 1 : streams_[static_cast<std::size_t>(local_player())].end();
+}
 
 Frame HostCore::sends_until(int player, const PeerLink& link) const {
   const Guest& guest = static_cast<const Guest&>(link);
@@ -175,8 +178,8 @@ void HostCore::before_frame(Time now) {
 }
 
 void HostCore::fill_absent() {
-  for (int p = config_.local_players; p < players(); ++p) {
-    if (!seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
+  for (int p = 0; p < players(); ++p) {
+    if (is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
 }
 
@@ -194,9 +197,9 @@ void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
   if (now - began_ < kFreeStart) return;
-  for (int p = config_.local_players; p < players(); ++p) {
+  for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
-    if (!seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
+    if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
     seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
     if (seat.lost.spent(now) < config_.patience) continue;
     close_seat(p);

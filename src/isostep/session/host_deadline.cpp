@@ -7,7 +7,8 @@ namespace isostep {
 void HostCore::replace_late(Time now) {
   if (config_.deadline == 0 || now < due_from_) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
-  for (int p = config_.local_players; p < players(); ++p) {
+  for (int p = 0; p < players(); ++p) {
+    if (is_local(p)) continue;
     Seat& seat = seats_[p];
     InputStream& stream = streams_[static_cast<std::size_t>(p)];
     // Nobody waits for the next input of a player of whom one was replaced and nothing came since.

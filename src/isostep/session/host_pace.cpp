@@ -70,7 +70,8 @@ void HostCore::observe_delay() {
     if (is_in_match(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
   }
   Frame least = RecentLeast::kNothing;
-  for (int p = 0; p < config_.local_players; ++p) {
+  for (int p = 0; p < players(); ++p) {
+    if (!is_local(p)) continue;
     const Frame slack = slack_of(p);
     if (slack < least) least = slack;
   }
@@ -82,7 +83,7 @@ void HostCore::choose_pace(Time now) {
   const auto weight = [&](int player, int stretch) {
     return stretch > 0 && player == slowest() && stats_.stretch > 0 ? stretch + kAsSlow : stretch;
   };
-  int whose = is_local(0) ? 0 : 0xff;
+  int whose = hosted_ == 0 ? 0xff : local_player();
   int stretch = pace_.stretch(), most = weight(whose, stretch);
   int needed = stretch;
   for (Guest& guest : guests_) {

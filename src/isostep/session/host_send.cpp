@@ -44,7 +44,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     Welcome welcome;
     welcome.match = match_;
     welcome.players = static_cast<std::uint8_t>(players());
-    welcome.host_players = static_cast<std::uint8_t>(config_.local_players);
+    welcome.hosted = hosted_;
     welcome.player = guest.player < 0 ? 0xff : static_cast<std::uint8_t>(guest.player);
     welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
     welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};

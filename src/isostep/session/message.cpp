@@ -85,7 +85,7 @@ void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
   Writer writer = begin(out, MessageKind::welcome);
   writer.write(welcome.match);
   writer.write(welcome.players);
-  writer.write(welcome.host_players);
+  writer.write(welcome.hosted);
   writer.write(welcome.player);
   writer.write(welcome.token);
   write_report(writer, welcome.start);
@@ -100,7 +100,7 @@ Result<Welcome> read_welcome(Bytes message) {
   Welcome welcome;
   reader.read(welcome.match);
   reader.read(welcome.players);
-  reader.read(welcome.host_players);
+  reader.read(welcome.hosted);
   reader.read(welcome.player);
   reader.read(welcome.token);
   welcome.start = read_report(reader);
@@ -108,7 +108,7 @@ Result<Welcome> read_welcome(Bytes message) {
   reader.read(welcome.snapshot_size);
   reader.read(welcome.snapshot_from);
   reader.read(welcome.opens);
-  if (welcome.players < 1 || welcome.players > kMaxPlayers || welcome.host_players > welcome.players ||
+  if (welcome.players < 1 || welcome.players > kMaxPlayers || (std::uint64_t{welcome.hosted} >> welcome.players) != 0 ||
       (welcome.player >= welcome.players && welcome.player != 0xff)) {
     reader.fail(ErrorCode::invalid, "players out of range");
   }

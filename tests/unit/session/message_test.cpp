@@ -32,7 +32,7 @@ Hello hello() {
 Welcome welcome() {
   return {.match = 0xfeedc0de12345678u,
           .players = 4,
-          .host_players = 1,
+          .hosted = 1,
           .player = 3,
           .token = 7,
           .start = {kLastFrame, 9},
@@ -63,7 +63,7 @@ TEST(Message, EachIsReadAsItWasWritten) {
   const Welcome there = read_welcome(bytes).value();
   EXPECT_EQ(there.match, 0xfeedc0de12345678u);
   EXPECT_EQ(there.players, 4);
-  EXPECT_EQ(there.host_players, 1);
+  EXPECT_EQ(there.hosted, 1u);
   EXPECT_EQ(there.player, 3);
   EXPECT_EQ(there.token, 7u);
   EXPECT_EQ(there.start.frame, kLastFrame);
@@ -126,9 +126,9 @@ TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(reads([](Welcome& w) { w.players = 8; }));
   EXPECT_TRUE(reads([](Welcome& w) { w.player = 0xff, w.opens = kNoFrame; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff; })) << "a spectator that plays";
-  EXPECT_FALSE(reads([](Welcome& w) { w.players = 0, w.host_players = 0; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.players = 0, w.hosted = 0; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.players = 9; }));
-  EXPECT_FALSE(reads([](Welcome& w) { w.host_players = 5; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.hosted = 32; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 4; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xfe; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.start.frame = kNoFrame; }));
