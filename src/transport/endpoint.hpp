@@ -18,9 +18,10 @@ enum class ArrivalKind : std::uint8_t { connected, disconnected, message };
 
 struct Arrival {
   ArrivalKind kind;
-  PeerId peer;      // on a client always 0: the host
+  PeerId peer;
   Channel channel;  // of a message
   Bytes bytes;      // of a message; until the next call of the endpoint
+  bool incoming = false;  // of a connection: the other side asked for it
 };
 
 /// `send` refuses what is larger than the channel's cap and peers that are not connected. `disconnect` is for this side

@@ -1,4 +1,4 @@
-// A network in virtual time: one host, its clients, two channels between them, and a seed for all that goes wrong.
+// A network in virtual time: one host, its clients, two channels between any two, and a seed for all that goes wrong.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,7 +22,7 @@ using EndpointId = std::uint32_t;
 
 struct SimulationSettings {
   std::uint64_t seed = 1;
-  PeerId max_peers = 64;        // of the host; who comes later is disconnected
+  PeerId max_peers = 64;        // of each endpoint; who comes later is disconnected
   Time timeout = 10 * kSecond;  // a connection ends when one direction lost all that it was given for this long
 };
 
@@ -62,13 +62,17 @@ class SimulatedNetwork {
   EndpointId add_client(const NetworkProfile& profile);
   Port port(EndpointId endpoint) { return Port(this, endpoint); }
 
-  /// The host hears `connected` one way later, the client after a round trip. False while the client's last connection
-  /// is not over.
-  bool connect(EndpointId client);
+  /// To the host, which hears `connected` one way later, the client after a round trip. False while the client's last
+  /// connection is not over.
+  bool connect(EndpointId client) { return connect(client, kHost); }
+  /// To any other, over the line that `from` has to the host, or that `to` has when it is the host that connects.
+  bool connect(EndpointId from, EndpointId to);
   /// Both sides hear `disconnected` now; what was under way is gone.
   void cut(EndpointId client);
   /// As if the cable were pulled, or the process had died: every packet from now on is lost until it is put back.
-  void set_silent(EndpointId client, bool silent);
+  void set_silent(EndpointId endpoint, bool silent);
+  /// Packets between endpoints of different sides are lost; all are on side 0 at first.
+  void set_side(EndpointId endpoint, int side);
   void set_profile(EndpointId client, const NetworkProfile& profile);
   /// For hostile tests: arrives at once, whatever the connection's state and the channel's cap.
   void inject(EndpointId to, PeerId from, Channel channel, Bytes bytes);
@@ -105,64 +109,78 @@ class SimulatedNetwork {
   };
   /// What the receiver of a direction knows: the client of its attempt, either side that it is connected.
   enum class Ear : std::uint8_t { closed, waiting, open };
-  struct Client {
-    EndpointId id;
-    Line lines[2];  // by Direction
+  /// From an endpoint that connects, up to the one that is connected to.
+  struct Link {
+    std::size_t number;
+    EndpointId ends[2];  // that a direction leads to
+    Line lines[2];       // by Direction
     Ear ears[2] = {Ear::closed, Ear::closed};
     std::uint64_t connection = 0;  // counts them: what is under way of an older one is nobody's
     bool active = false;           // from connect() until neither side has to hear anything more
+    bool numbered[2] = {};         // the end that a direction leads to has a peer number for the other,
+    PeerId peers[2] = {};          // this one
+  };
+  struct Waiting {
+    ArrivalKind kind;
+    bool incoming;
+    PeerId peer;
+    Channel channel;
+    Payload payload;
+  };
+  struct Station {
+    NetworkProfile profile;
+    std::size_t home = 0;  // of a client: the number of its link to the host
     bool silent = false;
-    bool hosted = false;  // holds a peer number of the host
-    PeerId peer = 0;      // that number
+    int side = 0;
+    std::vector<Link*> peers;  // by PeerId; null: free
+    std::deque<Waiting> inbox;
+    Payload handed_out;  // what its last receive() shows
   };
 
   enum class What : std::uint8_t { datagram_arrives, try_piece, piece_arrives };
   struct Event {
     What what;
     Direction direction;
-    EndpointId client;
+    std::size_t link;
     std::uint64_t connection;
     Payload payload;           // of a datagram
     std::uint64_t number = 0;  // of a reliable message
     std::uint32_t bytes = 0;   // of its piece
     std::uint32_t attempt = 0;
   };
-  struct Waiting {
-    ArrivalKind kind;
-    PeerId peer;
-    Channel channel;
-    Payload payload;
-  };
-
   Result<void> send(EndpointId from, PeerId peer, Channel channel, Bytes bytes);
   std::optional<Arrival> receive(EndpointId endpoint);
   void disconnect(EndpointId from, PeerId peer);
 
-  Client& client_of(EndpointId client) { return *clients_[client - 1]; }
-  Client* other_end(EndpointId from, PeerId peer);
-  void send_datagram(Client& client, Direction direction, Payload payload);
-  void send_reliable(Client& client, Direction direction, Content content, Payload payload);
-  Fate put_on_line(Client& client, Direction direction, std::size_t bytes);
-  void try_piece(Client& client, Event event);
+  /// A client's link to the host, which it has from the beginning.
+  Link& home_of(EndpointId client) { return *links_[stations_[client].home]; }
+  const Link& home_of(EndpointId client) const { return *links_[stations_[client].home]; }
+  Link& link_between(EndpointId from, EndpointId to);
+  Link& add_link(EndpointId from, EndpointId to, const NetworkProfile& profile, std::uint64_t stream);
+  /// Where `from` speaks to `peer`; null when that is not, or no longer, part of a connection.
+  Link* link_of(EndpointId from, PeerId peer, Direction& direction);
+  bool take_number(Link& link, Direction direction);
+  void send_datagram(Link& link, Direction direction, Payload payload);
+  void send_reliable(Link& link, Direction direction, Content content, Payload payload);
+  Fate put_on_line(Link& link, Direction direction, std::size_t bytes);
+  void try_piece(Link& link, Event event);
   void schedule(Time time, Event event);
   void run(const Event& event);
-  void piece_arrived(Client& client, const Event& event);
-  void deliver(Client& client, Direction direction, const Message& message);
-  void answer(Client& client);
-  void close(Client& client);
-  void finish(Client& client);
-  void hang_up(Client& client, Direction direction);
-  void arrive(Client& client, Direction direction, ArrivalKind kind, Channel channel, Payload payload);
+  void piece_arrived(Link& link, const Event& event);
+  void deliver(Link& link, Direction direction, const Message& message);
+  void answer(Link& link);
+  void close(Link& link);
+  void finish(Link& link);
+  void hang_up(Link& link, Direction direction);
+  void arrive(Link& link, Direction direction, ArrivalKind kind, Channel channel, Payload payload);
 
   SimulationSettings settings_;
   Time now_ = 0;
   std::uint64_t scheduled_ = 0;  // orders what is due at one time
   std::uint64_t oversized_ = 0, unaddressed_ = 0;
   std::map<std::pair<Time, std::uint64_t>, Event> events_;
-  std::vector<std::unique_ptr<Client>> clients_;  // of endpoint i + 1
-  std::vector<Client*> peers_;                    // the host's, by PeerId; null: free
-  std::vector<std::deque<Waiting>> inboxes_;      // by endpoint
-  std::vector<Payload> handed_out_;               // by endpoint: what its last receive() shows
+  std::vector<Station> stations_;             // by endpoint
+  std::vector<std::unique_ptr<Link>> links_;  // clients' to the host, and others once they are needed
 };
 
 }  // namespace isostep::transport
