@@ -11,7 +11,7 @@ namespace isostep::transport {
 template <Endpoint E, class Session> void deliver(E& endpoint, Session& session, Time now) {
   while (const std::optional<Arrival> arrival = endpoint.receive()) {
     switch (arrival->kind) {
-      case ArrivalKind::connected: session.connected(arrival->peer, now); break;
+      case ArrivalKind::connected: session.connected(arrival->peer, now, arrival->incoming); break;
       case ArrivalKind::disconnected: session.disconnected(arrival->peer, now); break;
       case ArrivalKind::message: session.receive(arrival->peer, arrival->channel, arrival->bytes, now); break;
     }

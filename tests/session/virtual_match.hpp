@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
@@ -64,7 +65,7 @@ template <class Game> struct Machine {
     const Time now =
         world_now + world_now / 1000 * static_cast<Time>(fast) - world_now / 1000 * static_cast<Time>(late);
     while (const std::optional<transport::Arrival> arrival = port.receive()) {
-      if (arrival->kind == transport::ArrivalKind::connected) session.connected(arrival->peer, now);
+      if (arrival->kind == transport::ArrivalKind::connected) session.connected(arrival->peer, now, arrival->incoming);
       if (arrival->kind == transport::ArrivalKind::disconnected) session.disconnected(arrival->peer, now);
       if (arrival->kind != transport::ArrivalKind::message) {
         is_offline = arrival->kind == transport::ArrivalKind::disconnected;
@@ -85,6 +86,7 @@ template <class Game> struct Machine {
       session.add_local_input(p, bot(p, session.current()));
     }
     drive(session, *game, now, *this);
+    if (const std::optional<Address> address = session.poll_connect()) connects_to = address->view();
     while (const std::optional<Outgoing> out = session.poll_send(now)) {
       if (muted) continue;
       Bytes bytes = out->bytes;
@@ -139,6 +141,7 @@ template <class Game> struct Machine {
   std::function<void(Frame)> went_back;
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
+  std::string connects_to;  // an address that its session asked for, and that the network has not been given yet
   bool muted = false;
   bool is_offline = false;  // the transport's last word
   bool returns = false;     // connects again when the host is lost, as a game would
@@ -173,6 +176,7 @@ template <class Game> class VirtualMatch {
     SessionConfig host = config;
     host.host = true;
     host.seed = seed;
+    host.address = "0";
     machines_.push_back(std::make_unique<Machine<Game>>(network_, transport::SimulatedNetwork::kHost, host, maker_()));
   }
 
@@ -184,7 +188,12 @@ template <class Game> class VirtualMatch {
 
   Machine<Game>& add(const transport::NetworkProfile& profile, const SessionConfig& config) {
     const transport::EndpointId id = network_.add_client(profile);
-    machines_.push_back(std::make_unique<Machine<Game>>(network_, id, config, maker_()));
+    SessionConfig own = config;
+    if (config.migration > 0) {
+      own.address.append_number(id);
+      own.seed = config.seed + id + 1;
+    }
+    machines_.push_back(std::make_unique<Machine<Game>>(network_, id, own, maker_()));
     network_.connect(id);
     return *machines_.back();
   }
@@ -205,6 +214,10 @@ template <class Game> class VirtualMatch {
         // A tick is coarser than what a frame takes: what it was late by is not lost.
         const Time from = now_ - machine->next_turn < kTick ? machine->next_turn : now_;
         machine->turn(now_, bot_);
+        if (!machine->connects_to.empty()) {
+          const int target = std::atoi(std::exchange(machine->connects_to, {}).c_str());
+          network_.connect(machine->endpoint, static_cast<transport::EndpointId>(target));
+        }
         const Time busy = (machine->new_frames - before) * machine->step_time;
         machine->next_turn = busy > 0 ? from + busy : now_ + machine->slow;
         const SessionPhase phase = machine->session.phase();
@@ -226,13 +239,13 @@ template <class Game> class VirtualMatch {
   }
 
   /// The same inputs, played straight through by one process: the hashes that all peers must have.
-  std::vector<std::uint64_t> straight(Frame frames) {
+  std::vector<std::uint64_t> straight(Frame frames, std::size_t of = 0) {
     std::unique_ptr<Game> game = maker_();
     std::vector<std::uint64_t> hashes;
     for (Frame frame = 0; frame < frames; ++frame) {
       std::vector<typename Game::Input> values;
       std::vector<InputStatus> statuses;
-      for (const auto& said : host().inputs[static_cast<std::size_t>(frame)]) {
+      for (const auto& said : machine(of).inputs[static_cast<std::size_t>(frame)]) {
         values.push_back(said.input);
         statuses.push_back(said.absent ? InputStatus::disconnected : InputStatus::confirmed);
       }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/session/failover.hpp"
 #include "isostep/session/peer_core.hpp"
 
 namespace isostep {
@@ -11,11 +12,16 @@ namespace isostep {
 class ClientCore : public PeerCore {
  public:
   ClientCore(const SessionConfig& config, const InputRules& rules);
+  /// A host that the others have left behind.
+  ClientCore(PeerCore&& host, Retreat&& retreat, Time now);
 
   void connected(PeerId host, Time now) override;
-  void disconnected(PeerId host, Time now) override;
+  void accepted(PeerId peer, Time now) override;
+  void disconnected(PeerId peer, Time now) override;
   void receive(PeerId host, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
+  std::optional<Address> poll_connect() override;
+  std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
   int local_player() const override { return player_; }
   std::uint64_t token() const override { return token_; }
@@ -42,8 +48,35 @@ class ClientCore : public PeerCore {
 
  private:
   static InputDelay::Settings lag_settings(const SessionConfig& config);
-  void lose();
+  void lose(Time now);
   void take_message(MessageKind kind, Bytes bytes, Time now);
+  /// For the match, or on the way to another host; false: it is none of these, or damaged.
+  bool take_failover(MessageKind kind, Bytes bytes, Time now);
+  /// Nothing more is said to this peer, and its connection ends.
+  void hang_up(PeerId peer) { hang_ups_.push_back(peer); }
+  void leave_host();
+
+  // --- without a host, in client_failover.cpp ---
+  bool can_fail_over() const { return config_.migration > 0 && failover_.candidate_at(0) >= 0; }
+  int own_machine() const { return failover_.roster.machine_of(token_); }
+  void seek(Time now);
+  void begin_attempt(Time now);
+  void seek_on(Time now);
+  void stop_seeking();
+  void tend_callers(Time now);
+  void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
+  bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
+  /// Where the inputs of `player` end that the host has made final, as far as we know.
+  Frame final_end(int player) const {
+    return is_local(player) ? accepted_ : streams_[static_cast<std::size_t>(player)].end();
+  }
+  /// Of the messages above, the next; nothing when there is none.
+  std::optional<Outgoing> next_failover_message();
+  std::optional<Outgoing> next_for_candidate();
+  std::optional<Outgoing> next_for_caller();
+  std::optional<Outgoing> written(PeerId to);
+  /// For the candidate: into message_. False: it has all that we have.
+  bool write_missing();
   void take_welcome(const Welcome& welcome);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
@@ -67,12 +100,14 @@ class ClientCore : public PeerCore {
   Frame worst_slack() const;
 
   PeerLink host_;
-  bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false, must_close_ = false;
+  bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false;
+  std::vector<PeerId> hang_ups_;
+  Failover failover_;
   bool asked_ready_ = false;
   int player_ = -1;
   bool is_open_ = false;
-  Frame opens_ = kNoFrame;
-  Frame accepted_ = 0;  // first frame of ours that the host lacks
+  Frame opens_ = kNoFrame, opened_ = kNoFrame;  // the latter: as we were told before we could begin
+  Frame accepted_ = 0;                          // first frame of ours that the host lacks
   std::uint64_t token_ = 0;
 
   Welcome welcome_;

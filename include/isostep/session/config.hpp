@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/session/frame.hpp"
+#include "isostep/session/roster.hpp"
 #include "isostep/state/replay_header.hpp"
 
 namespace isostep {
@@ -56,6 +57,10 @@ struct SessionConfig {
   /// system's source of random numbers, for a session has none: who can guess it, as that of a clock, has every
   /// player's token. 0, the default, is refused.
   std::uint64_t seed = 0;
+  /// [us] without a word from the host until the clients go on without it, at one of them: 0: never. It takes three
+  /// machines, and each that may follow has an address and a seed.
+  Time migration = 0;
+  Address address;  // where the others' transports reach ours: text for SessionCore::poll_connect of theirs
   Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
   bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:

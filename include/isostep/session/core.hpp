@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -37,6 +38,7 @@ enum class SessionPhase : std::uint8_t {
   joining,   // a snapshot arrives, or the frames since
   playing,   // a player of ours is in the match; replay, sync test: running
   watching,  // as a spectator, or cut out of the match and on the way back
+  seeking,   // the host is gone, and another machine follows it
   lost,      // the host is gone: connect again
   refused,   // the host will not have us: the event says why
   over       // a replay has ended
@@ -53,6 +55,9 @@ struct SessionEvent {
     full_speed,    // no longer
     refused,       // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
     lost_host,     // nothing was heard of it for too long, or the connection ended
+    seeks_host,    // likewise, but the match goes on at another
+    new_host,      // frame: where it goes on; player: the first of the host's, 0xff when it has none
+    deposed,       // host: the others went on without us, or have gone: we seek their host
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
     bad_snapshot,  // the state that arrived does not have the host's hash, or was refused: error
     misuse,        // requests of the last advance were not carried out
@@ -105,11 +110,17 @@ class SessionCore {
   SessionCore& operator=(const SessionCore&) = delete;
 
   virtual void connected(PeerId, Time) {}
+  /// It connected to us.
+  virtual void accepted(PeerId peer, Time now) { connected(peer, now); }
   virtual void disconnected(PeerId, Time) {}
   virtual void receive(PeerId, Channel, Bytes, Time) {}
   virtual std::optional<Outgoing> poll_send(Time) { return std::nullopt; }
   /// For the next frame that is stepped. False: not a player of ours, not valid, or not playing now.
   virtual bool add_local_input(int player, Bytes input) = 0;
+  /// Where the transport is to connect to: each once.
+  virtual std::optional<Address> poll_connect() { return std::nullopt; }
+  /// Another part in the same match: the host's, or a client's. Null: none.
+  virtual std::unique_ptr<SessionCore> succeed(Time) { return nullptr; }
   /// What to do now; all of it, in order, before the next call. Valid until then.
   std::span<const SessionAction> advance(Time now);
   /// The hash of a state that was to be saved.
@@ -165,6 +176,8 @@ class SessionCore {
   Frame confirmed() const { return confirmed_state_; }
 
  protected:
+  SessionCore(SessionCore&&) = default;
+
   virtual void plan(Time now) = 0;
   /// Requests were not carried out: states that were to be saved are missing.
   virtual void misused() {}

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "isostep/session/failover.hpp"
 #include "isostep/session/peer_core.hpp"
 #include "isostep/session/stall_budget.hpp"
 
@@ -14,12 +15,16 @@ namespace isostep {
 class HostCore : public PeerCore {
  public:
   HostCore(const SessionConfig& config, const InputRules& rules);
+  /// A client that follows its host: with the same inputs, frames and seats.
+  HostCore(PeerCore&& client, Succession&& succession, Time now);
 
   void connected(PeerId peer, Time now) override;
   void disconnected(PeerId peer, Time now) override;
   void receive(PeerId peer, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
+  std::unique_ptr<SessionCore> succeed(Time now) override;
   void start(Time) override { must_start_ = true; }
+  std::uint64_t token() const override { return own_token_; }
   int local_player() const override { return hosted_ == 0 ? -1 : std::countr_zero(hosted_); }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
   std::optional<Applicant> poll_applicant() override;
@@ -46,8 +51,9 @@ class HostCore : public PeerCore {
     bool is_taken = false;
     int link = -1;  // -1: its player is away
     std::uint64_t token = 0;
-    /// What its player came back with, while it may not have read the new one: the connection may end before.
-    std::uint64_t former_token = 0;
+    std::uint64_t proof = 0;
+    /// Of what its player came back with, while it may not have read the new one: the connection may end before.
+    std::uint64_t former_proof = 0;
     bool is_kept = false;                  // it was played on, and its player knows a token: it is reserved for that
     Time idle = 0;                         // [us] since it was open, or else taken, in turns of ours
     bool is_open = false;                  // inputs are awaited
@@ -64,7 +70,10 @@ class HostCore : public PeerCore {
     std::uint64_t applicant = 0;  // its number, while the game decides
     bool is_shown = false;        // to the game
     std::vector<std::uint8_t> credential;
-    int player = -1;  // -1: a spectator
+    Address address;
+    bool must_enroll = false;
+    std::uint32_t enrolled = 0;  // the roster that it has
+    int player = -1;             // -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
@@ -94,6 +103,15 @@ class HostCore : public PeerCore {
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
   void begin(Time now);
+  /// One roster after the other: the next when a majority has this one.
+  void keep_roster();
+  Roster drafted() const;
+  /// Us and those guests that `is_counted`, as places in the roster, a bit each.
+  template <class Predicate> std::uint64_t group(Predicate&& is_counted) const;
+  /// Is a majority with us? Without one nobody's absence is final, for the others may have another host.
+  void count_backers(Time now);
+  /// Its player goes on where its inputs end, and is told those that it does not know to be final.
+  void resume(Guest& guest);
   void greet(Guest& guest, Bytes message);
   bool is_refused(Guest& guest, const Hello& hello);
   /// As a spectator or to a seat, if there is room; else it is refused.
@@ -189,6 +207,10 @@ class HostCore : public PeerCore {
 
   std::uint32_t hosted_;  // players of this machine, a bit each
   bool started_ = false, must_start_ = false;
+  Roster roster_;
+  std::uint64_t own_token_ = 0;  // with which our players come back to who follows us
+  bool is_backed_ = true;
+  Time backed_at_ = 0;  // [us]
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were

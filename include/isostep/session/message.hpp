@@ -6,11 +6,26 @@
 #include <vector>
 
 #include "isostep/session/packet.hpp"
+#include "isostep/session/roster.hpp"
 #include "isostep/state/replay_header.hpp"
 
 namespace isostep {
 
-enum class MessageKind : std::uint8_t { hello = 1, welcome, refuse, piece, progress, ready, open };
+enum class MessageKind : std::uint8_t {
+  hello = 1,
+  welcome,
+  refuse,
+  piece,
+  progress,
+  ready,
+  open,
+  roster,
+  enrolled,
+  candidate,
+  known,
+  support,
+  redirect
+};
 
 /// As what a client comes.
 struct Application {
@@ -25,6 +40,7 @@ struct Application {
 /// A client's first word.
 struct Hello : Application {
   Bytes credential;  // for the host's game
+  Address address;   // where the others reach it, when there is no host
   ReplayHeader identity;
 };
 
@@ -61,6 +77,20 @@ void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out);
 void write_ready(std::vector<std::uint8_t>& out);
 /// The client's player plays from this frame on.
 void write_open(Frame first, std::vector<std::uint8_t>& out);
+/// The client has this version of the roster.
+void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out);
+/// Of a machine that would follow the host.
+struct Candidate {
+  std::uint32_t version = 0;     // of its roster
+  Frame ends[kMaxPlayers] = {};  // the first final input of each player that it lacks
+};
+void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out);
+/// Some of the inputs that a candidate lacks, as a datagram carries them.
+void write_known(Bytes packet, std::vector<std::uint8_t>& out);
+/// It has all inputs that we know to be final, and may be the host of the machines in this version of the roster.
+void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
+/// The host is elsewhere.
+void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);
 Result<Hello> read_hello(Bytes message);
@@ -69,5 +99,10 @@ Result<Refusal> read_refusal(Bytes message);
 Result<Piece> read_piece(Bytes message);
 Result<std::uint32_t> read_progress(Bytes message);
 Result<Frame> read_open(Bytes message);
+Result<std::uint32_t> read_enrolled(Bytes message);
+Result<Candidate> read_candidate(Bytes message);
+Result<Packet> read_known(Bytes message);
+Result<std::uint32_t> read_support(Bytes message);
+Result<Address> read_redirect(Bytes message);
 
 }  // namespace isostep

@@ -14,6 +14,7 @@ namespace isostep {
 class PeerCore : public SessionCore {
  public:
   PeerCore(const SessionConfig& config, const InputRules& rules);
+  PeerCore(PeerCore&&) = default;
 
   bool add_local_input(int player, Bytes input) override;
   bool wants_input(int player) const override;

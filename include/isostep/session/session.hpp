@@ -50,11 +50,18 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
 
   // From the transport.
-  void connected(PeerId peer, Time now) { core_->connected(peer, latest(now)); }
+  /// `incoming`: the other side asked for the connection, as all do at a host.
+  void connected(PeerId peer, Time now, bool incoming = false) {
+    if (incoming) core_->accepted(peer, latest(now));
+    else core_->connected(peer, latest(now));
+  }
   void disconnected(PeerId peer, Time now) { core_->disconnected(peer, latest(now)); }
   void receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     core_->receive(peer, channel, bytes, latest(now));
   }
+  /// To the transport: connect to this machine, as SessionConfig::address of its session says; each once. What comes
+  /// of it are the events above, or nothing.
+  std::optional<Address> poll_connect() { return core_->poll_connect(); }
   /// To the transport, until there is nothing more; the bytes hold until the next call.
   std::optional<Outgoing> poll_send(Time now) { return core_->poll_send(latest(now)); }
 
@@ -86,6 +93,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
 
   /// What to do now, in order and all of it: the low level under drive().
   std::span<const Request<Input>> advance(Time now) {
+    if (std::unique_ptr<SessionCore> next = core_->succeed(latest(now))) core_ = std::move(next);
     requests_.clear();
     values_.clear();
     statuses_.clear();

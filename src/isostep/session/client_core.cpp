@@ -78,7 +78,7 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
 
 void ClientCore::take_own(const InputEntry& entry) {
   InputStream& stream = streams_[static_cast<std::size_t>(player_)];
-  if (entry.absent) {
+  if (entry.absent && accepted_ >= opens_) {
     cut_out(accepted_);
     return;
   }
@@ -122,11 +122,13 @@ bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpB
 
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
-  if (host_.is_connected && now - host_.heard > config_.silence) {
-    must_close_ = true;
-    lose();
+  const Time silence = can_fail_over() && config_.migration < config_.silence ? config_.migration : config_.silence;
+  if (host_.is_connected && !failover_.seeks && now - host_.heard > silence) {
+    lose(now);
     return;
   }
+  tend_callers(now);
+  if (failover_.seeks) seek_on(now);
   if (must_begin_) {
     must_begin_ = false;
     begin_at(welcome_.start);
@@ -185,16 +187,14 @@ int ClientCore::needed_stretch() const {
 }
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
-  if (must_close_) {
-    must_close_ = false;
-    host_.is_connected = false;
-    return Outgoing{host_.peer, Channel::reliable, {}, true};
+  if (!hang_ups_.empty()) {
+    const PeerId peer = hang_ups_.back();
+    hang_ups_.pop_back();
+    return Outgoing{peer, Channel::reliable, {}, true};
   }
+  if (std::optional<Outgoing> out = next_failover_message()) return out;
   if (!host_.is_connected) return std::nullopt;
-  const auto message = [&] {
-    stats_.bytes_out += message_.size();
-    return Outgoing{host_.peer, Channel::reliable, message_};
-  };
+  const auto message = [&] { return written(host_.peer); };
   if (must_greet_ && has_start_) {
     must_greet_ = false;
     Hello hello;
@@ -207,6 +207,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
       hello.partial_size = static_cast<std::uint32_t>(portable_.size());
     }
     hello.credential = config_.credential;
+    hello.address = config_.address;
     hello.identity = config_.identity;
     write_hello(hello, message_);
     return message();

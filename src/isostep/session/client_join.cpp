@@ -12,6 +12,7 @@ constexpr Frame kBeforeBlock = 2;  // [frames] of a rollback window that are kep
 // By what we run later our own inputs come later, and our delay grows by as much. Beyond a third of what it may grow
 // by, the others are asked to wait as well, so that a very bad line does not use up all delay there is.
 constexpr Frame kLagShare = 3;
+constexpr Time kBrokenOff = kSecond / 4;  // [us] until the next attempt, when a candidate ends the connection
 
 }  // namespace
 
@@ -22,27 +23,40 @@ InputDelay::Settings ClientCore::lag_settings(const SessionConfig& config) {
 }
 
 ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), token_(config.token), lag_(lag_settings(config)) {}
+    : PeerCore(config, rules), token_(config.token), lag_(lag_settings(config)) {
+  if (config.migration > 0) failover_.callers.resize(static_cast<std::size_t>(config.max_peers + config.max_strangers));
+}
 
 void ClientCore::connected(PeerId host, Time now) {
+  if (host_.is_connected && host_.peer != host) leave_host();  // of two that were asked for, the later
   host_ = PeerLink{};
   host_.peer = host;
   host_.connect(now);
   must_greet_ = true;
-  must_close_ = is_greeted_ = must_ready_ = asked_ready_ = false;
+  is_greeted_ = must_ready_ = asked_ready_ = false;
   runs_ = is_restoring_ = must_begin_ = false;  // the greeting names the state that we go on from
   if (phase_ == SessionPhase::lost || phase_ == SessionPhase::refused) phase_ = SessionPhase::waiting;
 }
 
-void ClientCore::disconnected(PeerId host, Time) {
-  if (host_.is_connected && host == host_.peer) lose();
+void ClientCore::disconnected(PeerId peer, Time now) {
+  if (peer < failover_.callers.size()) failover_.callers[peer].is_connected = false;
+  if (!host_.is_connected || peer != host_.peer) return;
+  host_.is_connected = false;
+  lose(now);
 }
 
-void ClientCore::lose() {
+void ClientCore::leave_host() {
+  if (host_.is_connected) hang_up(host_.peer);
   host_.is_connected = false;
+}
+
+void ClientCore::lose(Time now) {
+  leave_host();
   runs_ = false;
-  if (phase_ == SessionPhase::refused) return;
-  fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
+  if (failover_.seeks && failover_.until > now + kBrokenOff) failover_.until = now + kBrokenOff;
+  if (phase_ == SessionPhase::refused || failover_.seeks) return;
+  if (can_fail_over()) seek(now);
+  else fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
 }
 
 void ClientCore::fail(SessionEvent::Kind kind, SessionPhase phase) {
@@ -54,7 +68,7 @@ void ClientCore::fail(SessionEvent::Kind kind, SessionPhase phase) {
 
 void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
   if (!host_.is_connected || host != host_.peer) {
-    ++stats_.refused;
+    take_call(host, channel, bytes, now);
     return;
   }
   if (channel == Channel::datagram) {
@@ -93,7 +107,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       event.field = refusal.value();
       tell(event);
       phase_ = SessionPhase::refused;
-      runs_ = is_greeted_ = false;
+      runs_ = is_greeted_ = failover_.seeks = false;
     }
   } else if (kind == MessageKind::piece && is_restoring_) {
     if (const Result<Piece> piece = read_piece(bytes)) {
@@ -104,12 +118,13 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
     if (const Result<Frame> first = read_open(bytes)) {
       good = true;
       if (is_restoring_ || must_begin_) {
-        welcome_.opens = first.value();  // once we are there
+        opened_ = first.value();  // once we are there
       } else {
         open(first.value());
       }
     }
   }
+  if (!good) good = take_failover(kind, bytes, now);
   if (good) {
     host_.heard = now;
   } else {
@@ -128,8 +143,8 @@ void ClientCore::take_welcome(const Welcome& welcome) {
                     welcome.snapshot_size <= config_.snapshot_cap &&
                     (welcome.player != 0xff) == (config_.mode != SessionMode::spectator);
   if (!fits || (welcome.snapshot_size == 0 && !has_start)) {
-    runs_ = is_greeted_ = is_restoring_ = must_begin_ = false;
-    must_close_ = true;
+    runs_ = is_greeted_ = is_restoring_ = must_begin_ = failover_.seeks = false;
+    leave_host();
     fail(SessionEvent::Kind::refused, SessionPhase::refused);
     return;
   }
@@ -138,6 +153,9 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   token_ = welcome.token;
+  opened_ = kNoFrame;
+  failover_.is_roster_old = true;
+  stop_seeking();
   phase_ = SessionPhase::joining;
   told_ = welcome.snapshot_from;
   is_restoring_ = welcome.snapshot_size > 0;
@@ -159,7 +177,8 @@ void ClientCore::take_piece(const Piece& piece) {
 void ClientCore::restored(bool ok) {
   if (ok) return;
   is_restoring_ = runs_ = is_greeted_ = false;
-  is_spoiled_ = must_close_ = true;
+  is_spoiled_ = true;
+  leave_host();
   partial_ = HashReport{};
   fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
 }
@@ -190,14 +209,25 @@ void ClientCore::begin_at(const HashReport& start) {
   }
   base_ = frame;
   near_since_ = 0;
-  for (InputStream& stream : streams_) stream.reset(frame);
+  const InputStream* own = player_ < 0 ? nullptr : &streams_[static_cast<std::size_t>(player_)];
+  // Behind a new host our own inputs stay what they were, from the first that it lacks on.
+  const bool keeps_own = own != nullptr && !is_restoring_ && own->begin() <= frame && welcome_.opens != kNoFrame &&
+                         own->end() >= welcome_.opens;
+  for (InputStream& stream : streams_) {
+    if (&stream != own || !keeps_own) stream.reset(frame);
+  }
   for (View& view : views_) view = View{};
   for (bool& is_present : is_present_) is_present = false;
   accepted_ = frame;
   clock_.forget_lean();
   lag_ = InputDelay(lag_settings(config_));
   is_far_ = knows_way_ = false;
-  if (welcome_.opens != kNoFrame) open(welcome_.opens);
+  if (opened_ != kNoFrame) open(opened_);
+  if (welcome_.opens == kNoFrame) return;
+  // What was ours before is told to us, and compared: see take_own.
+  is_open_ = true;
+  opens_ = welcome_.opens;
+  host_.acked[player_] = accepted_;
 }
 
 void ClientCore::open(Frame first) {

@@ -80,6 +80,10 @@ const char* problem_of(const SessionConfig& config) {
   if (config.seat < -1 || config.seat >= config.players) return "seat: below players, or -1";
   if (config.credential.size() > kCredentialCap) return "credential: 256 bytes or fewer";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
+  if (config.migration > 0 && config.migration < kSecond / 4) return "migration: a quarter of a second or more, or 0";
+  if (config.migration > 0 && !config.address.view().empty() && config.seed == 0) {
+    return "seed: of who may become the host, a random number other than 0";
+  }
   const bool is_match = config.mode != SessionMode::sync_test && config.mode != SessionMode::replay;
   if (config.host && is_match && config.seed == 0) return "seed: of a host, a random number other than 0";
   if (config.mode == SessionMode::sync_test && config.window < 1)

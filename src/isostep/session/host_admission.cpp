@@ -99,9 +99,10 @@ std::optional<PeerId> HostCore::peer_of(int player) const {
 
 int HostCore::player_of(std::uint64_t token) const {
   if (token == 0) return -1;
+  const std::uint64_t proof = proof_of(token);
   std::uint32_t found = 0;  // a bit for each player: how long it takes tells nothing of the tokens
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
-    found |= (equals(token, seats_[p].token) | equals(token, seats_[p].former_token)) << p;
+    found |= (equals(proof, seats_[p].proof) | equals(proof, seats_[p].former_proof)) << p;
   }
   return found == 0 ? -1 : std::countr_zero(found);
 }
@@ -154,7 +155,8 @@ void HostCore::take_seat(Guest& guest, int player) {
   seat.is_taken = true;
   seat.link = static_cast<int>(guest.peer);
   seat.token = draw(Purpose::token, tokens_++);
-  seat.former_token = is_owner ? guest.wish.token : 0;
+  seat.proof = proof_of(seat.token);
+  seat.former_proof = is_owner ? proof_of(guest.wish.token) : 0;
   seat.is_kept = is_owner && before.is_kept;
   guest.player = player;
 }
@@ -162,7 +164,7 @@ void HostCore::take_seat(Guest& guest, int player) {
 void HostCore::keep_seat(Guest& guest) {
   if (guest.player < 0 || !seats_[guest.player].is_open) return;
   seats_[guest.player].is_kept = true;
-  seats_[guest.player].former_token = 0;
+  seats_[guest.player].former_proof = 0;
 }
 
 void HostCore::free_seat(int player) {

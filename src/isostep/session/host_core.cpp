@@ -17,6 +17,7 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
       match_(draw(Purpose::match, 0)) {
   for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
+  if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
 }
 
 void HostCore::connected(PeerId peer, Time now) {
@@ -78,6 +79,9 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     greet(guest, bytes);
   } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::receives_snapshot) {
     take_progress(guest, bytes, now);
+  } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
+    if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
+    else ++stats_.refused;
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
@@ -162,6 +166,8 @@ void HostCore::before_steps(Time now) {
     }
     if (guest.is_ready) open_seat(guest, now);
   }
+  keep_roster();
+  count_backers(now);
   reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);
@@ -178,6 +184,7 @@ void HostCore::before_frame(Time now) {
 }
 
 void HostCore::fill_absent() {
+  if (!is_backed_) return;
   for (int p = 0; p < players(); ++p) {
     if (is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
@@ -196,7 +203,7 @@ void HostCore::blocked(Time now) {
 void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
-  if (now - began_ < kFreeStart) return;
+  if (now - began_ < kFreeStart || !is_backed_) return;
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;

@@ -5,7 +5,7 @@
 namespace isostep {
 
 void HostCore::replace_late(Time now) {
-  if (config_.deadline == 0 || now < due_from_) return;
+  if (config_.deadline == 0 || now < due_from_ || !is_backed_) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
   for (int p = 0; p < players(); ++p) {
     if (is_local(p)) continue;

@@ -52,6 +52,7 @@ void HostCore::greet(Guest& guest, Bytes message) {
   const Hello& hello = read.value();
   if (is_refused(guest, hello)) return;
   guest.wish = hello;
+  guest.address = hello.address;
   if (!config_.asks_admission) {
     let_in(guest);
     return;
@@ -99,6 +100,7 @@ void HostCore::go_live(Guest& guest, Frame start) {
   guest.due_since = guest.had_all_at = guest.heard;
   guest.acked_at = guest.more_at = 0;
   guest.has_spoken = guest.has_more = false;
+  guest.must_enroll = roster_.version > 0;
 }
 
 void HostCore::open_seat(Guest& guest, Time now) {

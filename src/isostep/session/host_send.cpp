@@ -62,6 +62,11 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
   if (sending) {
     if (std::optional<Outgoing> out = next_piece(guest, now)) return out;
   }
+  if (guest.must_enroll && guest.stage == Guest::Stage::live) {
+    guest.must_enroll = false;
+    write_roster(roster_, message_);
+    return message();
+  }
   if (guest.must_open) {
     guest.must_open = false;
     write_open(guest.opens, message_);

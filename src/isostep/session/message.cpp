@@ -37,6 +37,12 @@ template <class T> Result<T> finish(Reader& reader, const char* what, const T& v
   return value;
 }
 
+Result<std::uint32_t> read_number(Bytes message, const char* what) {
+  Reader reader = after_kind(message);
+  const std::uint32_t number = reader.read<std::uint32_t>();
+  return finish(reader, what, number);
+}
+
 }  // namespace
 
 void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
@@ -52,6 +58,7 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   write_report(writer, hello.partial);
   writer.write(hello.partial_size);
   writer.write_bytes(hello.credential);
+  writer.write_text(hello.address.view());
   writer.write_bytes(identity);
 }
 
@@ -72,6 +79,7 @@ Result<Hello> read_hello(Bytes message) {
   hello.partial = read_report(reader);
   reader.read(hello.partial_size);
   hello.credential = reader.read_bytes(kCredentialCap);
+  hello.address = read_address(reader);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
   const Result<Hello> whole = finish(reader, "hello", hello);
   if (!whole) return whole;
@@ -161,11 +169,7 @@ void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out) {
   begin(out, MessageKind::progress).write(arrived);
 }
 
-Result<std::uint32_t> read_progress(Bytes message) {
-  Reader reader = after_kind(message);
-  const std::uint32_t arrived = reader.read<std::uint32_t>();
-  return finish(reader, "progress", arrived);
-}
+Result<std::uint32_t> read_progress(Bytes message) { return read_number(message, "progress"); }
 
 void write_ready(std::vector<std::uint8_t>& out) { begin(out, MessageKind::ready); }
 
@@ -178,8 +182,55 @@ Result<Frame> read_open(Bytes message) {
   return finish(reader, "open", first);
 }
 
+void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out) {
+  begin(out, MessageKind::enrolled).write(version);
+}
+
+Result<std::uint32_t> read_enrolled(Bytes message) { return read_number(message, "enrolled"); }
+
+void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out) {
+  Writer writer = begin(out, MessageKind::candidate);
+  writer.write(candidate.version);
+  writer.write(candidate.ends);
+}
+
+Result<Candidate> read_candidate(Bytes message) {
+  Reader reader = after_kind(message);
+  Candidate candidate;
+  reader.read(candidate.version);
+  reader.read(candidate.ends);
+  for (const Frame end : candidate.ends) {
+    if (end < 0 || end > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
+  }
+  return finish(reader, "candidate", candidate);
+}
+
+void write_known(Bytes packet, std::vector<std::uint8_t>& out) {
+  begin(out, MessageKind::known);
+  out.insert(out.end(), packet.begin(), packet.end());
+}
+
+Result<Packet> read_known(Bytes message) { return read_packet(message.subspan(message.empty() ? 0 : 1)); }
+
+void write_support(std::uint32_t version, std::vector<std::uint8_t>& out) {
+  begin(out, MessageKind::support).write(version);
+}
+
+Result<std::uint32_t> read_support(Bytes message) { return read_number(message, "support"); }
+
+void write_redirect(const Address& address, std::vector<std::uint8_t>& out) {
+  begin(out, MessageKind::redirect).write_text(address.view());
+}
+
+Result<Address> read_redirect(Bytes message) {
+  Reader reader = after_kind(message);
+  const Address address = read_address(reader);
+  return finish(reader, "redirect", address);
+}
+
 Result<MessageKind> message_kind(Bytes message) {
-  if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > 7) {
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::redirect);
+  if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }
   return static_cast<MessageKind>(message[0]);

@@ -47,6 +47,9 @@ const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::bad_snapshot: return "bad snapshot";
     case SessionEvent::Kind::misuse: return "misuse";
     case SessionEvent::Kind::unhashed: return "unhashed state";
+    case SessionEvent::Kind::seeks_host: return "host gone, seeking another";
+    case SessionEvent::Kind::new_host: return "new host";
+    case SessionEvent::Kind::deposed: return "no longer the host";
   }
   return "?";
 }

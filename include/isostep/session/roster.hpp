@@ -1,0 +1,52 @@
+// Roster: the machines of a match, how the others reach them, and how each proves whose players it has.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/result.hpp"
+#include "isostep/core/short_text.hpp"
+#include "isostep/session/frame.hpp"
+
+namespace isostep {
+
+/// [characters] printable ASCII; the longest of IPv6 with a port has 53.
+inline constexpr std::size_t kAddressCap = 64;
+using Address = ShortText<kAddressCap>;
+
+/// What who knows the token of a player can show, and who knows only this cannot compute: a host that follows another
+/// recognises its players, and they cannot pass for each other.
+std::uint64_t proof_of(std::uint64_t token);
+
+/// The host tells it to all, so that they find each other once it is gone. Who may go on without it is decided by
+/// majorities, of the machines in the match now and of those before: while the one roster takes the place of the other
+/// no two groups apart from each other can both have one. Source: Ongaro, Ousterhout 2014, In search of an
+/// understandable consensus algorithm, sec. 6 (joint consensus).
+struct Roster {
+  struct Machine {
+    std::uint32_t players = 0;  // a bit each; none: a host without players
+    std::uint64_t proof = 0;    // of their token
+    bool is_in = false, was_in = false;
+    Address address;  // empty: it cannot be the host
+  };
+  std::uint32_t version = 0;  // 0: there is none yet
+  std::uint8_t host = 0;      // its place among the machines
+  std::uint8_t count = 0;
+  Machine machines[kMaxPlayers + 1];
+
+  /// Whose token this is; -1: nobody's.
+  int machine_of(std::uint64_t token) const;
+  int machine_with(int player) const;
+  /// More than half of those that are in, and of those that were, a bit each. The host makes a half a majority.
+  bool is_majority(std::uint64_t machines) const;
+};
+
+class Reader;
+/// Fails where it is not printable ASCII: it is shown to people.
+Address read_address(Reader& reader);
+void write_roster(const Roster& roster, std::vector<std::uint8_t>& out);
+Result<Roster> read_roster(Bytes message);
+
+}  // namespace isostep

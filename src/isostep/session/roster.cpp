@@ -1,0 +1,104 @@
+// The roster: majorities, and its place among the messages.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/roster.hpp"
+
+#include "isostep/session/message.hpp"
+#include "isostep/session/siphash.hpp"
+#include "isostep/state/archive.hpp"
+
+namespace isostep {
+namespace {
+
+constexpr std::uint8_t kIsIn = 1, kWasIn = 2;
+
+}  // namespace
+
+std::uint64_t proof_of(std::uint64_t token) {
+  constexpr std::uint8_t kText[] = {'p', 'l', 'a', 'y', 'e', 'r'};
+  return siphash_2_4({token, 0}, kText);
+}
+
+int Roster::machine_of(std::uint64_t token) const {
+  const std::uint64_t proof = proof_of(token);
+  int found = -1;
+  for (int m = 0; m < count; ++m) {
+    if (machines[m].proof == proof) found = m;
+  }
+  return token == 0 ? -1 : found;
+}
+
+int Roster::machine_with(int player) const {
+  for (int m = 0; m < count; ++m) {
+    if (player >= 0 && (machines[m].players >> player & 1) != 0) return m;
+  }
+  return -1;
+}
+
+bool Roster::is_majority(std::uint64_t group) const {
+  const auto has_most = [&](bool Machine::*counts) {
+    int all = 0, here = 0;
+    for (int m = 0; m < count; ++m) {
+      if (!(machines[m].*counts)) continue;
+      ++all;
+      here += static_cast<int>(group >> m & 1);
+    }
+    const bool has_host = (group >> host & 1) != 0 && machines[host].*counts;
+    return 2 * here > all || (2 * here == all && has_host);
+  };
+  return count > 0 && has_most(&Machine::is_in) && has_most(&Machine::was_in);
+}
+
+Address read_address(Reader& reader) {
+  const std::string_view text = reader.read_text(kAddressCap);
+  for (const char c : text) {
+    if (c < ' ' || c > '~') reader.fail(ErrorCode::invalid, "an address that is not printable ASCII");
+  }
+  return Address(text);
+}
+
+void write_roster(const Roster& roster, std::vector<std::uint8_t>& out) {
+  out.clear();
+  Writer writer(out);
+  writer.write(static_cast<std::uint8_t>(MessageKind::roster));
+  writer.write(roster.version);
+  writer.write(roster.host);
+  writer.write(roster.count);
+  for (int m = 0; m < roster.count; ++m) {
+    const Roster::Machine& machine = roster.machines[m];
+    writer.write(machine.players);
+    writer.write(machine.proof);
+    writer.write(static_cast<std::uint8_t>((machine.is_in ? kIsIn : 0) | (machine.was_in ? kWasIn : 0)));
+    writer.write_text(machine.address.view());
+  }
+}
+
+Result<Roster> read_roster(Bytes message) {
+  Reader reader(message.subspan(message.empty() ? 0 : 1));
+  Roster roster;
+  reader.read(roster.version);
+  reader.read(roster.host);
+  reader.read(roster.count);
+  if (roster.count > kMaxPlayers + 1 || roster.host >= roster.count || roster.version == 0) {
+    reader.fail(ErrorCode::invalid, "machines out of range");
+  }
+  std::uint32_t seen = 0;
+  for (int m = 0; m < roster.count && reader.ok(); ++m) {
+    Roster::Machine& machine = roster.machines[m];
+    reader.read(machine.players);
+    reader.read(machine.proof);
+    const auto flags = reader.read<std::uint8_t>();
+    machine.address = read_address(reader);
+    const bool is_known = flags <= (kIsIn | kWasIn);
+    const bool has_own = (machine.players & seen) == 0 && std::uint64_t{machine.players} >> kMaxPlayers == 0;
+    if (!is_known || !has_own) reader.fail(ErrorCode::invalid, "a machine that cannot be");
+    seen |= machine.players;
+    machine.is_in = (flags & kIsIn) != 0;
+    machine.was_in = (flags & kWasIn) != 0;
+  }
+  reader.expect_end();
+  const Result<void> result = reader.result("roster");
+  if (!result) return result.error();
+  return roster;
+}
+
+}  // namespace isostep

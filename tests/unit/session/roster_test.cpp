@@ -1,0 +1,116 @@
+// The roster: whose token is whose, who is a majority, and what is refused of it.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/roster.hpp"
+
+#include <gtest/gtest.h>
+
+#include "isostep/session/message.hpp"
+
+namespace isostep {
+namespace {
+
+Roster of(int count) {
+  Roster roster;
+  roster.version = 5;
+  roster.count = static_cast<std::uint8_t>(count);
+  for (int m = 0; m < count; ++m) {
+    Roster::Machine& machine = roster.machines[m];
+    machine.players = 1u << m;
+    machine.proof = proof_of(100 + static_cast<std::uint64_t>(m));
+    machine.is_in = machine.was_in = true;
+    machine.address.append("10.0.0.").append_number(static_cast<std::uint64_t>(m));
+  }
+  return roster;
+}
+
+TEST(Roster, KnowsAMachineByItsTokenAndByItsPlayer) {
+  const Roster roster = of(4);
+  EXPECT_EQ(roster.machine_of(102), 2);
+  EXPECT_EQ(roster.machine_of(104), -1);
+  EXPECT_EQ(roster.machine_of(0), -1);
+  EXPECT_EQ(roster.machine_of(roster.machines[2].proof), -1) << "the proof is no token";
+  EXPECT_EQ(roster.machine_with(3), 3);
+  EXPECT_EQ(roster.machine_with(4), -1);
+  EXPECT_EQ(roster.machine_with(-1), -1);
+}
+
+TEST(Roster, OfTwoGroupsApartAtMostOneIsAMajority) {
+  for (int count = 1; count <= 6; ++count) {
+    Roster roster = of(count);
+    int ties = 0;
+    // Whoever was in, or is: also while one roster takes the place of the other.
+    for (std::uint32_t leaves = 0; leaves < 1u << count; leaves += 2) {
+      for (int m = 0; m < count; ++m) roster.machines[m].is_in = (leaves >> m & 1) == 0;
+      for (std::uint32_t group = 0; group < 1u << count; ++group) {
+        const std::uint32_t others = ((1u << count) - 1) & ~group;
+        EXPECT_FALSE(roster.is_majority(group) && roster.is_majority(others)) << count << " " << leaves << " " << group;
+        ties += roster.is_majority(group) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(ties, 0);
+  }
+  EXPECT_FALSE(Roster{}.is_majority(~std::uint64_t{0})) << "there is none yet";
+  EXPECT_TRUE(of(4).is_majority(0b0011));
+  EXPECT_FALSE(of(4).is_majority(0b1100)) << "half of them, without the host";
+  EXPECT_TRUE(of(4).is_majority(0b1110));
+}
+
+TEST(Roster, ArrivesAsItWasSent) {
+  const Roster roster = of(9 < kMaxPlayers + 1 ? 9 : 8);
+  std::vector<std::uint8_t> bytes;
+  write_roster(roster, bytes);
+  const Result<Roster> read = read_roster(bytes);
+  ASSERT_FALSE(!read);
+  EXPECT_EQ(read.value().version, 5u);
+  EXPECT_EQ(read.value().count, roster.count);
+  EXPECT_EQ(read.value().machines[3].proof, roster.machines[3].proof);
+  EXPECT_EQ(read.value().machines[3].address.view(), "10.0.0.3");
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(read_roster(Bytes(bytes.data(), size)).ok()) << size;
+  }
+  bytes.push_back(0);
+  EXPECT_FALSE(read_roster(bytes).ok());
+}
+
+TEST(Roster, ThatCannotBeIsRefused) {
+  const auto reads = [](auto change) {
+    Roster roster = of(3);
+    change(roster);
+    std::vector<std::uint8_t> bytes;
+    write_roster(roster, bytes);
+    return read_roster(bytes).ok();
+  };
+  EXPECT_TRUE(reads([](Roster&) {}));
+  EXPECT_FALSE(reads([](Roster& r) { r.version = 0; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.host = 3; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.machines[1].players = 1; })) << "a player twice";
+  EXPECT_FALSE(reads([](Roster& r) { r.machines[1].players = 1u << kMaxPlayers; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.machines[1].address = Address("a\nb"); }));
+}
+
+TEST(Roster, MessagesOfACandidateAreChecked) {
+  Candidate candidate;
+  candidate.version = 7;
+  candidate.ends[1] = 50;
+  std::vector<std::uint8_t> bytes;
+  write_candidate(candidate, bytes);
+  ASSERT_TRUE(read_candidate(bytes).ok());
+  EXPECT_EQ(read_candidate(bytes).value().ends[1], 50);
+  candidate.ends[1] = -1;
+  write_candidate(candidate, bytes);
+  EXPECT_FALSE(read_candidate(bytes).ok());
+  write_redirect(Address("host:1"), bytes);
+  EXPECT_EQ(read_redirect(bytes).value().view(), "host:1");
+  bytes.back() = 7;
+  EXPECT_FALSE(read_redirect(bytes).ok());
+  write_support(9, bytes);
+  EXPECT_EQ(read_support(bytes).value(), 9u);
+  write_enrolled(9, bytes);
+  EXPECT_EQ(read_enrolled(bytes).value(), 9u);
+  bytes.pop_back();
+  EXPECT_FALSE(read_enrolled(bytes).ok());
+  EXPECT_FALSE(read_known(bytes).ok());
+}
+
+}  // namespace
+}  // namespace isostep
