@@ -18,6 +18,8 @@ struct SessionBenchOptions {
 void report_overhead(const SessionBenchOptions& options);
 /// Bytes of a player's link.
 void report_bandwidth(const SessionBenchOptions& options);
+/// What the presets give on several lines.
+void report_genres(const SessionBenchOptions& options);
 /// The longest drive() of a match with a thousand bodies.
 void report_drives(const SessionBenchOptions& options);
 /// Memory and time of the states that are kept to explain a desync.

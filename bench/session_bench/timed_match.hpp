@@ -99,6 +99,7 @@ template <class Game> class TimedPeer {
   Session<Clocked<Game>> session;
   std::vector<FrameCost> costs;  // by frame
   std::vector<Drive> drives;
+  std::vector<Time> stepped_at;  // [us] by frame: of the turn in which it was stepped for the first time
 
  private:
   bool receive(Time now) {
@@ -125,6 +126,7 @@ template <class Game> class TimedPeer {
     const int steps = drive(session, game_, now, *this);
     costs[frame_].drive += microseconds() - start - game_.take_spent();
     drives.push_back({before - went_back_to_, steps, thread_milliseconds() - cpu});
+    stepped_at.resize(static_cast<std::size_t>(session.current()), now);
   }
   void send(Time now) {
     double start = microseconds();

@@ -1,0 +1,70 @@
+// Presets: what CHOOSING.md says of each kind of game on three lines.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/preset.hpp"
+
+#include "session/match_checks.hpp"
+#include "session/pace_watch.hpp"
+
+namespace isostep::test {
+namespace {
+
+constexpr const char* kGood = "latency=10,jitter=2";
+constexpr const char* kUsual = "latency=30,jitter=5,loss=0.5";
+constexpr const char* kBad = "latency=75,jitter=20,loss=2";
+
+struct Expected {
+  Genre genre;
+  int players;
+  const char* line;
+  Frame delay;    // [frames] that no machine's inputs wait longer than
+  Frame deepest;  // [frames] of rollbacks that 99 of 100 frames do not exceed
+};
+constexpr Expected kExpected[] = {
+    {Genre::fighting, 2, kGood, 2, 1}, {Genre::fighting, 2, kUsual, 2, 3}, {Genre::fighting, 2, kBad, 4, 7},
+    {Genre::brawler, 4, kGood, 1, 2},  {Genre::brawler, 4, kUsual, 3, 4},  {Genre::brawler, 4, kBad, 6, 7},
+    {Genre::racing, 8, kGood, 1, 2},   {Genre::racing, 8, kUsual, 2, 6},   {Genre::racing, 8, kBad, 8, 8},
+    {Genre::strategy, 8, kGood, 5, 0}, {Genre::strategy, 8, kUsual, 8, 0}, {Genre::strategy, 8, kBad, 18, 0},
+    {Genre::sandbox, 4, kGood, 2, 1},  {Genre::sandbox, 4, kUsual, 5, 2},  {Genre::sandbox, 4, kBad, 12, 2}};
+
+class Preset : public testing::TestWithParam<Expected> {};
+INSTANTIATE_TEST_SUITE_P(Genres, Preset, testing::ValuesIn(kExpected));
+
+/// [frames] that 99 of 100 rollbacks and frames without one do not exceed.
+Frame usual_depth(const SessionStats& stats, Frame frames) {
+  std::uint64_t left = static_cast<std::uint64_t>(frames) / 100;
+  for (Frame depth = 64; depth > 0; --depth) {
+    const std::uint64_t count = stats.rollbacks[depth];
+    if (count > left) return depth;
+    left -= count;
+  }
+  return 0;
+}
+
+TEST_P(Preset, KeepsWhatThePageSays) {
+  const Expected& expected = GetParam();
+  ToyMatch match(preset(expected.genre, expected.players), expected.line);
+  match.pass(15 * kSecond);
+  PaceWatch<Toy> pace(match);
+  pace.watch(30 * kSecond);
+  for (std::size_t i = 0; i < match.size(); ++i) {
+    SCOPED_TRACE("machine " + std::to_string(i));
+    const auto& session = match.machine(i).session;
+    EXPECT_LE(pace[i].most_delay, expected.delay);
+    EXPECT_LE(usual_depth(session.stats(), session.current()), expected.deepest);
+    EXPECT_EQ(pace[i].gaps(50000), 0u);
+    EXPECT_GE(pace.hundred_seconds(i), 5990);
+    for (int p = 0; p < expected.players; ++p) EXPECT_EQ(match.host().session.stats().players[p].replaced, 0u);
+  }
+  expect_one_history(match);
+}
+
+TEST(Preset, IsAConfigurationThatASessionTakes) {
+  for (const Genre genre : {Genre::fighting, Genre::brawler, Genre::racing, Genre::strategy, Genre::sandbox}) {
+    for (int players = 2; players <= static_cast<int>(kMaxPlayers); ++players) {
+      EXPECT_EQ(problem_of(preset(genre, players)), nullptr);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isostep::test
