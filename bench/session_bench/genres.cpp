@@ -30,12 +30,15 @@ struct Counts {
   std::uint64_t steps;
   std::size_t drives;
   Frame frames;
-  double bytes;  // sent, with UDP/IP
+  double bytes;            // sent, with UDP/IP
+  std::uint64_t replaced;  // inputs that came after the deadline
 };
 Counts counts_of(const TimedPeer<TinyGame>& peer) {
   const SessionStats& stats = peer.session.stats();
+  std::uint64_t replaced = 0;
+  for (const PlayerStats& player : stats.players) replaced += player.replaced;
   return {stats.steps, peer.drives.size(), peer.session.current(),
-          static_cast<double>(stats.bytes_out) + static_cast<double>(stats.datagrams_out) * kUdpIp};
+          static_cast<double>(stats.bytes_out) + static_cast<double>(stats.datagrams_out) * kUdpIp, replaced};
 }
 
 /// What the players of a match notice, of all machines together.
@@ -77,11 +80,13 @@ void report(const Kind& kind, const Line& line) {
   Felt felt;
   for (std::size_t i = 0; i < match.size(); ++i) add(felt, match.peer(i), before[i]);
   const double delay = felt.delay / static_cast<double>(match.size());
-  std::printf("| %s, %d | %s | %.1f | %.0f | %.0f | %.2f | %.0f | %d | %.1f |\n", kind.name, kind.players, line.name,
-              delay, delay * 1000 / 60, quantile(felt.depths, 0.99),
+  const Counts host = counts_of(match.peer(0));
+  std::printf("| %s, %d | %s | %.1f | %.0f | %.0f | %.2f | %.0f | %d | %llu | %.1f |\n", kind.name, kind.players,
+              line.name, delay, delay * 1000 / 60, quantile(felt.depths, 0.99),
               static_cast<double>(felt.steps) / static_cast<double>(felt.frames),
               static_cast<double>(felt.longest_gap) / 1000, felt.gaps,
-              (counts_of(match.peer(0)).bytes - before[0].bytes) / seconds / 1000);
+              static_cast<unsigned long long>(host.replaced - before[0].replaced),
+              (host.bytes - before[0].bytes) / seconds / 1000);
   std::fflush(stdout);
 }
 
@@ -100,9 +105,9 @@ void report_genres(const SessionBenchOptions&) {
       "\nPresets: lines are round trips to the host; delay in frames and ms, mean of all machines at the end; "
       "rollback: "
       "frames that 99 of 100 turns do not exceed; steps a frame; the longest time between frames and how many exceed "
-      "50 ms, of all machines in a minute; what the host sends, with UDP/IP, kB/s:\n\n"
-      "| genre, players | line | delay | ms | rollback | steps | longest gap, ms | gaps | host sends |\n"
-      "|---|---|---|---|---|---|---|---|---|\n");
+      "50 ms, of all machines in a minute; inputs replaced; what the host sends, with UDP/IP, kB/s:\n\n"
+      "| genre, players | line | delay | ms | rollback | steps | longest gap, ms | gaps | replaced | host sends |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Kind& kind : kKinds) {
     for (const Line& line : kLines) report(kind, line);
   }

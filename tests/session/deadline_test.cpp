@@ -165,6 +165,29 @@ TEST_P(Deadline, ReplacesInputsOfABadLineAndKeepsOneHistory) {
   }
 }
 
+// Its delay is too short for its line: all of its inputs are late, and none by the deadline.
+TEST(DeadlineOfShortDelays, WhoIsAlwaysALittleLateStillPlays) {
+  SessionConfig config = config_of(kMachines, SessionMode::rollback);
+  config.deadline = 8;
+  config.delay = config.least_delay = config.most_delay = 1;
+  HandMatch match(config, "latency=60,jitter=10", [](int player, Frame frame) {
+    return ToyInput{static_cast<std::int8_t>(hand(player, frame)), 0, 0};
+  });
+  match.pass(10 * kSecond);
+  const int seat = match.machine(kCheat).seat;
+  const auto replaced = [&] { return match.host().session.stats().players[seat].replaced; };
+  match.network().set_silent(match.machine(kCheat).endpoint, true);
+  const std::uint64_t at_first = replaced();
+  match.pass(kSecond);
+  match.network().set_silent(match.machine(kCheat).endpoint, false);
+  match.pass(3 * kSecond);
+  EXPECT_GT(replaced(), at_first + 30) << "it was late";
+  const std::uint64_t before = replaced();
+  match.pass(10 * kSecond);
+  EXPECT_LE(replaced(), before + 6) << "of 600";
+  expect_one_history(match, true);
+}
+
 TEST_P(Deadline, WhoFallsSilentHoldsNobodyUp) {
   HandMatch match(config_of(4), kGoodLine, bot());
   match.pass(10 * kSecond);

@@ -61,6 +61,7 @@ class HostCore : public PeerCore {
     Time shut_until = 0;                   // [us] its player watches
     Frame replaced = 0, replaced_end = 0;  // inputs from .. until, of which its player does not know yet; 0: none
     bool is_late = false;                  // the newest input was replaced
+    Frame late_end = 0;                    // of the inputs that came after they were replaced: what follows the newest
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
@@ -184,6 +185,8 @@ class HostCore : public PeerCore {
   void choose_pace(Time now);
   /// Inputs after the deadline: the guess is final.
   void replace_late(Time now);
+  /// All inputs of the slice came too late: by how much, its player has to know to send them earlier.
+  void note_replaced(const InputSlice& slice, Time now);
   /// Inputs of others before this frame are shown to it.
   Frame shown_until(const Guest& guest) const;
   void note_held_back(Guest& guest);

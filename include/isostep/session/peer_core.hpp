@@ -63,8 +63,8 @@ class PeerCore : public SessionCore {
   bool accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);
   void take_header(PeerLink& link, const PacketHeader& header, Time now);
-  /// How early `player`'s next input came.
-  void note_arrival(int player, Time now);
+  /// How early the input of the frame before `end` came, the newest of `player`.
+  void note_arrival(int player, Frame end, Time now);
   /// Since the last turn. Then nobody knows when what is read now arrived.
   bool is_after_pause(Time now) const;
   /// All frames take longer by `stretch`, for `player`'s machine: tells the caller when that changes.

@@ -69,7 +69,7 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
     if (frame < stream.end()) continue;
     if (is_own && !entry.absent && is_open_) continue;
     if (frame > current() + config_.history / 2) return;
-    if (!noted && !is_own) note_arrival(slice.player, now);
+    if (!noted && !is_own) note_arrival(slice.player, stream.end(), now);
     noted = true;
     stream.append(entry);
   }

@@ -117,11 +117,12 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
       return;
     }
     if (frame >= current() + bounded(kMostAhead)) return;
-    if (!noted) note_arrival(slice.player, now);
+    if (!noted) note_arrival(slice.player, stream.end(), now);
     noted = true;
     seats_[slice.player].is_late = false;
     stream.append(entry);
   }
+  if (!noted) note_replaced(slice, now);
   if (reader.failed()) ++stats_.refused;
 }
 

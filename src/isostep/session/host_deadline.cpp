@@ -7,12 +7,14 @@ namespace isostep {
 void HostCore::replace_late(Time now) {
   if (config_.deadline == 0 || now < due_from_ || !is_backed_) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
+  // Of a player of whom one input was replaced and nothing came since the next is waited for as long as nobody stands:
+  // what a rollback affords in every frame.
+  const Frame patient = window() / 2 < config_.deadline ? window() / 2 : config_.deadline;
   for (int p = 0; p < players(); ++p) {
     if (is_local(p)) continue;
     Seat& seat = seats_[p];
     InputStream& stream = streams_[static_cast<std::size_t>(p)];
-    // Nobody waits for the next input of a player of whom one was replaced and nothing came since.
-    while (seat.is_open && due - stream.end() >= (seat.is_late ? 0 : config_.deadline)) {
+    while (seat.is_open && due - stream.end() >= (seat.is_late ? patient : config_.deadline)) {
       std::uint8_t buffer[kInputCap];
       slack_[p].add(stream.end() - due < -127 ? -127 : stream.end() - due);
       if (seat.replaced_end == 0) seat.replaced = stream.end();
@@ -22,6 +24,14 @@ void HostCore::replace_late(Time now) {
       ++stats_.players[p].replaced;
     }
   }
+}
+
+void HostCore::note_replaced(const InputSlice& slice, Time now) {
+  Seat& seat = seats_[slice.player];
+  const Frame end = slice.first + slice.count;
+  if (!seat.is_late || end <= seat.late_end) return;
+  seat.late_end = end;
+  note_arrival(slice.player, end, now);
 }
 
 Frame HostCore::shown_until(const Guest& guest) const {

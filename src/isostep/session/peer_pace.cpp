@@ -54,9 +54,8 @@ void PeerCore::goes_on() {
   tell(event);
 }
 
-void PeerCore::note_arrival(int player, Time now) {
+void PeerCore::note_arrival(int player, Frame end, Time now) {
   if (is_after_pause(now)) return;
-  const Frame end = streams_[static_cast<std::size_t>(player)].end();
   Frame slack = end - current();
   // Who holds us up is late by all that we wait; the others may be waiting as we are.
   if (is_blocked_ && end == known_end()) slack -= clock_.overdue(now);
