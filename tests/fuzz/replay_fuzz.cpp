@@ -2,8 +2,8 @@
 // checksums is reached too; and as a command log of a world and the facts of a bundle.
 // SPDX-License-Identifier: MIT
 //
-// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude tests/fuzz/replay_fuzz.cpp
-//         src/isostep/{geometry,state}/*.cpp scalar/src/*.cpp build/release/libisostep.a -o replay_fuzz
+// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include -Iinclude
+//         tests/fuzz/replay_fuzz.cpp src/isostep/{geometry,state}/*.cpp scalar/src/*.cpp build/release/libisostep.a -o replay_fuzz
 
 #include <cstddef>
 #include <cstdint>
