@@ -256,6 +256,7 @@ void attack_host(Script& script) {
         hello.spectator = (how & 1) != 0;
         if ((how & 2) != 0) hello.token = tokens[1 + (how >> 7)];
         if ((how & 8) != 0) hello.seat = static_cast<int>(how >> 4 & 3) - 1;
+        if ((how & 64) != 0) hello.seats = 1 + (how >> 4 & 3);
         if ((how & 4) != 0) hello.have = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial_size = script.word();
@@ -300,7 +301,7 @@ void attack_host(Script& script) {
 void attack_client(Script& script) {
   const std::uint8_t options = script.byte();
   SessionConfig config = small_config(options);
-  config.local_players = 0;
+  config.local_players = (options & 16) != 0 ? 2 : 1;
   if ((options & 8) != 0) config.mode = SessionMode::spectator;
   Side client(config);
   Time now = 1000;
@@ -333,6 +334,7 @@ void attack_client(Script& script) {
         welcome.players = 3;
         welcome.hosted = op >> 6;
         welcome.player = config.mode == SessionMode::spectator ? 0xff : op >> 4 & 3;
+        if ((op & 8) != 0) welcome.others = 2u << (op >> 4 & 3) & 7u;
         welcome.start = {client.session.confirmed(), script.byte()};
         if (here == 0) welcome.start = {0, Game{}.hash()};
         if (op >= 128) welcome.start.frame = script.frame(here);

@@ -34,18 +34,19 @@ class Chaos {
             config_, [] { return std::make_unique<Toy>(300); },
             [seed](int player, Frame frame) { return toy_input(seed, player, frame); }, seed) {
     client_ = config_;
-    client_.local_players = 0;
     spectator_ = client_;
     spectator_.mode = SessionMode::spectator;
   }
 
   void play() {
-    const int clients = config_.players - config_.local_players;
-    const int missing = clients > 1 ? static_cast<int>(random_.next() % 2) : 0;
-    for (int i = missing; i < clients; ++i) match_.add(line(), client_).returns = true;
+    // One or two players on each client.
+    int left = config_.players - config_.local_players;
+    int late = left > 2 ? static_cast<int>(random_.next() % 3) : 0;
+    left -= late;
+    while (left > 0) left -= come(left);
     pass(2 * kSecond);
     match_.host().session.start(match_.now());
-    for (int i = 0; i < missing; ++i) match_.add(line(), client_).returns = true;
+    while (late > 0) late -= come(late);
     for (int i = 0; i < 25; ++i) {
       disturb();
       pass((1 + random_.next() % 3000) * 1000);
@@ -58,6 +59,12 @@ class Chaos {
  private:
   void pass(Time time) {
     match_.run(time, [] { return false; });
+  }
+  /// A client, with so many players at most; how many it has.
+  int come(int most) {
+    client_.local_players = most > 1 ? 1 + static_cast<int>(random_.next() % 2) : 1;
+    match_.add(line(), client_).returns = true;
+    return client_.local_players;
   }
   transport::NetworkProfile line() {
     const char* const lines[] = {"loopback", "lan",       "wifi",    "mobile",    "severe",

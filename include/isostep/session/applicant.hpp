@@ -15,8 +15,9 @@ struct Applicant {
   std::uint64_t id = 0;
   PeerId peer = 0;
   bool spectator = false;
-  int seat = -1;     // that it asks for; -1: any
-  int player = -1;   // whose token it has shown; -1: nobody's
+  int seat = -1;     // that it asks for, with those after it; -1: any
+  int seats = 1;     // how many
+  int player = -1;   // whose token it has shown, the first of a machine; -1: nobody's
   Bytes credential;  // SessionConfig::credential of the client; until the session's next call
 };
 

@@ -23,7 +23,7 @@ class ClientCore : public PeerCore {
   std::optional<Address> poll_connect() override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
-  int local_player() const override { return player_; }
+  std::uint32_t local_players() const override { return own_; }
   std::uint64_t token() const override { return token_; }
   SnapshotProgress snapshot_progress(PeerId) const override {
     if (!is_restoring_) return {};
@@ -31,7 +31,7 @@ class ClientCore : public PeerCore {
   }
 
  protected:
-  bool is_local(int player) const override { return is_open_ && player == player_; }
+  bool is_local(int player) const override { return is_open_ && is_own(player); }
   Frame sends_until(int player, const PeerLink&) const override {
     return is_local(player) ? streams_[static_cast<std::size_t>(player)].end() : 0;
   }
@@ -68,7 +68,7 @@ class ClientCore : public PeerCore {
   bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {
-    return is_local(player) ? accepted_ : streams_[static_cast<std::size_t>(player)].end();
+    return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
   }
   /// Of the messages above, the next; nothing when there is none.
   std::optional<Outgoing> next_failover_message();
@@ -81,10 +81,13 @@ class ClientCore : public PeerCore {
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);
-  /// The host went on without us from this frame.
-  void cut_out(Frame frame);
-  /// What counts as our input of the first frame that is not accepted: our own, or the guess where that came too late.
-  void take_own(const InputEntry& entry);
+  bool is_own(int player) const { return (own_ >> player & 1) != 0; }
+  int seats_wished() const { return config_.local_players > 1 ? config_.local_players : 1; }
+  /// The host went on without us: from the first frames on that it has not accepted.
+  void cut_out();
+  /// What counts as our player's input of the first frame that is not accepted: its own, or the guess where that came
+  /// too late.
+  void take_own(int player, const InputEntry& entry);
   void begin_at(const HashReport& start);
   void open(Frame first);
   void lean(Time now);
@@ -104,10 +107,11 @@ class ClientCore : public PeerCore {
   std::vector<PeerId> hang_ups_;
   Failover failover_;
   bool asked_ready_ = false;
-  int player_ = -1;
+  int player_ = -1;        // the first of ours
+  std::uint32_t own_ = 0;  // ours, a bit each: they come and go together
   bool is_open_ = false;
   Frame opens_ = kNoFrame, opened_ = kNoFrame;  // the latter: as we were told before we could begin
-  Frame accepted_ = 0;                          // first frame of ours that the host lacks
+  Frame accepted_[kMaxPlayers] = {};            // first frame of each of ours that the host lacks
   std::uint64_t token_ = 0;
 
   Welcome welcome_;

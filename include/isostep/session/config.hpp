@@ -26,8 +26,10 @@ struct SessionConfig {
   SessionMode mode = SessionMode::rollback;
   bool host = false;  // others connect to us; the host fixes what was played
   int players = 2;
-  int local_players = 1;  // host: how many of the first play here (0: a dedicated host); sync test: all of them do
-  int hz = 60;            // [1/s]
+  /// Host: how many of the first play here; 0: a dedicated host. Client: for how many seats it asks, for all of them or
+  /// none; 0 is 1, and a spectator asks for none. Sync test: all of them play here.
+  int local_players = 1;
+  int hz = 60;  // [1/s]
 
   Frame window = 8;       // rollback: frames stepped on guesses; sync test: frames rolled back
   Frame delay = 2;        // [frames] an input waits at first
@@ -66,7 +68,7 @@ struct SessionConfig {
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
   /// its seat is ours again. 0: a new player.
   std::uint64_t token = 0;
-  int seat = -1;                         // client: this seat or none; -1: any
+  int seat = -1;  // client: this seat, and those after it for further players of ours, or none; -1: any
   std::vector<std::uint8_t> credential;  // client: for the host's game, at most kCredentialCap
   /// What must be equal on all peers, by name: make_replay_header(identity_of_world(...)) and what the game adds. The
   /// layout of the input is added by the session.

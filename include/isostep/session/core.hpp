@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -166,8 +167,10 @@ class SessionCore {
   virtual std::uint64_t token() const { return 0; }
   /// Of the snapshot that is under way: to us, or on a host to `peer`.
   virtual SnapshotProgress snapshot_progress(PeerId) const { return {}; }
-  /// The first player of this machine; -1: none, or none yet.
-  virtual int local_player() const { return -1; }
+  /// The players of this machine, a bit each; none yet: 0.
+  virtual std::uint32_t local_players() const { return 0; }
+  /// The first of them; -1: none.
+  int local_player() const { return local_players() == 0 ? -1 : std::countr_zero(local_players()); }
   const SessionConfig& config() const { return config_; }
   const SessionStats& stats() const { return stats_; }
   /// The next frame to be stepped.

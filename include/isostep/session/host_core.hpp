@@ -25,7 +25,7 @@ class HostCore : public PeerCore {
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void start(Time) override { must_start_ = true; }
   std::uint64_t token() const override { return own_token_; }
-  int local_player() const override { return hosted_ == 0 ? -1 : std::countr_zero(hosted_); }
+  std::uint32_t local_players() const override { return hosted_; }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
   std::optional<Applicant> poll_applicant() override;
   bool admit(std::uint64_t applicant) override;
@@ -74,7 +74,8 @@ class HostCore : public PeerCore {
     Address address;
     bool must_enroll = false;
     std::uint32_t enrolled = 0;  // the roster that it has
-    int player = -1;             // -1: a spectator
+    std::uint32_t players = 0;   // its seats, a bit each: they are taken, open and close together
+    int player = -1;             // the first of them; -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
@@ -111,23 +112,27 @@ class HostCore : public PeerCore {
   template <class Predicate> std::uint64_t group(Predicate&& is_counted) const;
   /// Is a majority with us? Without one nobody's absence is final, for the others may have another host.
   void count_backers(Time now);
-  /// Its player goes on where its inputs end, and is told those that it does not know to be final.
+  /// Its players go on where their inputs end, and are told those that they do not know to be final.
   void resume(Guest& guest);
   void greet(Guest& guest, Bytes message);
   bool is_refused(Guest& guest, const Hello& hello);
   /// As a spectator or to a seat, if there is room; else it is refused.
   bool let_in(Guest& guest);
   Guest* applicant_of(std::uint64_t number);
-  /// Whose token this is; -1: nobody's.
-  int player_of(std::uint64_t token) const;
-  /// -1: none, and the guest is refused.
-  int find_seat(Guest& guest);
+  /// Whose token this is, a bit each: a machine's players have the same.
+  std::uint32_t players_of(std::uint64_t token) const;
+  static int first_of(std::uint32_t players) { return players == 0 ? -1 : std::countr_zero(players); }
+  static bool has(const Guest& guest, int player) { return (guest.players >> player & 1) != 0; }
+  /// As many as it asks for, a bit each; 0: these are not to be had, and the guest is refused.
+  std::uint32_t find_seats(Guest& guest);
+  std::uint32_t wanted_seats(Guest& guest, std::uint32_t own);
+  std::uint32_t any_seats(Guest& guest, std::uint32_t own);
   /// A seat that clients may have.
   bool is_guests(int player) const { return player >= 0 && player < players() && !is_local(player); }
   /// Of a client's player that is neither there nor expected to come back.
   bool is_free(int player) const;
   bool is_away(int player) const;
-  void take_seat(Guest& guest, int player);
+  void take_seats(Guest& guest, std::uint32_t wanted);
   void free_seat(int player);
   /// What it says is heard no more; it is told why, and its connection ends.
   void send_away(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
@@ -135,14 +140,16 @@ class HostCore : public PeerCore {
   bool has_room_for_spectator() const;
   /// Once a turn: for how long seats are not played on, and who does not greet.
   void tend_places(Time now);
-  /// A player who acts on the welcome has read the token in it.
-  void keep_seat(Guest& guest);
+  /// Players who act on the welcome have read the token in it.
+  void keep_seats(Guest& guest);
   void go_live(Guest& guest, Frame start);
   void take_packet(Guest& guest, const Packet& packet, Time now);
   void take_inputs(Guest& guest, const InputSlice& slice, Time now);
-  void open_seat(Guest& guest, Time now);
+  void open_seats(Guest& guest, Time now);
+  /// All of its machine.
   void close_seat(int player);
-  /// Its player's seat is free for who comes next.
+  void close_seats(Guest& guest);
+  /// Its players' seats are free for who comes next.
   void unseat(Guest& guest);
   void drop(Guest& guest);
   /// Who holds the match up spends its patience of a minute, whether at once or bit by bit, and then watches.
@@ -174,7 +181,7 @@ class HostCore : public PeerCore {
   /// How many frames of each player the next datagram may bring; 0: none is due.
   Frame most_frames(const Guest& guest, Time now) const;
   void was_sent(Guest& guest, std::size_t bytes, Time now);
-  /// A player in its seat, whose inputs are awaited.
+  /// Its players are in their seats, and their inputs are awaited.
   bool is_in_match(const Guest& guest) const {
     return guest.stage == Guest::Stage::live && guest.player >= 0 && seats_[guest.player].is_open;
   }
@@ -193,7 +200,7 @@ class HostCore : public PeerCore {
   /// Lately: then what it says of that player's inputs speaks of its own.
   bool was_held_back(const Guest& guest, int player) const;
   /// How early its inputs come, as it should know it.
-  Frame told_slack(const Guest& guest) const;
+  Frame told_slack(const Guest& guest, int player) const;
   /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
   Frame slack_of(int player) const;
   /// What the numbers that are drawn are for: those of one purpose tell nothing of another's.

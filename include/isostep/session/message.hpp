@@ -30,7 +30,8 @@ enum class MessageKind : std::uint8_t {
 /// As what a client comes.
 struct Application {
   bool spectator = false;
-  int seat = -1;                   // this one or none; -1: any
+  int seat = -1;                   // this one and those after it, or none; -1: any
+  int seats = 1;                   // so many, for as many players on one machine; of a spectator without meaning
   std::uint64_t token = 0;         // from an earlier welcome: the same player again; 0: a new one
   HashReport have;                 // a state that it holds with its history: frame 0, or where it was cut off
   HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
@@ -49,13 +50,17 @@ struct Welcome {
   std::uint64_t match = 0;
   std::uint8_t players = 0;    // of the match
   std::uint32_t hosted = 0;    // of them, a bit each: who plays on the host
-  std::uint8_t player = 0xff;  // 0xff: a spectator
+  std::uint8_t player = 0xff;  // the first of the client's; 0xff: a spectator
+  std::uint32_t others = 0;    // its further players, a bit each
   std::uint64_t token = 0;
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
   std::uint32_t snapshot_from = 0;  // [bytes] that the client has: the pieces begin there
-  Frame opens = kNoFrame;           // the first frame that the player plays, when that is known already
+  Frame opens = kNoFrame;           // the first frame that its players play, when that is known already
+
+  /// The client's players, a bit each.
+  std::uint32_t seated() const { return player == 0xff ? 0 : others | 1u << player; }
 };
 
 /// Why not: the first field that differs, or a key of the session's own ("protocol", "seats", "admission", "kicked").
@@ -75,7 +80,7 @@ void write_piece(const Piece& piece, std::vector<std::uint8_t>& out);
 void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out);
 /// The client has caught up, and at least two peers agree with its states: it may play.
 void write_ready(std::vector<std::uint8_t>& out);
-/// The client's player plays from this frame on.
+/// The client's players play from this frame on.
 void write_open(Frame first, std::vector<std::uint8_t>& out);
 /// The client has this version of the roster.
 void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out);

@@ -139,6 +139,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   SnapshotProgress snapshot_progress(PeerId peer = 0) const { return core_->snapshot_progress(peer); }
   /// The first player of this machine; -1: none, or none yet.
   int local_player() const { return core_->local_player(); }
+  /// All of them, a bit each: those for whom inputs are added here. On a client they come and go together.
+  std::uint32_t local_players() const { return core_->local_players(); }
   const SessionConfig& config() const { return core_->config(); }
   const SessionStats& stats() const { return core_->stats(); }
   /// The next frame to be stepped; the game is in the state of that number.

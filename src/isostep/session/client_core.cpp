@@ -18,9 +18,8 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
   take_header(host_, header, now);
   stats_.round_trip = host_.round_trip;
-  if (player_ >= 0 && is_open_) {
-    const Frame acked = host_.acked[player_];
-    if (acked > accepted_) accepted_ = acked;
+  for (int p = 0; p < players() && is_open_; ++p) {
+    if (is_own(p) && host_.acked[p] > accepted_[p]) accepted_[p] = host_.acked[p];
   }
   if (runs_) {
     go_at_pace_of(host_.slowest, host_.stretch);
@@ -29,7 +28,7 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
     lean(now);
   }
   take_hash(kHostMachine, header.report);
-  if (header.reporter < players() && header.reporter != player_) take_hash(header.reporter, header.passed_on);
+  if (header.reporter < players() && !is_own(header.reporter)) take_hash(header.reporter, header.passed_on);
   for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(packet.slices[i], now);
   if (header.started && !runs_) {
     runs_ = true;
@@ -41,7 +40,7 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (runs_ && !knows_way_ && host_.round_trip > 0) {
     knows_way_ = true;
     // To the host, and on to the others where there are any.
-    const Time way = welcome_.players > std::popcount(welcome_.hosted) + 1 ? host_.round_trip : host_.round_trip / 2;
+    const Time way = welcome_.players > std::popcount(welcome_.hosted | own_) ? host_.round_trip : host_.round_trip / 2;
     delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
   }
   if (is_far_ && !header.is_far) lag_ = InputDelay(lag_settings(config_));
@@ -54,7 +53,7 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
     return;
   }
   InputStream& stream = streams_[slice.player];
-  const bool is_own = slice.player == player_;
+  const bool is_ours = is_own(slice.player);
   if (slice.first > stream.end()) return;
   SliceReader reader(slice);
   InputEntry entry;
@@ -65,41 +64,48 @@ void ClientCore::take_inputs(const InputSlice& slice, Time now) {
       return;
     }
     // In order: what the host took for our inputs before we know of it up to here.
-    if (is_own && is_open_ && frame == accepted_) take_own(entry);
+    if (is_ours && is_open_ && frame == accepted_[slice.player]) take_own(slice.player, entry);
     if (frame < stream.end()) continue;
-    if (is_own && !entry.absent && is_open_) continue;
+    if (is_ours && !entry.absent && is_open_) continue;
     if (frame > current() + config_.history / 2) return;
-    if (!noted && !is_own) note_arrival(slice.player, stream.end(), now);
+    if (!noted && !is_ours) note_arrival(slice.player, stream.end(), now);
     noted = true;
     stream.append(entry);
   }
   if (reader.failed()) ++stats_.refused;
 }
 
-void ClientCore::take_own(const InputEntry& entry) {
-  InputStream& stream = streams_[static_cast<std::size_t>(player_)];
-  if (entry.absent && accepted_ >= opens_) {
-    cut_out(accepted_);
+void ClientCore::take_own(int player, const InputEntry& entry) {
+  InputStream& stream = streams_[static_cast<std::size_t>(player)];
+  Frame& accepted = accepted_[player];
+  if (entry.absent && accepted >= opens_) {
+    cut_out();
     return;
   }
-  if (accepted_ == stream.end()) {
+  if (accepted == stream.end()) {
     stream.append(entry);
-  } else if (!same_input(stream.at(accepted_), entry)) {
-    stream.replace(accepted_, entry);
-    timeline_.recheck(player_, accepted_);
+  } else if (!same_input(stream.at(accepted), entry)) {
+    stream.replace(accepted, entry);
+    timeline_.recheck(player, accepted);
   }
-  host_.acked[player_] = ++accepted_;
+  host_.acked[player] = ++accepted;
 }
 
-void ClientCore::cut_out(Frame frame) {
-  streams_[static_cast<std::size_t>(player_)].truncate(frame);
-  timeline_.recheck(player_, frame);
+void ClientCore::cut_out() {
+  for (int p = 0; p < players(); ++p) {
+    if (!is_own(p)) continue;
+    streams_[static_cast<std::size_t>(p)].truncate(accepted_[p]);
+    timeline_.recheck(p, accepted_[p]);
+  }
   is_open_ = asked_ready_ = false;
 }
 
 Frame ClientCore::final_limit() const {
-  const Frame limit = PeerCore::final_limit();
-  return is_open_ && accepted_ < limit ? accepted_ : limit;
+  Frame limit = PeerCore::final_limit();
+  for (int p = 0; p < players() && is_open_; ++p) {
+    if (is_own(p) && accepted_[p] < limit) limit = accepted_[p];
+  }
+  return limit;
 }
 
 std::int64_t ClientCore::host_position(Time now) const {
@@ -156,16 +162,18 @@ void ClientCore::blocked(Time now) {
 Frame ClientCore::worst_slack() const {
   Frame worst = RecentLeast::kNothing;
   for (int p = 0; p < players(); ++p) {
-    if (p != player_ && slack_[p].value() < worst) worst = slack_[p].value();
+    if (!is_own(p) && slack_[p].value() < worst) worst = slack_[p].value();
   }
   return worst;
 }
 
 void ClientCore::observe_delay() {
   if (!is_open_ || phase_ != SessionPhase::playing) return;
-  if ((host_.reported_mask >> player_ & 1) != 0 && host_.slack[player_] != RecentLeast::kNothing) {
-    delay_.observe(host_.slack[player_]);
+  Frame least = RecentLeast::kNothing;  // of all our players: they wait alike
+  for (int p = 0; p < players(); ++p) {
+    if (is_own(p) && (host_.reported_mask >> p & 1) != 0 && host_.slack[p] < least) least = host_.slack[p];
   }
+  if (least != RecentLeast::kNothing) delay_.observe(least);
   const Frame worst = worst_slack(), before = lag_.frames();
   if (!is_far_ || worst == RecentLeast::kNothing) return;
   lag_.observe(worst);
@@ -173,7 +181,7 @@ void ClientCore::observe_delay() {
 }
 
 Frame ClientCore::early(int player) const {
-  if (player != player_) return PeerCore::early(player);
+  if (!is_own(player)) return PeerCore::early(player);
   return host_.slack[player] == RecentLeast::kNothing ? 0 : host_.slack[player];
 }
 
@@ -200,6 +208,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     Hello hello;
     hello.spectator = config_.mode == SessionMode::spectator;
     hello.seat = config_.seat;
+    hello.seats = seats_wished();
     hello.token = token_;
     hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
     if (partial_.frame != kNoFrame) {
@@ -233,9 +242,9 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   header.stretch = static_cast<std::uint8_t>(needed_stretch());
   for (int p = 0; p < players(); ++p) {
     header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
-    header.ack[p] = p == player_ && is_open_ ? accepted_ : streams_[static_cast<std::size_t>(p)].end();
+    header.ack[p] = is_own(p) && is_open_ ? accepted_[p] : streams_[static_cast<std::size_t>(p)].end();
     // Who may run later does so before it asks the others to wait.
-    const bool measures = phase_ == SessionPhase::playing && p != player_ && (!is_far_ || lag_.is_at_most());
+    const bool measures = phase_ == SessionPhase::playing && !is_own(p) && (!is_far_ || lag_.is_at_most());
     header.slack[p] = static_cast<std::int8_t>(measures ? slack_[p].value() : RecentLeast::kNothing);
   }
   return Outgoing{host_.peer, Channel::datagram, compose(host_, header, now)};

@@ -28,9 +28,10 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
     config_.mode = SessionMode::spectator;
   } else {
     player_ = std::countr_zero(retreat.players);
+    own_ = retreat.players;
     is_open_ = true;
     opens_ = 0;
-    accepted_ = streams_[static_cast<std::size_t>(player_)].end();
+    for (int p = 0; p < players(); ++p) accepted_[p] = streams_[static_cast<std::size_t>(p)].end();
   }
   seek(now);
 }

@@ -1,5 +1,6 @@
 // The client on its way into the match: the connection, the host's answer, snapshots, the seat.
 // SPDX-License-Identifier: MIT
+#include <bit>
 #include <cstring>
 
 #include "isostep/session/client_core.hpp"
@@ -141,7 +142,7 @@ void ClientCore::take_welcome(const Welcome& welcome) {
                        welcome.start.chain == partial_.chain;
   const bool fits = (welcome.snapshot_from == 0 || goes_on) && welcome.players == players() &&
                     welcome.snapshot_size <= config_.snapshot_cap &&
-                    (welcome.player != 0xff) == (config_.mode != SessionMode::spectator);
+                    std::popcount(welcome.seated()) == (config_.mode == SessionMode::spectator ? 0 : seats_wished());
   if (!fits || (welcome.snapshot_size == 0 && !has_start)) {
     runs_ = is_greeted_ = is_restoring_ = must_begin_ = failover_.seeks = false;
     leave_host();
@@ -152,6 +153,7 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   is_greeted_ = true;
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
   player_ = welcome.player == 0xff ? -1 : welcome.player;
+  own_ = welcome.seated();
   token_ = welcome.token;
   opened_ = kNoFrame;
   failover_.is_roster_old = true;
@@ -209,16 +211,16 @@ void ClientCore::begin_at(const HashReport& start) {
   }
   base_ = frame;
   near_since_ = 0;
-  const InputStream* own = player_ < 0 ? nullptr : &streams_[static_cast<std::size_t>(player_)];
-  // Behind a new host our own inputs stay what they were, from the first that it lacks on.
-  const bool keeps_own = own != nullptr && !is_restoring_ && own->begin() <= frame && welcome_.opens != kNoFrame &&
-                         own->end() >= welcome_.opens;
-  for (InputStream& stream : streams_) {
-    if (&stream != own || !keeps_own) stream.reset(frame);
+  for (int p = 0; p < players(); ++p) {
+    InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    // Behind a new host our own inputs stay what they were, from the first that it lacks on.
+    const bool is_kept = is_own(p) && !is_restoring_ && stream.begin() <= frame && welcome_.opens != kNoFrame &&
+                         stream.end() >= welcome_.opens;
+    if (!is_kept) stream.reset(frame);
+    accepted_[p] = frame;
   }
   for (View& view : views_) view = View{};
   for (bool& is_present : is_present_) is_present = false;
-  accepted_ = frame;
   clock_.forget_lean();
   lag_ = InputDelay(lag_settings(config_));
   is_far_ = knows_way_ = false;
@@ -227,29 +229,41 @@ void ClientCore::begin_at(const HashReport& start) {
   // What was ours before is told to us, and compared: see take_own.
   is_open_ = true;
   opens_ = welcome_.opens;
-  host_.acked[player_] = accepted_;
+  for (int p = 0; p < players(); ++p) {
+    if (is_own(p)) host_.acked[p] = accepted_[p];
+  }
 }
 
 void ClientCore::open(Frame first) {
-  InputStream& own = streams_[static_cast<std::size_t>(player_)];
-  asked_ready_ = false;  // where the host has closed the seat again before this came, we ask once more
-  if (is_open_ || first < own.end() || first > own.end() + config_.history / 2) {
+  asked_ready_ = false;  // where the host has closed the seats again before this came, we ask once more
+  bool is_next = !is_open_;
+  for (int p = 0; p < players(); ++p) {
+    const Frame end = streams_[static_cast<std::size_t>(p)].end();
+    is_next = is_next && (!is_own(p) || (first >= end && first <= end + config_.history / 2));
+  }
+  if (!is_next) {
     ++stats_.refused;
     return;
   }
-  own.append_absent_until(first);
+  for (int p = 0; p < players(); ++p) {
+    if (!is_own(p)) continue;
+    streams_[static_cast<std::size_t>(p)].append_absent_until(first);
+    accepted_[p] = host_.acked[p] = first;
+  }
   is_open_ = true;
-  opens_ = accepted_ = host_.acked[player_] = first;
+  opens_ = first;
 }
 
 bool ClientCore::is_vouched_for(Time now) const {
   // Until the host says that nobody plays for us, inputs of ours from before are still on their way.
-  const InputStream& own = streams_[static_cast<std::size_t>(player_)];
-  if (own.end() == own.begin() || !own.last().absent) return false;
+  for (int p = 0; p < players(); ++p) {
+    const InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    if (is_own(p) && (stream.end() == stream.begin() || !stream.last().absent)) return false;
+  }
   bool is_contradicted = false;
   int needed = 1, vouching = views_[kHostMachine].agreed >= base_ ? 1 : 0;
   for (int p = 0; p < players(); ++p) {
-    if (p == player_ || (welcome_.hosted >> p & 1) != 0) continue;
+    if (((welcome_.hosted | own_) >> p & 1) != 0) continue;
     if (!streams_[static_cast<std::size_t>(p)].last().absent) needed = 2;
     if (views_[p].agreed >= base_) ++vouching;
     is_contradicted = is_contradicted || views_[p].differs;

@@ -57,7 +57,9 @@ std::optional<Applicant> HostCore::poll_applicant() {
     if (!guest.is_connected || guest.stage != Guest::Stage::applies || guest.is_shown) continue;
     guest.is_shown = true;
     const Application& wish = guest.wish;
-    return Applicant{guest.applicant, guest.peer, wish.spectator, wish.seat, player_of(wish.token), guest.credential};
+    return Applicant{guest.applicant, guest.peer, wish.spectator,
+                     wish.seat,       wish.seats, first_of(players_of(wish.token)),
+                     guest.credential};
   }
   return std::nullopt;
 }
@@ -77,8 +79,19 @@ bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
 bool HostCore::kick(int player, std::string_view reason) {
   if (!is_guests(player) || !seats_[player].is_taken || !is_reason(reason)) return false;
   const int link = seats_[player].link;
-  if (link >= 0) send_away(guests_[static_cast<std::size_t>(link)], "kicked", {}, reason);
-  free_seat(player);
+  // Of one machine: those who are away are known by their token.
+  std::uint32_t machine = 1u << player;
+  for (int p = 0; p < players(); ++p) {
+    const bool is_away_with = link < 0 && seats_[p].link < 0 && seats_[p].proof == seats_[player].proof;
+    if (is_guests(p) && seats_[p].is_taken && is_away_with) machine |= 1u << p;
+  }
+  if (link >= 0) {
+    machine = guests_[static_cast<std::size_t>(link)].players;
+    send_away(guests_[static_cast<std::size_t>(link)], "kicked", {}, reason);
+  }
+  for (int p = 0; p < players(); ++p) {
+    if ((machine >> p & 1) != 0) free_seat(p);
+  }
   return true;
 }
 
@@ -97,14 +110,14 @@ std::optional<PeerId> HostCore::peer_of(int player) const {
 
 // --- seats ---
 
-int HostCore::player_of(std::uint64_t token) const {
-  if (token == 0) return -1;
+std::uint32_t HostCore::players_of(std::uint64_t token) const {
+  if (token == 0) return 0;
   const std::uint64_t proof = proof_of(token);
   std::uint32_t found = 0;  // a bit for each player: how long it takes tells nothing of the tokens
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     found |= (equals(proof, seats_[p].proof) | equals(proof, seats_[p].former_proof)) << p;
   }
-  return found == 0 ? -1 : std::countr_zero(found);
+  return found;
 }
 
 bool HostCore::is_free(int player) const {
@@ -119,52 +132,83 @@ bool HostCore::is_away(int player) const {
   return is_guests(player) && seats_[player].is_taken && seats_[player].link < 0;
 }
 
-int HostCore::find_seat(Guest& guest) {
-  const int own = player_of(guest.wish.token), wanted = guest.wish.seat;
+std::uint32_t HostCore::find_seats(Guest& guest) {
+  const std::uint32_t own = players_of(guest.wish.token);
   // A token that is nobody's any more may come from a player who was away for too long: new, but not refused.
-  if (own < 0 && guest.wish.token != 0) ++stats_.refused;
-  if (own >= 0 && (wanted < 0 || wanted == own)) return own;
-  if (wanted >= 0) {
-    if (own < 0 && is_free(wanted)) return wanted;
+  if (own == 0 && guest.wish.token != 0) ++stats_.refused;
+  return guest.wish.seat >= 0 ? wanted_seats(guest, own) : any_seats(guest, own);
+}
+
+std::uint32_t HostCore::wanted_seats(Guest& guest, std::uint32_t own) {
+  const int first = guest.wish.seat, end = first + guest.wish.seats;
+  const auto wanted = static_cast<std::uint32_t>(((std::uint64_t{1} << end) - 1) >> first << first);
+  const bool is_other = own != 0 && (own & wanted) == 0;
+  for (int p = first; p < end; ++p) {
+    if (p < players() && ((own >> p & 1) != 0 || (!is_other && is_free(p)))) continue;
     ShortText<kReplayValueCap> number;
-    number.append_number(static_cast<std::uint64_t>(wanted));
-    refuse(guest, "seat", number.view(), own >= 0 ? "another is yours" : is_away(wanted) ? "reserved" : "taken");
-    return -1;
+    number.append_number(static_cast<std::uint64_t>(p));
+    refuse(guest, "seat", number.view(), is_other ? "another is yours" : is_away(p) ? "reserved" : "taken");
+    return 0;
   }
+  return wanted;
+}
+
+std::uint32_t HostCore::any_seats(Guest& guest, std::uint32_t own) {
+  std::uint32_t found = 0;
+  int left = guest.wish.seats;
+  const auto take_those = [&](auto&& is_ours) {
+    for (int p = 0; p < players() && left > 0; ++p) {
+      if ((found >> p & 1) != 0 || !is_guests(p) || !is_ours(p)) continue;
+      found |= 1u << p;
+      --left;
+    }
+  };
+  take_those([&](int p) { return (own >> p & 1) != 0; });
+  take_those([&](int p) { return !seats_[p].is_taken; });
+  take_those([&](int p) { return is_free(p); });
+  if (left == 0) return found;
   bool is_reserved = false;
-  for (int p = 0; p < players(); ++p) {
-    if (is_guests(p) && !seats_[p].is_taken) return p;
-  }
-  for (int p = 0; p < players(); ++p) {
-    if (is_free(p)) return p;
-    is_reserved = is_reserved || is_away(p);
-  }
-  refuse(guest, "seats", "one more", is_reserved ? "reserved" : "all taken");
-  return -1;
+  for (int p = 0; p < players(); ++p) is_reserved = is_reserved || is_away(p);
+  ShortText<kReplayValueCap> number;
+  number.append_number(static_cast<std::uint64_t>(left));
+  refuse(guest, "seats", left == 1 ? std::string_view("one more") : number.append(" more").view(),
+         is_reserved ? "reserved" : "all taken");
+  return 0;
 }
 
-void HostCore::take_seat(Guest& guest, int player) {
-  const Seat before = seats_[player];
-  const bool is_owner = player_of(guest.wish.token) == player;
-  if (before.link >= 0) {
-    Guest& other = guests_[static_cast<std::size_t>(before.link)];
-    send_away(other, "seat", {}, is_owner ? "taken over from another address" : "not played on for too long");
+void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
+  const std::uint32_t own = players_of(guest.wish.token);
+  const std::uint64_t token = draw(Purpose::token, tokens_++);
+  for (int p = 0; p < players(); ++p) {
+    const int link = seats_[p].link;
+    const bool is_owner = (own >> p & 1) != 0;
+    if (link < 0 || ((wanted | own) >> p & 1) == 0) continue;
+    send_away(guests_[static_cast<std::size_t>(link)], "seat", {},
+              is_owner ? "taken over from another address" : "not played on for too long");
   }
-  free_seat(player);
-  Seat& seat = seats_[player];
-  seat.is_taken = true;
-  seat.link = static_cast<int>(guest.peer);
-  seat.token = draw(Purpose::token, tokens_++);
-  seat.proof = proof_of(seat.token);
-  seat.former_proof = is_owner ? proof_of(guest.wish.token) : 0;
-  seat.is_kept = is_owner && before.is_kept;
-  guest.player = player;
+  for (int p = 0; p < players(); ++p) {
+    if (((wanted | own) >> p & 1) == 0) continue;
+    const bool is_kept = seats_[p].is_kept, is_owner = (own >> p & 1) != 0;
+    free_seat(p);
+    if ((wanted >> p & 1) == 0) continue;  // it comes back with fewer players
+    Seat& seat = seats_[p];
+    seat.is_taken = true;
+    seat.link = static_cast<int>(guest.peer);
+    seat.token = token;
+    seat.proof = proof_of(token);
+    seat.former_proof = is_owner ? proof_of(guest.wish.token) : 0;
+    seat.is_kept = is_owner && is_kept;
+  }
+  guest.players = wanted;
+  guest.player = first_of(wanted);
 }
 
-void HostCore::keep_seat(Guest& guest) {
-  if (guest.player < 0 || !seats_[guest.player].is_open) return;
-  seats_[guest.player].is_kept = true;
-  seats_[guest.player].former_proof = 0;
+void HostCore::keep_seats(Guest& guest) {
+  for (int p = 0; p < players(); ++p) {
+    if (!has(guest, p) || !seats_[p].is_open) continue;
+    seats_[p].is_kept = true;
+    seats_[p].former_proof = 0;
+  }
 }
 
 void HostCore::free_seat(int player) {

@@ -91,7 +91,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 }
 
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
-  keep_seat(guest);
+  keep_seats(guest);
   take_header(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
@@ -104,7 +104,7 @@ void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
 }
 
 void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
-  if (slice.player != guest.player || !seats_[guest.player].is_open) return;
+  if (slice.player >= players() || !has(guest, slice.player) || !seats_[slice.player].is_open) return;
   InputStream& stream = streams_[slice.player];
   if (slice.first > stream.end()) return;
   SliceReader reader(slice);
@@ -133,7 +133,7 @@ Frame HostCore::horizon() const {
 Frame HostCore::sends_until(int player, const PeerLink& link) const {
   const Guest& guest = static_cast<const Guest&>(link);
   const Frame end = streams_[static_cast<std::size_t>(player)].end(), shown = shown_until(guest);
-  if (player == guest.player) return seats_[player].is_open ? seats_[player].replaced_end : end;
+  if (has(guest, player)) return seats_[player].is_open ? seats_[player].replaced_end : end;
   return shown < end ? shown : end;
 }
 
@@ -148,7 +148,7 @@ void HostCore::before_steps(Time now) {
     ++stats_.peers;
     if (now - guest.heard > config_.silence) {
       guest.must_close = true;
-      if (guest.player >= 0) close_seat(guest.player);
+      close_seats(guest);
     }
     judge_acknowledgements(guest, now);
     const bool receives = guest.stage == Guest::Stage::receives_snapshot;
@@ -159,13 +159,13 @@ void HostCore::before_steps(Time now) {
     }
     if (receives && lags) guest.must_close = true;  // others may wait for a newer one
     if (guest.stage == Guest::Stage::live && lags) {
-      if (guest.player >= 0) close_seat(guest.player);
+      close_seats(guest);
       guest.stage = Guest::Stage::needs_snapshot;
       guest.must_welcome = true;
       guest.must_open = guest.is_ready = false;
       guest.opens = kNoFrame;
     }
-    if (guest.is_ready) open_seat(guest, now);
+    if (guest.is_ready) open_seats(guest, now);
   }
   keep_roster();
   count_backers(now);
@@ -210,8 +210,11 @@ void HostCore::charge(Time now) {
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
     seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
     if (seat.lost.spent(now) < config_.patience) continue;
+    const std::uint32_t machine = guests_[static_cast<std::size_t>(seat.link)].players;
     close_seat(p);
-    seat.shut_until = now + config_.exclusion;
+    for (int q = 0; q < players(); ++q) {
+      if ((machine >> q & 1) != 0) seats_[q].shut_until = now + config_.exclusion;
+    }
   }
 }
 

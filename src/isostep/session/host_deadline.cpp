@@ -37,7 +37,13 @@ void HostCore::note_replaced(const InputSlice& slice, Time now) {
 Frame HostCore::shown_until(const Guest& guest) const {
   if (config_.deadline == 0) return kLastFrame + 1;
   // Who does not play may sit beside one who does.
-  return is_in_match(guest) ? streams_[static_cast<std::size_t>(guest.player)].end() : known_end();
+  if (!is_in_match(guest)) return known_end();
+  Frame shown = kLastFrame + 1;  // players on one machine see the same picture
+  for (int p = 0; p < players(); ++p) {
+    const Frame end = streams_[static_cast<std::size_t>(p)].end();
+    if (has(guest, p) && end < shown) shown = end;
+  }
+  return shown;
 }
 
 void HostCore::note_held_back(Guest& guest) {
@@ -50,8 +56,8 @@ bool HostCore::was_held_back(const Guest& guest, int player) const {
   return guest.held_back[player] != kNoFrame && current() - guest.held_back[player] < InputDelay::kSettling;
 }
 
-Frame HostCore::told_slack(const Guest& guest) const {
-  const Frame slack = slack_of(guest.player);
+Frame HostCore::told_slack(const Guest& guest, int player) const {
+  const Frame slack = slack_of(player);
   if (config_.deadline == 0 || slack == RecentLeast::kNothing) return slack;
   // What others do in a frame is sent when its own input is here: that has to come earlier by the way back.
   const Frame told = slack - static_cast<Frame>(guest.round_trip / 2 / clock_.period()) - 1;

@@ -55,7 +55,7 @@ void HostCore::judge_acknowledgements(Guest& guest, Time now) {
   if (now - guest.due_since <= config_.silence || is_back) return;
   ++stats_.put_out;
   guest.must_close = true;
-  if (guest.player >= 0) close_seat(guest.player);
+  close_seats(guest);
 }
 
 Frame HostCore::most_frames(const Guest& guest, Time now) const {

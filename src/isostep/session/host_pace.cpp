@@ -50,7 +50,7 @@ Frame HostCore::slack_of(int player) const {
   const Time farthest = farthest_that_counts();
   const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
   for (const Guest& guest : guests_) {
-    if (!is_in_match(guest) || guest.player == player || (guest.reported_mask >> player & 1) == 0) continue;
+    if (!is_in_match(guest) || has(guest, player) || (guest.reported_mask >> player & 1) == 0) continue;
     if (was_held_back(guest, player)) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
     // is said.
@@ -89,7 +89,7 @@ void HostCore::choose_pace(Time now) {
   for (Guest& guest : guests_) {
     const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
     if (!is_too_slow) guest.too_slow_since = now;
-    if (now - guest.too_slow_since >= kTooSlow) close_seat(guest.player);
+    if (now - guest.too_slow_since >= kTooSlow) close_seats(guest);
     if (!is_in_match(guest)) continue;
     stretch = guest.stretch < kMostStretch ? guest.stretch : kMostStretch;
     if (stretch > needed) needed = stretch;

@@ -31,7 +31,11 @@ Roster HostCore::drafted() const {
     const Seat& seat = seats_[p];
     const int before = roster_.machine_with(p);
     const bool was_in = before >= 0 && roster_.machines[before].is_in;
-    if (is_local(p) || (!seat.is_taken && !was_in)) continue;
+    const int with = seat.is_taken ? next.machine_of_proof(seat.proof) : -1;
+    if (with >= 0) next.machines[with].players |= 1u << p;
+    // A machine whose players have gone is one, as before: it is found with the first of them.
+    const bool is_first = before >= 0 && first_of(roster_.machines[before].players) == p;
+    if (is_local(p) || with >= 0 || !(seat.is_taken || (was_in && is_first))) continue;
     Roster::Machine& machine = next.machines[next.count++];
     machine.players = 1u << p;
     machine.proof = seat.proof;
@@ -122,11 +126,15 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
 }
 
 void HostCore::resume(Guest& guest) {
-  if (guest.stage != Guest::Stage::live || guest.player < 0) return;
-  Seat& seat = seats_[guest.player];
-  seat.is_open = true;
-  seat.replaced = guest.start;
-  guest.opens = seat.replaced_end = streams_[static_cast<std::size_t>(guest.player)].end();
+  if (guest.stage != Guest::Stage::live) return;
+  for (int p = 0; p < players(); ++p) {
+    if (!has(guest, p)) continue;
+    Seat& seat = seats_[p];
+    seat.is_open = true;
+    seat.replaced = guest.start;
+    seat.replaced_end = streams_[static_cast<std::size_t>(p)].end();
+    if (seat.replaced_end > guest.opens) guest.opens = seat.replaced_end;
+  }
 }
 
 }  // namespace isostep

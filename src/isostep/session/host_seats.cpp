@@ -69,9 +69,9 @@ bool HostCore::let_in(Guest& guest) {
       return false;
     }
   } else {
-    const int player = find_seat(guest);
-    if (player < 0) return false;
-    take_seat(guest, player);
+    const std::uint32_t seats = find_seats(guest);
+    if (seats == 0) return false;
+    take_seats(guest, seats);
   }
   guest.must_welcome = true;
   const HashReport& has = guest.wish.have;
@@ -103,36 +103,49 @@ void HostCore::go_live(Guest& guest, Frame start) {
   guest.must_enroll = roster_.version > 0;
 }
 
-void HostCore::open_seat(Guest& guest, Time now) {
+void HostCore::open_seats(Guest& guest, Time now) {
   if (!started_ || (guest.player >= 0 && now < seats_[guest.player].shut_until)) return;  // later
   guest.is_ready = false;
   if (guest.player < 0 || seats_[guest.player].is_open) return;
-  InputStream& stream = streams_[static_cast<std::size_t>(guest.player)];
   const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
   // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.
-  const Frame earliest = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
-  guest.opens = stream.end() > earliest ? stream.end() : earliest;
-  stream.append_absent_until(guest.opens);
+  guest.opens = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
+  for (int p = 0; p < players(); ++p) {
+    const Frame end = streams_[static_cast<std::size_t>(p)].end();
+    if (has(guest, p) && end > guest.opens) guest.opens = end;
+  }
+  for (int p = 0; p < players(); ++p) {
+    if (!has(guest, p)) continue;
+    streams_[static_cast<std::size_t>(p)].append_absent_until(guest.opens);
+    seats_[p].is_open = true;
+  }
   guest.must_open = true;
-  seats_[guest.player].is_open = true;
 }
 
 void HostCore::close_seat(int player) {
-  Seat& seat = seats_[player];
-  if (!seat.is_open) return;
-  seat.is_open = false;
-  seat.replaced_end = 0;
-  seat.is_late = false;
-  if (!started_) return;
-  slack_[player] = RecentLeast{};
+  if (seats_[player].link >= 0) close_seats(guests_[static_cast<std::size_t>(seats_[player].link)]);
+}
+
+void HostCore::close_seats(Guest& guest) {
+  for (int p = 0; p < players(); ++p) {
+    Seat& seat = seats_[p];
+    if (!has(guest, p) || !seat.is_open) continue;
+    seat.is_open = false;
+    seat.replaced_end = 0;
+    seat.is_late = false;
+    if (started_) slack_[p] = RecentLeast{};
+  }
 }
 
 void HostCore::unseat(Guest& guest) {
-  if (guest.player < 0) return;
-  close_seat(guest.player);
-  seats_[guest.player].link = -1;
-  views_[guest.player] = View{};
-  if (!seats_[guest.player].is_kept) free_seat(guest.player);
+  close_seats(guest);
+  for (int p = 0; p < players(); ++p) {
+    if (!has(guest, p)) continue;
+    seats_[p].link = -1;
+    views_[p] = View{};
+    if (!seats_[p].is_kept) free_seat(p);
+  }
+  guest.players = 0;
   guest.player = -1;
 }
 

@@ -46,6 +46,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     welcome.players = static_cast<std::uint8_t>(players());
     welcome.hosted = hosted_;
     welcome.player = guest.player < 0 ? 0xff : static_cast<std::uint8_t>(guest.player);
+    welcome.others = guest.player < 0 ? 0 : guest.players & (guest.players - 1);  // without the first
     welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
     welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};
     welcome.hash = sending ? snapshot_hash_ : 0;  // it has that state
@@ -88,14 +89,14 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
-  if (guest.player >= 0 && seats_[guest.player].is_open) {
-    const auto p = static_cast<std::size_t>(guest.player);
-    header.ack_mask = static_cast<std::uint8_t>(1u << p);
+  for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
+    if (!has(guest, p) || !seat.is_open) continue;
+    header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
     // What took the place of its own inputs it has to know before they count as had.
     if (guest.acked[p] >= seat.replaced_end) seat.replaced_end = 0;
-    header.ack[p] = seat.replaced_end > 0 ? seat.replaced : streams_[p].end();
-    header.slack[p] = static_cast<std::int8_t>(told_slack(guest));
+    header.ack[p] = seat.replaced_end > 0 ? seat.replaced : streams_[static_cast<std::size_t>(p)].end();
+    header.slack[p] = static_cast<std::int8_t>(told_slack(guest, p));
   }
   // One other machine's word on its states with every datagram, in turns.
   for (std::size_t i = 0; i < guests_.size(); ++i) {

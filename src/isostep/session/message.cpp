@@ -53,6 +53,7 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(kSessionProtocol);
   writer.write(hello.spectator);
   writer.write(static_cast<std::int8_t>(hello.seat));
+  writer.write(static_cast<std::uint8_t>(hello.seats));
   writer.write(hello.token);
   write_report(writer, hello.have);
   write_report(writer, hello.partial);
@@ -73,6 +74,10 @@ Result<Hello> read_hello(Bytes message) {
   hello.seat = reader.read<std::int8_t>();
   if (hello.seat < -1 || hello.seat >= static_cast<int>(kMaxPlayers)) {
     reader.fail(ErrorCode::invalid, "a seat out of range");
+  }
+  hello.seats = reader.read<std::uint8_t>();
+  if (hello.seats < 1 || hello.seats > static_cast<int>(kMaxPlayers)) {
+    reader.fail(ErrorCode::invalid, "seats out of range");
   }
   reader.read(hello.token);
   hello.have = read_report(reader);
@@ -95,6 +100,7 @@ void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
   writer.write(welcome.players);
   writer.write(welcome.hosted);
   writer.write(welcome.player);
+  writer.write(welcome.others);
   writer.write(welcome.token);
   write_report(writer, welcome.start);
   writer.write(welcome.hash);
@@ -110,6 +116,7 @@ Result<Welcome> read_welcome(Bytes message) {
   reader.read(welcome.players);
   reader.read(welcome.hosted);
   reader.read(welcome.player);
+  reader.read(welcome.others);
   reader.read(welcome.token);
   welcome.start = read_report(reader);
   reader.read(welcome.hash);
@@ -119,6 +126,13 @@ Result<Welcome> read_welcome(Bytes message) {
   if (welcome.players < 1 || welcome.players > kMaxPlayers || (std::uint64_t{welcome.hosted} >> welcome.players) != 0 ||
       (welcome.player >= welcome.players && welcome.player != 0xff)) {
     reader.fail(ErrorCode::invalid, "players out of range");
+  }
+  // The others come after the first, and a spectator has none.
+  const int before = welcome.player == 0xff ? 0 : welcome.player + 1;
+  const std::uint64_t seats = std::uint64_t{welcome.others} >> before << before;
+  const bool are_seats = welcome.player == 0xff ? welcome.others == 0 : seats == welcome.others;
+  if (!are_seats || (std::uint64_t{welcome.others} >> welcome.players) != 0) {
+    reader.fail(ErrorCode::invalid, "others out of range");
   }
   if (welcome.snapshot_from > welcome.snapshot_size) reader.fail(ErrorCode::invalid, "snapshot_from out of range");
   const bool plays = welcome.player != 0xff;

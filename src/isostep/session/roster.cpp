@@ -18,13 +18,14 @@ std::uint64_t proof_of(std::uint64_t token) {
   return siphash_2_4({token, 0}, kText);
 }
 
-int Roster::machine_of(std::uint64_t token) const {
-  const std::uint64_t proof = proof_of(token);
+int Roster::machine_of(std::uint64_t token) const { return token == 0 ? -1 : machine_of_proof(proof_of(token)); }
+
+int Roster::machine_of_proof(std::uint64_t proof) const {
   int found = -1;
   for (int m = 0; m < count; ++m) {
     if (machines[m].proof == proof) found = m;
   }
-  return token == 0 ? -1 : found;
+  return found;
 }
 
 int Roster::machine_with(int player) const {

@@ -20,6 +20,7 @@ Hello hello() {
   Hello hello;
   hello.spectator = true;
   hello.seat = 7;
+  hello.seats = 2;
   hello.credential = kCredential;
   hello.token = 0x1122334455667788u;
   hello.have = {1234, 0xabcdef};
@@ -33,7 +34,8 @@ Welcome welcome() {
   return {.match = 0xfeedc0de12345678u,
           .players = 4,
           .hosted = 1,
-          .player = 3,
+          .player = 2,
+          .others = 0b1000,
           .token = 7,
           .start = {kLastFrame, 9},
           .hash = 10,
@@ -49,6 +51,7 @@ TEST(Message, EachIsReadAsItWasWritten) {
   const Hello read = read_hello(bytes).value();
   EXPECT_TRUE(read.spectator);
   EXPECT_EQ(read.seat, 7);
+  EXPECT_EQ(read.seats, 2);
   EXPECT_EQ(read.token, hello().token);
   EXPECT_EQ(Buffer(read.credential.begin(), read.credential.end()), kCredential);
   EXPECT_EQ(read.have.frame, 1234);
@@ -64,7 +67,9 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(there.match, 0xfeedc0de12345678u);
   EXPECT_EQ(there.players, 4);
   EXPECT_EQ(there.hosted, 1u);
-  EXPECT_EQ(there.player, 3);
+  EXPECT_EQ(there.player, 2);
+  EXPECT_EQ(there.others, 0b1000u);
+  EXPECT_EQ(there.seated(), 0b1100u);
   EXPECT_EQ(there.token, 7u);
   EXPECT_EQ(there.start.frame, kLastFrame);
   EXPECT_EQ(there.start.chain, 9u);
@@ -124,8 +129,13 @@ TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
     return read_welcome(bytes).ok();
   };
   EXPECT_TRUE(reads([](Welcome& w) { w.players = 8; }));
-  EXPECT_TRUE(reads([](Welcome& w) { w.player = 0xff, w.opens = kNoFrame; }));
-  EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff; })) << "a spectator that plays";
+  EXPECT_TRUE(reads([](Welcome& w) { w.player = 0xff, w.others = 0, w.opens = kNoFrame; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff, w.others = 0; })) << "a spectator that plays";
+  EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff, w.opens = kNoFrame; })) << "a spectator with players";
+  EXPECT_TRUE(reads([](Welcome& w) { w.player = 0, w.others = 0b1110; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.others = 0b10000; })) << "more than play";
+  EXPECT_FALSE(reads([](Welcome& w) { w.others = 0b1100; })) << "the first once more";
+  EXPECT_FALSE(reads([](Welcome& w) { w.others = 0b1010; })) << "one before the first";
   EXPECT_FALSE(reads([](Welcome& w) { w.players = 0, w.hosted = 0; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.players = 9; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.hosted = 32; }));
@@ -155,6 +165,16 @@ TEST(Message, AHelloOfSomethingElseIsRefusedByName) {
   late.have.frame = kNoFrame;
   write_hello(late, other);
   EXPECT_FALSE(read_hello(other).ok());
+}
+
+TEST(Message, HowManySeatsIsOneAtLeast) {
+  Buffer bytes;
+  for (const int seats : {0, 1, static_cast<int>(kMaxPlayers), static_cast<int>(kMaxPlayers) + 1, 255}) {
+    Hello its = hello();
+    its.seats = seats;
+    write_hello(its, bytes);
+    EXPECT_EQ(read_hello(bytes).ok(), seats >= 1 && seats <= static_cast<int>(kMaxPlayers)) << seats;
+  }
 }
 
 TEST(Message, SeatsAndCredentialsOutOfRangeAreRefused) {
