@@ -4,6 +4,7 @@
 
 #include "isostep/session/failover.hpp"
 #include "isostep/session/peer_core.hpp"
+#include "isostep/session/repair.hpp"
 
 namespace isostep {
 
@@ -23,10 +24,11 @@ class ClientCore : public PeerCore {
   std::optional<Address> poll_connect() override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
+  bool resync() override;
   int local_player() const override { return player_; }
   std::uint64_t token() const override { return token_; }
   SnapshotProgress snapshot_progress(PeerId) const override {
-    if (!is_restoring_) return {};
+    if (!is_restoring_ && repair_.stage != Repair::Stage::receives) return {};
     return {static_cast<std::uint32_t>(portable_.size()), welcome_.snapshot_size};
   }
 
@@ -35,7 +37,8 @@ class ClientCore : public PeerCore {
   Frame sends_until(int player, const PeerLink&) const override {
     return is_local(player) ? streams_[static_cast<std::size_t>(player)].end() : 0;
   }
-  bool running() const override { return runs_; }
+  bool running() const override { return runs_ && repair_.stage != Repair::Stage::restores; }
+  Frame present() const override { return repair_.present > current() ? repair_.present : current(); }
   Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
   Frame final_limit() const override;
   bool hurries(Time now) const override;
@@ -58,7 +61,16 @@ class ClientCore : public PeerCore {
 
   // --- without a host, in client_failover.cpp ---
   bool can_fail_over() const { return config_.migration > 0 && failover_.candidate_at(0) >= 0; }
-  int own_machine() const { return failover_.roster.machine_of(token_); }
+  /// Of our two tokens the one by which the others know us, as far as we know.
+  std::uint64_t known_token() const {
+    const bool knows_former = former_token_ != 0 && failover_.roster.machine_of(token_) < 0;
+    return knows_former && failover_.roster.machine_of(former_token_) >= 0 ? former_token_ : token_;
+  }
+  int own_machine() const { return failover_.roster.machine_of(known_token()); }
+  int machine_of(const Hello& hello) const {
+    const int machine = failover_.roster.machine_of(hello.token);
+    return machine >= 0 ? machine : failover_.roster.machine_of(hello.former_token);
+  }
   void seek(Time now);
   void begin_attempt(Time now);
   void seek_on(Time now);
@@ -77,6 +89,16 @@ class ClientCore : public PeerCore {
   std::optional<Outgoing> written(PeerId to);
   /// For the candidate: into message_. False: it has all that we have.
   bool write_missing();
+
+  // --- among machines that differ, in client_resync.cpp ---
+  bool take_repair(MessageKind kind, Bytes bytes);
+  bool take_statements(const Statements& statements);
+  bool take_offer(const RepairOffer& offer);
+  /// Once a turn: hands over the state that has arrived, and lets the present go on while frames are stepped again.
+  void tend_repair(Time now);
+  void finish_repair(std::uint64_t hash);
+  std::optional<Outgoing> next_repair_message();
+
   void take_welcome(const Welcome& welcome);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
@@ -103,12 +125,15 @@ class ClientCore : public PeerCore {
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false;
   std::vector<PeerId> hang_ups_;
   Failover failover_;
+  Repair repair_;
+  Frame inquired_ = kNoFrame;  // the state of which the host asked for our hash chain
   bool asked_ready_ = false;
   int player_ = -1;
   bool is_open_ = false;
   Frame opens_ = kNoFrame, opened_ = kNoFrame;  // the latter: as we were told before we could begin
   Frame accepted_ = 0;                          // first frame of ours that the host lacks
   std::uint64_t token_ = 0;
+  std::uint64_t former_token_ = 0;  // until the roster tells of the other one, who follows the host knows only this
 
   Welcome welcome_;
   bool is_restoring_ = false;

@@ -74,6 +74,7 @@ struct Retreat {
   std::uint32_t players = 0;  // ours, a bit each
   std::uint64_t token = 0;
   std::vector<PeerId> guests;  // whose connections end
+  bool is_outvoted = false;    // our states are wrong: we need those of who follows us
 };
 
 }  // namespace isostep

@@ -20,6 +20,7 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
     : PeerCore(std::move(host)),
       hang_ups_(std::move(retreat.guests)),
       token_(retreat.token),
+      is_spoiled_(retreat.is_outvoted),
       lag_(lag_settings(config_)) {
   config_.host = false;
   failover_.roster = retreat.roster;
@@ -47,7 +48,7 @@ void ClientCore::begin_attempt(Time now) {
   const int machine = failover_.candidate_at(failover_.attempt);
   const bool is_own = machine == own_machine();
   failover_.until = now + kAttempt;
-  failover_.is_candidate = is_own && is_open_;
+  failover_.is_candidate = is_own && is_open_ && !is_outvoted(static_cast<std::size_t>(player_));
   failover_.elected_at = 0;
   failover_.must_support = failover_.must_tell_roster = false;
   failover_.must_connect = !is_own && machine >= 0;
@@ -104,7 +105,7 @@ std::optional<Address> ClientCore::poll_connect() {
 
 std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
   if (!failover_.seeks || !failover_.is_elected) return nullptr;
-  Succession succession{failover_.roster, own_machine(), token_, std::move(failover_.callers)};
+  Succession succession{failover_.roster, own_machine(), known_token(), std::move(failover_.callers)};
   return std::make_unique<HostCore>(std::move(*this), std::move(succession), now);
 }
 
@@ -156,7 +157,7 @@ void ClientCore::take_call(PeerId peer, Channel channel, Bytes bytes, Time now) 
     if (const Result<Hello> hello = read_hello(bytes)) {
       good = true;
       caller->hello.assign(bytes.begin(), bytes.end());
-      caller->machine = failover_.roster.machine_of(hello.value().token);
+      caller->machine = machine_of(hello.value());
       caller->must_tell_roster = caller->must_ask = failover_.is_candidate && caller->machine >= 0;
     }
   } else if (kind && failover_.is_candidate && caller->machine >= 0) {
@@ -184,7 +185,7 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Tim
   failover_.roster = roster.value();
   for (Caller& each : failover_.callers) {
     if (each.hello.empty()) continue;
-    each.machine = failover_.roster.machine_of(read_hello(each.hello).value().token);
+    each.machine = machine_of(read_hello(each.hello).value());
     each.supports = false;
     each.must_tell_roster = each.must_ask = each.machine >= 0;
   }

@@ -69,8 +69,9 @@ void HostCore::count_backers(Time now) {
 }
 
 std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
-  if (is_backed_ || now - backed_at_ <= config_.migration + kDeposed) return nullptr;
-  Retreat retreat{roster_, hosted_, own_token_, {}};
+  const bool steps_down = steps_down_at_ != 0 && now >= steps_down_at_;
+  if (!steps_down && (is_backed_ || now - backed_at_ <= config_.migration + kDeposed)) return nullptr;
+  Retreat retreat{roster_, hosted_, own_token_, {}, steps_down};
   for (const Guest& guest : guests_) {
     if (guest.is_connected) retreat.guests.push_back(guest.peer);
   }
@@ -98,7 +99,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     }
   }
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
-  for (View& view : views_) view = View{};
+  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   started_ = true;
   began_ = turn_at_ = backed_at_ = now;
   clock_.forget_lean();

@@ -52,6 +52,7 @@ void HostCore::greet(Guest& guest, Bytes message) {
   const Hello& hello = read.value();
   if (is_refused(guest, hello)) return;
   guest.wish = hello;
+  if (player_of(hello.token) < 0 && player_of(hello.former_token) >= 0) guest.wish.token = hello.former_token;
   guest.address = hello.address;
   if (!config_.asks_admission) {
     let_in(guest);
@@ -131,7 +132,8 @@ void HostCore::unseat(Guest& guest) {
   if (guest.player < 0) return;
   close_seat(guest.player);
   seats_[guest.player].link = -1;
-  views_[guest.player] = View{};
+  was_repaired(static_cast<std::size_t>(guest.player), kNoFrame);
+  inquiry_.differing &= ~(std::uint64_t{1} << guest.player);
   if (!seats_[guest.player].is_kept) free_seat(guest.player);
   guest.player = -1;
 }

@@ -54,6 +54,7 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(hello.spectator);
   writer.write(static_cast<std::int8_t>(hello.seat));
   writer.write(hello.token);
+  writer.write(hello.former_token);
   write_report(writer, hello.have);
   write_report(writer, hello.partial);
   writer.write(hello.partial_size);
@@ -75,6 +76,7 @@ Result<Hello> read_hello(Bytes message) {
     reader.fail(ErrorCode::invalid, "a seat out of range");
   }
   reader.read(hello.token);
+  reader.read(hello.former_token);
   hello.have = read_report(reader);
   hello.partial = read_report(reader);
   reader.read(hello.partial_size);
@@ -229,7 +231,7 @@ Result<Address> read_redirect(Bytes message) {
 }
 
 Result<MessageKind> message_kind(Bytes message) {
-  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::redirect);
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::repaired);
   if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }
