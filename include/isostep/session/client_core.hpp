@@ -61,23 +61,21 @@ class ClientCore : public PeerCore {
 
   // --- without a host, in client_failover.cpp ---
   bool can_fail_over() const { return config_.migration > 0 && failover_.candidate_at(0) >= 0; }
-  /// Of our two tokens the one by which the others know us, as far as we know.
-  std::uint64_t known_token() const {
-    const bool knows_former = former_token_ != 0 && failover_.roster.machine_of(token_) < 0;
-    return knows_former && failover_.roster.machine_of(former_token_) >= 0 ? former_token_ : token_;
-  }
-  int own_machine() const { return failover_.roster.machine_of(known_token()); }
-  int machine_of(const Hello& hello) const {
-    const int machine = failover_.roster.machine_of(hello.token);
-    return machine >= 0 ? machine : failover_.roster.machine_of(hello.former_token);
-  }
+  int own_machine() const { return failover_.roster.machine_of(token_); }
   void seek(Time now);
   void begin_attempt(Time now);
   void seek_on(Time now);
   void stop_seeking();
   void tend_callers(Time now);
   void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
-  bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
+  bool take_support(Caller& caller, MessageKind kind, Bytes bytes);
+  /// Inputs that we lack as a candidate, as this machine tells them; false: it cannot be.
+  bool take_known(const InputSlice& slice, int machine);
+  /// A player's machine knows all inputs that the host can have had of it, and its word counts more than another's; but
+  /// with a deadline the host plays what none of them said.
+  bool owns_inputs() const { return config_.deadline == 0; }
+  /// Inputs of players who support us, and which only others know.
+  void forget_untold();
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {
     return is_local(player) ? accepted_ : streams_[static_cast<std::size_t>(player)].end();
@@ -133,7 +131,6 @@ class ClientCore : public PeerCore {
   Frame opens_ = kNoFrame, opened_ = kNoFrame;  // the latter: as we were told before we could begin
   Frame accepted_ = 0;                          // first frame of ours that the host lacks
   std::uint64_t token_ = 0;
-  std::uint64_t former_token_ = 0;  // until the roster tells of the other one, who follows the host knows only this
 
   Welcome welcome_;
   bool is_restoring_ = false;

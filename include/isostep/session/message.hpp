@@ -38,7 +38,6 @@ struct Application {
   bool spectator = false;
   int seat = -1;                   // this one or none; -1: any
   std::uint64_t token = 0;         // from an earlier welcome: the same player again; 0: a new one
-  std::uint64_t former_token = 0;  // what it had before: a host that follows another may know no newer one
   HashReport have;                 // a state that it holds with its history: frame 0, or where it was cut off
   HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
   std::uint32_t partial_size = 0;  // [bytes] so many; 0: of none

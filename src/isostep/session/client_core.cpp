@@ -204,7 +204,6 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     hello.spectator = config_.mode == SessionMode::spectator;
     hello.seat = config_.seat;
     hello.token = token_;
-    hello.former_token = former_token_;
     hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
     if (partial_.frame != kNoFrame) {
       hello.partial = partial_;

@@ -157,7 +157,6 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
   repair_ = Repair{};
   player_ = welcome.player == 0xff ? -1 : welcome.player;
-  if (welcome.token != token_) former_token_ = known_token();
   token_ = welcome.token;
   opened_ = kNoFrame;
   failover_.is_roster_old = true;

@@ -154,9 +154,11 @@ void HostCore::take_seat(Guest& guest, int player) {
   Seat& seat = seats_[player];
   seat.is_taken = true;
   seat.link = static_cast<int>(guest.peer);
-  seat.token = draw(Purpose::token, tokens_++);
+  // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
+  const bool keeps_token = is_owner && config_.migration > 0;
+  seat.token = keeps_token ? guest.wish.token : draw(Purpose::token, tokens_++);
   seat.proof = proof_of(seat.token);
-  seat.former_proof = is_owner ? proof_of(guest.wish.token) : 0;
+  seat.former_proof = is_owner && !keeps_token ? proof_of(guest.wish.token) : 0;
   seat.is_kept = is_owner && before.is_kept;
   guest.player = player;
 }

@@ -59,6 +59,11 @@ void HostCore::keep_roster() {
   const Roster next = drafted();
   if (same_roster(next, roster_)) return;
   roster_ = next;
+  for (int m = 0; m < roster_.count; ++m) {
+    const int player = std::countr_zero(roster_.machines[m].players);
+    const std::uint64_t token = m == roster_.host ? own_token_ : seats_[player].token;
+    roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, message_);
+  }
   for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
 }
 

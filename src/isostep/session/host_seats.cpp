@@ -52,7 +52,6 @@ void HostCore::greet(Guest& guest, Bytes message) {
   const Hello& hello = read.value();
   if (is_refused(guest, hello)) return;
   guest.wish = hello;
-  if (player_of(hello.token) < 0 && player_of(hello.former_token) >= 0) guest.wish.token = hello.former_token;
   guest.address = hello.address;
   if (!config_.asks_admission) {
     let_in(guest);

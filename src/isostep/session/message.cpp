@@ -54,7 +54,6 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(hello.spectator);
   writer.write(static_cast<std::int8_t>(hello.seat));
   writer.write(hello.token);
-  writer.write(hello.former_token);
   write_report(writer, hello.have);
   write_report(writer, hello.partial);
   writer.write(hello.partial_size);
@@ -76,7 +75,6 @@ Result<Hello> read_hello(Bytes message) {
     reader.fail(ErrorCode::invalid, "a seat out of range");
   }
   reader.read(hello.token);
-  reader.read(hello.former_token);
   hello.have = read_report(reader);
   hello.partial = read_report(reader);
   reader.read(hello.partial_size);
