@@ -1,4 +1,5 @@
-// Hosts that die, stand still and return, drawn from a seed: the match has one host and one history in the end.
+// Hosts that die, stand still and return, and states that go wrong, drawn from a seed: in the end the match has one
+// host and one history.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
@@ -51,7 +52,7 @@ class MigrationChaos {
     }
     return all;
   }
-  int killed_hosts = 0;
+  int killed_hosts = 0, damages = 0;
 
  private:
   /// A game whose session has lost the match asks its lobby where that is.
@@ -88,11 +89,20 @@ class MigrationChaos {
     for (std::size_t i = 0; i < match_.size(); ++i) count += match_.machine(i).plays ? 0 : 1;
     return count;
   }
+  /// One and the same all the time, so that the others are a majority.
+  std::size_t fragile() const { return match_.size() - 1; }
+  void damage(Machine<Toy>& machine) {
+    ++damages;
+    const Frame at = machine.session.current() + 5;
+    machine.tamper = [at](Toy& game, Frame frame) {
+      if (frame == at) game.state.places[3] ^= 8;
+    };
+  }
   void disturb() {
     const std::size_t host = living_host();
     const std::size_t any = random_.next() % match_.size();
     const bool may_fail = 2 * (ill() + 1) < match_.size() && host < match_.size();
-    switch (random_.next() % 6) {
+    switch (random_.next() % 7) {
       case 0:
       case 1:  // the host's process or its line; it may be back before anybody has missed it
         if (!may_fail) break;
@@ -103,7 +113,10 @@ class MigrationChaos {
       case 2:  // a client
         if (may_fail && any != host) match_.machine(any).plays = false;
         break;
-      case 3:  // a line that breaks
+      case 3:  // a bit of a client's memory
+        if (config_.repair && may_fail && fragile() != host) damage(match_.machine(fragile()));
+        break;
+      case 4:  // a line that breaks
         match_.network().cut(match_.machine(any).endpoint);
         break;
       default:
@@ -118,12 +131,13 @@ class MigrationChaos {
 };
 
 TEST(MigrationChaos, EndsWithOneHostOneHistoryAndEverybodyBack) {
-  int killed = 0, new_hosts = 0, deposed = 0;
+  int killed = 0, new_hosts = 0, deposed = 0, damages = 0, repairs = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     MigrationChaos chaos(seed);
     chaos.play();
     killed += chaos.killed_hosts;
+    damages += chaos.damages;
     VirtualMatch<Toy>& match = chaos.match();
     const std::vector<std::size_t> hosts = chaos.hosts();
     ASSERT_EQ(hosts.size(), 1u);
@@ -139,6 +153,7 @@ TEST(MigrationChaos, EndsWithOneHostOneHistoryAndEverybodyBack) {
       seats.push_back(machine.session.local_player());
       new_hosts += machine.session.config().host && i != 0 ? 1 : 0;
       deposed += machine.count(SessionEvent::Kind::deposed);
+      repairs += machine.count(SessionEvent::Kind::repaired, machine.session.local_player());
       // What an old host confirmed alone may be otherwise in the match that went on; the newest frames are everybody's.
       const Frame end = std::min(machine.end(), host.end());
       EXPECT_GT(end, host.end() - 40);
@@ -156,6 +171,8 @@ TEST(MigrationChaos, EndsWithOneHostOneHistoryAndEverybodyBack) {
   EXPECT_GT(killed, 40);
   EXPECT_GT(new_hosts, 10);
   EXPECT_GT(deposed, 10);
+  EXPECT_GT(damages, 10);
+  EXPECT_GT(repairs, 5);
 }
 
 }  // namespace

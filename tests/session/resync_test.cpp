@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "isostep/session/verdict.hpp"
 #include "session/altered_packet.hpp"
 #include "session/bulky_game.hpp"
 #include "session/pace_watch.hpp"
@@ -29,26 +28,6 @@ template <class Game> void damage(Machine<Game>& machine, int place = 5, Frame f
 int name_of(VirtualMatch<Toy>& match, std::size_t machine) { return machine == 0 ? 0xff : match.machine(machine).seat; }
 
 // --- the verdict ---
-
-Statements said(std::initializer_list<std::uint64_t> chains) {
-  Statements statements;
-  std::size_t machine = 0;
-  for (const std::uint64_t chain : chains) statements.of[machine++] = {true, chain != 0, chain};
-  return statements;
-}
-
-TEST(Judge, NamesWhoDiffersFromMoreThanHalfOfAllThatWereAsked) {
-  EXPECT_FALSE(judge(said({})).is_decided);
-  EXPECT_FALSE(judge(said({7, 8})).is_decided) << "two";
-  EXPECT_FALSE(judge(said({7, 7, 8, 8})).is_decided) << "two against two";
-  EXPECT_FALSE(judge(said({7, 8, 9})).is_decided) << "three opinions";
-  EXPECT_FALSE(judge(said({7, 7, 8, 0})).is_decided) << "who is silent may be of another opinion";
-  EXPECT_EQ(judge(said({7, 8, 7})).minority, 2u);
-  EXPECT_EQ(judge(said({8, 7, 7, 9, 7})).minority, 9u);
-  EXPECT_EQ(judge(said({7, 7, 0, 8, 7})).minority, 8u) << "who is silent is not wrong";
-  EXPECT_EQ(judge(said({7, 7, 7})).minority, 0u);
-  EXPECT_TRUE(judge(said({7, 7, 7})).is_decided);
-}
 
 class VerdictOfAMatch : public testing::TestWithParam<std::tuple<SessionMode, int>> {};
 INSTANTIATE_TEST_SUITE_P(Modes, VerdictOfAMatch,
