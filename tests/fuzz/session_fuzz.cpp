@@ -9,6 +9,8 @@
 #include <deque>
 #include <map>
 
+#include "isostep/session/repair.hpp"
+#include "isostep/session/verdict.hpp"
 #include "unit/session/hostile.hpp"
 
 namespace {
@@ -85,6 +87,25 @@ void parse(Bytes bytes) {
   if (const Result<Piece> piece = read_piece(bytes)) require(piece.value().bytes.size() <= bytes.size());
   (void)read_progress(bytes).ok();
   if (const Result<Frame> open = read_open(bytes)) require(open.value() >= 0 && open.value() <= kLastFrame);
+  if (const Result<Frame> state = read_inquiry(bytes)) require(state.value() >= 0 && state.value() <= kLastFrame);
+  if (const Result<Statement> read = read_statement(bytes)) require(read.value().frame >= 0);
+  if (const Result<Statements> read = read_statements(bytes)) {
+    const Verdict verdict = judge(read.value());
+    require(verdict.minority >> kMachines == 0 && (verdict.is_decided || verdict.minority == 0));
+  }
+  if (const Result<RepairOffer> read = read_offer(bytes)) require(read.value().start.frame >= 0);
+  if (const Result<Repaired> read = read_repaired(bytes)) require(read.value().after >= 0);
+  if (const Result<Roster> read = read_roster(bytes)) {
+    const Roster& roster = read.value();
+    require(roster.count <= kMaxPlayers + 1 && roster.host < roster.count && roster.version > 0);
+    Buffer again;
+    write_roster(roster, again);
+    require(again.size() == bytes.size());
+  }
+  if (const Result<Candidate> read = read_candidate(bytes)) require(read.value().ends[0] >= 0);
+  (void)read_known(bytes).ok();
+  (void)read_support(bytes).ok();
+  (void)read_redirect(bytes).ok();
 }
 
 // --- live ---
@@ -102,6 +123,7 @@ SessionConfig small_config(std::uint8_t options) {
   config.reservation = kSecond;
   config.silence = config.patience = kSecond / 2;
   config.most_packets = (options & 4) != 0 ? 120 : 1000000;
+  config.repair = (options & 32) != 0;
   return config;
 }
 
@@ -126,7 +148,8 @@ struct Side {
     const bool runs = session.phase() == SessionPhase::playing || session.phase() == SessionPhase::watching;
     require(!runs || session.confirmed() <= session.current());
     while (const std::optional<SessionEvent> event = session.poll_event()) {
-      if (event->kind == SessionEvent::Kind::desync) named |= event->player == 0xff ? 256u : 1u << event->player;
+      const bool names = event->kind == SessionEvent::Kind::desync || event->kind == SessionEvent::Kind::outvoted;
+      if (names) named |= event->player == 0xff ? 256u : 1u << event->player;
     }
   }
   Session<Game> session;
@@ -174,6 +197,36 @@ Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::uint8_t
     writer.add_slice(who < 160 ? player : who % 8, stream, first);
   }
   return Buffer(writer.bytes().begin(), writer.bytes().end());
+}
+
+/// Of states: what a client says of its own, or a host of all.
+Buffer any_word_of_states(Script& script, Frame now, bool from_host) {
+  Buffer bytes;
+  const std::uint8_t how = script.byte();
+  if (how % 3 == 0) {
+    write_repaired({from_host ? static_cast<std::uint8_t>(script.byte() % 4) : std::uint8_t{0xff}, script.frame(now)},
+                   bytes);
+  } else if (!from_host && how % 3 == 1) {
+    write_resync(bytes);
+  } else if (!from_host) {
+    write_statement({script.frame(now), script.byte() < 200, script.byte()}, bytes);
+  } else if (how < 40) {
+    write_inquiry(script.frame(now), bytes);
+  } else if (how < 150) {
+    Statements statements;
+    statements.frame = script.frame(now);
+    for (std::size_t m = 0; m < kMachines; ++m) {
+      const std::uint8_t what = script.byte();
+      statements.of[m] = {what < 160, what < 120, what % 3};
+    }
+    write_statements(statements, bytes);
+  } else {
+    write_offer({{script.frame(now), script.byte()},
+                 script.byte() < 128 ? Game{}.hash() : 1,
+                 script.byte() < 200 ? script.byte() : script.word()},
+                bytes);
+  }
+  return bytes;
 }
 
 /// A host with one honest client, peer 0; peers 1 and 2 do what the script says.
@@ -271,8 +324,9 @@ void attack_host(Script& script) {
         const std::uint8_t how = script.byte();
         if (how % 8 == 0) host.session.disconnected(peer, now);
         if (how % 8 == 4) (void)host.session.kick_peer(peer, "");
-        if (how % 4 == 1) write_progress(script.word(), bytes);
-        if (how % 4 > 1) write_ready(bytes);
+        if (how % 4 == 1) write_progress(how < 128 ? script.byte() * 256u : script.word(), bytes);
+        if (how % 4 == 2) write_ready(bytes);
+        if (how % 4 == 3) bytes = any_word_of_states(script, host.session.current(), false);
         host.session.receive(peer, Channel::reliable, bytes, now);
         break;
       }
@@ -366,7 +420,9 @@ void attack_client(Script& script) {
         break;
       }
       case 6:
-        write_open(script.frame(here), bytes);
+        if (op < 100) write_open(script.frame(here), bytes);
+        else bytes = any_word_of_states(script, here, true);
+        if (op % 7 == 0) (void)client.session.resync();
         hear(Channel::reliable, bytes);
         break;
       case 7:
@@ -379,13 +435,91 @@ void attack_client(Script& script) {
   }
 }
 
+/// A client whose host is gone, and that may follow it: three callers say what the script says.
+void attack_candidate(Script& script) {
+  const std::uint8_t options = script.byte();
+  SessionConfig config = small_config(options);
+  config.local_players = 0;
+  config.migration = kSecond / 2;
+  config.address = "1";
+  config.seed = 7;
+  Side client(config);
+  Time now = 1000;
+  const auto ignore = [](const Outgoing&) {};
+  client.turn(now, ignore);
+  client.session.connected(0, now);
+  client.turn(now, ignore);
+  Buffer bytes, scratch;
+  Welcome welcome{.match = 9, .players = 3, .hosted = 1, .player = 1, .token = 101};
+  welcome.start = {0, Game{}.hash()};
+  welcome.opens = 0;
+  write_welcome(welcome, bytes);
+  client.session.receive(0, Channel::reliable, bytes, now);
+  Roster roster;
+  roster.version = 3;
+  roster.count = 3;
+  for (std::uint8_t m = 0; m < 3; ++m) roster.machines[m] = {1u << m, proof_of(100u + m), true, true, "1", 0};
+  for (std::uint8_t m = 0; m < 3; ++m) roster.machines[m].seal = seal_of(roster, 100u + m, scratch);
+  write_roster(roster, bytes);
+  client.session.receive(0, Channel::reliable, bytes, now);
+  for (int step = 0; step < 400 && !script.over(); ++step) {
+    const std::uint8_t op = script.byte();
+    const PeerId peer = static_cast<PeerId>(op >> 6);
+    const Frame here = client.session.current();
+    bytes.clear();
+    switch (op % 10) {
+      case 0:
+      case 1:
+        for (int turns = 1 + (op >> 4) % 4; turns > 0; --turns) {
+          now += op % 10 == 0 ? 17000 : 90000;
+          client.turn(now, ignore);
+        }
+        break;
+      case 2: client.session.connected(peer, now, true); break;
+      case 3: {
+        Hello hello = hostile::hello_of(config);
+        hello.token = 100u + script.byte() % 4;
+        hello.have = {script.frame(here), script.byte()};
+        write_hello(hello, bytes);
+        client.session.receive(peer, Channel::reliable, bytes, now);
+        break;
+      }
+      case 4:
+        write_support(2u + script.byte() % 3, bytes);
+        client.session.receive(peer, Channel::reliable, bytes, now);
+        break;
+      case 5: {
+        Roster other = roster;
+        other.version = script.byte() % 8 + 1u;
+        other.count = static_cast<std::uint8_t>(1 + script.byte() % 3);
+        other.host = 0;
+        if (script.byte() < 128) other.machines[1].seal = seal_of(other, 101, scratch);
+        write_roster(other, bytes);
+        client.session.receive(peer, Channel::reliable, bytes, now);
+        break;
+      }
+      case 6:
+      case 7:
+        write_known(any_datagram(script, 9, here, op >> 4 & 3), bytes);
+        client.session.receive(peer, Channel::reliable, bytes, now);
+        break;
+      case 8:
+        if (op < 200) client.session.receive(peer, Channel::reliable, script.some(script.byte()), now);
+        else client.session.disconnected(peer, now);
+        break;
+      default: client.session.receive(peer, Channel::datagram, any_datagram(script, 9, here, op >> 4 & 3), now); break;
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Script script(data, size);
-  switch (script.byte() % 4) {
+  switch (script.byte() % 5) {
     case 0: attack_host(script); break;
     case 1: attack_client(script); break;
+    case 2: attack_candidate(script); break;
     default: parse(script.rest());
   }
   return 0;

@@ -47,11 +47,12 @@ inline void expect_no_desync(std::initializer_list<const Peer*> peers) {
   for (const Peer* peer : peers) EXPECT_FALSE(peer->heard(Kind::desync));
 }
 
-/// Host, one honest client, and a seat for the hostile one.
+/// Host, honest clients, and a seat for the hostile one.
 struct Scene {
   explicit Scene(const SessionConfig& its_config = three_players(), std::size_t ballast = 40000)
       : config(its_config), match(make_match(its_config, ballast)) {
     honest = &match.add(lan());
+    for (int p = 3; p < config.players; ++p) match.add(lan());
   }
   SessionConfig client_config() const {
     SessionConfig client = config;
@@ -89,8 +90,8 @@ struct SeatedRogue : Scene {
     header.match = rogue.welcome.match;
     header.frame = rogue.host_frame;
     header.started = true;
-    header.ack_mask = 7;  // who acknowledges nothing is put out
-    for (const int p : {0, 1, 2}) header.ack[p] = rogue.ends[p];
+    header.ack_mask = static_cast<std::uint8_t>((1u << config.players) - 1);  // who acknowledges nothing is put out
+    for (int p = 0; p < config.players; ++p) header.ack[p] = rogue.ends[p];
     if (change) change(header);
     std::uint8_t buffer[kDatagramCap];
     PacketWriter writer(header, buffer);

@@ -4,6 +4,7 @@
 
 #include "isostep/session/failover.hpp"
 #include "isostep/session/peer_core.hpp"
+#include "isostep/session/repair.hpp"
 
 namespace isostep {
 
@@ -23,10 +24,11 @@ class ClientCore : public PeerCore {
   std::optional<Address> poll_connect() override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
+  bool resync() override;
   std::uint32_t local_players() const override { return own_; }
   std::uint64_t token() const override { return token_; }
   SnapshotProgress snapshot_progress(PeerId) const override {
-    if (!is_restoring_) return {};
+    if (!is_restoring_ && repair_.stage != Repair::Stage::receives) return {};
     return {static_cast<std::uint32_t>(portable_.size()), welcome_.snapshot_size};
   }
 
@@ -35,7 +37,8 @@ class ClientCore : public PeerCore {
   Frame sends_until(int player, const PeerLink&) const override {
     return is_local(player) ? streams_[static_cast<std::size_t>(player)].end() : 0;
   }
-  bool running() const override { return runs_; }
+  bool running() const override { return runs_ && repair_.stage != Repair::Stage::restores; }
+  Frame present() const override { return repair_.present > current() ? repair_.present : current(); }
   Frame window() const override { return is_open_ ? PeerCore::window() : 0; }
   Frame final_limit() const override;
   bool hurries(Time now) const override;
@@ -65,7 +68,14 @@ class ClientCore : public PeerCore {
   void stop_seeking();
   void tend_callers(Time now);
   void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
-  bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
+  bool take_support(Caller& caller, MessageKind kind, Bytes bytes);
+  /// Inputs that we lack as a candidate, as this machine tells them; false: it cannot be.
+  bool take_known(const InputSlice& slice, int machine);
+  /// A player's machine knows all inputs that the host can have had of it, and its word counts more than another's; but
+  /// with a deadline the host plays what none of them said.
+  bool owns_inputs() const { return config_.deadline == 0; }
+  /// Inputs of players who support us, and which only others know.
+  void forget_untold();
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {
     return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
@@ -77,6 +87,16 @@ class ClientCore : public PeerCore {
   std::optional<Outgoing> written(PeerId to);
   /// For the candidate: into message_. False: it has all that we have.
   bool write_missing();
+
+  // --- among machines that differ, in client_resync.cpp ---
+  bool take_repair(MessageKind kind, Bytes bytes);
+  bool take_statements(const Statements& statements);
+  bool take_offer(const RepairOffer& offer);
+  /// Once a turn: hands over the state that has arrived, and lets the present go on while frames are stepped again.
+  void tend_repair(Time now);
+  void finish_repair(std::uint64_t hash);
+  std::optional<Outgoing> next_repair_message();
+
   void take_welcome(const Welcome& welcome);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
@@ -106,6 +126,8 @@ class ClientCore : public PeerCore {
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false;
   std::vector<PeerId> hang_ups_;
   Failover failover_;
+  Repair repair_;
+  Frame inquired_ = kNoFrame;  // the state of which the host asked for our hash chain
   bool asked_ready_ = false;
   int player_ = -1;        // the first of ours
   std::uint32_t own_ = 0;  // ours, a bit each: they come and go together

@@ -63,6 +63,9 @@ struct SessionConfig {
   /// machines, and each that may follow has an address and a seed.
   Time migration = 0;
   Address address;  // where the others' transports reach ours: text for SessionCore::poll_connect of theirs
+  /// Whose states a majority calls wrong takes the host's again by itself, see Session::resync; a host whose own are
+  /// called so gives way to another machine, with `migration`.
+  bool repair = false;
   Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
   bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:

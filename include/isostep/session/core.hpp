@@ -60,7 +60,10 @@ struct SessionEvent {
     new_host,      // frame: where it goes on; player: the first of the host's, 0xff when it has none
     deposed,       // host: the others went on without us, or have gone: we seek their host
     desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
-    bad_snapshot,  // the state that arrived does not have the host's hash, or was refused: error
+    outvoted,      // player's states are wrong, as of state `frame`: more than half of all machines have others
+    undecided,     // machines differ in state `frame`, and no majority says who is wrong
+    repaired,      // player has a state of the host's again; its states are compared from the one after `frame` on
+    bad_snapshot,  // the state that arrived does not have the host's hash, or was refused, or the host has none: error
     misuse,        // requests of the last advance were not carried out
     unhashed       // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
   };
@@ -69,7 +72,7 @@ struct SessionEvent {
   Frame frame = kNoFrame;
   Frame agreed = kNoFrame;
   std::uint32_t players = 0;
-  std::uint64_t ours = 0, theirs = 0;  // desync: hash chains
+  std::uint64_t ours = 0, theirs = 0;  // hash chains; outvoted: player's and the majority's
   Refusal field{};
 };
 
@@ -141,6 +144,7 @@ class SessionCore {
   virtual void restored(bool) {}
   /// The outcome of `probe`: the hash does not see this byte of the portable state `state`.
   virtual void unhashed(Frame, std::size_t) {}
+  virtual bool resync() { return false; }
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
 

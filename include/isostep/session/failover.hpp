@@ -36,6 +36,8 @@ struct Failover {
   bool is_candidate = false;
   Time elected_at = 0;  // [us] when we had a majority; 0: not yet
   bool is_elected = false;
+  // Candidate: where the inputs end that we have of the host, and those that the players' own machines told us since.
+  Frame ends[kMaxPlayers] = {}, told[kMaxPlayers] = {};
   bool must_connect = false;
   Address target;
   std::vector<Caller> callers;  // by PeerId
@@ -74,6 +76,7 @@ struct Retreat {
   std::uint32_t players = 0;  // ours, a bit each
   std::uint64_t token = 0;
   std::vector<PeerId> guests;  // whose connections end
+  bool is_outvoted = false;    // our states are wrong: we need those of who follows us
 };
 
 }  // namespace isostep

@@ -6,6 +6,7 @@
 
 #include "isostep/session/failover.hpp"
 #include "isostep/session/peer_core.hpp"
+#include "isostep/session/repair.hpp"
 #include "isostep/session/stall_budget.hpp"
 
 namespace isostep {
@@ -89,6 +90,8 @@ class HostCore : public PeerCore {
     std::uint32_t partial_size = 0;  // [bytes]
     SnapshotTransfer transfer;
     Refusal refusal{};
+    bool must_inquire = false, must_tell_statements = false;
+    RepairService repair;
     HashReport report;
     std::size_t next_reporter = 0;  // whose report it hears of next
 
@@ -112,6 +115,25 @@ class HostCore : public PeerCore {
   template <class Predicate> std::uint64_t group(Predicate&& is_counted) const;
   /// Is a majority with us? Without one nobody's absence is final, for the others may have another host.
   void count_backers(Time now);
+
+  // --- among machines that differ, in host_verdict.cpp ---
+  void tend_inquiry(Time now);
+  void conclude_inquiry(Time now);
+  /// Can the others go on without us, at one that is right?
+  bool can_step_down(const Verdict& verdict) const;
+  bool take_repair(Guest& guest, MessageKind kind, Bytes bytes, Time now);
+  bool take_statement(const Guest& guest, Bytes bytes);
+  void tend_repairs(Time now);
+  void end_repair(Guest& guest);
+  std::optional<Outgoing> next_repair_message(Guest& guest, Time now);
+  /// Waits for the next snapshot, or is on the way to have this one: into the match, or in it.
+  static bool needs_snapshot(const Guest& guest) {
+    return guest.stage == Guest::Stage::needs_snapshot || guest.repair.stage == RepairService::Stage::needs;
+  }
+  static bool receives_snapshot(const Guest& guest) {
+    return guest.stage == Guest::Stage::receives_snapshot || guest.repair.stage == RepairService::Stage::receives;
+  }
+
   /// Its players go on where their inputs end, and are told those that they do not know to be final.
   void resume(Guest& guest);
   void greet(Guest& guest, Bytes message);
@@ -221,6 +243,8 @@ class HostCore : public PeerCore {
   std::uint64_t own_token_ = 0;  // with which our players come back to who follows us
   bool is_backed_ = true;
   Time backed_at_ = 0;  // [us]
+  Inquiry inquiry_;
+  Time steps_down_at_ = 0;  // [us] our states are wrong, and another machine is to be the host; 0: no
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were

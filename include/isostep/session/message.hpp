@@ -24,7 +24,13 @@ enum class MessageKind : std::uint8_t {
   candidate,
   known,
   support,
-  redirect
+  redirect,
+  inquiry,
+  statement,
+  statements,
+  resync,
+  offer,
+  repaired
 };
 
 /// As what a client comes.

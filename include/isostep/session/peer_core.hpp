@@ -8,6 +8,7 @@
 #include "isostep/session/input_delay.hpp"
 #include "isostep/session/peer_link.hpp"
 #include "isostep/session/step_pace.hpp"
+#include "isostep/session/verdict.hpp"
 
 namespace isostep {
 
@@ -81,14 +82,23 @@ class PeerCore : public SessionCore {
   /// After a pause of ours: reports speak of our being late and not of the line.
   void forgive_own_pause(Time now);
 
+  /// The frame that would be next, but for frames that are stepped again on the way there.
+  virtual Frame present() const { return current(); }
+
   /// What one machine says of its states.
   struct View {
     HashReport pending;
     Frame agreed = kNoFrame;
-    bool differs = false;
+    HashReport difference;   // the first that was not ours; kNoFrame: none
+    Frame after = kNoFrame;  // what it says of states up to this one was of before its repair
+    bool differs() const { return difference.frame != kNoFrame; }
   };
   void take_hash(std::size_t reporter, const HashReport& report);
-  static constexpr std::size_t kHostMachine = kMaxPlayers;  // reporter, beside the players
+  /// Its states are others from now on.
+  void was_repaired(std::size_t machine, Frame after);
+  /// Tells the caller whom a majority finds wrong, each once.
+  Verdict tell_verdict(const Statements& statements);
+  bool is_outvoted(std::size_t machine) const { return (outvoted_ >> machine & 1) != 0; }
 
   std::vector<InputStream> streams_;
   HashLog hashes_;
@@ -96,7 +106,7 @@ class PeerCore : public SessionCore {
   StepPace pace_;
   InputDelay delay_;
   RecentLeast slack_[kMaxPlayers];
-  View views_[kMaxPlayers + 1];
+  View views_[kMachines];
   std::vector<std::uint8_t> message_;
   bool is_present_[kMaxPlayers] = {};  // in the newest final frame
   bool has_start_ = false;             // the first state's hash is known
@@ -126,6 +136,7 @@ class PeerCore : public SessionCore {
   int slowest_ = 0xff;  // as last told
   bool stands_ = false;
   std::uint32_t waits_for_ = 0;
+  std::uint64_t outvoted_ = 0;  // machines, a bit each, as last told
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

@@ -30,6 +30,9 @@ struct Roster {
     std::uint64_t proof = 0;    // of their token
     bool is_in = false, was_in = false;
     Address address;  // empty: it cannot be the host
+    /// Of the whole roster, by the host, with the players' token: so this machine knows what the host has said when it
+    /// hears it of another. 0: the host does not know the token.
+    std::uint64_t seal = 0;
   };
   std::uint32_t version = 0;  // 0: there is none yet
   std::uint8_t host = 0;      // its place among the machines
@@ -43,6 +46,9 @@ struct Roster {
   /// More than half of those that are in, and of those that were, a bit each. The host makes a half a majority.
   bool is_majority(std::uint64_t machines) const;
 };
+/// `scratch` is written over.
+std::uint64_t seal_of(const Roster& roster, std::uint64_t token, std::vector<std::uint8_t>& scratch);
+bool is_sealed_for(const Roster& roster, std::uint64_t token, std::vector<std::uint8_t>& scratch);
 
 class Reader;
 /// Fails where it is not printable ASCII: it is shown to people.

@@ -23,6 +23,8 @@ class SnapshotTransfer {
  public:
   /// `from` bytes are there already.
   void begin(std::uint32_t from, std::uint32_t size);
+  /// To who has shown for long that it takes what it is sent.
+  void begin_at_once(std::uint32_t size);
   /// [bytes] of the next piece; 0: not now.
   std::uint32_t next_piece(Time now) const;
   void was_sent(std::uint32_t bytes, Time now);
@@ -40,8 +42,10 @@ class SnapshotTransfer {
  private:
   static constexpr std::uint32_t kFirst = 256;      // [bytes] a first piece: who never answers costs no more
   static constexpr std::uint32_t kLeast = 4 << 10;  // [bytes] a window, of who has answered: a few packets
-  static constexpr Time kQueue = kSecond / 10;      // [us] as LEDBAT (RFC 6817) allows
-  static constexpr int kSamples = 4;                // the least of so many trips is without most of the jitter
+  /// [bytes] a first window for who is known: ten packets (RFC 6928), and they wait 80 ms on a line of 200 kB/s.
+  static constexpr std::uint32_t kKnown = 16 << 10;
+  static constexpr Time kQueue = kSecond / 10;  // [us] as LEDBAT (RFC 6817) allows
+  static constexpr int kSamples = 4;            // the least of so many trips is without most of the jitter
 
   std::uint32_t sent_ = 0, arrived_ = 0, size_ = 0;  // [bytes]
   std::uint32_t window_ = kFirst;                    // [bytes]

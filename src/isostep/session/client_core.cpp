@@ -113,18 +113,20 @@ std::int64_t ClientCore::host_position(Time now) const {
          static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
 }
 
-Frame ClientCore::frames_behind(Time now) const { return static_cast<Frame>(host_position(now) / 256 - current()); }
+Frame ClientCore::frames_behind(Time now) const { return static_cast<Frame>(host_position(now) / 256 - present()); }
 
 void ClientCore::lean(Time now) {
   const Time until = clock_.until_due(now);
   const Time done = until < clock_.period() ? clock_.period() - until : 0;
-  const std::int64_t ours = std::int64_t{current()} * 256 + static_cast<std::int64_t>(done * 256 / clock_.period());
+  const std::int64_t ours = std::int64_t{present()} * 256 + static_cast<std::int64_t>(done * 256 / clock_.period());
   const std::int64_t ahead = ours + std::int64_t{lag_.frames()} * 256 - host_position(now);
   constexpr std::int64_t kCap = 256 * 64;
   clock_.lean(static_cast<std::int32_t>(ahead < -kCap ? -kCap : ahead > kCap ? kCap : ahead));
 }
 
-bool ClientCore::hurries(Time now) const { return frames_behind(now) > kCatchUpBehind + lag_.frames(); }
+bool ClientCore::hurries(Time now) const {
+  return present() > current() || frames_behind(now) > kCatchUpBehind + lag_.frames();
+}
 
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
@@ -140,6 +142,7 @@ void ClientCore::before_steps(Time now) {
     begin_at(welcome_.start);
   }
   if (!runs_ || is_restoring_) return;
+  tend_repair(now);
   if (is_open_) {
     if (current() >= opens_) phase_ = SessionPhase::playing;
   } else if (phase_ == SessionPhase::playing) {
@@ -221,6 +224,9 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     write_hello(hello, message_);
     return message();
   }
+  if (is_greeted_ && runs_) {
+    if (std::optional<Outgoing> out = next_repair_message()) return out;
+  }
   // Often, for the host sends as arrives; but the host allows a peer only so many messages.
   const bool is_whole = portable_.size() == welcome_.snapshot_size;
   if (is_greeted_ && told_ < portable_.size() && (is_whole || now >= next_progress_)) {
@@ -235,7 +241,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     return message();
   }
   if (!is_greeted_ || must_begin_) return std::nullopt;
-  if (!host_.may_send(current(), clock_.period(), now)) return std::nullopt;
+  if (!host_.may_send(present(), clock_.period(), now)) return std::nullopt;
   PacketHeader header;
   header.match = welcome_.match;
   header.started = runs_;

@@ -20,6 +20,7 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
     : PeerCore(std::move(host)),
       hang_ups_(std::move(retreat.guests)),
       token_(retreat.token),
+      is_spoiled_(retreat.is_outvoted),
       lag_(lag_settings(config_)) {
   config_.host = false;
   failover_.roster = retreat.roster;
@@ -48,7 +49,8 @@ void ClientCore::begin_attempt(Time now) {
   const int machine = failover_.candidate_at(failover_.attempt);
   const bool is_own = machine == own_machine();
   failover_.until = now + kAttempt;
-  failover_.is_candidate = is_own && is_open_;
+  failover_.is_candidate = is_own && is_open_ && !is_outvoted(static_cast<std::size_t>(player_));
+  for (int p = 0; p < players(); ++p) failover_.ends[p] = failover_.told[p] = final_end(p);
   failover_.elected_at = 0;
   failover_.must_support = failover_.must_tell_roster = false;
   failover_.must_connect = !is_own && machine >= 0;
@@ -105,6 +107,7 @@ std::optional<Address> ClientCore::poll_connect() {
 
 std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
   if (!failover_.seeks || !failover_.is_elected) return nullptr;
+  forget_untold();
   Succession succession{failover_.roster, own_machine(), token_, std::move(failover_.callers)};
   return std::make_unique<HostCore>(std::move(*this), std::move(succession), now);
 }
@@ -161,36 +164,9 @@ void ClientCore::take_call(PeerId peer, Channel channel, Bytes bytes, Time now) 
       caller->must_tell_roster = caller->must_ask = failover_.is_candidate && caller->machine >= 0;
     }
   } else if (kind && failover_.is_candidate && caller->machine >= 0) {
-    good = take_support(*caller, kind.value(), bytes, now);
+    good = take_support(*caller, kind.value(), bytes);
   }
   if (!good) ++stats_.refused;
-}
-
-bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now) {
-  if (kind == MessageKind::known) {
-    const Result<Packet> packet = read_known(bytes);
-    if (!packet) return false;
-    for (std::uint8_t i = 0; i < packet.value().slice_count; ++i) take_inputs(packet.value().slices[i], now);
-    return true;
-  }
-  if (kind == MessageKind::support) {
-    const Result<std::uint32_t> version = read_support(bytes);
-    caller.supports = version && version.value() == failover_.roster.version;
-    return version.ok();
-  }
-  if (kind != MessageKind::roster) return false;
-  // A newer one: whose place is where, and what a majority is, may be otherwise there.
-  const Result<Roster> roster = read_roster(bytes);
-  if (!roster || roster.value().version <= failover_.roster.version) return roster.ok();
-  failover_.roster = roster.value();
-  for (Caller& each : failover_.callers) {
-    if (each.hello.empty()) continue;
-    each.machine = failover_.roster.machine_of(read_hello(each.hello).value().token);
-    each.supports = false;
-    each.must_tell_roster = each.must_ask = each.machine >= 0;
-  }
-  failover_.is_candidate = own_machine() >= 0;
-  return true;
 }
 
 // --- what is said ---
@@ -199,6 +175,7 @@ bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
   if (kind == MessageKind::roster && (is_greeted_ || failover_.seeks)) {
     const Result<Roster> roster = read_roster(bytes);
     if (!roster) return false;
+    if (!is_greeted_ && !is_sealed_for(roster.value(), token_, message_)) return false;
     const bool is_newer = roster.value().version > failover_.roster.version || (is_greeted_ && failover_.is_roster_old);
     if (is_newer) failover_.roster = roster.value();
     if (is_greeted_) failover_.is_roster_old = false;
@@ -248,7 +225,8 @@ bool ClientCore::write_missing() {
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     Frame& end = failover_.candidate.ends[p];
     if (end < stream.begin()) continue;  // it needs a snapshot, and cannot be the host for us
-    const Frame left = final_end(p) - end, most = left < kSliceFrames ? left : kSliceFrames;
+    const Frame left = (is_local(p) && owns_inputs() ? stream.end() : final_end(p)) - end,
+                most = left < kSliceFrames ? left : kSliceFrames;
     if (most <= 0) continue;
     const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, end, most);
     end += count;

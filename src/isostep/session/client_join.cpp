@@ -13,6 +13,8 @@ constexpr Frame kBeforeBlock = 2;  // [frames] of a rollback window that are kep
 // By what we run later our own inputs come later, and our delay grows by as much. Beyond a third of what it may grow
 // by, the others are asked to wait as well, so that a very bad line does not use up all delay there is.
 constexpr Frame kLagShare = 3;
+/// [us] for the other machines to vouch for our states: some reports of each, with losses on the longest lines.
+constexpr Time kVouching = 5 * kSecond;
 constexpr Time kBrokenOff = kSecond / 4;  // [us] until the next attempt, when a candidate ends the connection
 
 }  // namespace
@@ -35,6 +37,8 @@ void ClientCore::connected(PeerId host, Time now) {
   host_.connect(now);
   must_greet_ = true;
   is_greeted_ = must_ready_ = asked_ready_ = false;
+  repair_ = Repair{};
+  inquired_ = kNoFrame;
   runs_ = is_restoring_ = must_begin_ = false;  // the greeting names the state that we go on from
   if (phase_ == SessionPhase::lost || phase_ == SessionPhase::refused) phase_ = SessionPhase::waiting;
 }
@@ -110,7 +114,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       phase_ = SessionPhase::refused;
       runs_ = is_greeted_ = failover_.seeks = false;
     }
-  } else if (kind == MessageKind::piece && is_restoring_) {
+  } else if (kind == MessageKind::piece && (is_restoring_ || repair_.stage == Repair::Stage::receives)) {
     if (const Result<Piece> piece = read_piece(bytes)) {
       good = true;
       take_piece(piece.value());
@@ -125,7 +129,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       }
     }
   }
-  if (!good) good = take_failover(kind, bytes, now);
+  if (!good) good = take_failover(kind, bytes, now) || take_repair(kind, bytes);
   if (good) {
     host_.heard = now;
   } else {
@@ -152,6 +156,7 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   welcome_ = welcome;
   is_greeted_ = true;
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
+  repair_ = Repair{};
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   own_ = welcome.seated();
   token_ = welcome.token;
@@ -173,12 +178,13 @@ void ClientCore::take_piece(const Piece& piece) {
     return;
   }
   portable_.insert(portable_.end(), piece.bytes.begin(), piece.bytes.end());
-  must_begin_ = portable_.size() == welcome_.snapshot_size;
+  must_begin_ = is_restoring_ && portable_.size() == welcome_.snapshot_size;
 }
 
 void ClientCore::restored(bool ok) {
   if (ok) return;
   is_restoring_ = runs_ = is_greeted_ = false;
+  repair_ = Repair{};
   is_spoiled_ = true;
   leave_host();
   partial_ = HashReport{};
@@ -195,6 +201,10 @@ void ClientCore::hash_known(Frame state, std::uint64_t hash) {
     partial_ = HashReport{};
     hashes_.restart(welcome_.start, hash);
     confirmed_state_ = state;
+    return;
+  }
+  if (repair_.stage == Repair::Stage::restores && state == repair_.offer.start.frame) {
+    finish_repair(hash);
     return;
   }
   if (!is_spoiled_) PeerCore::hash_known(state, hash);
@@ -219,7 +229,7 @@ void ClientCore::begin_at(const HashReport& start) {
     if (!is_kept) stream.reset(frame);
     accepted_[p] = frame;
   }
-  for (View& view : views_) view = View{};
+  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   for (bool& is_present : is_present_) is_present = false;
   clock_.forget_lean();
   lag_ = InputDelay(lag_settings(config_));
@@ -260,17 +270,19 @@ bool ClientCore::is_vouched_for(Time now) const {
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     if (is_own(p) && (stream.end() == stream.begin() || !stream.last().absent)) return false;
   }
-  bool is_contradicted = false;
-  int needed = 1, vouching = views_[kHostMachine].agreed >= base_ ? 1 : 0;
+  const auto agrees = [&](std::size_t machine) {
+    return !views_[machine].differs() && views_[machine].agreed >= base_ ? 1 : 0;
+  };
+  int needed = 1, agreeing = agrees(kHostMachine), differing = views_[kHostMachine].differs() ? 1 : 0;
   for (int p = 0; p < players(); ++p) {
     if (((welcome_.hosted | own_) >> p & 1) != 0) continue;
     if (!streams_[static_cast<std::size_t>(p)].last().absent) needed = 2;
-    if (views_[p].agreed >= base_) ++vouching;
-    is_contradicted = is_contradicted || views_[p].differs;
+    agreeing += agrees(static_cast<std::size_t>(p));
+    differing += views_[p].differs() ? 1 : 0;
   }
-  // Who says nothing at all does not keep us out for ever.
-  if (near_since_ != 0 && now - near_since_ > config_.patience && !is_contradicted) needed = 1;
-  return vouching >= needed;
+  if (agreeing >= needed && agreeing > differing) return true;
+  // Who says nothing, or what is not so, does not keep us out for ever: then the host's word alone counts.
+  return near_since_ != 0 && now - near_since_ > kVouching && agrees(kHostMachine) > 0;
 }
 
 }  // namespace isostep

@@ -178,7 +178,9 @@ std::uint32_t HostCore::any_seats(Guest& guest, std::uint32_t own) {
 
 void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
   const std::uint32_t own = players_of(guest.wish.token);
-  const std::uint64_t token = draw(Purpose::token, tokens_++);
+  // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
+  const bool keeps_token = own != 0 && config_.migration > 0;
+  const std::uint64_t token = keeps_token ? guest.wish.token : draw(Purpose::token, tokens_++);
   for (int p = 0; p < players(); ++p) {
     const int link = seats_[p].link;
     const bool is_owner = (own >> p & 1) != 0;
@@ -196,7 +198,7 @@ void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
     seat.link = static_cast<int>(guest.peer);
     seat.token = token;
     seat.proof = proof_of(token);
-    seat.former_proof = is_owner ? proof_of(guest.wish.token) : 0;
+    seat.former_proof = is_owner && !keeps_token ? proof_of(guest.wish.token) : 0;
     seat.is_kept = is_owner && is_kept;
   }
   guest.players = wanted;

@@ -57,6 +57,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     Packet packet;
     if (!accept_datagram(guest, bytes, now, packet)) return;
     if (guest.stage == Guest::Stage::receives_snapshot && packet.header.match == match_) {
+      guest.set_clock(packet.header, now);
       measure(guest, packet.header, now);
       return;
     }
@@ -77,7 +78,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected) {
     guest.heard = now;
     greet(guest, bytes);
-  } else if (kind == MessageKind::progress && guest.stage == Guest::Stage::receives_snapshot) {
+  } else if (kind == MessageKind::progress && receives_snapshot(guest)) {
     take_progress(guest, bytes, now);
   } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
     if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
@@ -85,7 +86,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
-  } else {
+  } else if (!take_repair(guest, kind, bytes, now)) {
     ++stats_.refused;
   }
 }
@@ -93,9 +94,12 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
   keep_seats(guest);
   take_header(guest, packet.header, now);
+  if (guest.repair.stage == RepairService::Stage::receives) measure(guest, packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
-    if (packet.header.report.frame > guest.report.frame) guest.report = packet.header.report;
+    const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
+    const bool is_newest = packet.header.report.frame > guest.report.frame && packet.header.report.frame > after;
+    if (is_newest) guest.report = packet.header.report;
     if (guest.player >= 0) take_hash(static_cast<std::size_t>(guest.player), packet.header.report);
   } else {
     ++stats_.refused;
@@ -163,12 +167,15 @@ void HostCore::before_steps(Time now) {
       guest.stage = Guest::Stage::needs_snapshot;
       guest.must_welcome = true;
       guest.must_open = guest.is_ready = false;
+      guest.repair = RepairService{.next = guest.repair.next};
       guest.opens = kNoFrame;
     }
     if (guest.is_ready) open_seats(guest, now);
   }
   keep_roster();
   count_backers(now);
+  tend_inquiry(now);
+  tend_repairs(now);
   reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);

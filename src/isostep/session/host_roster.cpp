@@ -63,6 +63,11 @@ void HostCore::keep_roster() {
   const Roster next = drafted();
   if (same_roster(next, roster_)) return;
   roster_ = next;
+  for (int m = 0; m < roster_.count; ++m) {
+    const int player = std::countr_zero(roster_.machines[m].players);
+    const std::uint64_t token = m == roster_.host ? own_token_ : seats_[player].token;
+    roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, message_);
+  }
   for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
 }
 
@@ -73,8 +78,9 @@ void HostCore::count_backers(Time now) {
 }
 
 std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
-  if (is_backed_ || now - backed_at_ <= config_.migration + kDeposed) return nullptr;
-  Retreat retreat{roster_, hosted_, own_token_, {}};
+  const bool steps_down = steps_down_at_ != 0 && now >= steps_down_at_;
+  if (!steps_down && (is_backed_ || now - backed_at_ <= config_.migration + kDeposed)) return nullptr;
+  Retreat retreat{roster_, hosted_, own_token_, {}, steps_down};
   for (const Guest& guest : guests_) {
     if (guest.is_connected) retreat.guests.push_back(guest.peer);
   }
@@ -102,7 +108,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     }
   }
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
-  for (View& view : views_) view = View{};
+  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   started_ = true;
   began_ = turn_at_ = backed_at_ = now;
   clock_.forget_lean();

@@ -142,7 +142,8 @@ void HostCore::unseat(Guest& guest) {
   for (int p = 0; p < players(); ++p) {
     if (!has(guest, p)) continue;
     seats_[p].link = -1;
-    views_[p] = View{};
+    was_repaired(static_cast<std::size_t>(p), kNoFrame);
+    inquiry_.differing &= ~(std::uint64_t{1} << p);
     if (!seats_[p].is_kept) free_seat(p);
   }
   guest.players = 0;

@@ -68,6 +68,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     write_roster(roster_, message_);
     return message();
   }
+  if (std::optional<Outgoing> out = next_repair_message(guest, now)) return out;
   if (guest.must_open) {
     guest.must_open = false;
     write_open(guest.opens, message_);

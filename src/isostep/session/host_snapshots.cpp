@@ -5,17 +5,17 @@
 namespace isostep {
 
 SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {
-  const bool receives = peer < guests_.size() && guests_[peer].stage == Guest::Stage::receives_snapshot;
+  const bool receives = peer < guests_.size() && receives_snapshot(guests_[peer]);
   return receives ? guests_[peer].transfer.progress() : SnapshotProgress{};
 }
 
 void HostCore::serve_snapshots() {
   bool wanted = false;
-  for (const Guest& guest : guests_) wanted = wanted || guest.stage == Guest::Stage::needs_snapshot;
+  for (const Guest& guest : guests_) wanted = wanted || needs_snapshot(guest);
   if (!wanted) return;
   if (!may_share_snapshot()) {
     for (const Guest& guest : guests_) {
-      if (guest.stage == Guest::Stage::receives_snapshot) return;
+      if (receives_snapshot(guest)) return;
     }
     // A state that is final: the present one may rest on guesses.
     snapshot_ = hashes_.settled();
@@ -24,6 +24,11 @@ void HostCore::serve_snapshots() {
     act(RequestKind::capture, snapshot_.frame);
   }
   for (Guest& guest : guests_) {
+    if (guest.repair.stage == RepairService::Stage::needs) {
+      guest.repair.stage = RepairService::Stage::receives;
+      guest.repair.must_offer = true;
+      guest.transfer = SnapshotTransfer{};
+    }
     if (guest.stage != Guest::Stage::needs_snapshot) continue;
     guest.stage = Guest::Stage::receives_snapshot;
     guest.start = snapshot_.frame;
@@ -39,7 +44,7 @@ bool HostCore::may_share_snapshot() {
   bool in_use = current() < held_until_;
   for (const Guest& guest : guests_) {
     const bool has_some = guest.stage == Guest::Stage::needs_snapshot && has_part(guest);
-    in_use = in_use || has_some || guest.stage == Guest::Stage::receives_snapshot;
+    in_use = in_use || has_some || receives_snapshot(guest);
   }
   // Half of the log is for its way to the last who shares it.
   if (age <= config_.history / 2) return in_use;
@@ -49,6 +54,7 @@ bool HostCore::may_share_snapshot() {
     const bool is_slow = std::uint64_t{has.arrived} * static_cast<std::uint64_t>(config_.history) <
                          std::uint64_t{has.size} * static_cast<std::uint64_t>(age);
     if (guest.stage == Guest::Stage::receives_snapshot && is_slow) guest.must_close = true;
+    if (guest.repair.stage == RepairService::Stage::receives && is_slow) end_repair(guest);
   }
   return false;
 }
@@ -69,7 +75,6 @@ std::optional<Outgoing> HostCore::next_piece(Guest& guest, Time now) {
 }
 
 void HostCore::measure(Guest& guest, const PacketHeader& header, Time now) {
-  guest.set_clock(header, now);
   const std::uint16_t trip = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - header.echo);
   if (header.has_echo) guest.transfer.measured(Time{trip} * 1000, now);
 }
@@ -81,7 +86,9 @@ void HostCore::take_progress(Guest& guest, Bytes message, Time now) {
     return;
   }
   guest.heard = now;
-  if (guest.transfer.is_complete()) go_live(guest, guest.start);
+  if (!guest.transfer.is_complete()) return;
+  if (guest.stage == Guest::Stage::live) guest.repair.stage = RepairService::Stage::restores;
+  else go_live(guest, guest.start);
 }
 
 }  // namespace isostep

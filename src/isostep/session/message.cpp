@@ -243,7 +243,7 @@ Result<Address> read_redirect(Bytes message) {
 }
 
 Result<MessageKind> message_kind(Bytes message) {
-  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::redirect);
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::repaired);
   if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }

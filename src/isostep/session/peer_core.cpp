@@ -111,16 +111,17 @@ void PeerCore::plan(Time now) {
     if (is_blocked_) unblocked(now);
     is_blocked_ = false;
     const Frame frame = current();
+    const bool is_again = present() > frame;
     timeline_.step(streams_);
     act(RequestKind::step, frame);
     act(RequestKind::save, frame + 1);
-    clock_.stepped(now);
+    if (!is_again) clock_.stepped(now);
   }
   pace_.end(steps);
   after_steps();
   limit_ = final_limit();
   settle();
-  for (std::size_t reporter = 0; reporter <= kMaxPlayers; ++reporter) compare(reporter);
+  for (std::size_t reporter = 0; reporter < kMachines; ++reporter) compare(reporter);
   stats_.delay = delay_.frames();
 }
 
@@ -157,7 +158,7 @@ Bytes PeerCore::guess_next(const InputStream& stream, std::uint8_t (&buffer)[kIn
 void PeerCore::sample_local_inputs() {
   for (int p = 0; p < players(); ++p) {
     InputStream& stream = streams_[static_cast<std::size_t>(p)];
-    const Frame wanted = current() + delay_.frames() + 1;
+    const Frame wanted = present() + delay_.frames() + 1;
     if (!is_local(p) || stream.end() >= wanted) continue;
     Pending& pending = pending_[p];
     while (stream.end() < wanted) {
@@ -196,39 +197,12 @@ void PeerCore::tell_who_plays(Frame frame) {
     if (is_present == is_present_[p]) continue;
     is_present_[p] = is_present;
     if (!is_present) delay_.reconsider();
-    if (is_present) views_[p] = View{};  // who comes back, comes with a state that agreed
+    if (is_present) was_repaired(static_cast<std::size_t>(p), kNoFrame);  // who comes back has a state that agreed
     SessionEvent event{.kind = is_present ? SessionEvent::Kind::joined : SessionEvent::Kind::left};
     event.player = static_cast<std::uint8_t>(p);
     event.frame = frame;
     tell(event);
   }
-}
-
-void PeerCore::take_hash(std::size_t reporter, const HashReport& report) {
-  View& view = views_[reporter];
-  // The earliest one waits until we are there: one that claims a frame which never comes keeps no others out.
-  const bool is_earlier = view.pending.frame == kNoFrame || report.frame < view.pending.frame;
-  if (is_earlier && report.frame > view.agreed) view.pending = report;
-}
-
-void PeerCore::compare(std::size_t reporter) {
-  View& view = views_[reporter];
-  const HashReport report = view.pending;
-  if (report.frame == kNoFrame || report.frame > hashes_.settled().frame) return;
-  view.pending.frame = kNoFrame;
-  if (!hashes_.has_chain(report.frame) || view.differs) return;
-  if (hashes_.chain(report.frame) == report.chain) {
-    view.agreed = report.frame;
-    return;
-  }
-  view.differs = true;
-  SessionEvent event{.kind = SessionEvent::Kind::desync};
-  event.player = reporter < kMaxPlayers ? static_cast<std::uint8_t>(reporter) : 0xff;
-  event.frame = report.frame;
-  event.agreed = view.agreed;
-  event.ours = hashes_.chain(report.frame);
-  event.theirs = report.chain;
-  tell(event);
 }
 
 bool PeerCore::accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet) {
@@ -294,7 +268,7 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now, Frame mos
   header.time = static_cast<std::uint16_t>(now / 1000);
   header.has_echo = link.has_clock;
   header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);
-  header.frame = current();
+  header.frame = present();
   header.report = hashes_.settled();
   PacketWriter writer(header, buffer_);
   const bool continues = link.continues_burst(now);
@@ -316,7 +290,7 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now, Frame mos
   }
   link.has_more = is_left && added > 0;
   if (!continues) link.next_send = now + clock_.period();
-  link.sent_frame = current();
+  link.sent_frame = present();
   ++stats_.datagrams_out;
   stats_.bytes_out += writer.bytes().size();
   return writer.bytes();

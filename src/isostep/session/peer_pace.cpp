@@ -56,7 +56,7 @@ void PeerCore::goes_on() {
 
 void PeerCore::note_arrival(int player, Frame end, Time now) {
   if (is_after_pause(now)) return;
-  Frame slack = end - current();
+  Frame slack = end - present();
   // Who holds us up is late by all that we wait; the others may be waiting as we are.
   if (is_blocked_ && end == known_end()) slack -= clock_.overdue(now);
   slack_[player].add(slack < -127 ? -127 : slack);

@@ -57,10 +57,9 @@ Address read_address(Reader& reader) {
   return Address(text);
 }
 
-void write_roster(const Roster& roster, std::vector<std::uint8_t>& out) {
-  out.clear();
-  Writer writer(out);
-  writer.write(static_cast<std::uint8_t>(MessageKind::roster));
+namespace {
+/// All but the seals.
+void write_content(const Roster& roster, Writer& writer) {
   writer.write(roster.version);
   writer.write(roster.host);
   writer.write(roster.count);
@@ -71,6 +70,27 @@ void write_roster(const Roster& roster, std::vector<std::uint8_t>& out) {
     writer.write(static_cast<std::uint8_t>((machine.is_in ? kIsIn : 0) | (machine.was_in ? kWasIn : 0)));
     writer.write_text(machine.address.view());
   }
+}
+}  // namespace
+
+std::uint64_t seal_of(const Roster& roster, std::uint64_t token, std::vector<std::uint8_t>& scratch) {
+  scratch.clear();
+  Writer writer(scratch);
+  write_content(roster, writer);
+  return siphash_2_4({token, 1}, scratch);  // 1: unlike what proof_of shows to all
+}
+
+bool is_sealed_for(const Roster& roster, std::uint64_t token, std::vector<std::uint8_t>& scratch) {
+  const int machine = roster.machine_of(token);
+  return machine >= 0 && roster.machines[machine].seal == seal_of(roster, token, scratch);
+}
+
+void write_roster(const Roster& roster, std::vector<std::uint8_t>& out) {
+  out.clear();
+  Writer writer(out);
+  writer.write(static_cast<std::uint8_t>(MessageKind::roster));
+  write_content(roster, writer);
+  for (int m = 0; m < roster.count; ++m) writer.write(roster.machines[m].seal);
 }
 
 Result<Roster> read_roster(Bytes message) {
@@ -96,6 +116,7 @@ Result<Roster> read_roster(Bytes message) {
     machine.is_in = (flags & kIsIn) != 0;
     machine.was_in = (flags & kWasIn) != 0;
   }
+  for (int m = 0; m < roster.count && reader.ok(); ++m) reader.read(roster.machines[m].seal);
   reader.expect_end();
   const Result<void> result = reader.result("roster");
   if (!result) return result.error();

@@ -23,6 +23,11 @@ void SnapshotTransfer::begin(std::uint32_t from, std::uint32_t size) {
   size_ = size;
 }
 
+void SnapshotTransfer::begin_at_once(std::uint32_t size) {
+  begin(0, size);
+  window_ = kKnown;
+}
+
 std::uint32_t SnapshotTransfer::next_piece(Time now) const {
   if (sent_ == size_ || sent_ - arrived_ >= window_ || now < next_at_) return 0;
   const auto piece = static_cast<std::uint32_t>(bounded(window_ / kPieces, kFirst, kPiece));

@@ -44,6 +44,9 @@ const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::refused: return "refused";
     case SessionEvent::Kind::lost_host: return "lost the host";
     case SessionEvent::Kind::desync: return "DESYNC";
+    case SessionEvent::Kind::outvoted: return "outvoted";
+    case SessionEvent::Kind::undecided: return "undecided";
+    case SessionEvent::Kind::repaired: return "repaired";
     case SessionEvent::Kind::bad_snapshot: return "bad snapshot";
     case SessionEvent::Kind::misuse: return "misuse";
     case SessionEvent::Kind::unhashed: return "unhashed state";
@@ -167,6 +170,9 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
     for (int p = 0; p < options_.players; ++p) {
       if ((event.players >> p & 1) != 0) line += " " + std::to_string(p);
     }
+  } else if (event.kind == SessionEvent::Kind::outvoted) {
+    line += ": most machines have other states than " +
+            (event.player == 0xff ? std::string("the host") : "player " + std::to_string(event.player));
   } else if (event.kind == SessionEvent::Kind::desync) {
     line += ": " + (event.player == 0xff ? std::string("the host") : "player " + std::to_string(event.player)) +
             " has another history: alike up to state " + std::to_string(event.agreed) + ", not at state " +

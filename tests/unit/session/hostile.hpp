@@ -106,6 +106,8 @@ struct Rogue {
   bool is_welcome = false;
   Frame opens = kNoFrame;
   std::size_t pieces = 0;
+  PeerId peer = 0;  // the other side of the connection that was made last
+  Buffer roster;    // the message that told of the newest
   Frame host_frame = 0;
   Frame ends[kMaxPlayers] = {};  // of the inputs that came last
   HashReport host_report;
@@ -116,8 +118,11 @@ struct Rogue {
   }
   void listen() {
     while (const auto arrival = port.receive()) {
-      if (arrival->kind == transport::ArrivalKind::connected) is_connected = true;
-      if (arrival->kind == transport::ArrivalKind::disconnected) is_connected = false;
+      if (arrival->kind == transport::ArrivalKind::connected) {
+        is_connected = true;
+        peer = arrival->peer;
+      }
+      if (arrival->kind == transport::ArrivalKind::disconnected && arrival->peer == peer) is_connected = false;
       if (arrival->kind != transport::ArrivalKind::message) continue;
       if (arrival->channel == Channel::datagram) {
         const Result<Packet> packet = read_packet(arrival->bytes);
@@ -143,9 +148,10 @@ struct Rogue {
         refusal = read_refusal(arrival->bytes).value();
       }
       if (kind.value() == MessageKind::piece) ++pieces;
+      if (kind.value() == MessageKind::roster) roster.assign(arrival->bytes.begin(), arrival->bytes.end());
     }
   }
-  bool say(Channel channel, const Buffer& bytes) { return port.send(0, channel, bytes).ok(); }
+  bool say(Channel channel, const Buffer& bytes) { return port.send(peer, channel, bytes).ok(); }
   bool greet(const Hello& hello) {
     Buffer message;
     write_hello(hello, message);

@@ -72,6 +72,30 @@ TEST(Roster, ArrivesAsItWasSent) {
   EXPECT_FALSE(read_roster(bytes).ok());
 }
 
+TEST(Roster, IsSealedForEachOfWhoseTokenTheHostKnows) {
+  Roster roster = of(3);
+  std::vector<std::uint8_t> scratch, bytes;
+  for (std::uint64_t m = 0; m < 3; ++m) roster.machines[m].seal = seal_of(roster, 100 + m, scratch);
+  write_roster(roster, bytes);
+  const Roster read = read_roster(bytes).value();
+  for (std::uint64_t m = 0; m < 3; ++m) EXPECT_TRUE(is_sealed_for(read, 100 + m, scratch));
+  EXPECT_FALSE(is_sealed_for(read, 103, scratch)) << "of whom it does not tell";
+  EXPECT_FALSE(is_sealed_for(read, 0, scratch));
+  const auto holds = [&](auto change) {
+    Roster changed = read;
+    change(changed);
+    return is_sealed_for(changed, 101, scratch);
+  };
+  EXPECT_TRUE(holds([](Roster&) {}));
+  EXPECT_FALSE(holds([](Roster& r) { ++r.version; }));
+  EXPECT_FALSE(holds([](Roster& r) { --r.count; }));
+  EXPECT_FALSE(holds([](Roster& r) { r.machines[2].address = "10.0.0.9"; }));
+  EXPECT_FALSE(holds([](Roster& r) { r.machines[2].is_in = false; }));
+  EXPECT_FALSE(holds([](Roster& r) { r.machines[2].proof ^= 1; }));
+  EXPECT_FALSE(holds([](Roster& r) { r.machines[1].seal = 0; }));
+  EXPECT_TRUE(holds([](Roster& r) { r.machines[2].seal = 0; })) << "another's is the other's affair";
+}
+
 TEST(Roster, ThatCannotBeIsRefused) {
   const auto reads = [](auto change) {
     Roster roster = of(3);

@@ -1,0 +1,82 @@
+// A client that would follow its host: what its supporters tell it.
+// SPDX-License-Identifier: MIT
+#include "isostep/session/client_core.hpp"
+
+namespace isostep {
+
+bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes) {
+  if (kind == MessageKind::known) {
+    const Result<Packet> packet = read_known(bytes);
+    if (!packet) return false;
+    bool is_good = true;
+    for (std::uint8_t i = 0; i < packet.value().slice_count; ++i) {
+      is_good = take_known(packet.value().slices[i], caller.machine) && is_good;
+    }
+    return is_good;
+  }
+  if (kind == MessageKind::support) {
+    const Result<std::uint32_t> version = read_support(bytes);
+    caller.supports = version && version.value() == failover_.roster.version;
+    return version.ok();
+  }
+  if (kind != MessageKind::roster) return false;
+  // A newer one: whose place is where, and what a majority is, may be otherwise there.
+  const Result<Roster> roster = read_roster(bytes);
+  if (!roster || roster.value().version <= failover_.roster.version) return roster.ok();
+  if (!is_sealed_for(roster.value(), token_, message_)) return false;
+  failover_.roster = roster.value();
+  for (Caller& each : failover_.callers) {
+    if (each.hello.empty()) continue;
+    each.machine = failover_.roster.machine_of(read_hello(each.hello).value().token);
+    each.supports = false;
+    each.must_tell_roster = each.must_ask = each.machine >= 0;
+  }
+  failover_.is_candidate = own_machine() >= 0;
+  return true;
+}
+
+bool ClientCore::take_known(const InputSlice& slice, int machine) {
+  if (slice.player >= players()) return false;
+  InputStream& stream = streams_[slice.player];
+  if (slice.first > stream.end()) return true;  // what is missing before it did not arrive: see write_missing
+  const bool is_own = is_local(slice.player);
+  const bool is_its = owns_inputs() && (failover_.roster.machines[machine].players >> slice.player & 1) != 0;
+  // A host steps no frame without its inputs, and clients are ahead of it by their delay and guesses; it has lived
+  // without us for as long as we waited.
+  const Frame waited = static_cast<Frame>(config_.migration / clock_.period());
+  const Frame most = present() + waited + 2 * config_.most_delay + config_.window;
+  Frame& told = failover_.told[slice.player];
+  SliceReader reader(slice);
+  InputEntry entry;
+  for (Frame frame = slice.first; reader.next(entry); ++frame) {
+    if (frame >= most || (!entry.absent && !rules_.valid(entry.bytes))) return false;
+    if (is_own && is_open_ && frame == accepted_[slice.player] && !owns_inputs()) {
+      take_own(slice.player, entry);
+    };
+    if (is_own && is_open_) continue;
+    if (frame == stream.end()) {
+      stream.append(entry);
+    } else if (is_its && frame >= failover_.ends[slice.player] && stream.contains(frame)) {
+      stream.replace(frame, entry);
+      timeline_.recheck(slice.player, frame);
+    }
+    if (is_its && frame >= told) told = frame + 1;
+  }
+  return !reader.failed();
+}
+
+void ClientCore::forget_untold() {
+  if (!owns_inputs()) return;
+  for (const Caller& caller : failover_.callers) {
+    if (!caller.is_connected || !caller.supports) continue;
+    for (int p = 0; p < players(); ++p) {
+      InputStream& stream = streams_[static_cast<std::size_t>(p)];
+      const bool is_its = (failover_.roster.machines[caller.machine].players >> p & 1) != 0;
+      if (!is_its || stream.end() <= failover_.told[p]) continue;
+      stream.truncate(failover_.told[p]);
+      timeline_.recheck(p, failover_.told[p]);
+    }
+  }
+}
+
+}  // namespace isostep
