@@ -52,7 +52,7 @@ bool ClientCore::take_known(const InputSlice& slice, int machine) {
     if (frame >= most || (!entry.absent && !rules_.valid(entry.bytes))) return false;
     if (is_own && is_open_ && frame == accepted_[slice.player] && !owns_inputs()) {
       take_own(slice.player, entry);
-    };
+    }
     if (is_own && is_open_) continue;
     if (frame == stream.end()) {
       stream.append(entry);
