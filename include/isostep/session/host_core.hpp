@@ -74,7 +74,7 @@ class HostCore : public PeerCore {
     bool must_enroll = false;
     std::uint32_t enrolled = 0;  // the roster that it has
     int player = -1;             // -1: a spectator
-    bool must_welcome = false, must_open = false, must_close = false;
+    bool must_welcome = false, must_open = false, must_close = false, must_tell_figures = false;
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
@@ -182,6 +182,8 @@ class HostCore : public PeerCore {
   void judge_lines();
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
+  /// stats().players, and when they are told.
+  void keep_figures(Time now);
   /// Inputs after the deadline: the guess is final.
   void replace_late(Time now);
   /// Inputs of others before this frame are shown to it.
@@ -218,6 +220,7 @@ class HostCore : public PeerCore {
   std::uint64_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
+  Time figures_at_ = 0;         // [us] when figures are told again
   Time began_ = 0;              // [us]
   Time due_from_ = 0;           // [us] nobody is late before that
   Time reports_from_ = 0;       // [us] before that, what guests say of lateness speaks of a pause of ours

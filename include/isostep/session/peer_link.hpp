@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/session/line_meter.hpp"
 #include "isostep/session/packet.hpp"
 #include "isostep/session/remote_position.hpp"
 
@@ -44,6 +45,8 @@ struct PeerLink {
   Time clock_at = 0;        // [us] when it was that
   Time round_trip = 0;      // [us] smoothed; 0: unknown
   RecentMedian<Time> round_trips;
+  LineMeter meter;                  // of what arrives
+  std::uint16_t datagrams_out = 0;  // mod 2^16
 
   Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
   Frame burst_end[kMaxPlayers] = {};    // first frame of each that this period's datagrams left out

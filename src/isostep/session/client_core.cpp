@@ -18,6 +18,8 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
   take_header(host_, header, now);
   stats_.round_trip = host_.round_trip;
+  stats_.jitter = host_.meter.jitter(now);
+  stats_.loss = host_.meter.loss(now);
   if (player_ >= 0 && is_open_) {
     const Frame acked = host_.acked[player_];
     if (acked > accepted_) accepted_ = acked;

@@ -171,6 +171,7 @@ void HostCore::before_steps(Time now) {
   reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);
+  keep_figures(now);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) {
     fill_absent();
