@@ -43,7 +43,7 @@ template <class Game> Played<Game> play(const SessionConfig& recorded, Bytes fil
   config.mode = SessionMode::replay;
   Session<Game> session(config, file);
   Played<Game> played;
-  for (Time now = 0; now < 60 * kSecond && session.phase() != SessionPhase::over; now += 17000) {
+  for (Time now = 0; now < 300 * kSecond && session.phase() != SessionPhase::over; now += 17000) {
     drive(session, game, now, played);
   }
   while (const std::optional<SessionEvent> event = session.poll_event()) played.events.push_back(*event);

@@ -150,6 +150,7 @@ void HostCore::before_steps(Time now) {
       if (guest.player >= 0) close_seat(guest.player);
     }
     judge_acknowledgements(guest, now);
+    guest.most_burst = is_in_match(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
     const bool receives = guest.stage == Guest::Stage::receives_snapshot;
     bool lags = false;  // inputs that it lacks have fallen out of the log
     for (int p = 0; p < players(); ++p) {

@@ -44,8 +44,17 @@ Frame read_frame_near(WireReader& reader, Frame base) {
   return reader.failed() ? 0 : static_cast<Frame>(frame);
 }
 
+/// Would what changed take less than all of it?
+bool is_worth_delta(Bytes previous, Bytes input) {
+  if (previous.size() != input.size() || input.empty()) return false;
+  if (input.size() <= kShortInput) return true;
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < input.size(); ++k) changed += previous[k] != input[k] ? 1 : 0;
+  return changed + (input.size() + 7) / 8 <= input.size();
+}
+
 void write_input(WireWriter& writer, Bytes previous, Bytes input) {
-  if (previous.size() != input.size() || input.empty()) {
+  if (!is_worth_delta(previous, input)) {
     writer.byte(kLiteral);
     writer.number(static_cast<std::uint32_t>(input.size()));
     writer.raw(input);
