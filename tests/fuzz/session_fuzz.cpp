@@ -161,6 +161,7 @@ struct Side {
 Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::uint8_t player) {
   PacketHeader header;
   header.match = match;
+  header.number = static_cast<std::uint16_t>(script.byte() * 100);
   header.time = static_cast<std::uint16_t>(script.byte() * 256);
   const std::uint8_t flags = script.byte();
   header.has_echo = (flags & 1) != 0;
@@ -419,12 +420,15 @@ void attack_client(Script& script) {
         hear(Channel::reliable, bytes);
         break;
       }
-      case 6:
-        if (op < 100) write_open(script.frame(here), bytes);
+      case 6: {
+        PlayerStats figures[kMaxPlayers] = {{.waited = script.word(), .loss = script.word() % 1200}};
+        if (op < 80) write_open(script.frame(here), bytes);
+        else if (op < 128) write_figures({figures, op % 9u}, bytes);
         else bytes = any_word_of_states(script, here, true);
         if (op % 7 == 0) (void)client.session.resync();
         hear(Channel::reliable, bytes);
         break;
+      }
       case 7:
         if (op >= 128) client.session.disconnected(0, now);
         if (op % 3 != 0) client.session.connected(0, now);

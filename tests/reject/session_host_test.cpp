@@ -228,10 +228,14 @@ TEST(HostileHost, AnythingAtAllInAnyOrderBreaksNothing) {
           if (step % 50 == 0) victim.hear_welcome(welcome);
           break;
         }
-        case 1:
+        case 1: {
           write_open(frame(), bytes);
           victim.hear(bytes);
+          PlayerStats figures[kMaxPlayers] = {{.waited = random.next(), .loss = random.next() % 1200}};
+          write_figures({figures, random.next() % 9}, bytes);
+          victim.hear(bytes);
           break;
+        }
         case 2: {
           const Buffer piece(random.next() % 12);
           victim.hear_piece(random.next() % 12, piece);

@@ -75,6 +75,7 @@ TEST(HostileWords, FramesAndAcknowledgementsFromNowhereAreWithoutEffect) {
         header.has_echo = true;
         header.echo = static_cast<std::uint16_t>(frame * 7);
         header.time = static_cast<std::uint16_t>(frame * 13);
+        header.number = static_cast<std::uint16_t>(frame * 31);
       }));
     }
     // Inputs of the far future: not even a fast clock gives them.

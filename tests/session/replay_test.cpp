@@ -2,42 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/session/match_recorder.hpp"
 #include "isostep/world/recorder.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"
+#include "session/recorded_play.hpp"
 
 namespace isostep::test {
 namespace {
 
 constexpr Frame kFrames = 600;
-
-template <class Game> struct Played {
-  std::vector<std::uint64_t> hashes;
-  std::vector<SessionEvent> events;
-  SessionPhase phase = SessionPhase::waiting;
-  bool heard(SessionEvent::Kind kind) const {
-    for (const SessionEvent& event : events) {
-      if (event.kind == kind) return true;
-    }
-    return false;
-  }
-  void confirmed(Frame frame, std::uint64_t hash) {
-    if (frame == static_cast<Frame>(hashes.size())) hashes.push_back(hash);
-  }
-};
-template <class Game> Played<Game> play(const SessionConfig& recorded, Bytes file, Game game) {
-  SessionConfig config = recorded;
-  config.mode = SessionMode::replay;
-  Session<Game> session(config, file);
-  Played<Game> played;
-  for (Time now = 0; now < 60 * kSecond && session.phase() != SessionPhase::over; now += 17000) {
-    drive(session, game, now, played);
-  }
-  while (const std::optional<SessionEvent> event = session.poll_event()) played.events.push_back(*event);
-  played.phase = session.phase();
-  return played;
-}
 
 /// A match over a bad line in which a player goes and comes back, recorded on two machines.
 template <class S> struct RecordedMatch {
@@ -57,19 +30,11 @@ template <class S> struct RecordedMatch {
         config, [this] { return std::make_unique<Game>(settings); },
         [](int player, Frame frame) { return scenes::bot_input(41, player, frame); });
     for (int p = 1; p < 3; ++p) match.add(profile("mobile")).returns = true;
-    std::vector<std::unique_ptr<MatchRecorder<Game>>> recorders;
-    for (std::size_t i = 0; i < 2; ++i) {
-      Machine<Game>& machine = match.machine(i);
-      recorders.push_back(std::make_unique<MatchRecorder<Game>>(machine.session, sink_to(files[i])));
-      EXPECT_TRUE(recorders[i]->begin(*machine.game).ok());
-      machine.was_confirmed = [recorder = recorders[i].get()](Frame frame, std::uint64_t hash) {
-        if (frame < kFrames) recorder->confirmed(frame, hash);
-      };
-    }
+    MachineRecorder<Game> ours(match.host(), files[0], kFrames), others(match.machine(1), files[1], kFrames);
     EXPECT_TRUE(match.run_to(200, 60 * kSecond));
     match.network().cut(match.machine(2).endpoint);
     EXPECT_TRUE(match.run_to(kFrames, 60 * kSecond));
-    for (const auto& recorder : recorders) EXPECT_TRUE(recorder->finish().ok());
+    for (MachineRecorder<Game>* each : {&ours, &others}) EXPECT_TRUE(each->recorder.finish().ok());
     hashes.assign(match.host().hashes.begin(), match.host().hashes.begin() + kFrames);
     someone_left = match.host().heard(SessionEvent::Kind::left);
     for (const std::uint64_t count : match.host().session.stats().rollbacks) rollbacks += count;

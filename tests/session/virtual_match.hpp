@@ -55,6 +55,7 @@ template <class Game> struct Machine {
   }
   void restarted(Frame frame) {
     ++restarts;
+    if (restarts_at) restarts_at(frame);
     if (!hashes.empty() && frame > first + static_cast<Frame>(hashes.size())) {
       hashes.clear();
       inputs.clear();
@@ -139,6 +140,7 @@ template <class Game> struct Machine {
   std::function<void(Frame)> will_step;
   std::function<void(const Game&, Frame)> stepped;
   std::function<void(Frame)> went_back;
+  std::function<void(Frame)> restarts_at;
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
   std::string connects_to;  // an address that its session asked for, and that the network has not been given yet

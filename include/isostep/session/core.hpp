@@ -83,12 +83,6 @@ struct Outgoing {
   bool close = false;  // nothing more to say: end the connection
 };
 
-/// How well one player's inputs come.
-struct PlayerStats {
-  Frame early = 0;             // [frames] by which the latest of a second came before it was needed; negative: late
-  std::uint64_t replaced = 0;  // host: inputs that came after the deadline
-};
-
 struct SessionStats {
   std::uint64_t steps = 0;           // carried out, again or for the first time
   std::uint64_t rollbacks[65] = {};  // by depth [frames]
@@ -102,6 +96,7 @@ struct SessionStats {
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
   int peers = 0;                              // connected
   Frame delay = 0;                            // [frames] an input waits now
+  std::uint32_t jitter = 0, loss = 0;         // [us], [permille] client: of the host's datagrams, as PlayerStats
   PlayerStats players[kMaxPlayers];
   int stretch = 0;  // [1/256 period] by which frames are longer than they should be
 };

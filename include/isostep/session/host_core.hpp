@@ -77,7 +77,7 @@ class HostCore : public PeerCore {
     std::uint32_t enrolled = 0;  // the roster that it has
     std::uint32_t players = 0;   // its seats, a bit each: they are taken, open and close together
     int player = -1;             // the first of them; -1: a spectator
-    bool must_welcome = false, must_open = false, must_close = false;
+    bool must_welcome = false, must_open = false, must_close = false, must_tell_figures = false;
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
@@ -212,6 +212,8 @@ class HostCore : public PeerCore {
   void judge_lines();
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
+  /// stats().players, and when they are told.
+  void keep_figures(Time now);
   /// Inputs after the deadline: the guess is final.
   void replace_late(Time now);
   /// All inputs of the slice came too late: by how much, its player has to know to send them earlier.
@@ -252,6 +254,7 @@ class HostCore : public PeerCore {
   std::uint64_t match_;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
+  Time figures_at_ = 0;         // [us] when figures are told again
   Time began_ = 0;              // [us]
   Time due_from_ = 0;           // [us] nobody is late before that
   Time reports_from_ = 0;       // [us] before that, what guests say of lateness speaks of a pause of ours

@@ -8,20 +8,27 @@
 
 namespace isostep {
 
-/// An observer of drive(). A match is its first state and the inputs since: a few kilobytes a minute, played again by
-/// whoever has the game. (SessionRecorder records the world's commands instead, for whoever has not.)
+/// An observer of drive(). A match is a state and the inputs since: a few kilobytes a minute, played again by whoever
+/// has the game. (SessionRecorder records the world's commands instead, for whoever has not.)
+///
+/// The recording begins with the state before the first frame that is stepped: that of a late joiner is the snapshot
+/// which it was sent, and the header's `first_frame` its number. Where the session restarts from another snapshot the
+/// recording ends, whole; what follows wants a recorder of its own. Errors stay, and `finish` returns them.
 template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class MatchRecorder {
  public:
-  /// The session outlives the recorder.
-  MatchRecorder(const Session<Game, Predictor>& session, ReplaySink sink) : session_(session), recorder_(sink) {}
+  /// Session and game outlive the recorder.
+  MatchRecorder(const Session<Game, Predictor>& session, const Game& game, ReplaySink sink)
+      : session_(session), game_(game), recorder_(sink) {}
 
-  /// Before the first frame; `game` is in its first state.
-  Result<void> begin(const Game& game) { return keep(recorder_.begin(game, session_.config().identity)); }
-  Result<void> finish() { return keep(recorder_.finish()); }
-  /// The first error of all so far.
-  const Result<void>& result() const { return result_; }
-
+  void before_step(Frame frame) {
+    if (phase_ == Phase::waiting) begin(frame);
+  }
+  void rolled_back(Frame frame) {
+    if (phase_ == Phase::open && frame < first_) fail("the first frame was stepped again from another state");
+  }
   void confirmed(Frame frame, std::uint64_t hash) {
+    if (phase_ != Phase::open || frame < first_) return;
+    if (frame != next_) return fail("frames were not confirmed one after the other");
     using Codec = InputCodec<typename Game::Input>;
     const int players = session_.config().players;
     InputEntry entries[kMaxPlayers];
@@ -32,21 +39,55 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
       entries[p] = {absent, Bytes(bytes[p], size)};
     }
     write_match_frame(std::span<const InputEntry>(entries, static_cast<std::size_t>(players)), frame_);
-    static_cast<void>(keep(recorder_.frame(frame_, hash)));
+    keep(recorder_.frame(frame_, hash));
+    if (result_) ++next_;
   }
-  /// A match joined late has no beginning here.
   void restarted(Frame) {
-    static_cast<void>(keep(Error{ErrorCode::invalid, "the session was joined while the match ran", "match recorder"}));
+    if (phase_ == Phase::open) end();
   }
+
+  /// Ends the file with the last confirmed frame.
+  Result<void> finish() {
+    if (phase_ == Phase::waiting) fail("no frame was stepped");
+    if (phase_ == Phase::open) end();
+    return result_;
+  }
+  /// The first error of all so far.
+  const Result<void>& result() const { return result_; }
+  /// The first that is recorded, and how many are written.
+  Frame first() const { return first_; }
+  Frame frames() const { return next_ - first_; }
+  /// False once the session restarted, or after an error.
+  bool recording() const { return phase_ == Phase::waiting || phase_ == Phase::open; }
 
  private:
-  Result<void> keep(const Result<void>& result) {
-    if (result_.ok() && !result.ok()) result_ = result;
-    return result;
+  enum class Phase : std::uint8_t { waiting, open, ended };
+
+  void begin(Frame frame) {
+    ReplayHeader header = session_.config().identity;
+    phase_ = Phase::open;
+    first_ = next_ = frame;
+    ShortText<kReplayValueCap> number;
+    number.append_number(static_cast<std::uint64_t>(frame));
+    if (frame > 0 && !header.set(kFirstFrameKey, number.view(), false)) return fail("no room for first_frame");
+    keep(recorder_.begin(game_, header));
   }
+  void end() {
+    keep(recorder_.finish());
+    phase_ = Phase::ended;
+  }
+  void keep(const Result<void>& result) {
+    if (result || !result_) return;
+    result_ = result;
+    phase_ = Phase::ended;
+  }
+  void fail(const char* message) { keep(Error{ErrorCode::invalid, message, "match recorder"}); }
 
   const Session<Game, Predictor>& session_;
+  const Game& game_;
   Recorder<Game> recorder_;
+  Phase phase_ = Phase::waiting;
+  Frame first_ = 0, next_ = 0;
   Result<void> result_;
   std::vector<std::uint8_t> frame_;
 };

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "isostep/session/packet.hpp"
+#include "isostep/session/player_stats.hpp"
 #include "isostep/session/roster.hpp"
 #include "isostep/state/replay_header.hpp"
 
@@ -30,7 +32,8 @@ enum class MessageKind : std::uint8_t {
   statements,
   resync,
   offer,
-  repaired
+  repaired,
+  figures
 };
 
 /// As what a client comes.
@@ -102,6 +105,8 @@ void write_known(Bytes packet, std::vector<std::uint8_t>& out);
 void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
+/// What the host knows of every player of the match.
+void write_figures(std::span<const PlayerStats> players, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);
 Result<Hello> read_hello(Bytes message);
@@ -115,5 +120,7 @@ Result<Candidate> read_candidate(Bytes message);
 Result<Packet> read_known(Bytes message);
 Result<std::uint32_t> read_support(Bytes message);
 Result<Address> read_redirect(Bytes message);
+/// Of exactly `into.size()` players; all but `early`, which is left as it was. On failure nothing is.
+Result<void> read_figures(Bytes message, std::span<PlayerStats> into);
 
 }  // namespace isostep

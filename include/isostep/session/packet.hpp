@@ -22,9 +22,10 @@ struct HashReport {
 };
 
 struct PacketHeader {
-  std::uint64_t match = 0;  // which is meant: what another match left in the network is refused
-  std::uint16_t time = 0;   // [ms] sender's clock mod 2^16
-  std::uint16_t echo = 0;   // [ms] receiver's clock as the sender last heard it, plus what it waited since
+  std::uint64_t match = 0;   // which is meant: what another match left in the network is refused
+  std::uint16_t number = 0;  // mod 2^16, of the sender's datagrams to this receiver
+  std::uint16_t time = 0;    // [ms] sender's clock mod 2^16
+  std::uint16_t echo = 0;    // [ms] receiver's clock as the sender last heard it, plus what it waited since
   bool has_echo = false;
   bool started = false;          // the match runs
   bool is_far = false;           // host: the receiver's line is one for which the others do not wait

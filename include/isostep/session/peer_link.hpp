@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/session/line_meter.hpp"
 #include "isostep/session/packet.hpp"
 #include "isostep/session/remote_position.hpp"
 
@@ -44,10 +45,13 @@ struct PeerLink {
   Time clock_at = 0;        // [us] when it was that
   Time round_trip = 0;      // [us] smoothed; 0: unknown
   RecentMedian<Time> round_trips;
+  LineMeter meter;                  // of what arrives
+  std::uint16_t datagrams_out = 0;  // mod 2^16
 
-  Frame acked[kMaxPlayers] = {};        // first frame of each player that the peer lacks
-  Frame burst_end[kMaxPlayers] = {};    // first frame of each that this period's datagrams left out
-  int burst = 0;                        // datagrams of this period
+  Frame acked[kMaxPlayers] = {};      // first frame of each player that the peer lacks
+  Frame burst_end[kMaxPlayers] = {};  // first frame of each that this period's datagrams left out
+  int burst = 0;                      // datagrams of this period, at most
+  int most_burst = kBurst;
   bool has_more = false;                // something did not fit
   bool may_burst = true;                // it acknowledged something new since the last datagram but a period's first
   Time acked_at = 0;                    // [us] when it last acknowledged something new; 0: never
@@ -68,10 +72,11 @@ struct PeerLink {
     messages.start(now);
   }
   /// A period's first datagram begins with what is not acknowledged; what does not fit goes into up to three more, but
-  /// only to who acknowledges: who is far behind gets the same again no sooner than it can have it.
-  static constexpr int kBurst = 4;
+  /// only to who acknowledges: who is far behind gets the same again no sooner than it can have it. Who plays waits for
+  /// the others' inputs, so what all of them say in a round trip is to reach it: seven of 480 bytes in 60 ms.
+  static constexpr int kBurst = 4, kPlayersBurst = 7;
   bool continues_burst(Time now) const {
-    return has_more && burst < kBurst && now < next_send && (burst > 1 || may_burst);
+    return has_more && burst < most_burst && now < next_send && (burst > 1 || may_burst);
   }
   /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {

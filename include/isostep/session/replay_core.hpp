@@ -29,12 +29,15 @@ class ReplayCore : public SessionCore {
   void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
+  /// What is wrong with the file, as an event; false: something is.
+  bool open_file();
   bool read_frame(Frame frame);
   void refuse(std::string_view key, std::string_view in_file, std::string_view here);
 
   FrameClock clock_;
   ReplayReader file_;
   std::vector<InputStream> streams_;
+  Frame first_ = 0;  // number of the file's frame 0
   bool asked_start_ = false;
 };
 

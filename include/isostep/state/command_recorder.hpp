@@ -16,9 +16,6 @@
 
 namespace isostep {
 
-/// In a header, where it is not 0: the number that the game gives to the file's frame 0.
-inline constexpr char kFirstFrameKey[] = "first_frame";
-
 /// The header of a recording from frame `first` on. `identity_of_world(settings, scene)` stands beside the settings and
 /// says what must be equal where a recording of such a world is replayed.
 template <class Settings>

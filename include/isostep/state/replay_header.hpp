@@ -51,6 +51,8 @@ class ReplayHeader {
 
 /// In a header: the kind of world. Files of rigid bodies, which came first, are without it.
 inline constexpr std::string_view kWorldKey = "world";
+/// In a header, where it is not 0: the number that the game or session gives to the file's frame 0.
+inline constexpr std::string_view kFirstFrameKey = "first_frame";
 
 /// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.
 struct ReplayIdentity {

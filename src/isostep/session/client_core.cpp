@@ -18,6 +18,8 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
   take_header(host_, header, now);
   stats_.round_trip = host_.round_trip;
+  stats_.jitter = host_.meter.jitter(now);
+  stats_.loss = host_.meter.loss(now);
   for (int p = 0; p < players() && is_open_; ++p) {
     if (is_own(p) && host_.acked[p] > accepted_[p]) accepted_[p] = host_.acked[p];
   }

@@ -155,6 +155,7 @@ void HostCore::before_steps(Time now) {
       close_seats(guest);
     }
     judge_acknowledgements(guest, now);
+    guest.most_burst = is_in_match(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
     const bool receives = guest.stage == Guest::Stage::receives_snapshot;
     bool lags = false;  // inputs that it lacks have fallen out of the log
     for (int p = 0; p < players(); ++p) {
@@ -179,6 +180,7 @@ void HostCore::before_steps(Time now) {
   reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);
+  keep_figures(now);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) {
     fill_absent();

@@ -74,6 +74,11 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     write_open(guest.opens, message_);
     return message();
   }
+  if (guest.must_tell_figures && guest.stage == Guest::Stage::live) {
+    guest.must_tell_figures = false;
+    write_figures({stats_.players, static_cast<std::size_t>(players())}, message_);
+    return message();
+  }
   return std::nullopt;
 }
 

@@ -1,7 +1,7 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u64 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for u8]
+// Layout: kind u8 | match u64 | number u16 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for u8]
 //         | frame varint | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | ack mask u8 | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
@@ -44,8 +44,17 @@ Frame read_frame_near(WireReader& reader, Frame base) {
   return reader.failed() ? 0 : static_cast<Frame>(frame);
 }
 
+/// Would what changed take less than all of it?
+bool is_worth_delta(Bytes previous, Bytes input) {
+  if (previous.size() != input.size() || input.empty()) return false;
+  if (input.size() <= kShortInput) return true;
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < input.size(); ++k) changed += previous[k] != input[k] ? 1 : 0;
+  return changed + (input.size() + 7) / 8 <= input.size();
+}
+
 void write_input(WireWriter& writer, Bytes previous, Bytes input) {
-  if (previous.size() != input.size() || input.empty()) {
+  if (!is_worth_delta(previous, input)) {
     writer.byte(kLiteral);
     writer.number(static_cast<std::uint32_t>(input.size()));
     writer.raw(input);
@@ -80,6 +89,7 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   const bool has_report = header.report.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
   writer.byte(kKind);
   writer.fixed(header.match);
+  writer.fixed(header.number);
   writer.fixed(header.time);
   writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
                                         (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0) |
@@ -157,6 +167,7 @@ Result<Packet> read_packet(Bytes bytes) {
   PacketHeader& header = packet.header;
   if (reader.byte() != kKind) return refuse("no datagram of a session");
   header.match = reader.fixed<std::uint64_t>();
+  header.number = reader.fixed<std::uint16_t>();
   header.time = reader.fixed<std::uint16_t>();
   const std::uint8_t flags = reader.byte();
   if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");

@@ -239,7 +239,11 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
   const bool is_current = link.position.is_near(header.frame, now, clock_.period());
   link.position.heard(header.frame, now);
   if (!link.position.is_near(link.newest_frame, now, clock_.period())) link.newest_frame = 0;
-  if (is_current && !is_after_pause(now)) link.set_clock(header, now);
+  if (is_current) link.meter.arrived(header.number, now);
+  if (is_current && !is_after_pause(now)) {
+    link.meter.measured(header.time, now);
+    link.set_clock(header, now);
+  }
   if (is_current && link.is_newest(header)) {
     link.newest_frame = header.frame;
     link.newest_time = header.time;
@@ -265,6 +269,7 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
 }
 
 Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now, Frame most) {
+  header.number = link.datagrams_out++;
   header.time = static_cast<std::uint16_t>(now / 1000);
   header.has_echo = link.has_clock;
   header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);

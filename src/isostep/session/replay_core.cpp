@@ -46,28 +46,44 @@ void ReplayCore::refuse(std::string_view key, std::string_view in_file, std::str
   tell(event);
 }
 
+bool ReplayCore::open_file() {
+  if (!file_.has_header() || !file_.has_state()) {
+    refuse("file", file_.error().message.view(), "a match recording");
+    return false;
+  }
+  const HeaderMismatch mismatch = compare_headers(file_.header(), config_.identity);
+  if (!mismatch.key.empty()) {
+    refuse(mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
+    return false;
+  }
+  const ReplayField* first = file_.header().find(kFirstFrameKey);
+  if (first == nullptr) return true;
+  const Result<std::uint64_t> number = file_.header().number(kFirstFrameKey);
+  constexpr std::uint64_t kLast = kLastFrame;
+  if (!number || number.value() > kLast || file_.frame_count() > kLast - number.value()) {
+    refuse(kFirstFrameKey, first->value.view(), "a number by which all frames are below 2^30");
+    return false;
+  }
+  first_ = static_cast<Frame>(number.value());
+  return true;
+}
+
 void ReplayCore::plan(Time now) {
   if (phase_ == SessionPhase::over) return;
   if (!asked_start_) {
     asked_start_ = true;
-    if (!file_.has_header() || !file_.has_state()) {
-      refuse("file", file_.error().message.view(), "a match recording");
-      return;
-    }
-    const HeaderMismatch mismatch = compare_headers(file_.header(), config_.identity);
-    if (!mismatch.key.empty()) {
-      refuse(mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
-      return;
-    }
+    if (!open_file()) return;
     portable_.assign(file_.state().begin(), file_.state().end());
+    timeline_.restart(first_);
+    for (InputStream& stream : streams_) stream.reset(first_);
     clock_.start(now);
     phase_ = SessionPhase::playing;
-    act(RequestKind::restore, 0);
-    act(RequestKind::save, 0);
+    act(RequestKind::restore, first_);
+    act(RequestKind::save, first_);
     return;
   }
   if (!clock_.is_due(now)) return;
-  if (static_cast<std::uint64_t>(current()) >= file_.frame_count()) {
+  if (static_cast<std::uint64_t>(current() - first_) >= file_.frame_count()) {
     if (file_.status() == ReplayStatus::complete) {
       phase_ = SessionPhase::over;
     } else {
@@ -88,7 +104,7 @@ void ReplayCore::plan(Time now) {
 bool ReplayCore::read_frame(Frame frame) {
   InputEntry inputs[kMaxPlayers];
   const std::span<InputEntry> all(inputs, streams_.size());
-  if (!read_match_frame(file_.frame(static_cast<std::uint64_t>(frame)).input, all)) return false;
+  if (!read_match_frame(file_.frame(static_cast<std::uint64_t>(frame - first_)).input, all)) return false;
   for (std::size_t p = 0; p < streams_.size(); ++p) {
     if (!inputs[p].absent && !rules_.valid(inputs[p].bytes)) return false;
     if (!streams_[p].append(inputs[p])) return false;
@@ -102,7 +118,7 @@ void ReplayCore::restored(bool ok) {
 
 void ReplayCore::hash_known(Frame state, std::uint64_t hash) {
   const std::uint64_t recorded =
-      state == 0 ? file_.state_hash() : file_.frame(static_cast<std::uint64_t>(state - 1)).hash;
+      state == first_ ? file_.state_hash() : file_.frame(static_cast<std::uint64_t>(state - first_ - 1)).hash;
   if (hash != recorded) {
     SessionEvent event{.kind = SessionEvent::Kind::desync};
     event.frame = state;
@@ -112,7 +128,7 @@ void ReplayCore::hash_known(Frame state, std::uint64_t hash) {
     tell(event);
     phase_ = SessionPhase::over;
   }
-  if (state > 0) confirm(state, hash);
+  if (state > first_) confirm(state, hash);
   confirmed_state_ = state;
 }
 

@@ -23,6 +23,7 @@ Frame any_frame(Pcg32& random) {
 PacketHeader any_header(Pcg32& random) {
   PacketHeader header;
   header.match = std::uint64_t{random.next()} << 32 | random.next();
+  header.number = static_cast<std::uint16_t>(random.next());
   header.time = static_cast<std::uint16_t>(random.next());
   header.has_echo = random.next() % 2 == 0;
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
@@ -76,6 +77,7 @@ InputStream any_stream(Pcg32& random, Frame first, std::size_t cap) {
 }
 void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.match, b.match);
+  ASSERT_EQ(a.number, b.number);
   ASSERT_EQ(a.time, b.time);
   ASSERT_EQ(a.has_echo, b.has_echo);
   ASSERT_EQ(a.echo, b.echo);
@@ -239,6 +241,7 @@ WireWriter head(std::uint8_t* buffer, std::uint8_t flags = 0, std::uint32_t fram
   WireWriter writer(buffer, kDatagramCap);
   writer.byte(0xd1);
   writer.fixed(std::uint64_t{1});
+  writer.fixed(std::uint16_t{3});
   writer.fixed(std::uint16_t{2});
   writer.byte(flags);
   writer.number(frame);
@@ -258,6 +261,7 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);
     writer.fixed(std::uint64_t{1});
+    writer.fixed(std::uint16_t{3});
     writer.fixed(std::uint16_t{2});
     writer.byte(64);
     writer.byte(players);
@@ -272,6 +276,7 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);
     writer.fixed(std::uint64_t{1});
+    writer.fixed(std::uint16_t{3});
     writer.fixed(std::uint16_t{2});
     writer.byte(32);
     writer.byte(stretch);

@@ -1,0 +1,114 @@
+// Recordings that begin in the middle: by who joins late, watches, or comes back by a snapshot.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "session/match_checks.hpp"
+#include "session/recorded_play.hpp"
+#include "session/toy_game.hpp"
+
+namespace isostep::test {
+namespace {
+
+/// A match of which the first inputs are gone when somebody comes: it is sent a snapshot.
+struct JoinedMatch {
+  SessionConfig config;
+  std::unique_ptr<VirtualMatch<Toy>> match;
+
+  explicit JoinedMatch(SessionMode mode) {
+    config.mode = mode;
+    config.players = 3;
+    config.history = 200;
+    match = std::make_unique<VirtualMatch<Toy>>(
+        config, [] { return std::make_unique<Toy>(100); },
+        [](int player, Frame frame) { return toy_input(41, player, frame); });
+    match->add(profile("wifi"));
+    match->run(kSecond, [] { return false; });
+    match->host().session.start(match->now());
+    EXPECT_TRUE(match->run_to(400, 60 * kSecond));
+  }
+  /// Played again from where it begins, all of it is what the host had.
+  void expect_verified(const std::vector<std::uint8_t>& file, Frame first, Frame frames) const {
+    const Played<Toy> played = play(config, file, Toy(100));
+    EXPECT_TRUE(played.events.empty());
+    EXPECT_EQ(played.phase, SessionPhase::over);
+    EXPECT_EQ(played.first, first);
+    ASSERT_EQ(played.hashes.size(), static_cast<std::size_t>(frames));
+    for (std::size_t f = 0; f < played.hashes.size(); ++f) {
+      ASSERT_EQ(played.hashes[f], match->host().hashes[static_cast<std::size_t>(first) + f]);
+    }
+  }
+};
+
+class LateRecording : public testing::TestWithParam<SessionMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, LateRecording, testing::Values(SessionMode::lockstep, SessionMode::rollback));
+
+TEST_P(LateRecording, BeginsWithTheSnapshotThatWasJoined) {
+  JoinedMatch joined(GetParam());
+  SessionConfig watcher = joined.config;
+  watcher.mode = SessionMode::spectator;
+  Machine<Toy>& player = joined.match->add(profile("wifi"));
+  Machine<Toy>& spectator = joined.match->add(profile("mobile"), watcher);
+  std::vector<std::uint8_t> files[2];
+  MachineRecorder<Toy> first(player, files[0]), second(spectator, files[1]);
+  ASSERT_TRUE(joined.match->run_to(900, 60 * kSecond));
+  EXPECT_TRUE(player.played(player.end() - 1, 2)) << "the joiner's own inputs are in its recording";
+  std::size_t i = 0;
+  for (MachineRecorder<Toy>* each : {&first, &second}) {
+    ASSERT_TRUE(each->recorder.finish().ok());
+    EXPECT_GE(each->recorder.first(), 350);
+    EXPECT_GE(each->recorder.first() + each->recorder.frames(), 900);
+    joined.expect_verified(files[i++], each->recorder.first(), each->recorder.frames());
+  }
+}
+
+TEST_P(LateRecording, EndsWholeWhereTheSessionRestartsAndTheNextBeginsThere) {
+  JoinedMatch joined(GetParam());
+  Machine<Toy>& late = joined.match->add(profile("wifi"));
+  std::vector<std::uint8_t> files[2];
+  MachineRecorder<Toy> before(late, files[0]);
+  ASSERT_TRUE(joined.match->run_to(700, 60 * kSecond));
+  const Frame last = late.end();
+  late.plays = false;  // until the inputs that it lacks are gone
+  joined.match->run(8 * kSecond, [] { return false; });
+  late.plays = late.returns = true;
+  ASSERT_TRUE(joined.match->run(20 * kSecond, [&] { return late.restarts == 2; }));
+  EXPECT_FALSE(before.recorder.recording());
+  EXPECT_TRUE(before.recorder.result().ok());
+  MachineRecorder<Toy> after(late, files[1]);
+  joined.match->run(5 * kSecond, [] { return false; });
+  std::size_t i = 0;
+  for (MachineRecorder<Toy>* each : {&before, &after}) {
+    ASSERT_TRUE(each->recorder.finish().ok());
+    EXPECT_GT(each->recorder.frames(), 100);
+    joined.expect_verified(files[i++], each->recorder.first(), each->recorder.frames());
+  }
+  EXPECT_GE(before.recorder.first() + before.recorder.frames(), last);
+  EXPECT_GT(after.recorder.first(), last + 200);
+}
+
+TEST(LateRecordings, OfAFirstFrameThatCannotBeAreRefused) {
+  JoinedMatch joined(SessionMode::rollback);
+  Machine<Toy>& late = joined.match->add(profile("wifi"));
+  std::vector<std::uint8_t> file;
+  MachineRecorder<Toy> recorder(late, file);
+  ASSERT_TRUE(joined.match->run_to(600, 60 * kSecond));
+  ASSERT_TRUE(recorder.recorder.finish().ok());
+  const ReplayReader whole(file);
+  for (const char* number : {"1073741824", "99999999999999999999", "x", "-1"}) {
+    SCOPED_TRACE(number);
+    ReplayHeader header = whole.header();
+    header.set(kFirstFrameKey, number, false);
+    std::vector<std::uint8_t> other;
+    ReplayWriter writer(sink_to(other));
+    ASSERT_TRUE(writer.begin(header, whole.state(), whole.state_hash()).ok());
+    ASSERT_TRUE(writer.frame(whole.frame(0).input, whole.frame(0).hash).ok());
+    ASSERT_TRUE(writer.finish().ok());
+    const Played<Toy> played = play(joined.config, other, Toy(100));
+    ASSERT_EQ(played.events.size(), 1u);
+    EXPECT_EQ(played.events[0].field.key.view(), kFirstFrameKey);
+    EXPECT_TRUE(played.hashes.empty());
+  }
+}
+
+}  // namespace
+}  // namespace isostep::test
