@@ -44,8 +44,8 @@ class SnapshotTransfer {
   static constexpr std::uint32_t kLeast = 4 << 10;  // [bytes] a window, of who has answered: a few packets
   /// [bytes] a first window for who is known: ten packets (RFC 6928), and they wait 80 ms on a line of 200 kB/s.
   static constexpr std::uint32_t kKnown = 16 << 10;
-  static constexpr Time kQueue = kSecond / 10;      // [us] as LEDBAT (RFC 6817) allows
-  static constexpr int kSamples = 4;                // the least of so many trips is without most of the jitter
+  static constexpr Time kQueue = kSecond / 10;  // [us] as LEDBAT (RFC 6817) allows
+  static constexpr int kSamples = 4;            // the least of so many trips is without most of the jitter
 
   std::uint32_t sent_ = 0, arrived_ = 0, size_ = 0;  // [bytes]
   std::uint32_t window_ = kFirst;                    // [bytes]
