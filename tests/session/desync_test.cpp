@@ -5,6 +5,9 @@
 // what the host passes on to all. A host can; it is found out because clients compare each other's hashes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "isostep/world/desync_bundle.hpp"
 #include "scenes/match.hpp"
 #include "session/altered_packet.hpp"
 #include "session/match_checks.hpp"
@@ -122,6 +125,47 @@ TYPED_TEST(DesyncOfAWorld, ByTheLastBitOfOneSpeedIsFound) {
     EXPECT_GT(match.machine(i).last(Kind::desync).frame, kFault);
   }
   EXPECT_EQ(match.machine(2).count(Kind::desync), 2);
+}
+
+// The state that repairs a machine comes a round trip after the verdict: what went wrong can be written down before.
+TEST(DesyncOfAWorldThatIsRepaired, LeavesABundle) {
+  using Game = scenes::Match<float>;
+  const scenes::MatchSettings settings = {.players = 3, .pile = 6, .substeps = 2};
+  SessionConfig config = config_of(3, SessionMode::rollback);
+  config.repair = true;
+  VirtualMatch<Game> match(
+      config, [&] { return std::make_unique<Game>(settings); },
+      [](int player, Frame frame) { return scenes::bot_input(4, player, frame); });
+  for (int p = 1; p < 3; ++p) match.add(profile("wifi"));
+  Machine<Game>& wrong = match.machine(1);
+  wrong.tamper = [&](Game& game, Frame frame) {
+    if (frame != kFault || wrong.restarts > 0) return;
+    Vec3<float> velocity = game.world().velocity(game.puck(0));
+    velocity.y += 0.125f;
+    game.world().set_velocity(game.puck(0), velocity, game.world().angular_velocity(game.puck(0)));
+  };
+  FrameHistory<float> history(wrong.game->world());
+  wrong.will_step = [&](Frame frame) { history.before_step(frame); };
+  wrong.stepped = [&](const Game&, Frame frame) { history.after_step(frame); };
+  wrong.went_back = [&](Frame frame) { history.rolled_back(frame); };
+  wrong.was_confirmed = [&](Frame frame, std::uint64_t hash) { history.confirmed(frame, hash); };
+  std::vector<std::uint8_t> bundle;
+  int restarts = -1;
+  wrong.after_turn = [&] {
+    if (restarts >= 0 || !wrong.heard(Kind::outvoted)) return;
+    restarts = wrong.restarts;
+    const Frame agreed = wrong.last(Kind::desync).agreed;
+    EXPECT_TRUE(write_bundle(sink_to(bundle), history, "match", {.player = 1, .agreed = agreed, .states = 4}).ok());
+    EXPECT_NE(history.find(kFault), nullptr);
+  };
+  ASSERT_TRUE(match.run_to(kFault + 120, 60 * kSecond));
+  EXPECT_EQ(restarts, 0) << "before the repair";
+  EXPECT_EQ(wrong.restarts, 1);
+  EXPECT_EQ(wrong.last(Kind::outvoted).player, wrong.seat);
+  EXPECT_GT(bundle.size(), 1000u);
+  const Frame end = std::min(wrong.end(), match.host().end());
+  EXPECT_EQ(wrong.hashes[static_cast<std::size_t>(end - 1 - wrong.first)],
+            match.host().hashes[static_cast<std::size_t>(end - 1)]);
 }
 
 // A host that passes on other inputs to one of two clients. Player 0's are its own; the other client's have been

@@ -9,7 +9,7 @@
 namespace isostep::test {
 namespace {
 
-constexpr int kSeeds = 30;
+constexpr int kSeeds = 20;
 
 SessionConfig config_of(Pcg32& random) {
   SessionConfig config;
@@ -168,8 +168,8 @@ TEST(MigrationChaos, EndsWithOneHostOneHistoryAndEverybodyBack) {
     for (std::size_t i = 0; i < seats.size(); ++i)
       EXPECT_EQ(seats[i], static_cast<int>(i)) << "each has one, and another";
   }
-  EXPECT_GT(killed, 40);
-  EXPECT_GT(new_hosts, 10);
+  EXPECT_GT(killed, 30);
+  EXPECT_GT(new_hosts, 5);
   EXPECT_GT(deposed, 10);
   EXPECT_GT(damages, 10);
   EXPECT_GT(repairs, 5);

@@ -118,6 +118,7 @@ class HostCore : public PeerCore {
 
   // --- among machines that differ, in host_verdict.cpp ---
   void tend_inquiry(Time now);
+  void open_inquiry(Time now);
   void conclude_inquiry(Time now);
   /// Can the others go on without us, at one that is right?
   bool can_step_down(const Verdict& verdict) const;

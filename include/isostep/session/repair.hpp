@@ -29,8 +29,8 @@ struct Repaired {
 void write_repaired(const Repaired& repaired, std::vector<std::uint8_t>& out);
 Result<Repaired> read_repaired(Bytes message);
 
-/// The client's part. It plays on in its own states until the whole of the host's has arrived. From then on it steps the
-/// frames since as fast as it can, while its player's inputs go on at the pace of the match: the others do not notice.
+/// The client's part. It plays on in its own states until the whole of the host's has arrived. From then on it steps
+/// the frames since as fast as it can, while its player's inputs go on at the pace of the match: nobody else notices.
 struct Repair {
   enum class Stage : std::uint8_t {
     none,

@@ -74,8 +74,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
   /// Has the last one been taken? A game of orders hands over the next only then.
   bool wants_input(int player) const { return core_->wants_input(player); }
-  /// Client: takes a state of the host's, as one that joins does, and keeps its seat: for one that Kind::outvoted names,
-  /// which SessionConfig::repair does by itself, or whose game would have it. Kind::repaired tells when it is done. What
+  /// Client: takes a state of the host's, as one that joins does, and keeps its seat. It is for who is outvoted, which
+  /// SessionConfig::repair does by itself, or whose game would have it. Kind::repaired tells when it is done. What
   /// the observers of drive() saw stays as it was until they are told `restarted`: write the bundle before that. False:
   /// not in the match, or under way already.
   bool resync() { return core_->resync(); }

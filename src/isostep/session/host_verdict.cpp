@@ -33,6 +33,10 @@ void HostCore::tend_inquiry(Time now) {
   if (differing == 0 || !is_new || now < inquiry_.next) return;
   inquiry_.differing = differing;
   inquiry_.asked = asked;
+  open_inquiry(now);
+}
+
+void HostCore::open_inquiry(Time now) {
   inquiry_.is_open = true;
   inquiry_.until = now + kAnswer;
   inquiry_.next = now + kBetweenInquiries;

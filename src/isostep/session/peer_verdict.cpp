@@ -25,7 +25,7 @@ void PeerCore::compare(std::size_t reporter) {
   SessionEvent event{.kind = SessionEvent::Kind::desync};
   event.player = reporter < kMaxPlayers ? static_cast<std::uint8_t>(reporter) : 0xff;
   event.frame = report.frame;
-  event.agreed = view.agreed;
+  event.agreed = view.agreed > view.after ? view.agreed : view.after;
   event.ours = hashes_.chain(report.frame);
   event.theirs = report.chain;
   tell(event);
