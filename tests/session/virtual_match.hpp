@@ -145,15 +145,16 @@ template <class Game> struct Machine {
   std::function<void()> after_turn;
   std::string connects_to;  // an address that its session asked for, and that the network has not been given yet
   bool muted = false;
-  bool is_offline = false;  // the transport's last word
-  bool returns = false;     // connects again when the host is lost, as a game would
-  bool keeps = true;        // what was confirmed
-  Time fast = 0, late = 0;  // [permille] of its clock
-  int seat = -1;            // the player for which it was asked last
-  bool guessed = false;     // stepped a frame on a predicted input
-  bool plays = true;        // takes turns at all
-  Time slow = 0;            // [us] between its turns
-  Time step_time = 0;       // [us] that a frame takes it; one that is stepped again takes nothing
+  bool is_offline = false;                      // the transport's last word
+  bool returns = false;                         // connects again when the host is lost, as a game would,
+  transport::EndpointId home = Network::kHost;  // to this one
+  bool keeps = true;                            // what was confirmed
+  Time fast = 0, late = 0;                      // [permille] of its clock
+  int seat = -1;                                // the player for which it was asked last
+  bool guessed = false;                         // stepped a frame on a predicted input
+  bool plays = true;                            // takes turns at all
+  Time slow = 0;                                // [us] between its turns
+  Time step_time = 0;                           // [us] that a frame takes it; one that is stepped again takes nothing
   Time next_turn = 0;
   std::vector<SessionEvent> events;
   Frame first = 0;
@@ -188,7 +189,9 @@ template <class Game> class VirtualMatch {
   transport::SimulatedNetwork& network() { return network_; }
   Time now() const { return now_; }
 
-  Machine<Game>& add(const transport::NetworkProfile& profile, const SessionConfig& config) {
+  /// It connects to `home`: the host, or a relay.
+  Machine<Game>& add(const transport::NetworkProfile& profile, const SessionConfig& config,
+                     transport::EndpointId home = transport::SimulatedNetwork::kHost) {
     const transport::EndpointId id = network_.add_client(profile);
     SessionConfig own = config;
     if (config.migration > 0) {
@@ -196,7 +199,8 @@ template <class Game> class VirtualMatch {
       own.seed = config.seed + id + 1;
     }
     machines_.push_back(std::make_unique<Machine<Game>>(network_, id, own, maker_()));
-    network_.connect(id);
+    machines_.back()->home = home;
+    network_.connect(id, home);
     return *machines_.back();
   }
   Machine<Game>& add(const transport::NetworkProfile& profile) {
@@ -224,7 +228,7 @@ template <class Game> class VirtualMatch {
         machine->next_turn = busy > 0 ? from + busy : now_ + machine->slow;
         const SessionPhase phase = machine->session.phase();
         const bool is_gone = phase == SessionPhase::lost || (machine->is_offline && phase == SessionPhase::waiting);
-        if (machine->returns && is_gone) network_.connect(machine->endpoint);
+        if (machine->returns && is_gone) network_.connect(machine->endpoint, machine->home);
       }
       if (done()) return true;
     }

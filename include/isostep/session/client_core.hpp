@@ -49,6 +49,15 @@ class ClientCore : public PeerCore {
   void blocked(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
+  bool is_host(PeerId peer) const { return host_.is_connected && host_.peer == peer; }
+  bool is_host_link(const PeerLink& link) const { return &link == &host_; }
+  /// We have the host's states, and go on from there.
+  bool is_settled_in() const { return is_greeted_ && has_start_ && !is_restoring_ && !must_begin_ && !is_spoiled_; }
+  /// The match has begun; also while the host is away.
+  bool has_begun() const { return runs_ || current() > 0; }
+  std::uint64_t match() const { return welcome_.match; }
+  std::uint32_t hosted() const { return welcome_.hosted; }
+
  private:
   static InputDelay::Settings lag_settings(const SessionConfig& config);
   void lose(Time now);
@@ -114,7 +123,7 @@ class ClientCore : public PeerCore {
   /// Do the host's machine and enough others have the states that we have?
   bool is_vouched_for(Time now) const;
   void fail(SessionEvent::Kind kind, SessionPhase phase);
-  /// [1/256 frame] the host's next frame, as we estimate it.
+  /// [1/256 frame] the host's next frame, as we estimate it; less the broadcast delay of a relay.
   std::int64_t host_position(Time now) const;
   Frame frames_behind(Time now) const;
   /// [1/256 period] by which frames have to be longer for us.

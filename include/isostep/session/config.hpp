@@ -62,6 +62,10 @@ struct SessionConfig {
   /// [us] without a word from the host until the clients go on without it, at one of them: 0: never. It takes three
   /// machines, and each that may follow has an address and a seed.
   Time migration = 0;
+  bool relays = false;  // spectator: it serves up to max_peers further ones, who connect to it as to a host
+  /// Relay: it and all whom it serves see the match so many frames late. Ten minutes are 36000, and take a history of
+  /// 72200: 4 MB for eight players of 4 bytes.
+  Frame broadcast_delay = 0;
   Address address;  // where the others' transports reach ours: text for SessionCore::poll_connect of theirs
   /// Whose states a majority calls wrong takes the host's again by itself, see Session::resync; a host whose own are
   /// called so gives way to another machine, with `migration`.

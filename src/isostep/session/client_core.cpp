@@ -111,8 +111,8 @@ Frame ClientCore::final_limit() const {
 }
 
 std::int64_t ClientCore::host_position(Time now) const {
-  return host_.position.at(now, clock_.period()) +
-         static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
+  const auto way = static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
+  return host_.position.at(now, clock_.period()) + way - std::int64_t{config_.broadcast_delay} * 256;
 }
 
 Frame ClientCore::frames_behind(Time now) const { return static_cast<Frame>(host_position(now) / 256 - present()); }

@@ -77,6 +77,11 @@ const char* problem_of(const SessionConfig& config) {
   if (config.most_replayed < 0) return "most_replayed: 0 frames or more";
   if (config.max_peers < 1 || config.max_peers > 256) return "max_peers: 1 to 256";
   if (config.max_strangers < 0 || config.max_strangers > 1024) return "max_strangers: 0 to 1024";
+  if (config.relays && (config.mode != SessionMode::spectator || config.host)) return "relays: of a spectator";
+  if (config.broadcast_delay < 0 || config.broadcast_delay > config.history / 2 - config.kept) {
+    return "broadcast_delay: 0 to history / 2 - kept frames";
+  }
+  if (config.broadcast_delay > 0 && !config.relays) return "broadcast_delay: of a relay";
   if (config.seat < -1 || config.seat >= config.players) return "seat: below players, or -1";
   if (config.credential.size() > kCredentialCap) return "credential: 256 bytes or fewer";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/client_core.hpp"
 #include "isostep/session/host_core.hpp"
+#include "isostep/session/relay_core.hpp"
 #include "isostep/session/replay_core.hpp"
 #include "isostep/session/session.hpp"
 #include "isostep/session/sync_test_core.hpp"
@@ -43,6 +44,7 @@ std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, cons
   if (config.mode == SessionMode::sync_test) return std::make_unique<SyncTestCore>(whole, rules);
   if (config.mode == SessionMode::replay) return std::make_unique<ReplayCore>(whole, rules, recording);
   if (config.host) return std::make_unique<HostCore>(whole, rules);
+  if (config.relays) return std::make_unique<RelayCore>(whole, rules);
   return std::make_unique<ClientCore>(whole, rules);
 }
 

@@ -65,6 +65,12 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.seat = 2), "seat"));
   EXPECT_TRUE(names(PROBLEM(c.credential.resize(kCredentialCap + 1)), "credential"));
   EXPECT_TRUE(names(PROBLEM(c.most_packets = 119), "most_packets"));
+  EXPECT_TRUE(names(PROBLEM(c.relays = true), "relays"));
+  EXPECT_TRUE(names(PROBLEM(c.relays = c.host = true; c.mode = SessionMode::spectator; c.seed = 1), "relays"));
+  EXPECT_TRUE(names(PROBLEM(c.broadcast_delay = 60; c.mode = SessionMode::spectator), "broadcast_delay"));
+  EXPECT_TRUE(names(PROBLEM(c.broadcast_delay = -1), "broadcast_delay"));
+  EXPECT_TRUE(
+      names(PROBLEM(c.broadcast_delay = 3537; c.relays = true; c.mode = SessionMode::spectator), "broadcast_delay"));
   for (const SessionMode mode : {SessionMode::lockstep, SessionMode::rollback, SessionMode::spectator}) {
     SessionConfig config;
     config.host = true;
@@ -93,6 +99,8 @@ TEST(SessionConfig, TheEdgesAreFine) {
   EXPECT_EQ(PROBLEM(c.credential.resize(kCredentialCap)), "");
   EXPECT_EQ(PROBLEM(c.most_packets = 120), "");
   EXPECT_EQ(PROBLEM(c.host = true; c.seed = 1), "");
+  EXPECT_EQ(PROBLEM(c.broadcast_delay = 36000; c.history = 72200; c.relays = true; c.mode = SessionMode::spectator),
+            "");
   EXPECT_EQ(PROBLEM(c.host = true; c.mode = SessionMode::sync_test), "");
 }
 
