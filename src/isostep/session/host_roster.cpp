@@ -59,6 +59,7 @@ void HostCore::keep_roster() {
   const Roster next = drafted();
   if (same_roster(next, roster_)) return;
   roster_ = next;
+  stats_.machines = next.count_in();
   for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
 }
 
