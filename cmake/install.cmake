@@ -12,7 +12,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/isostep)
 
 set(isostep_package ${CMAKE_INSTALL_LIBDIR}/cmake/isostep)
 # What was built beside them; each is found if what it needs is.
-foreach(extra transport threads)
+foreach(extra transport sealed threads)
   if(TARGET isostep_${extra})
     install(TARGETS isostep_${extra} EXPORT isostep-${extra} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(DIRECTORY src/${extra}/ DESTINATION ${isostep_extras}/${extra} FILES_MATCHING PATTERN "*.hpp")

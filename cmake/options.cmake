@@ -5,6 +5,7 @@ option(ISOSTEP_EXAMPLES "Examples, which tests run and pages quote" ${PROJECT_IS
 option(ISOSTEP_TESTS "Tests" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FULL_TESTS "Also those tests that build the library once more, or take minutes" OFF)
 option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; tool, examples and tests bring it anyway" OFF)
+option(ISOSTEP_SEALED "isostep::sealed: transports encrypted by libsodium; tests, examples, benchmarks bring it where that is" OFF)
 option(ISOSTEP_THREADS "isostep::threads: a step's work on oneTBB's threads; the tool brings it anyway" OFF)
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})

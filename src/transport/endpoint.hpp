@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "isostep/core/bytes.hpp"
 #include "isostep/core/result.hpp"
@@ -19,8 +20,8 @@ enum class ArrivalKind : std::uint8_t { connected, disconnected, message };
 struct Arrival {
   ArrivalKind kind;
   PeerId peer;
-  Channel channel;  // of a message
-  Bytes bytes;      // of a message; until the next call of the endpoint
+  Channel channel;        // of a message
+  Bytes bytes;            // of a message; until the next call of the endpoint
   bool incoming = false;  // of a connection: the other side asked for it
 };
 
@@ -33,8 +34,18 @@ concept Endpoint = requires(E& endpoint, PeerId peer, Channel channel, Bytes byt
   { endpoint.disconnect(peer) } -> std::same_as<void>;
 };
 
+/// Also connects to the machines whose addresses a session names when its host is gone: text as this transport writes
+/// it, which each machine gives its session as SessionConfig::address. `connected` or `disconnected` follows.
+template <class E>
+concept Connector = Endpoint<E> && requires(E& endpoint, std::string_view address) {
+  { endpoint.connect_to(address) } -> std::same_as<Result<void>>;
+};
+
+/// [bytes] that transports carry beside a session's largest message, for an adapter that seals it.
+inline constexpr std::size_t kSealRoom = 20;
+
 inline constexpr std::size_t cap_of(Channel channel) {
-  return channel == Channel::datagram ? kDatagramCap : kReliableCap;
+  return (channel == Channel::datagram ? kDatagramCap : kReliableCap) + kSealRoom;
 }
 
 }  // namespace isostep::transport

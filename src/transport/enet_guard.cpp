@@ -28,8 +28,9 @@ constexpr std::size_t kSizes[ENET_PROTOCOL_COMMAND_COUNT] = {
 };
 
 constexpr std::size_t kPiece = kEnetMtu - sizeof(ENetProtocolHeader) - sizeof(ENetProtocolSendFragment);
-static_assert(kDatagramCap + sizeof(ENetProtocolHeader) + sizeof(ENetProtocolSendUnsequenced) <= kEnetMtu);
-static_assert(kDatagramCap <= kPiece, "ENet fragments whatever is larger than a piece, and fragments are reliable");
+static_assert(cap_of(Channel::datagram) + sizeof(ENetProtocolHeader) + sizeof(ENetProtocolSendUnsequenced) <= kEnetMtu);
+static_assert(cap_of(Channel::datagram) <= kPiece,
+              "ENet fragments whatever is larger than a piece, and fragments are reliable");
 
 template <class Command> Command read(Bytes at) {
   Command command;
@@ -42,7 +43,8 @@ bool is_plausible(const ENetProtocolConnect& connect) {
 }
 bool is_plausible(const ENetProtocolSendFragment& fragment) {
   const std::size_t total = ENET_NET_TO_HOST_32(fragment.totalLength);
-  return total <= kReliableCap && ENET_NET_TO_HOST_32(fragment.fragmentCount) == (total + kPiece - 1) / kPiece;
+  return total <= cap_of(Channel::reliable) &&
+         ENET_NET_TO_HOST_32(fragment.fragmentCount) == (total + kPiece - 1) / kPiece;
 }
 
 /// Bytes of the command and its message; 0 when it is not plausible.

@@ -5,6 +5,7 @@
 #include <enet/enet.h>
 
 #include <algorithm>
+#include <charconv>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -50,21 +51,23 @@ struct EnetTransport::State {
     PeerId peer;
     Channel channel;
     ENetPacket* packet;  // of a message
+    bool incoming = false;
   };
 
   EnetSettings settings;
   EnetStatistics statistics;
-  bool is_client = false;
-  bool more = false;  // the last poll left something behind
+  bool accepts = false;  // connections that others ask for
+  bool more = false;     // the last poll left something behind
   ENetHost* host = nullptr;
-  ENetAddress target = {};
+  ENetAddress target = {};     // of the last connection that we asked for
+  std::optional<PeerId> ours;  // that connection, until it ends
   std::vector<Peer> peers;
   std::deque<Waiting> inbox;
   ENetPacket* handed_out = nullptr;  // what the last receive() shows
 
   ~State();
   Result<void> open(const ENetAddress* address);
-  Result<void> attempt();
+  Result<void> attempt(const ENetAddress& address);
   ENetPeer* enet_peer(PeerId peer) { return &host->peers[peer]; }
   void leave(PeerId peer);
   void purge(PeerId peer);
@@ -99,14 +102,14 @@ EnetTransport::State::~State() {
 
 Result<void> EnetTransport::State::open(const ENetAddress* address) {
   if (enet_initialize() != 0) return failure("ENet could not start", "enet_initialize");
-  peers.resize(is_client ? 1 : settings.max_peers);
+  peers.resize(settings.max_peers);
   host = enet_host_create(address, peers.size(), kEnetChannels, 0, 0);
   if (host == nullptr) {
     enet_deinitialize();
     return failure("no socket: the port is taken, or the address is not of this machine", "enet_host_create");
   }
   host->mtu = kEnetMtu;
-  host->maximumPacketSize = kReliableCap;
+  host->maximumPacketSize = cap_of(Channel::reliable);
   host->maximumWaitingData = kWaitingCap;
   host->duplicatePeers = settings.max_peers_an_address;
   host->intercept = throw_away_implausible;
@@ -117,12 +120,17 @@ Result<void> EnetTransport::State::open(const ENetAddress* address) {
   return {};
 }
 
-Result<void> EnetTransport::State::attempt() {
+Result<void> EnetTransport::State::attempt(const ENetAddress& address) {
+  target = address;
+  if (ours && peers[*ours].link == Link::attempting) leave(*ours);
   ENetPeer* peer = enet_host_connect(host, &target, kEnetChannels, 0);
-  if (peer == nullptr) return failure("ENet has no memory for a connection", "enet_host_connect");
+  if (peer == nullptr) {
+    return Error{ErrorCode::limit, "max_peers connections are open or closing", "enet_host_connect"};
+  }
   const enet_uint32 milliseconds = static_cast<enet_uint32>(settings.timeout / 1000);
   enet_peer_timeout(peer, ENET_PEER_TIMEOUT_LIMIT, milliseconds, milliseconds);
-  peers[0].link = Link::attempting;
+  ours = peer->incomingPeerID;
+  peers[*ours].link = Link::attempting;
   enet_host_flush(host);
   return {};
 }
@@ -139,6 +147,7 @@ void EnetTransport::State::purge(PeerId peer) {
 void EnetTransport::State::leave(PeerId peer) {
   purge(peer);
   peers[peer].link = Link::none;
+  if (ours == peer) ours.reset();
   enet_peer_disconnect_now(enet_peer(peer), 0);
 }
 
@@ -174,22 +183,22 @@ void EnetTransport::State::handle(const ENetEvent& event) {
 
 void EnetTransport::State::handle_connect(PeerId peer) {
   ENetPeer* remote = enet_peer(peer);
-  const bool wanted = !is_client || peers[peer].link == Link::attempting;
-  if (!wanted || remote->mtu != kEnetMtu || remote->channelCount != kEnetChannels) {
-    const bool failed = is_client && wanted;
+  const bool incoming = peers[peer].link != Link::attempting;
+  if ((incoming && !accepts) || remote->mtu != kEnetMtu || remote->channelCount != kEnetChannels) {
     leave(peer);
-    if (failed) inbox.push_back({ArrivalKind::disconnected, peer, Channel::reliable, nullptr});
+    if (!incoming) inbox.push_back({ArrivalKind::disconnected, peer, Channel::reliable, nullptr});
     return;
   }
   const enet_uint32 milliseconds = static_cast<enet_uint32>(settings.timeout / 1000);
   enet_peer_timeout(remote, ENET_PEER_TIMEOUT_LIMIT, milliseconds, milliseconds);
   enet_peer_throttle_configure(remote, kThrottleInterval, kRecoverAtOnce, kNeverGiveWay);
   peers[peer].link = Link::open;
-  inbox.push_back({ArrivalKind::connected, peer, Channel::reliable, nullptr});
+  inbox.push_back({ArrivalKind::connected, peer, Channel::reliable, nullptr, incoming});
 }
 
 void EnetTransport::State::handle_disconnect(PeerId peer) {
   const Link link = std::exchange(peers[peer].link, Link::none);
+  if (ours == peer) ours.reset();
   if (link != Link::open && link != Link::attempting) return;
   inbox.push_back({ArrivalKind::disconnected, peer, Channel::reliable, nullptr});
 }
@@ -236,6 +245,7 @@ Result<EnetTransport> EnetTransport::listen(std::uint16_t port, const EnetSettin
   }
   auto state = std::make_unique<State>();
   state->settings = settings;
+  state->accepts = true;
   if (const Result<void> opened = state->open(&address); !opened) return opened.error();
   return EnetTransport(std::move(state));
 }
@@ -244,20 +254,38 @@ Result<EnetTransport> EnetTransport::connect(const std::string& address, std::ui
                                              const EnetSettings& settings) {
   auto state = std::make_unique<State>();
   state->settings = settings;
-  state->is_client = true;
-  state->target.port = port;
-  if (port == 0 || enet_address_set_host(&state->target, address.c_str()) != 0) {
+  state->settings.max_peers = 1;
+  if (const Result<void> opened = state->open(nullptr); !opened) return opened.error();
+  EnetTransport transport(std::move(state));
+  if (const Result<void> attempted = transport.connect_to(address, port); !attempted) return attempted.error();
+  return transport;
+}
+
+Result<void> EnetTransport::connect_to(const std::string& name, std::uint16_t port) {
+  ENetAddress address = {ENET_HOST_ANY, port};
+  if (port == 0 || enet_address_set_host(&address, name.c_str()) != 0) {
     return failure("no address has this name, or its port is 0", "connect");
   }
-  if (const Result<void> opened = state->open(nullptr); !opened) return opened.error();
-  if (const Result<void> attempted = state->attempt(); !attempted) return attempted.error();
-  return EnetTransport(std::move(state));
+  return state_->attempt(address);
+}
+
+Result<void> EnetTransport::connect_to(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  const std::string name(text.substr(0, colon));
+  const std::string_view port = colon == std::string_view::npos ? "" : text.substr(colon + 1);
+  ENetAddress address = {ENET_HOST_ANY, 0};
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+  const bool is_port = error == std::errc() && end == port.data() + port.size() && address.port != 0;
+  if (!is_port || enet_address_set_host_ip(&address, name.c_str()) != 0) {
+    return failure("expected an address like 192.0.2.7:4000", "connect_to");
+  }
+  return state_->attempt(address);
 }
 
 Result<void> EnetTransport::connect_again() {
-  if (!state_->is_client) return failure("only a client connects", "connect_again");
-  state_->leave(0);
-  return state_->attempt();
+  if (state_->target.port == 0) return failure("nobody was connected to before", "connect_again");
+  if (state_->ours) state_->leave(*state_->ours);
+  return state_->attempt(state_->target);
 }
 
 std::uint16_t EnetTransport::port() const { return state_->host->address.port; }
@@ -314,7 +342,7 @@ std::optional<Arrival> EnetTransport::receive() {
   state_->inbox.pop_front();
   state_->handed_out = next.packet;
   const Bytes bytes = next.packet != nullptr ? Bytes(next.packet->data, next.packet->dataLength) : Bytes{};
-  return Arrival{next.kind, next.peer, next.channel, bytes};
+  return Arrival{next.kind, next.peer, next.channel, bytes, next.incoming};
 }
 
 void EnetTransport::disconnect(PeerId id) {

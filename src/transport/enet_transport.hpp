@@ -7,15 +7,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "transport/endpoint.hpp"
 
 namespace isostep::transport {
 
 struct EnetSettings {
-  PeerId max_peers = 64;             // of a host, those connecting included: the session's max_peers + max_strangers
-  PeerId max_peers_an_address = 16;  // of a host: players behind one router share its address
-  std::string bind_address = {};     // of a host; empty: every interface
+  // Of who listens.
+  PeerId max_peers = 64;             // those connecting included: the session's max_peers + max_strangers
+  PeerId max_peers_an_address = 16;  // of those that others asked for: players behind one router share its address
+  std::string bind_address = {};     // empty: every interface
   /// [us] A peer that acknowledges nothing is given up after this, at the next repetition due: at the latest after
   /// twice as long.
   Time timeout = 10 * kSecond;
@@ -33,16 +35,16 @@ struct EnetStatistics {
   std::uint64_t socket_errors = 0;  // a network that is down comes back, or the timeout ends its connections
 };
 
-/// Models Endpoint. PeerId is ENet's index of the peer: a host's lowest free one, on a client 0.
+/// Models Connector. PeerId is ENet's index of the peer: the lowest free one, 0 on who only connects.
 /// A frame: poll(), receive() until it has nothing, the session, send(), flush(); then wait() instead of sleeping.
 /// Not secret and not authenticated: whoever sees the packets can forge them, and requests from forged addresses hold a
 /// host's places for ENet's 5 to 30 s each. IPv4 only. Time is ENet's: the system's
 /// clock, whose jumps count as silence.
 class EnetTransport {
  public:
-  /// Port 0 lets the system choose one.
+  /// Accepts connections: a host, or a machine that may follow one. Port 0 lets the system choose one.
   static Result<EnetTransport> listen(std::uint16_t port, const EnetSettings& settings = {});
-  /// A name is looked up at once, which may block. `connected` or `disconnected` follows.
+  /// Accepts none, and connects to one host at a time.
   static Result<EnetTransport> connect(const std::string& address, std::uint16_t port,
                                        const EnetSettings& settings = {});
   EnetTransport(EnetTransport&&) noexcept;
@@ -50,10 +52,15 @@ class EnetTransport {
   /// Tells connected peers so, without waiting for what is unacknowledged.
   ~EnetTransport();
 
-  /// Of a client: leaves the host it has, without another event of it, and tries the same address again.
+  /// One more connection: `connected` or `disconnected` follows. What an earlier attempt has not reached by now is given
+  /// up without an event. A name is looked up at once, which may block.
+  Result<void> connect_to(const std::string& address, std::uint16_t port);
+  /// "192.0.2.7:4000", as the others of a match tell. Nothing is looked up: who names it may be hostile.
+  Result<void> connect_to(std::string_view address);
+  /// Leaves the connection asked for last, without another event of it, and tries the same address again.
   Result<void> connect_again();
 
-  /// The port of a host.
+  /// The port of who listens.
   std::uint16_t port() const;
 
   /// Takes what has arrived from the socket, and sends what is due.

@@ -9,6 +9,7 @@ namespace isostep::transport {
 
 /// Before drive().
 template <Endpoint E, class Session> void deliver(E& endpoint, Session& session, Time now) {
+  if constexpr (requires { endpoint.tend(now); }) endpoint.tend(now);
   while (const std::optional<Arrival> arrival = endpoint.receive()) {
     switch (arrival->kind) {
       case ArrivalKind::connected: session.connected(arrival->peer, now, arrival->incoming); break;
@@ -18,8 +19,13 @@ template <Endpoint E, class Session> void deliver(E& endpoint, Session& session,
   }
 }
 
-/// After it. What the transport refuses is as good as lost, and a session lives with losses.
+/// After it. What the transport refuses is as good as lost, and a session lives with losses. With an endpoint that is
+/// no Connector the caller asks poll_connect() itself, where the match may go on without its host.
 template <Endpoint E, class Session> void dispatch(E& endpoint, Session& session, Time now) {
+  if constexpr (Connector<E>) {
+    // An address that cannot be is as one where nobody answers: the session goes on to the next.
+    while (const auto address = session.poll_connect()) static_cast<void>(endpoint.connect_to(address->view()).ok());
+  }
   while (const std::optional<Outgoing> out = session.poll_send(now)) {
     if (!out->bytes.empty()) static_cast<void>(endpoint.send(out->peer, out->channel, out->bytes).ok());
     if (out->close) endpoint.disconnect(out->peer);

@@ -192,10 +192,10 @@ void SimulatedNetwork::send_reliable(Link& link, Direction direction, Content co
   Line& line = link.lines[index_of(direction)];
   const std::size_t size = payload ? payload->size() : 0;
   const std::uint64_t number = line.next_number++;
-  const std::size_t pieces = size == 0 ? 1 : (size + kDatagramCap - 1) / kDatagramCap;
+  const std::size_t pieces = size == 0 ? 1 : (size + cap_of(Channel::datagram) - 1) / cap_of(Channel::datagram);
   line.messages[number] = {content, static_cast<std::uint32_t>(pieces), std::move(payload)};
   for (std::size_t piece = 0; piece < pieces && link.active; ++piece) {
-    const std::size_t bytes = std::min(kDatagramCap, size - piece * kDatagramCap);
+    const std::size_t bytes = std::min(cap_of(Channel::datagram), size - piece * cap_of(Channel::datagram));
     try_piece(link, {What::try_piece, direction, link.number, link.connection, nullptr, number,
                      static_cast<std::uint32_t>(bytes)});
   }

@@ -37,8 +37,9 @@ const std::map<std::string, int> kFloors = {
     {"transport", 8},
     {"threads", 8},
     {"diagnostics", 8},
+    {"sealed", 9},
     {"prover", 9},
-    {"examples", 9},
+    {"examples", 10},
     // The tool, see its page: what commands share, then commands that know nothing of each other.
     {"tool/common", 9},
     {"tool/page", 10},

@@ -95,6 +95,7 @@ struct SessionStats {
   std::uint64_t events_lost = 0;              // the caller did not take them in time
   Time round_trip = 0;                        // [us] client: to the host; host: the slowest client's
   int peers = 0;                              // connected
+  int machines = 0;                           // in the roster that we have: with migration, who decides without a host
   Frame delay = 0;                            // [frames] an input waits now
   std::uint32_t jitter = 0, loss = 0;         // [us], [permille] client: of the host's datagrams, as PlayerStats
   PlayerStats players[kMaxPlayers];

@@ -22,7 +22,7 @@ enum class Channel : std::uint8_t {
   datagram,  // may be lost, doubled, late or out of order; at most kDatagramCap bytes
   reliable   // arrives whole and in order, or the connection ends; at most kReliableCap bytes
 };
-inline constexpr std::size_t kDatagramCap = 1200;      // [bytes] below every path's MTU
+inline constexpr std::size_t kDatagramCap = 1180;      // [bytes] sealed it has 1200, below every path's MTU
 inline constexpr std::size_t kReliableCap = 16 << 10;  // [bytes] of one message; snapshots are sent in pieces
 
 }  // namespace isostep

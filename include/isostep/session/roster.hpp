@@ -43,6 +43,7 @@ struct Roster {
   int machine_of(std::uint64_t token) const;
   int machine_of_proof(std::uint64_t proof) const;
   int machine_with(int player) const;
+  int count_in() const;
   /// More than half of those that are in, and of those that were, a bit each. The host makes a half a majority.
   bool is_majority(std::uint64_t machines) const;
 };

@@ -178,6 +178,7 @@ bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
     if (!is_greeted_ && !is_sealed_for(roster.value(), token_, message_)) return false;
     const bool is_newer = roster.value().version > failover_.roster.version || (is_greeted_ && failover_.is_roster_old);
     if (is_newer) failover_.roster = roster.value();
+    stats_.machines = failover_.roster.count_in();
     if (is_greeted_) failover_.is_roster_old = false;
     failover_.must_enroll = is_greeted_;
     return true;

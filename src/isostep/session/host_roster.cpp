@@ -68,6 +68,7 @@ void HostCore::keep_roster() {
     const std::uint64_t token = m == roster_.host ? own_token_ : seats_[player].token;
     roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, message_);
   }
+  stats_.machines = next.count_in();
   for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
 }
 

@@ -35,6 +35,12 @@ int Roster::machine_with(int player) const {
   return -1;
 }
 
+int Roster::count_in() const {
+  int in = 0;
+  for (int m = 0; m < count; ++m) in += machines[m].is_in ? 1 : 0;
+  return in;
+}
+
 bool Roster::is_majority(std::uint64_t group) const {
   const auto has_most = [&](bool Machine::*counts) {
     int all = 0, here = 0;

@@ -33,9 +33,19 @@ class DemoCommands {
   void add_peer() {
     CLI::App* command =
         line_.add("peer", "one machine of a match over UDP, played by a bot", [this] { return command_peer(peer_); });
-    command->add_option("--listen", peer_.listen, "host on this UDP port (0: any)")->check(CLI::Range(0, 65535));
+    command->add_option("--listen", peer_.listen, "on this UDP port (0: any): the host, with --migration all")
+        ->check(CLI::Range(0, 65535));
     command->add_option("--connect", peer_.connect, "HOST:PORT of the host");
-    CommandLine::add_path(command, "--port-file", peer_.port_file, "write the host's port here");
+    CommandLine::add_path(command, "--port-file", peer_.port_file, "write the port of who listens here");
+    CLI::Option* migration =
+        command
+            ->add_option("--migration", peer_.migration,
+                         "seconds of the host's silence after which the match goes on at another machine; all alike")
+            ->check(CLI::Range(1, 60));
+    command->add_option("--address", peer_.address, "IPv4 address at which the others reach this machine")
+        ->check(CLI::ValidIPV4)
+        ->needs(migration)
+        ->capture_default_str();
     command->add_option("--players", peer_.players, "of the match")->check(CLI::Range(1, 8))->capture_default_str();
     command->add_flag("--spectate", peer_.spectate, "watch; a host that watches is a dedicated one");
     command->add_flag("--lockstep", peer_.lockstep, "wait for inputs instead of guessing them");
@@ -66,6 +76,10 @@ class DemoCommands {
     command
         ->add_option("--patience", peer_.patience, "seconds until a silent peer is lost [5], no host is given up [20]")
         ->check(CLI::Range(1, 3600));
+    command
+        ->add_option("--replayed", peer_.replayed,
+                     "frames that a late joiner steps itself; behind by more it is sent a snapshot [1200]")
+        ->check(CLI::Range(0, 1 << 24));
     command->add_option("--reservation", peer_.reservation, "seconds that a host keeps a seat for who is gone [60]")
         ->check(CLI::Range(0, 3600));
     command->add_flag("--json", peer_.json, "one JSON object");

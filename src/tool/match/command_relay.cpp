@@ -9,7 +9,7 @@
 namespace isostep::tool {
 
 int command_relay(const RelayOptions& options) {
-  const Address target = parse_address(options.target);
+  const UdpAddress target = parse_address(options.target);
   transport::UdpRelay relay =
       expect(transport::UdpRelay::open({.listen_port = static_cast<std::uint16_t>(options.listen),
                                         .target_address = target.host,

@@ -8,9 +8,11 @@
 namespace isostep::tool {
 
 struct PeerOptions {
-  int listen = -1;        // port, 0: any; -1: connect instead
-  std::string connect;    // HOST:PORT
-  std::string port_file;  // where a host writes its port
+  int listen = -1;                    // port, 0: any; -1: connect instead
+  std::string connect;                // HOST:PORT; with migration such a peer listens as well
+  std::string port_file;              // where who listens writes its port
+  int migration = 0;                  // [s] of the host's silence after which the match goes on without it; 0: never
+  std::string address = "127.0.0.1";  // with migration: where the others reach this machine
   int players = 2;
   bool spectate = false;
   bool lockstep = false;
@@ -26,6 +28,7 @@ struct PeerOptions {
   bool trace = false;                  // stage hashes in bundles
   int fault = -1;                      // frame of an injected fault: one bit of one body is flipped
   int patience = 0;                    // [s] that a silent peer is waited for; 0: the session's and the transport's own
+  int replayed = -1;                   // [frames] that a late joiner steps itself, at most; -1: the session's own
   int reservation = -1;                // [s] that a host keeps a seat for who is gone; -1: the session's own
   bool json = false;
 };

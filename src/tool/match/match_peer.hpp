@@ -34,13 +34,15 @@ template <class S> class MatchPeer {
  public:
   using Game = scenes::Match<S>;
 
-  /// `inputs`: frame by frame, instead of the bot's; empty: the bot plays.
-  MatchPeer(const PeerOptions& options, std::vector<scenes::MatchInput> inputs, transport::EnetTransport& transport)
+  /// `own_address`: where the others reach the transport. `inputs`: frame by frame, instead of the bot's; empty: the bot
+  /// plays.
+  MatchPeer(const PeerOptions& options, const Address& own_address, std::vector<scenes::MatchInput> inputs,
+            transport::EnetTransport& transport)
       : options_(options),
         inputs_(std::move(inputs)),
         transport_(transport),
         game_(settings_of(options)),
-        session_(config_of(options, game_)),
+        session_(config_of(options, own_address, game_)),
         history_(game_.world(), {.frames = static_cast<std::size_t>(session_.config().kept), .stages = options.trace}) {
     if (!options.record.empty()) {
       file_.emplace(options.record);
@@ -60,12 +62,15 @@ template <class S> class MatchPeer {
     transport::dispatch(transport_, session_, now);
     transport_.flush();
     while (const std::optional<SessionEvent> event = session_.poll_event()) report(*event);
+    report_progress();
     while (const auto notice = sounds_.poll()) {
       if (notice->kind == NoticeKind::confirmed) ++sounds_confirmed_;
       if (notice->kind == NoticeKind::retracted) ++sounds_retracted_;
     }
   }
   Time wait(Time now) const { return session_.wait(now); }
+  /// By now: with migration a client may become it.
+  bool is_host() const { return session_.config().host; }
   /// A host stays until the others have what they need, but not for ever.
   bool is_over(Time now);
 
@@ -111,11 +116,13 @@ template <class S> class MatchPeer {
   static scenes::MatchSettings settings_of(const PeerOptions& options) {
     return {.players = options.players, .pile = options.pile, .seed = options.match_seed};
   }
-  static SessionConfig config_of(const PeerOptions& options, const Game& game);
+  static SessionConfig config_of(const PeerOptions& options, const Address& own_address, const Game& game);
   scenes::MatchInput input_of(int player) const;
   void take(const transport::Arrival& arrival, Time now);
   void reconnect(Time now);
   void report(const SessionEvent& event);
+  /// Of a snapshot, and of the machines that the match could go on at.
+  void report_progress();
   std::string name() const;
   /// A line on stderr.
   void say(const std::string& line) const;
@@ -137,6 +144,8 @@ template <class S> class MatchPeer {
   Frame first_ = 0;  // of hashes_
   bool desynced_ = false, gave_up_ = false, has_met_ = false;
   bool must_reconnect_ = false;
+  std::uint32_t told_tenths_ = 0;  // of a snapshot
+  int told_machines_ = 0;
   Time reconnect_at_ = 0, alone_since_ = 0, done_at_ = 0;
   std::uint64_t sounds_confirmed_ = 0, sounds_retracted_ = 0;
   double started_at_ = 0, step_ms_ = 0;

@@ -13,7 +13,7 @@ Time steady_now() {
   return static_cast<Time>(std::chrono::duration_cast<std::chrono::microseconds>(since).count());
 }
 
-Address parse_address(const std::string& text) {
+UdpAddress parse_address(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
   const bool digits = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;

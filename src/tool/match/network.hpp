@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "isostep/core/result.hpp"
 #include "isostep/session/frame.hpp"
@@ -15,12 +16,12 @@ namespace isostep::tool {
 /// A clock that never runs backwards [us].
 Time steady_now();
 
-struct Address {
+struct UdpAddress {
   std::string host;
   std::uint16_t port;
 };
 /// Of "HOST:PORT". Throws ToolError 64.
-Address parse_address(const std::string& text);
+UdpAddress parse_address(const std::string& text);
 /// A profile's name or items. Throws ToolError 64.
 transport::NetworkProfile profile_of(const std::string& text);
 /// Into the file, unless its name is empty: for scripts that let the system choose. Throws ToolError 74.
@@ -29,7 +30,7 @@ void write_port(const std::string& path, std::uint16_t port);
 /// The value, or a ToolError 66 that begins with `what`.
 template <class T> T expect(Result<T> result, const std::string& what) {
   if (!result) throw ToolError(exit_status::kNoInput, what + ": " + std::string(result.error().message.view()));
-  return std::move(result.value());
+  if constexpr (!std::is_void_v<T>) return std::move(result.value());
 }
 
 }  // namespace isostep::tool

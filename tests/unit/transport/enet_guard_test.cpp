@@ -7,11 +7,13 @@
 #include <initializer_list>
 #include <vector>
 
-#include "isostep/session/frame.hpp"
+#include "transport/endpoint.hpp"
 
 namespace isostep::transport {
 namespace {
 
+constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
+constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
 using Bytevec = std::vector<std::uint8_t>;
 
 // Numbers of commands and their layouts: ENet 1.3.17, include/enet/protocol.h. Big-endian.
@@ -67,10 +69,10 @@ TEST(EnetGuard, LetsThroughWhatPeersOfOursSend) {
   EXPECT_TRUE(passes(Packet().header().command(kDisconnect).u32(0)));
   EXPECT_TRUE(passes(Packet().header().command(kBandwidth).zeros(8)));
   EXPECT_TRUE(passes(Packet().header().command(kThrottle).zeros(12)));
-  EXPECT_TRUE(passes(Packet().u16(0).unsequenced(kDatagramCap)));
+  EXPECT_TRUE(passes(Packet().u16(0).unsequenced(kMostDatagram)));
   EXPECT_TRUE(passes(Packet().header().reliable(1000).command(kPing).command(kAcknowledge).u32(0).unsequenced(9)));
   EXPECT_TRUE(passes(Packet().header().fragment(2, 2000, 1204)));
-  EXPECT_TRUE(passes(Packet().header().fragment(14, kReliableCap, 1204)));
+  EXPECT_TRUE(passes(Packet().header().fragment(14, kMostReliable, 1204)));
 }
 
 TEST(EnetGuard, RefusesWhatOnlyTheHostileSend) {
@@ -79,7 +81,7 @@ TEST(EnetGuard, RefusesWhatOnlyTheHostileSend) {
   EXPECT_FALSE(passes(Packet().header().connect(kEnetMtu, 1)));
   EXPECT_FALSE(passes(Packet().header().connect(kEnetMtu, 255)));
   EXPECT_FALSE(passes(Packet().header().fragment(1 << 20, 1, 1)));
-  EXPECT_FALSE(passes(Packet().header().fragment(28000, kReliableCap + 1, 9)));
+  EXPECT_FALSE(passes(Packet().header().fragment(28000, kMostReliable + 1, 9)));
   EXPECT_FALSE(passes(Packet().header().fragment(0, 0, 0).u8(1)));
   EXPECT_FALSE(passes(Packet().header().command(kUnreliable).u16(1).u16(0)));
   EXPECT_FALSE(passes(Packet().header().command(kUnreliableFragment).zeros(20)));

@@ -4,96 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "isostep/core/random.hpp"
-#include "transport/udp_relay.hpp"
-#include "unit/transport/udp.hpp"
+#include "unit/transport/enet_bench.hpp"
 
 namespace isostep::transport {
 namespace {
 
-static_assert(Endpoint<EnetTransport>);
-
-using Bytevec = std::vector<std::uint8_t>;
-constexpr Time kMs = 1000;
-constexpr Time kPatience = 600 * kSecond;  // [us] beyond any stall of a busy machine
-
-struct Heard {
-  ArrivalKind kind;
-  PeerId peer;
-  Channel channel;
-  Bytevec bytes;
-};
-
-/// Polls endpoints and turns a relay, in one thread, and keeps what each endpoint heard.
-struct Bench {
-  std::vector<EnetTransport*> endpoints;
-  UdpRelay* relay = nullptr;
-  std::vector<std::vector<Heard>> heard = {};
-
-  void turn() {
-    heard.resize(endpoints.size());
-    EXPECT_TRUE(relay == nullptr || relay->turn(0).ok());
-    for (std::size_t i = 0; i < endpoints.size(); ++i) {
-      if (endpoints[i] == nullptr) continue;
-      endpoints[i]->poll();
-      while (const std::optional<Arrival> arrival = endpoints[i]->receive()) {
-        const Bytevec bytes(arrival->bytes.begin(), arrival->bytes.end());
-        heard[i].push_back({arrival->kind, arrival->peer, arrival->channel, bytes});
-      }
-      endpoints[i]->flush();
-    }
-    if (endpoints[0] != nullptr) endpoints[0]->wait(1 * kMs);
-  }
-  bool turn_until(const std::function<bool()>& done) {
-    for (const Deadline deadline; !deadline.over(); turn()) {
-      if (done()) return true;
-    }
-    return false;
-  }
-  std::size_t count(std::size_t endpoint, ArrivalKind kind) const {
-    if (endpoint >= heard.size()) return 0;
-    return static_cast<std::size_t>(std::count_if(heard[endpoint].begin(), heard[endpoint].end(),
-                                                  [&](const Heard& arrival) { return arrival.kind == kind; }));
-  }
-  bool turn_until_heard(std::size_t endpoint, ArrivalKind kind, std::size_t times = 1) {
-    return turn_until([&] { return count(endpoint, kind) >= times; });
-  }
-};
-
-EnetTransport must(Result<EnetTransport> result) {
-  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : std::string(result.error().message.view()));
-  return std::move(result.value());
-}
-/// Tests that are about a timeout bring their own.
-EnetTransport listen_here(EnetSettings settings = {.timeout = kPatience}) {
-  settings.bind_address = "127.0.0.1";
-  return must(EnetTransport::listen(0, settings));
-}
-EnetTransport connect_to(std::uint16_t port, const EnetSettings& settings = {.timeout = kPatience}) {
-  return must(EnetTransport::connect("127.0.0.1", port, settings));
-}
-
-/// A host (0) and a client (1) that have met.
-struct Pair {
-  EnetTransport host, client;
-  Bench bench;
-
-  explicit Pair(const EnetSettings& host_settings = {.timeout = kPatience},
-                const EnetSettings& client_settings = {.timeout = kPatience})
-      : host(listen_here(host_settings)), client(connect_to(host.port(), client_settings)), bench{{&host, &client}} {
-    EXPECT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected));
-    EXPECT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected));
-  }
-};
+constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
+constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
+static_assert(Connector<EnetTransport>);
 
 TEST(EnetTransport, CarriesBothChannelsBothWays) {
   Pair pair;
-  const Bytevec datagram(kDatagramCap, 3), reliable(kReliableCap, 4);
+  const Bytevec datagram(kMostDatagram, 3), reliable(kMostReliable, 4);
   for (EnetTransport* endpoint : {&pair.host, &pair.client}) {
     ASSERT_TRUE(endpoint->send(0, Channel::datagram, datagram).ok());
     ASSERT_TRUE(endpoint->send(0, Channel::datagram, {}).ok());
@@ -109,7 +32,7 @@ TEST(EnetTransport, CarriesBothChannelsBothWays) {
       EXPECT_TRUE(heard.bytes.empty() || heard.bytes == (heard.channel == Channel::datagram ? datagram : reliable));
       found += heard.bytes.size();
     }
-    EXPECT_EQ(found, kDatagramCap + kReliableCap);
+    EXPECT_EQ(found, kMostDatagram + kMostReliable);
   }
 }
 
@@ -117,8 +40,8 @@ TEST(EnetTransport, CarriesBothChannelsBothWays) {
 template <class AnyPair> void exchange_blob(AnyPair& pair) {
   Bytevec blob(200 << 10);
   for (std::size_t i = 0; i < blob.size(); ++i) blob[i] = static_cast<std::uint8_t>(i * i >> 7);
-  for (std::size_t at = 0; at < blob.size(); at += kReliableCap) {
-    const std::size_t size = std::min(kReliableCap, blob.size() - at);
+  for (std::size_t at = 0; at < blob.size(); at += kMostReliable) {
+    const std::size_t size = std::min(kMostReliable, blob.size() - at);
     ASSERT_TRUE(pair.host.send(0, Channel::reliable, Bytes(blob).subspan(at, size)).ok());
   }
   Bytevec got;
@@ -204,8 +127,8 @@ TEST(EnetTransport, DropsNoDatagramOnPurposeWhenRoundTripsGrow) {
 
 TEST(EnetTransport, RefusesWhatIsAboveACapOrForNobody) {
   Pair pair;
-  EXPECT_EQ(pair.client.send(0, Channel::datagram, Bytevec(kDatagramCap + 1)).error().code, ErrorCode::limit);
-  EXPECT_EQ(pair.client.send(0, Channel::reliable, Bytevec(kReliableCap + 1)).error().code, ErrorCode::limit);
+  EXPECT_EQ(pair.client.send(0, Channel::datagram, Bytevec(kMostDatagram + 1)).error().code, ErrorCode::limit);
+  EXPECT_EQ(pair.client.send(0, Channel::reliable, Bytevec(kMostReliable + 1)).error().code, ErrorCode::limit);
   EXPECT_FALSE(pair.client.send(1, Channel::datagram, Bytevec(1)).ok());
   EXPECT_FALSE(pair.host.send(1, Channel::datagram, Bytevec(1)).ok());
   EXPECT_FALSE(pair.host.send(65535, Channel::reliable, Bytevec(1)).ok());
@@ -284,21 +207,105 @@ TEST(EnetTransport, APeerThatAcknowledgesTooSlowlyIsGivenUpRatherThanHalfServed)
   Pair pair({.timeout = kPatience, .unacknowledged_cap = 100000});
   Result<void> sent;
   int pieces = 0;
-  while ((sent = pair.host.send(0, Channel::reliable, Bytevec(kReliableCap))).ok()) ASSERT_LT(++pieces, 7);
-  EXPECT_EQ(pieces, 6);  // of 16384 bytes in 100000
+  while ((sent = pair.host.send(0, Channel::reliable, Bytevec(kMostReliable))).ok()) ASSERT_LT(++pieces, 7);
+  EXPECT_EQ(pieces, 6);  // of 16404 bytes in 100000
   EXPECT_EQ(sent.error().code, ErrorCode::limit);
   EXPECT_TRUE(pair.bench.turn_until_heard(0, ArrivalKind::disconnected));
   EXPECT_TRUE(pair.bench.turn_until_heard(1, ArrivalKind::disconnected));
 }
 
 TEST(EnetTransport, WhatIsAcknowledgedCountsNoLonger) {
-  Pair pair({.timeout = kPatience, .unacknowledged_cap = 2 * kReliableCap});
+  Pair pair({.timeout = kPatience, .unacknowledged_cap = 2 * kMostReliable});
   for (std::size_t i = 1; i <= 20; ++i) {
-    ASSERT_TRUE(pair.host.send(0, Channel::reliable, Bytevec(2 * kReliableCap / 2)).ok());
+    ASSERT_TRUE(pair.host.send(0, Channel::reliable, Bytevec(2 * kMostReliable / 2)).ok());
     ASSERT_TRUE(pair.bench.turn_until_heard(1, ArrivalKind::message, i));
     // The acknowledgement has a way of its own back.
     for (int turn = 0; turn < 20; ++turn) pair.bench.turn();
   }
+}
+
+// ---- machines that both connect and accept
+
+std::string address_of(const EnetTransport& machine) { return "127.0.0.1:" + std::to_string(machine.port()); }
+
+TEST(EnetTransport, MachinesThatListenConnectToEachOtherAndTellWhoAsked) {
+  EnetTransport a = listen_here(), b = listen_here(), c = listen_here();
+  Bench bench{{&a, &b, &c}};
+  ASSERT_TRUE(b.connect_to(address_of(a)).ok());
+  ASSERT_TRUE(c.connect_to(address_of(a)).ok());
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected, 2));
+  ASSERT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected));
+  // While it has one connection it asks for another, and they ask each other at the same time.
+  ASSERT_TRUE(bench.turn_until_heard(2, ArrivalKind::connected));
+  ASSERT_TRUE(c.connect_to(address_of(b)).ok());
+  ASSERT_TRUE(b.connect_to(address_of(c)).ok());
+  ASSERT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected, 3));
+  ASSERT_TRUE(bench.turn_until_heard(2, ArrivalKind::connected, 3));
+  const std::size_t asked[] = {0, 2, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t outgoing = 0;
+    for (const Heard& heard : bench.heard[i]) outgoing += heard.incoming ? 0 : 1;
+    EXPECT_EQ(outgoing, asked[i]) << i;
+  }
+  for (EnetTransport* machine : bench.endpoints) {
+    EXPECT_TRUE(machine->send(0, Channel::reliable, Bytevec(3)).ok());
+    EXPECT_TRUE(machine->send(1, Channel::reliable, Bytevec(3)).ok());
+  }
+  for (const std::size_t i : {0u, 1u, 2u}) EXPECT_TRUE(bench.turn_until_heard(i, ArrivalKind::message, 2));
+}
+
+TEST(EnetTransport, ANewAttemptTakesThePlaceOfTheOneUnderWay) {
+  const UdpSocket silent;
+  EnetTransport a = listen_here({.max_peers = 1, .timeout = kPatience}), b = listen_here();
+  Bench bench{{&a, &b}};
+  ASSERT_TRUE(a.connect_to("127.0.0.1", silent.port()).ok());
+  for (int i = 0; i < 5; ++i) bench.turn();
+  ASSERT_TRUE(a.connect_to(address_of(b)).ok());
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected));
+  EXPECT_EQ(bench.count(0, ArrivalKind::disconnected), 0u);
+  EXPECT_EQ(a.connect_to(address_of(b)).error().code, ErrorCode::limit);
+  ASSERT_TRUE(a.connect_again().ok());
+  EXPECT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected, 2));
+  EXPECT_TRUE(bench.turn_until_heard(1, ArrivalKind::disconnected));
+}
+
+TEST(EnetTransport, ConnectingAgainLeavesNoConnectionThatOthersAskedFor) {
+  EnetTransport a = listen_here({.max_peers = 2, .timeout = kPatience}), b = listen_here(), c = listen_here();
+  Bench bench{{&a, &b, &c}};
+  ASSERT_TRUE(a.connect_to(address_of(b)).ok());
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected));
+  ASSERT_TRUE(bench.turn_until_heard(1, ArrivalKind::connected));
+  b.disconnect(0);
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::disconnected));
+  ASSERT_TRUE(c.connect_to(address_of(a)).ok());
+  ASSERT_TRUE(bench.turn_until_heard(2, ArrivalKind::connected));
+  EXPECT_EQ(bench.heard[0].back().peer, 0u);  // the place of the connection that is over
+  ASSERT_TRUE(a.connect_again().ok());
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::connected, 3));
+  EXPECT_TRUE(c.send(0, Channel::reliable, Bytevec(1)).ok());
+  EXPECT_TRUE(bench.turn_until_heard(0, ArrivalKind::message));
+}
+
+TEST(EnetTransport, WhoOnlyConnectsAcceptsNobody) {
+  const UdpSocket silent;
+  EnetTransport host = listen_here(), client = connect_to(silent.port());
+  // Its port is the system's choice: the silent socket hears from which one it asks.
+  const std::optional<UdpSocket::Got> asked = silent.receive(10000);
+  ASSERT_TRUE(asked.has_value());
+  client.disconnect(0);
+  Bench bench{{&host, &client}};
+  ASSERT_TRUE(host.connect_to("127.0.0.1", asked->from).ok());
+  ASSERT_TRUE(bench.turn_until_heard(0, ArrivalKind::disconnected));
+  EXPECT_EQ(bench.heard[1].size(), 0u);
+}
+
+TEST(EnetTransport, AnAddressThatOthersTellIsNotLookedUp) {
+  EnetTransport machine = listen_here();
+  for (const char* text : {"", ":", "localhost:4000", "127.0.0.1", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:65536",
+                           "127.0.0.1:40 ", "127.0.0.1:-4", "127.0.0.1:+4", "1.2.3:4", "[::1]:4000", "\n"}) {
+    EXPECT_FALSE(machine.connect_to(text).ok()) << text;
+  }
+  EXPECT_FALSE(machine.connect_to("127.0.0.1", 0).ok());
 }
 
 // ---- hostile packets

@@ -12,6 +12,8 @@
 namespace isostep::transport {
 namespace {
 
+constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
+constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
 static_assert(Endpoint<SimulatedNetwork::Port>);
 
 using Bytevec = std::vector<std::uint8_t>;
@@ -93,7 +95,7 @@ TEST(SimulatedNetwork, LoopbackNeedsNoTime) {
   EXPECT_EQ(host_port.receive()->kind, ArrivalKind::connected);
   EXPECT_EQ(client_port.receive()->kind, ArrivalKind::connected);
   for (const Channel channel : {Channel::datagram, Channel::reliable}) {
-    const Bytevec ping(channel == Channel::reliable ? kReliableCap : kDatagramCap, 7), pong = {1, 2};
+    const Bytevec ping(channel == Channel::reliable ? kMostReliable : kMostDatagram, 7), pong = {1, 2};
     ASSERT_TRUE(client_port.send(0, channel, ping).ok());
     const std::optional<Arrival> got = host_port.receive();
     ASSERT_TRUE(got.has_value());
@@ -115,12 +117,12 @@ TEST(SimulatedNetwork, AsymmetricDelaysAreThoseOfTheirDirections) {
   ASSERT_TRUE(pair.up(Channel::datagram, {1}).ok());
   ASSERT_TRUE(pair.down(Channel::datagram, {2}).ok());
   ASSERT_TRUE(pair.up(Channel::reliable, {3}).ok());
-  ASSERT_TRUE(pair.down(Channel::reliable, Bytevec(kReliableCap, 4)).ok());
+  ASSERT_TRUE(pair.down(Channel::reliable, Bytevec(kMostReliable, 4)).ok());
   const std::vector<Heard> expected = {
       {start + 10 * kMs, kHost, ArrivalKind::message, 0, Channel::datagram, {1}},
       {start + 10 * kMs, kHost, ArrivalKind::message, 0, Channel::reliable, {3}},
       {start + 200 * kMs, pair.client, ArrivalKind::message, 0, Channel::datagram, {2}},
-      {start + 200 * kMs, pair.client, ArrivalKind::message, 0, Channel::reliable, Bytevec(kReliableCap, 4)}};
+      {start + 200 * kMs, pair.client, ArrivalKind::message, 0, Channel::reliable, Bytevec(kMostReliable, 4)}};
   EXPECT_EQ(listen(pair.network, 2, start + kSecond), expected);
 }
 
@@ -153,7 +155,7 @@ std::vector<Heard> traffic(SimulatedNetwork& network, EndpointId client, Time se
     static_cast<void>(network.port(client).send(0, Channel::datagram, bytes));
     static_cast<void>(network.port(kHost).send(0, Channel::datagram, bytes));
     if (frame % 60 != 30) continue;
-    Bytevec whole(4 + (frame * 977) % (kReliableCap - 4), static_cast<std::uint8_t>(frame / 60));
+    Bytevec whole(4 + (frame * 977) % (kMostReliable - 4), static_cast<std::uint8_t>(frame / 60));
     store_le(whole.data(), static_cast<std::uint32_t>(frame));
     static_cast<void>(network.port(client).send(0, Channel::reliable, whole));
     static_cast<void>(network.port(kHost).send(0, Channel::reliable, whole));
@@ -197,7 +199,7 @@ TEST_P(NetworkInEveryProfile, DeliversEveryReliableMessageWholeAndInOrder) {
       if (next == 30 && load_le<std::uint32_t>(heard.bytes.data()) == 90)
         next = 90;  // the first was before the welcome
       ASSERT_EQ(load_le<std::uint32_t>(heard.bytes.data()), next);
-      ASSERT_EQ(heard.bytes.size(), 4 + (next * 977) % (kReliableCap - 4));
+      ASSERT_EQ(heard.bytes.size(), 4 + (next * 977) % (kMostReliable - 4));
       const auto body = heard.bytes.begin() + 4;
       ASSERT_TRUE(std::all_of(body, heard.bytes.end(), [&](auto byte) { return byte == next / 60; }));
       next += 60;
@@ -247,7 +249,7 @@ TEST(SimulatedNetwork, LossOnTheReliableChannelIsDelayAndNothingElse) {
   Pair pair("severe");
   const Time start = pair.network.now();
   for (std::uint32_t i = 0; i < 300; ++i) {
-    Bytevec bytes(4 + (i * 7919) % (kReliableCap - 4));
+    Bytevec bytes(4 + (i * 7919) % (kMostReliable - 4));
     store_le(bytes.data(), i);
     ASSERT_TRUE(pair.up(Channel::reliable, bytes).ok());
   }
@@ -262,10 +264,10 @@ TEST(SimulatedNetwork, LossOnTheReliableChannelIsDelayAndNothingElse) {
 
 TEST(SimulatedNetwork, RefusesWhatIsAboveACapOrForNobody) {
   Pair pair("lan");
-  EXPECT_EQ(pair.up(Channel::datagram, Bytevec(kDatagramCap + 1)).error().code, ErrorCode::limit);
-  EXPECT_EQ(pair.down(Channel::reliable, Bytevec(kReliableCap + 1)).error().code, ErrorCode::limit);
+  EXPECT_EQ(pair.up(Channel::datagram, Bytevec(kMostDatagram + 1)).error().code, ErrorCode::limit);
+  EXPECT_EQ(pair.down(Channel::reliable, Bytevec(kMostReliable + 1)).error().code, ErrorCode::limit);
   EXPECT_EQ(pair.network.oversized(), 2u);
-  EXPECT_TRUE(pair.up(Channel::datagram, Bytevec(kDatagramCap)).ok());
+  EXPECT_TRUE(pair.up(Channel::datagram, Bytevec(kMostDatagram)).ok());
   EXPECT_TRUE(pair.up(Channel::reliable, {}).ok());
   EXPECT_EQ(pair.network.unaddressed(), 0u);
   EXPECT_FALSE(pair.network.port(kHost).send(1, Channel::datagram, Bytevec(1)).ok());
