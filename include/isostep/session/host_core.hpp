@@ -122,9 +122,12 @@ class HostCore : public PeerCore {
   void conclude_inquiry(Time now);
   /// Can the others go on without us, at one that is right?
   bool can_step_down(const Verdict& verdict) const;
-  bool take_repair(Guest& guest, MessageKind kind, Bytes bytes, Time now);
+  bool take_repair(Guest& guest, MessageKind kind, Bytes bytes);
   bool take_statement(const Guest& guest, Bytes bytes);
-  void tend_repairs(Time now);
+  void tend_repair(Guest& guest, Time now);
+  /// All of the state has arrived there.
+  void has_repair(Guest& guest, Time now);
+  /// It gets none.
   void end_repair(Guest& guest);
   std::optional<Outgoing> next_repair_message(Guest& guest, Time now);
   /// Waits for the next snapshot, or is on the way to have this one: into the match, or in it.

@@ -85,8 +85,8 @@ void ClientCore::tend_repair(Time now) {
     repair_.after = hashes_.settled().frame;
     repair_.present = current();
   }
-  if (repair_.stage != Repair::Stage::restores)
-    return;  // which it still is where the last requests were not carried out
+  // Which it still is where the requests of the last turn were not carried out.
+  if (repair_.stage != Repair::Stage::restores) return;
   act(RequestKind::restore, start);
   timeline_.restart(start);
   act(RequestKind::save, start);

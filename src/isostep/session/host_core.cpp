@@ -86,7 +86,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
-  } else if (!take_repair(guest, kind, bytes, now)) {
+  } else if (!take_repair(guest, kind, bytes)) {
     ++stats_.refused;
   }
 }
@@ -172,11 +172,11 @@ void HostCore::before_steps(Time now) {
       guest.opens = kNoFrame;
     }
     if (guest.is_ready) open_seats(guest, now);
+    tend_repair(guest, now);
   }
   keep_roster();
   count_backers(now);
   tend_inquiry(now);
-  tend_repairs(now);
   reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);

@@ -87,7 +87,7 @@ void HostCore::take_progress(Guest& guest, Bytes message, Time now) {
   }
   guest.heard = now;
   if (!guest.transfer.is_complete()) return;
-  if (guest.stage == Guest::Stage::live) guest.repair.stage = RepairService::Stage::restores;
+  if (guest.stage == Guest::Stage::live) has_repair(guest, now);
   else go_live(guest, guest.start);
 }
 

@@ -23,6 +23,9 @@ void HostCore::tend_inquiry(Time now) {
     if (is_complete || now >= inquiry_.until) conclude_inquiry(now);
     return;
   }
+  bool differs = false;
+  for (int p = 0; p < players(); ++p) differs = differs || views_[p].differs();
+  if (!differs) return;
   std::uint64_t differing = 0, asked = 0;
   for (const Guest& guest : guests_) {
     if (!is_in_match(guest)) continue;
@@ -79,19 +82,22 @@ bool HostCore::can_step_down(const Verdict& verdict) const {
   return has_candidate && roster_.is_majority(others);
 }
 
-bool HostCore::take_repair(Guest& guest, MessageKind kind, Bytes bytes, Time now) {
+bool HostCore::take_repair(Guest& guest, MessageKind kind, Bytes bytes) {
+  const bool has_whole = guest.repair.stage == RepairService::Stage::restores;
   if (guest.stage != Guest::Stage::live) return false;
   if (kind == MessageKind::statement) return take_statement(guest, bytes);
-  if (kind == MessageKind::resync && guest.repair.stage == RepairService::Stage::none && started_) {
+  if (kind == MessageKind::resync) {
+    // What it has received may have been too long on its way.
+    const bool is_free = guest.repair.stage == RepairService::Stage::none || has_whole;
+    if (!is_free || !started_ || bytes.size() != 1) return false;
     guest.repair.stage = RepairService::Stage::waits;
-    return bytes.size() == 1;
+    return true;
   }
-  if (kind != MessageKind::repaired || guest.repair.stage != RepairService::Stage::restores) return false;
+  if (kind != MessageKind::repaired || !has_whole) return false;
   const Result<Repaired> repaired = read_repaired(bytes);
   // Nobody has had final states that we have not: it would have us ignore what it says from now on.
   if (!repaired || repaired.value().after > known_end()) return false;
   guest.repair.stage = RepairService::Stage::none;
-  guest.repair.next = now + kBetweenRepairs;
   if (guest.player < 0) return true;
   const auto player = static_cast<std::uint8_t>(guest.player);
   was_repaired(player, repaired.value().after);
@@ -123,11 +129,14 @@ bool HostCore::take_statement(const Guest& guest, Bytes bytes) {
   return true;
 }
 
-void HostCore::tend_repairs(Time now) {
-  for (Guest& guest : guests_) {
-    const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
-    if (waits) guest.repair.stage = RepairService::Stage::needs;
-  }
+void HostCore::tend_repair(Guest& guest, Time now) {
+  const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
+  if (waits) guest.repair.stage = RepairService::Stage::needs;
+}
+
+void HostCore::has_repair(Guest& guest, Time now) {
+  guest.repair.stage = RepairService::Stage::restores;
+  guest.repair.next = now + kBetweenRepairs;
 }
 
 void HostCore::end_repair(Guest& guest) {
