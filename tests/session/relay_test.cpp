@@ -141,6 +141,33 @@ TEST_P(Relays, ThatLoseTheirHostForAWhileKeepTheirLeaves) {
   expect_one_history(*tree.match, true);
 }
 
+TEST_P(Relays, AndTheirLeavesTakeTheHostsStateAgainWhenTheirsIsWrong) {
+  for (const bool is_relay : {false, true}) {
+    SCOPED_TRACE(is_relay);
+    Broadcast tree(GetParam());
+    tree.watcher.repair = tree.relay.repair = true;
+    Machine<Toy>& relay = tree.add_relay();
+    Machine<Toy>& leaf = tree.add_leaf(relay);
+    Machine<Toy>& other = tree.add_leaf(relay);
+    Machine<Toy>& wrong = is_relay ? relay : leaf;
+    wrong.tamper = [&wrong](Toy& game, Frame frame) {
+      if (frame == 400 && wrong.restarts == 0) game.state.places[2] ^= 1;
+    };
+    tree.pass(30 * kSecond);
+    EXPECT_TRUE(wrong.heard(Kind::desync));
+    EXPECT_TRUE(is_relay || !other.heard(Kind::desync));
+    EXPECT_EQ(tree.match->host().session.stats().peers, kPlayers);
+    const std::vector<std::uint64_t>& host = tree.match->host().hashes;
+    for (const Machine<Toy>* machine : {&relay, &leaf, &other}) {
+      ASSERT_GT(machine->end(), 1600);
+      for (Frame frame = 1500; frame < std::min(machine->end(), tree.match->host().end()); ++frame) {
+        ASSERT_EQ(machine->hashes[static_cast<std::size_t>(frame - machine->first)],
+                  host[static_cast<std::size_t>(frame)]);
+      }
+    }
+  }
+}
+
 TEST_P(Relays, ShowTheMatchLate) {
   constexpr Frame kDelay = 600;
   Broadcast tree(GetParam(), 1600, kDelay);

@@ -52,7 +52,10 @@ class ClientCore : public PeerCore {
   bool is_host(PeerId peer) const { return host_.is_connected && host_.peer == peer; }
   bool is_host_link(const PeerLink& link) const { return &link == &host_; }
   /// We have the host's states, and go on from there.
-  bool is_settled_in() const { return is_greeted_ && has_start_ && !is_restoring_ && !must_begin_ && !is_spoiled_; }
+  bool is_settled_in() const {
+    const bool is_repaired = repair_.stage == Repair::Stage::none;
+    return is_greeted_ && has_start_ && !is_restoring_ && !must_begin_ && !is_spoiled_ && is_repaired;
+  }
   /// The match has begun; also while the host is away.
   bool has_begun() const { return runs_ || current() > 0; }
   std::uint64_t match() const { return welcome_.match; }

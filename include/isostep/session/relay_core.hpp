@@ -34,17 +34,23 @@ class RelayCore : public ClientCore {
     HashReport have;          // as it greets
     std::uint64_t match = 0;  // for which it was let in
     HashReport start;         // the state from which it goes on
+    /// What it acknowledges of inputs that it was sent before may still be under way, and must not count for those that
+    /// follow its next state: that is not older than they are.
+    Frame state_from = 0;
     SnapshotTransfer transfer;
     Refusal refusal{};
     bool must_welcome = false, must_close = false, must_tell_figures = false;
-    bool has_spoken = false;  // it says something that is for this match
-    Time more_at = 0;         // [us] who does not acknowledge is sent nothing before
-    Time had_all_at = 0;      // [us] when it lacked nothing, or came
+    bool wants_state = false;  // its own is wrong: see Session::resync
+    Time state_at = 0;         // [us] it is sent another not before
+    bool has_spoken = false;   // it says something that is for this match
+    Time more_at = 0;          // [us] who does not acknowledge is sent nothing before
+    Time had_all_at = 0;       // [us] when it lacked nothing, or came
   };
   Leaf* leaf_of(PeerId peer);
   void clear(Leaf& leaf);
   void greet(Leaf& leaf, Bytes message);
   void refuse(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours);
+  void ask_for_state(Leaf& leaf);
   /// Our newest final state may be shown.
   bool may_show() const;
   void let_in(Leaf& leaf);
@@ -53,6 +59,7 @@ class RelayCore : public ClientCore {
   void take_packet(Leaf& leaf, const Packet& packet, Time now);
   void tend(Leaf& leaf, Time now);
   void serve_snapshots();
+  /// Can the one that we have be sent to one more?
   bool may_share_snapshot() const;
   /// What `capture` wrote, which is not for us.
   void collect_snapshot();

@@ -5,7 +5,8 @@
 namespace isostep {
 namespace {
 
-constexpr Time kTellFigures = kSecond;  // [us] as the host
+constexpr Time kTellFigures = kSecond;        // [us] as the host
+constexpr Time kBetweenStates = 5 * kSecond;  // [us] a snapshot costs us more than it costs to ask for one
 
 }  // namespace
 
@@ -105,6 +106,10 @@ void RelayCore::take_message(Leaf& leaf, Bytes bytes, Time now) {
       return;
     }
   }
+  if (kind == MessageKind::resync && leaf.stage == Leaf::Stage::live && bytes.size() == 1) {
+    leaf.wants_state = true;
+    return;
+  }
   ++stats_.refused;
 }
 
@@ -158,6 +163,16 @@ void RelayCore::go_live(Leaf& leaf) {
   leaf.has_spoken = leaf.has_more = false;
 }
 
+void RelayCore::ask_for_state(Leaf& leaf) {
+  leaf.stage = Leaf::Stage::needs_snapshot;
+  leaf.must_welcome = true;
+  leaf.wants_state = false;
+  for (int p = 0; p < players(); ++p) {
+    const Frame sent = sends_until(p, leaf);
+    if (sent > leaf.state_from) leaf.state_from = sent;
+  }
+}
+
 void RelayCore::before_steps(Time now) {
   collect_snapshot();
   ClientCore::before_steps(now);
@@ -190,9 +205,9 @@ void RelayCore::tend(Leaf& leaf, Time now) {
     leaf.must_close = leaf.must_close || lags;
     return;
   }
-  if (lags) {
-    leaf.stage = Stage::needs_snapshot;
-    leaf.must_welcome = true;
+  if (lags || (leaf.wants_state && now >= leaf.state_at)) {
+    leaf.state_at = now + kBetweenStates;
+    ask_for_state(leaf);
     return;
   }
   const bool lacks = lacks_inputs(leaf);

@@ -30,21 +30,23 @@ bool RelayCore::may_share_snapshot() const {
 
 void RelayCore::serve_snapshots() {
   if (!may_show()) return;
-  bool is_wanted = false, in_use = false;
+  const auto waits = [&](const Leaf& leaf) {
+    return leaf.stage == Leaf::Stage::needs_snapshot && leaf.state_from <= hashes_.settled().frame;
+  };
+  bool can_share = may_share_snapshot(), in_use = false, needs_newer = false;
   for (const Leaf& leaf : leaves_) {
-    is_wanted = is_wanted || leaf.stage == Leaf::Stage::needs_snapshot;
     in_use = in_use || leaf.stage == Leaf::Stage::receives_snapshot;
+    needs_newer = needs_newer || (waits(leaf) && (!can_share || leaf.state_from > snapshot_.frame));
   }
-  if (!is_wanted) return;
-  if (!may_share_snapshot()) {
-    if (in_use) return;
+  if (needs_newer && !in_use) {
+    can_share = true;
     snapshot_ = hashes_.settled();
     snapshot_hash_ = hashes_.hash(snapshot_.frame);
     is_captured_ = true;
     act(RequestKind::capture, snapshot_.frame);
   }
   for (Leaf& leaf : leaves_) {
-    if (leaf.stage != Leaf::Stage::needs_snapshot) continue;
+    if (!can_share || !waits(leaf) || leaf.state_from > snapshot_.frame) continue;
     leaf.stage = Leaf::Stage::receives_snapshot;
     leaf.start = snapshot_;
     leaf.transfer = SnapshotTransfer{};
