@@ -25,11 +25,9 @@ struct Part {
   const char* name;
   void (*report)(const SessionBenchOptions& options);
 };
-constexpr Part kParts[] = {{"overhead", report_overhead},
-                           {"bandwidth", report_bandwidth},
-                           {"genres", report_genres},
-                           {"rollback", report_rollbacks},
-                           {"drive", report_drives},
+constexpr Part kParts[] = {{"overhead", report_overhead},   {"crowd", report_crowds},
+                           {"bandwidth", report_bandwidth}, {"genres", report_genres},
+                           {"rollback", report_rollbacks},  {"drive", report_drives},
                            {"kept", report_kept_states}};
 
 }  // namespace
@@ -42,14 +40,14 @@ int main(int count, char** words) {
   std::vector<std::string> parts;
   for (const Part& part : kParts) parts.push_back(part.name);
   CLI::App app("What sessions cost: time in a frame, bytes on a link, rollbacks, kept states");
-  app.add_option("--parts", parts, "overhead, bandwidth, genres, rollback, drive, kept, separated by commas")
+  app.add_option("--parts", parts, "overhead, crowd, bandwidth, genres, rollback, drive, kept, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(parts));
   app.add_option("--players", options.players, "Of overhead and bandwidth")->delimiter(',')->check(CLI::Range(2, 8));
   app.add_option("--scalars", options.scalars, "Of rollback, drive and kept")
       ->delimiter(',')
       ->check(CLI::IsMember(isostep::scalar_names()));
-  app.add_option("--frames", options.frames, "Of a match of overhead")->check(CLI::Range(400, 100000));
+  app.add_option("--frames", options.frames, "Of a match of overhead and crowd")->check(CLI::Range(400, 100000));
   app.add_option("--repeats", options.repeats, "Of the same match; times are the least of them")
       ->check(CLI::Range(1, 99));
   CLI11_PARSE(app, count, words);

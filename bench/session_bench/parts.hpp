@@ -16,6 +16,8 @@ struct SessionBenchOptions {
 
 /// Sessions without their games, in a frame.
 void report_overhead(const SessionBenchOptions& options);
+/// A host of 8, 16 and 32 players, in a frame.
+void report_crowds(const SessionBenchOptions& options);
 /// Bytes of a player's link.
 void report_bandwidth(const SessionBenchOptions& options);
 /// What the presets give on several lines.

@@ -153,7 +153,7 @@ template <class Game> class TimedMatch {
   using Maker = std::function<std::unique_ptr<Game>()>;
 
   TimedMatch(SessionConfig config, const transport::NetworkProfile& line, const Maker& maker, Bot<Game> bot)
-      : network_({.seed = 1, .max_peers = 16}), bot_(std::move(bot)) {
+      : network_({.seed = 1, .max_peers = 64}), bot_(std::move(bot)) {
     config.host = true;
     config.seed = 1;
     const auto add = [&](transport::EndpointId id) {

@@ -32,7 +32,7 @@ class TinyGame {
 
 /// The worst that four bytes can do: others in every frame.
 inline scenes::MatchInput restless_input(int player, Frame frame) {
-  Pcg32 random = Pcg32::seeded(static_cast<std::uint64_t>(frame) * kMaxPlayers + static_cast<std::uint64_t>(player));
+  Pcg32 random = Pcg32::seeded(static_cast<std::uint64_t>(frame) * 8 + static_cast<std::uint64_t>(player));
   const std::uint32_t drawn = random.next();
   return {static_cast<std::int8_t>(drawn), static_cast<std::int8_t>(drawn >> 8),
           static_cast<std::uint8_t>(drawn >> 16 & 127), static_cast<std::uint8_t>(drawn >> 24)};

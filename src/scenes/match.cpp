@@ -64,8 +64,8 @@ template <class S> void Match<S>::write_inputs(InputView<MatchInput> inputs, Wri
 template <class S> Result<void> Match<S>::step_recorded(Bytes input) {
   Reader reader(input);
   const auto players = static_cast<std::size_t>(settings_.players);
-  std::array<MatchInput, kMaxPlayers> values = {};
-  std::array<InputStatus, kMaxPlayers> statuses = {};
+  std::array<MatchInput, kMostPucks> values = {};
+  std::array<InputStatus, kMostPucks> statuses = {};
   for (std::size_t n = 0; n < players; ++n) {
     reader.read(values[n]);
     statuses[n] = reader.read<bool>() ? InputStatus::disconnected : InputStatus::confirmed;

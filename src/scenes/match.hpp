@@ -50,9 +50,12 @@ static_assert(kHasNoPadding<MatchInput> && sizeof(MatchInput) == 4);
 /// What a player might do: another choice every 9 to 24 frames, its buttons held for the first three. A pure function.
 MatchInput bot_input(std::uint64_t seed, int player, Frame frame);
 
+/// Players of one arena: its state has a place for each.
+inline constexpr std::size_t kMostPucks = 8;
+
 /// Peers must agree on all of it. Numbers outside their range count as its nearer end.
 struct MatchSettings {
-  std::int32_t players = 2;   // 1 .. kMaxPlayers
+  std::int32_t players = 2;   // 1 .. kMostPucks
   std::int32_t pile = 60;     // bodies, 0 .. 4000
   std::uint64_t seed = 1;     // of sizes, places and shapes
   std::int32_t hz = 60;       // [1/s] as Settings
@@ -118,7 +121,7 @@ struct MatchState {
   std::uint32_t spawn_count;    // ever; the next one's place in the ring is its remainder
   BodyId spawned[kMaxSpawned];  // null: none
   ShapeId shapes[kMaxSpawned];  // each spawned body's own
-  Player players[kMaxPlayers];
+  Player players[kMostPucks];
 
   template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
     visit("random", self.random);
@@ -206,8 +209,8 @@ template <class S> class Match {
   State state_;
 
   // The same from the start of every match of these settings.
-  std::array<BodyId, kMaxPlayers> pucks_;
-  std::array<Vec3<S>, kMaxPlayers> starts_;  // [m] of the pucks
+  std::array<BodyId, kMostPucks> pucks_;
+  std::array<Vec3<S>, kMostPucks> starts_;  // [m] of the pucks
   JointId mill_;
   BodyId ring_;
   S half_;  // [m] of the floor's inside

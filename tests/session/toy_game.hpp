@@ -51,6 +51,7 @@ class Toy {
   explicit Toy(std::size_t ballast = 0) : ballast_(ballast) {}
 
   void step(InputView<ToyInput> inputs) {
+    if (seats_ < inputs.size()) seats_ = inputs.size();
     for (std::size_t p = 0; p < inputs.size(); ++p) {
       const ToyInput& input = inputs[p];
       std::uint64_t& place = state.places[p];
@@ -78,16 +79,30 @@ class Toy {
     return combiner.value();
   }
   void write_portable(Writer& writer) const {
-    writer.write(state);
+    // Of who plays, and not of the many that could: snapshots are as short as in a small game.
+    const auto seats = static_cast<std::uint8_t>(seats_);
+    writer.write(state.tick);
+    writer.write(seats);
+    for (std::size_t p = 0; p < seats_; ++p) {
+      writer.write(state.places[p]);
+      writer.write(state.absences[p]);
+    }
     for (const std::uint64_t word : ballast_) writer.write(word);
   }
   Result<void> read_portable(Reader& reader) {
     ToyState read;
     std::vector<std::uint64_t> words(ballast_.size());
-    reader.read(read);
+    reader.read(read.tick);
+    const auto seats = reader.read<std::uint8_t>();
+    if (seats > kMaxPlayers) reader.fail(ErrorCode::invalid, "more seats than there can be");
+    for (std::size_t p = 0; p < seats && reader.ok(); ++p) {
+      reader.read(read.places[p]);
+      reader.read(read.absences[p]);
+    }
     for (std::uint64_t& word : words) reader.read(word);
     if (!reader.ok()) return reader.result("toy");
     state = read;
+    seats_ = seats;
     ballast_ = words;
     return {};
   }
@@ -95,6 +110,7 @@ class Toy {
   ToyState state;
 
  private:
+  std::size_t seats_ = 0;  // that were played on; the others are zero
   std::vector<std::uint64_t> ballast_;
 };
 

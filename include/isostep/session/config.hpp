@@ -44,7 +44,7 @@ struct SessionConfig {
   Time exclusion = 60 * kSecond;  // [us] for so long: it watches meanwhile
   Frame kept = 64;  // states kept to find the cause of a divergence in, more than window, delay and latency
   /// Frames of inputs kept: how long a snapshot may take to reach a late joiner. Two minutes bring 5 MB at 50 kB/s.
-  /// They take history * (players * (2 + the longest input) + 24) bytes: 0.5 MB for eight players of 4 bytes.
+  /// They take history * (players * (3 + the longest input) + 24) bytes: 0.5 MB for eight players of 4 bytes.
   Frame history = 7200;
   /// Whose state is at most so many frames old steps them all; who has an older one is sent a snapshot.
   Frame most_replayed = 1200;

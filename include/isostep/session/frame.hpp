@@ -13,7 +13,8 @@ namespace isostep {
 using Time = std::uint64_t;
 inline constexpr Time kSecond = 1000000;  // [us]
 
-inline constexpr std::size_t kMaxPlayers = 8;
+/// Sets of players are words of 32 bits.
+inline constexpr std::size_t kMaxPlayers = 32;
 
 /// The transport's number of a connection: below SessionConfig::max_peers, free to be used again once it is closed.
 using PeerId = std::uint16_t;

@@ -66,6 +66,9 @@ class HostCore : public PeerCore {
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
+    Guest() {
+      for (Frame& frame : held_back) frame = kNoFrame;
+    }
     enum class Stage : std::uint8_t { connected, applies, needs_snapshot, receives_snapshot, live, refused };
     Stage stage = Stage::connected;
     Application wish;
@@ -82,7 +85,7 @@ class HostCore : public PeerCore {
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
     // Our frame when it was last not sent all inputs of a player.
-    Frame held_back[kMaxPlayers] = {kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame, kNoFrame};
+    Frame held_back[kMaxPlayers];
     Frame opens = kNoFrame;
     Frame start = 0;                 // the state from which it goes on
     std::uint64_t start_chain = 0;   // without a snapshot: as it said itself
@@ -108,6 +111,11 @@ class HostCore : public PeerCore {
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
   void begin(Time now);
+  /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
+  void tend_guests(Time now);
+  /// Those that a connection ever had: few, of many places.
+  std::span<Guest> guests() { return {guests_.data(), used_}; }
+  std::span<const Guest> guests() const { return {guests_.data(), used_}; }
   /// One roster after the other: the next when a majority has this one.
   void keep_roster();
   Roster drafted() const;
@@ -212,7 +220,8 @@ class HostCore : public PeerCore {
     return guest.stage == Guest::Stage::live && guest.player >= 0 && seats_[guest.player].is_open;
   }
   /// [us] round trips beyond this are their players' own affair: who has a worse line runs later, and nobody waits.
-  Time farthest_that_counts() const;
+  Time farthest_that_counts() const { return farthest_; }
+  Time judge_farthest() const;
   void judge_lines();
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
@@ -253,6 +262,9 @@ class HostCore : public PeerCore {
   Time steps_down_at_ = 0;  // [us] our states are wrong, and another machine is to be the host; 0: no
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
+  std::size_t used_ = 0;                       // of them
+  Time next_tending_ = 0;                      // [us]
+  Time farthest_ = 0;                          // [us] see farthest_that_counts
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
   Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;

@@ -44,17 +44,20 @@ class InputStream {
   bool replace(Frame frame, const InputEntry& entry);
   /// contains(frame).
   InputEntry at(Frame frame) const;
+  /// contains(frame): is it the same as that of the frame before, which is contained as well?
+  bool repeats(Frame frame) const { return frame > begin_ && repeats_[slot(frame)] != 0; }
   /// The newest entry; absent when there is none.
   InputEntry last() const;
 
  private:
   std::size_t slot(Frame frame) const { return static_cast<std::size_t>(frame % capacity_); }
+  void note_repeat(Frame frame);
 
   Frame capacity_;
   std::size_t input_cap_;
   Frame begin_ = 0, end_ = 0;
   std::vector<std::uint16_t> sizes_;  // of the slot's input; kAbsent when nobody was there
-  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint8_t> bytes_, repeats_;
 };
 
 }  // namespace isostep

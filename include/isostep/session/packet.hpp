@@ -31,12 +31,12 @@ struct PacketHeader {
   bool is_far = false;           // host: the receiver's line is one for which the others do not wait
   std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
   std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
-  std::uint8_t waits_for = 0;    // host: players, a bit each, who hold the match up
+  std::uint32_t waits_for = 0;   // host: players, a bit each, who hold the match up
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none
   HashReport passed_on;
-  std::uint8_t ack_mask = 0;            // players of whom the sender says what it has
+  std::uint32_t ack_mask = 0;           // players of whom the sender says what it has
   Frame ack[kMaxPlayers] = {};          // first missing
   std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed
 };

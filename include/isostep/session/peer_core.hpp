@@ -75,7 +75,7 @@ class PeerCore : public SessionCore {
   void stands_for(std::uint32_t players);
   void goes_on();
   /// As last told; 0: nobody.
-  std::uint8_t waits_for() const { return static_cast<std::uint8_t>(stands_ ? waits_for_ : 0); }
+  std::uint32_t waits_for() const { return stands_ ? waits_for_ : 0; }
   static constexpr Time kTellBlocked = kSecond / 5;  // [us] before a wait is worth an event
   /// [1/256 period] 40 frames a second where there should be 60: who cannot do so many does not play.
   static constexpr int kMostStretch = 128;

@@ -56,12 +56,12 @@ struct PeerLink {
   bool may_burst = true;                // it acknowledged something new since the last datagram but a period's first
   Time acked_at = 0;                    // [us] when it last acknowledged something new; 0: never
   std::int8_t slack[kMaxPlayers] = {};  // how early inputs reach it, as it last said
-  std::uint8_t reported_mask = 0;       // players of whom it did
+  std::uint32_t reported_mask = 0;      // players of whom it did
   Frame newest_frame = 0;               // of which the datagram is that said this,
   std::uint16_t newest_time = 0;        // and when [ms] by the peer's clock:
   int stretch = 0;                      // [1/256 period] by which its frames are longer,
   std::uint8_t slowest = 0xff;          // and for whom
-  std::uint8_t waits_for = 0;           // who holds the match up
+  std::uint32_t waits_for = 0;          // who holds the match up
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others
 

@@ -45,8 +45,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
         states_(static_cast<std::size_t>(core_->config().kept)) {
     const std::size_t steps = states_.size() * 2 + 8;
     requests_.reserve(steps * 2 + 8);
-    values_.reserve(steps * kMaxPlayers);
-    statuses_.reserve(steps * kMaxPlayers);
+    values_.reserve(steps * static_cast<std::size_t>(core_->config().players));
+    statuses_.reserve(steps * static_cast<std::size_t>(core_->config().players));
   }
 
   // From the transport.

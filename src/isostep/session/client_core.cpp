@@ -249,7 +249,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   header.started = runs_;
   header.stretch = static_cast<std::uint8_t>(needed_stretch());
   for (int p = 0; p < players(); ++p) {
-    header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
+    header.ack_mask |= 1u << p;
     header.ack[p] = is_own(p) && is_open_ ? accepted_[p] : streams_[static_cast<std::size_t>(p)].end();
     // Who may run later does so before it asks the others to wait.
     const bool measures = phase_ == SessionPhase::playing && !is_own(p) && (!is_far_ || lag_.is_at_most());

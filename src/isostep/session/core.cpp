@@ -58,7 +58,7 @@ std::optional<SessionCore::Confirmed> SessionCore::poll_confirmed() {
 }
 
 const char* problem_of(const SessionConfig& config) {
-  if (config.players < 1 || config.players > static_cast<int>(kMaxPlayers)) return "players: 1 to 8";
+  if (config.players < 1 || config.players > static_cast<int>(kMaxPlayers)) return "players: 1 to 32";
   if (config.local_players < 0 || config.local_players > config.players) return "local_players: 0 to players";
   if (config.hz < 1 || config.hz > 1000) return "hz: 1 to 1000";
   if (config.window < 0 || config.window > 60) return "window: 0 to 60 frames";

@@ -26,6 +26,7 @@ void HostCore::connected(PeerId peer, Time now) {
     return;
   }
   Guest& guest = guests_[peer];
+  if (used_ <= peer) used_ = peer + std::size_t{1};
   if (guest.is_connected) drop(guest);
   clear(guest);
   guest.connect(now);
@@ -142,12 +143,28 @@ Frame HostCore::sends_until(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
-  tend_places(now);
   bool all_taken = true;
   for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
   if (!started_ && (all_taken || must_start_)) begin(now);
+  if (now >= next_tending_) {
+    next_tending_ = now + clock_.period();
+    tend_guests(now);
+  }
+  for (Guest& guest : guests()) {
+    if (guest.is_connected && guest.is_ready) open_seats(guest, now);
+  }
+  reports_count_ = now >= reports_from_;
+  // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
+  if (started_) {
+    fill_absent();
+    replace_late(now);
+  }
+}
+
+void HostCore::tend_guests(Time now) {
+  tend_places(now);
   stats_.peers = 0;
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     if (!guest.is_connected) continue;
     ++stats_.peers;
     if (now - guest.heard > config_.silence) {
@@ -171,21 +188,14 @@ void HostCore::before_steps(Time now) {
       guest.repair = RepairService{.next = guest.repair.next};
       guest.opens = kNoFrame;
     }
-    if (guest.is_ready) open_seats(guest, now);
     tend_repair(guest, now);
   }
   keep_roster();
   count_backers(now);
   tend_inquiry(now);
-  reports_count_ = now >= reports_from_;
   judge_lines();
   choose_pace(now);
   keep_figures(now);
-  // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
-  if (started_) {
-    fill_absent();
-    replace_late(now);
-  }
 }
 
 void HostCore::before_frame(Time now) {

@@ -17,7 +17,7 @@ void HostCore::keep_figures(Time now) {
     figures.waited = static_cast<std::uint32_t>(seats_[p].lost.spent(now));
     figures.round_trip = figures.jitter = figures.loss = 0;
   }
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     if (guest.stage != Guest::Stage::live) continue;
     // Who does not acknowledge is sent no more than it has to be.
     guest.must_tell_figures = !is_unproven(guest) && acknowledges(guest, now);

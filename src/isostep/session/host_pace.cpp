@@ -23,11 +23,11 @@ void HostCore::paused(Time now) {
   forgive_own_pause(now);
 }
 
-Time HostCore::farthest_that_counts() const {
+Time HostCore::judge_farthest() const {
   // The middle one of all lines: the better half of the players does not wait for the worse.
   Time trips[kMaxPlayers] = {};
   std::uint32_t count = 0;
-  for (const Guest& guest : guests_) {
+  for (const Guest& guest : guests()) {
     if (is_in_match(guest)) trips[count++] = guest.round_trip;
   }
   if (count == 0) return 0;
@@ -36,10 +36,10 @@ Time HostCore::farthest_that_counts() const {
 }
 
 void HostCore::judge_lines() {
-  const Time farthest = farthest_that_counts();
-  for (Guest& guest : guests_) {
+  farthest_ = judge_farthest();
+  for (Guest& guest : guests()) {
     // A period less on the way back, so that jitter does not change it again and again.
-    guest.is_far = is_in_match(guest) && guest.round_trip > farthest - (guest.is_far ? clock_.period() : 0);
+    guest.is_far = is_in_match(guest) && guest.round_trip > farthest_ - (guest.is_far ? clock_.period() : 0);
   }
 }
 
@@ -49,7 +49,7 @@ Frame HostCore::slack_of(int player) const {
   if (here == RecentLeast::kNothing || !reports_count_) return least;
   const Time farthest = farthest_that_counts();
   const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
-  for (const Guest& guest : guests_) {
+  for (const Guest& guest : guests()) {
     if (!is_in_match(guest) || has(guest, player) || (guest.reported_mask >> player & 1) == 0) continue;
     if (was_held_back(guest, player)) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
@@ -66,7 +66,7 @@ Frame HostCore::slack_of(int player) const {
 
 void HostCore::observe_delay() {
   stats_.round_trip = 0;
-  for (const Guest& guest : guests_) {
+  for (const Guest& guest : guests()) {
     if (is_in_match(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
   }
   Frame least = RecentLeast::kNothing;
@@ -86,7 +86,7 @@ void HostCore::choose_pace(Time now) {
   int whose = hosted_ == 0 ? 0xff : local_player();
   int stretch = pace_.stretch(), most = weight(whose, stretch);
   int needed = stretch;
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
     if (!is_too_slow) guest.too_slow_since = now;
     if (now - guest.too_slow_since >= kTooSlow) close_seats(guest);

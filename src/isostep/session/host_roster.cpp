@@ -121,6 +121,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     const Caller& caller = succession.callers[i];
     if (!caller.is_connected) continue;
     guests_[i].connect(now);
+    used_ = i + 1;
     if (caller.hello.empty()) continue;
     if (caller.supports) guests_[i].enrolled = roster_.version;
     greet(guests_[i], caller.hello);

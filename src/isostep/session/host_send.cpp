@@ -5,9 +5,9 @@
 namespace isostep {
 
 std::optional<Outgoing> HostCore::poll_send(Time now) {
-  for (std::size_t i = 0; i < guests_.size(); ++i) {
+  for (std::size_t i = 0; i < used_; ++i) {
     Guest& guest = guests_[next_guest_];
-    next_guest_ = (next_guest_ + 1) % guests_.size();
+    next_guest_ = (next_guest_ + 1) % used_;
     if (!guest.is_connected) continue;
     if (std::optional<Outgoing> out = next_message(guest, now)) {
       next_guest_ = guest.peer;  // all of its messages, in order
@@ -98,15 +98,15 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
     if (!has(guest, p) || !seat.is_open) continue;
-    header.ack_mask = static_cast<std::uint8_t>(header.ack_mask | 1u << p);
+    header.ack_mask |= 1u << p;
     // What took the place of its own inputs it has to know before they count as had.
     if (guest.acked[p] >= seat.replaced_end) seat.replaced_end = 0;
     header.ack[p] = seat.replaced_end > 0 ? seat.replaced : streams_[static_cast<std::size_t>(p)].end();
     header.slack[p] = static_cast<std::int8_t>(told_slack(guest, p));
   }
   // One other machine's word on its states with every datagram, in turns.
-  for (std::size_t i = 0; i < guests_.size(); ++i) {
-    guest.next_reporter = (guest.next_reporter + 1) % guests_.size();
+  for (std::size_t i = 0; i < used_; ++i) {
+    guest.next_reporter = (guest.next_reporter + 1) % used_;
     const Guest& other = guests_[guest.next_reporter];
     if (&other == &guest || other.player < 0 || other.report.frame == kNoFrame) continue;
     header.reporter = static_cast<std::uint8_t>(other.player);

@@ -11,10 +11,10 @@ SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {
 
 void HostCore::serve_snapshots() {
   bool wanted = false;
-  for (const Guest& guest : guests_) wanted = wanted || needs_snapshot(guest);
+  for (const Guest& guest : guests()) wanted = wanted || needs_snapshot(guest);
   if (!wanted) return;
   if (!may_share_snapshot()) {
-    for (const Guest& guest : guests_) {
+    for (const Guest& guest : guests()) {
       if (receives_snapshot(guest)) return;
     }
     // A state that is final: the present one may rest on guesses.
@@ -23,7 +23,7 @@ void HostCore::serve_snapshots() {
     held_until_ = 0;
     act(RequestKind::capture, snapshot_.frame);
   }
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     if (guest.repair.stage == RepairService::Stage::needs) {
       guest.repair.stage = RepairService::Stage::receives;
       guest.repair.must_offer = true;
@@ -42,13 +42,13 @@ bool HostCore::may_share_snapshot() {
   const Frame age = hashes_.settled().frame - snapshot_.frame;
   if (age <= bounded(config_.hz)) return true;
   bool in_use = current() < held_until_;
-  for (const Guest& guest : guests_) {
+  for (const Guest& guest : guests()) {
     const bool has_some = guest.stage == Guest::Stage::needs_snapshot && has_part(guest);
     in_use = in_use || has_some || receives_snapshot(guest);
   }
   // Half of the log is for its way to the last who shares it.
   if (age <= config_.history / 2) return in_use;
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     // At this pace the inputs since are gone before it has arrived: that must not keep others out.
     const SnapshotProgress has = guest.transfer.progress();
     const bool is_slow = std::uint64_t{has.arrived} * static_cast<std::uint64_t>(config_.history) <

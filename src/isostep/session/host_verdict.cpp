@@ -27,7 +27,7 @@ void HostCore::tend_inquiry(Time now) {
   for (int p = 0; p < players(); ++p) differs = differs || views_[p].differs();
   if (!differs) return;
   std::uint64_t differing = 0, asked = 0;
-  for (const Guest& guest : guests_) {
+  for (const Guest& guest : guests()) {
     if (!is_in_match(guest)) continue;
     asked |= std::uint64_t{1} << guest.player;
     if (views_[guest.player].differs()) differing |= std::uint64_t{1} << guest.player;
@@ -48,7 +48,7 @@ void HostCore::open_inquiry(Time now) {
   inquiry_.statements = Statements{};
   inquiry_.statements.frame = own.frame;
   inquiry_.statements.of[kHostMachine] = {true, true, own.chain};
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     guest.must_inquire = is_in_match(guest);
     if (guest.must_inquire) inquiry_.statements.of[guest.player].is_asked = true;
   }
@@ -60,7 +60,7 @@ void HostCore::conclude_inquiry(Time now) {
   for (int p = 0; p < players(); ++p) {
     if (said[p].has_spoken && said[p].chain != said[kHostMachine].chain) inquiry_.differing |= std::uint64_t{1} << p;
   }
-  for (Guest& guest : guests_) {
+  for (Guest& guest : guests()) {
     guest.must_inquire = false;
     guest.must_tell_statements = guest.stage == Guest::Stage::live;
   }
@@ -103,7 +103,7 @@ bool HostCore::take_repair(Guest& guest, MessageKind kind, Bytes bytes) {
   was_repaired(player, repaired.value().after);
   inquiry_.differing &= ~(std::uint64_t{1} << player);
   guest.report = HashReport{};
-  for (Guest& other : guests_) {
+  for (Guest& other : guests()) {
     if (&other != &guest && other.stage == Guest::Stage::live) other.repair.tells |= std::uint32_t{1} << player;
   }
   tell({.kind = SessionEvent::Kind::repaired, .player = player, .frame = repaired.value().after});

@@ -13,7 +13,8 @@ InputStream::InputStream(Frame capacity, std::size_t input_cap)
     : capacity_(capacity),
       input_cap_(input_cap),
       sizes_(static_cast<std::size_t>(capacity), kAbsent),
-      bytes_(static_cast<std::size_t>(capacity) * input_cap) {}
+      bytes_(static_cast<std::size_t>(capacity) * input_cap),
+      repeats_(static_cast<std::size_t>(capacity), 0) {}
 
 void InputStream::reset(Frame first) { begin_ = end_ = first; }
 
@@ -22,7 +23,13 @@ bool InputStream::replace(Frame frame, const InputEntry& entry) {
   const std::size_t place = slot(frame);
   sizes_[place] = entry.absent ? kAbsent : static_cast<std::uint16_t>(entry.bytes.size());
   if (!entry.bytes.empty()) std::memcpy(&bytes_[place * input_cap_], entry.bytes.data(), entry.bytes.size());
+  note_repeat(frame);
+  if (frame + 1 < end_) note_repeat(frame + 1);
   return true;
+}
+
+void InputStream::note_repeat(Frame frame) {
+  repeats_[slot(frame)] = frame > begin_ && same_input(at(frame), at(frame - 1)) ? 1 : 0;
 }
 
 bool InputStream::append(const InputEntry& entry) {

@@ -1,9 +1,9 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u64 | number u16 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for u8]
+// Layout: kind u8 | match u64 | number u16 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for varint]
 //         | frame varint | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
-//         | ack mask u8 | {difference to frame, slack i8}...
+//         | ack mask varint | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
 //         10000000  size varint, the input              10000001  as long as the previous: masks of 8, changed bytes
@@ -100,14 +100,14 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
     writer.byte(header.stretch);
     writer.byte(header.slowest);
   }
-  if (header.waits_for != 0) writer.byte(header.waits_for);
+  if (header.waits_for != 0) writer.number(header.waits_for);
   writer.number(static_cast<std::uint32_t>(header.frame));
   if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
     writer.byte(header.reporter);
     write_report(writer, header.frame, header.passed_on);
   }
-  writer.byte(header.ack_mask);
+  writer.number(header.ack_mask);
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     writer.difference(header.ack[p] - header.frame);
@@ -126,20 +126,18 @@ Frame PacketWriter::add_slice(std::uint8_t player, const InputStream& stream, Fr
   std::size_t whole = 0;
   Frame count = 0;
   Bytes previous;
-  for (Frame frame = first; frame < stream.end() && count < most;) {
+  const Frame end = stream.end() - first < most ? stream.end() : first + most;
+  for (Frame frame = first; frame < end;) {
     const InputEntry entry = stream.at(frame);
-    const bool repeats = !entry.absent && frame > first && same_input(entry, {false, previous});
+    const bool repeats = !entry.absent && frame > first && stream.repeats(frame);
     Frame run = 1;
-    while (run < kRun && count + run < most && frame + run < stream.end() &&
-           same_input(stream.at(frame + run), entry)) {
-      ++run;
-    }
+    while (run < kRun && frame + run < end && stream.repeats(frame + run)) ++run;
     if (entry.absent) {
       writer.byte(static_cast<std::uint8_t>(kAbsentRun | (run - 1)));
     } else if (repeats) {
       writer.byte(static_cast<std::uint8_t>(kRepeat | (run - 1)));
     } else {
-      run = 1;
+      run = 1;  // its repetitions come after it
       write_input(writer, previous, entry.bytes);
       previous = entry.bytes;
     }
@@ -182,7 +180,7 @@ Result<Packet> read_packet(Bytes bytes) {
     if (header.slowest >= kMaxPlayers && header.slowest != 0xff) return refuse("slowed by no player");
   }
   if ((flags & kWaits) != 0) {
-    header.waits_for = reader.byte();
+    header.waits_for = reader.number();
     if (header.waits_for == 0) return refuse("waits for nobody");
   }
   const std::uint32_t frame = reader.number();
@@ -194,7 +192,7 @@ Result<Packet> read_packet(Bytes bytes) {
     header.passed_on = read_report(reader, header.frame);
     if (header.reporter >= kMaxPlayers) return refuse("passes on the hash of no player");
   }
-  header.ack_mask = reader.byte();
+  header.ack_mask = reader.number();
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     header.ack[p] = read_frame_near(reader, header.frame);

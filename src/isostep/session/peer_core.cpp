@@ -264,7 +264,7 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
     }
     if (!is_current) continue;
     link.slack[p] = header.slack[p];
-    link.reported_mask = static_cast<std::uint8_t>(link.reported_mask | 1u << p);
+    link.reported_mask |= 1u << p;
   }
 }
 

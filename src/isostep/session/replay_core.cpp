@@ -7,12 +7,11 @@
 namespace isostep {
 
 void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint8_t>& out) {
-  std::uint8_t mask = 0;
-  for (std::size_t p = 0; p < inputs.size(); ++p)
-    mask = static_cast<std::uint8_t>(mask | (inputs[p].absent ? 1u : 0u) << p);
-  std::uint8_t bytes[1 + kMaxPlayers * (kInputCap + 2)];
+  std::uint32_t mask = 0;
+  for (std::size_t p = 0; p < inputs.size(); ++p) mask |= (inputs[p].absent ? 1u : 0u) << p;
+  std::uint8_t bytes[kMaxPlayers / 8 + kMaxPlayers * (kInputCap + 2)];
   WireWriter writer(bytes, sizeof bytes);
-  writer.byte(mask);
+  for (std::size_t p = 0; p < inputs.size(); p += 8) writer.byte(static_cast<std::uint8_t>(mask >> p));
   for (const InputEntry& input : inputs) {
     if (input.absent) continue;
     writer.number(static_cast<std::uint32_t>(input.bytes.size()));
@@ -23,7 +22,8 @@ void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint
 
 bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs) {
   WireReader reader(bytes);
-  const std::uint8_t mask = reader.byte();
+  std::uint64_t mask = 0;
+  for (std::size_t p = 0; p < inputs.size(); p += 8) mask |= std::uint64_t{reader.byte()} << p;
   if (mask >> inputs.size() != 0) return false;
   for (std::size_t p = 0; p < inputs.size(); ++p) {
     inputs[p] = {(mask >> p & 1) != 0, {}};

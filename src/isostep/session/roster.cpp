@@ -116,7 +116,7 @@ Result<Roster> read_roster(Bytes message) {
     const auto flags = reader.read<std::uint8_t>();
     machine.address = read_address(reader);
     const bool is_known = flags <= (kIsIn | kWasIn);
-    const bool has_own = (machine.players & seen) == 0 && std::uint64_t{machine.players} >> kMaxPlayers == 0;
+    const bool has_own = (machine.players & seen) == 0;
     if (!is_known || !has_own) reader.fail(ErrorCode::invalid, "a machine that cannot be");
     seen |= machine.players;
     machine.is_in = (flags & kIsIn) != 0;

@@ -16,8 +16,8 @@ namespace {
 static_assert(Simulation<Match<float>> && PortableState<Match<float>> && ReplayableSimulation<Match<float>>);
 static_assert(Simulation<Match<Q16_16>> && PortableState<Match<Q32_32>> && ReplayableSimulation<Match<double>>);
 
-using Inputs = std::array<MatchInput, kMaxPlayers>;
-using Statuses = std::array<InputStatus, kMaxPlayers>;
+using Inputs = std::array<MatchInput, kMostPucks>;
+using Statuses = std::array<InputStatus, kMostPucks>;
 
 template <class S> class MatchOf : public ::testing::Test {};
 using AllScalars = ::testing::Types<float, double, Q16_16, Q32_32>;

@@ -36,7 +36,7 @@ TEST(SessionConfig, TheDefaultIsFine) {
 
 TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.players = 0), "players"));
-  EXPECT_TRUE(names(PROBLEM(c.players = 9), "players"));
+  EXPECT_TRUE(names(PROBLEM(c.players = 33), "players"));
   EXPECT_TRUE(names(PROBLEM(c.players = -1), "players"));
   EXPECT_TRUE(names(PROBLEM(c.local_players = -1), "local_players"));
   EXPECT_TRUE(names(PROBLEM(c.local_players = 3), "local_players"));
@@ -82,7 +82,7 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
 
 TEST(SessionConfig, TheEdgesAreFine) {
   EXPECT_EQ(PROBLEM(c.players = 1; c.local_players = 0), "");
-  EXPECT_EQ(PROBLEM(c.players = 8; c.local_players = 8), "");
+  EXPECT_EQ(PROBLEM(c.players = 32; c.local_players = 32), "");
   EXPECT_EQ(PROBLEM(c.hz = 1), "");
   EXPECT_EQ(PROBLEM(c.hz = 1000; c.most_packets = 2000), "");
   EXPECT_EQ(PROBLEM(c.window = 0), "");
@@ -106,14 +106,14 @@ TEST(SessionConfig, TheEdgesAreFine) {
 
 TEST(SessionConfig, ASessionOfABrokenOneIsRefusedAndSaysWhy) {
   SessionConfig config;
-  config.players = 9;
+  config.players = 33;
   Session<hostile::Game> session(config);
   hostile::Game game;
   EXPECT_EQ(session.phase(), SessionPhase::refused);
   const auto event = session.poll_event();
   ASSERT_TRUE(event.has_value());
   EXPECT_EQ(event->kind, SessionEvent::Kind::refused);
-  EXPECT_EQ(event->field.here.view(), "players: 1 to 8");
+  EXPECT_EQ(event->field.here.view(), "players: 1 to 32");
   session.connected(0, 0);
   session.receive(0, Channel::datagram, {}, 0);
   EXPECT_EQ(drive(session, game, 0), 0);

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 
 #include "isostep/core/random.hpp"
 
@@ -51,6 +52,21 @@ TEST(InputStream, ReplacesOneFrameAndNoOther) {
   EXPECT_TRUE(same_input(stream.at(5), {false, Buffer{5}}));
 }
 
+TEST(InputStream, KnowsWhatRepeatsTheFrameBefore) {
+  InputStream stream(8, 2);
+  for (const std::uint8_t byte : {1, 1, 1, 2, 2}) stream.append({false, Buffer{byte}});
+  const auto repeats = [&] {
+    std::string text;
+    for (Frame frame = stream.begin(); frame < stream.end(); ++frame) text += stream.repeats(frame) ? '=' : '.';
+    return text;
+  };
+  EXPECT_EQ(repeats(), ".==.=");
+  stream.replace(1, {false, Buffer{2}});
+  EXPECT_EQ(repeats(), "....=");
+  stream.replace(2, {false, Buffer{2}});
+  EXPECT_EQ(repeats(), "..===");
+}
+
 TEST(InputStream, TheOldestFallsOut) {
   InputStream stream(4, 1);
   for (std::uint8_t i = 0; i < 10; ++i) stream.append({false, Buffer{i}});
@@ -80,7 +96,8 @@ TEST(InputStream, DoesWhatAListDoes) {
     const std::uint32_t draw = random.next() % 100;
     if (draw < 70) {
       Buffer bytes(random.next() % 5);
-      for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random.next());
+      const std::uint32_t values = random.next() % 2 == 0 ? 2 : 256;  // few: then inputs repeat each other
+      for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random.next() % values);
       const bool absent = random.next() % 4 == 0;
       ASSERT_TRUE(stream.append({absent, absent ? Bytes{} : Bytes(bytes)}));
       model[end++] = absent ? std::nullopt : std::optional(bytes);
@@ -103,6 +120,7 @@ TEST(InputStream, DoesWhatAListDoes) {
     for (Frame f = begin; f < end; ++f) {
       const std::optional<Buffer>& said = model[f];
       ASSERT_TRUE(same_input(stream.at(f), {!said, said ? Bytes(*said) : Bytes{}})) << f;
+      ASSERT_EQ(stream.repeats(f), f > begin && model[f] == model[f - 1]) << f;
     }
   }
 }

@@ -146,7 +146,8 @@ TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
     write_welcome(its, bytes);
     return read_welcome(bytes).ok();
   };
-  EXPECT_TRUE(reads([](Welcome& w) { w.players = 8; }));
+  EXPECT_TRUE(reads([](Welcome& w) { w.players = 32; }));
+  EXPECT_TRUE(reads([](Welcome& w) { w.players = 32, w.player = 0, w.hosted = 0, w.others = 0xfffffffeu; }));
   EXPECT_TRUE(reads([](Welcome& w) { w.player = 0xff, w.others = 0, w.opens = kNoFrame; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff, w.others = 0; })) << "a spectator that plays";
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xff, w.opens = kNoFrame; })) << "a spectator with players";
@@ -155,7 +156,7 @@ TEST(Message, WelcomesThatMakeNoSenseAreRefused) {
   EXPECT_FALSE(reads([](Welcome& w) { w.others = 0b1100; })) << "the first once more";
   EXPECT_FALSE(reads([](Welcome& w) { w.others = 0b1010; })) << "one before the first";
   EXPECT_FALSE(reads([](Welcome& w) { w.players = 0, w.hosted = 0; }));
-  EXPECT_FALSE(reads([](Welcome& w) { w.players = 9; }));
+  EXPECT_FALSE(reads([](Welcome& w) { w.players = 33; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.hosted = 32; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 4; }));
   EXPECT_FALSE(reads([](Welcome& w) { w.player = 0xfe; }));
@@ -205,8 +206,8 @@ TEST(Message, SeatsAndCredentialsOutOfRangeAreRefused) {
     write_hello(its, bytes);
     return read_hello(bytes).ok();
   };
-  for (const int seat : {-128, -2, 8, 127}) EXPECT_FALSE(reads(seat, 3)) << seat;
-  for (const int seat : {-1, 0, 7}) EXPECT_TRUE(reads(seat, 3)) << seat;
+  for (const int seat : {-128, -2, 32, 127}) EXPECT_FALSE(reads(seat, 3)) << seat;
+  for (const int seat : {-1, 0, 7, 31}) EXPECT_TRUE(reads(seat, 3)) << seat;
   EXPECT_TRUE(reads(0, 0));
   EXPECT_TRUE(reads(0, kCredentialCap));
   EXPECT_FALSE(reads(0, kCredentialCap + 1));

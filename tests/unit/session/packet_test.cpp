@@ -29,7 +29,7 @@ PacketHeader any_header(Pcg32& random) {
   if (header.has_echo) header.echo = static_cast<std::uint16_t>(random.next());
   header.started = random.next() % 2 == 0;
   header.is_far = random.next() % 2 == 0;
-  if (random.next() % 4 == 0) header.waits_for = static_cast<std::uint8_t>(random.next());
+  if (random.next() % 4 == 0) header.waits_for = random.next();
   if (random.next() % 2 == 0) {
     header.stretch = static_cast<std::uint8_t>(random.next() % 255 + 1);
     header.slowest = static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % kMaxPlayers);
@@ -40,7 +40,7 @@ PacketHeader any_header(Pcg32& random) {
     header.reporter = static_cast<std::uint8_t>(random.next() % kMaxPlayers);
     header.passed_on = {any_frame(random), random.next()};
   }
-  header.ack_mask = static_cast<std::uint8_t>(random.next());
+  header.ack_mask = random.next();
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
     header.ack[p] = any_frame(random);
@@ -52,11 +52,12 @@ PacketHeader any_header(Pcg32& random) {
 PacketHeader largest_header() {
   PacketHeader header;
   header.has_echo = header.started = header.is_far = true;
-  header.stretch = header.waits_for = 255;
+  header.stretch = 255;
+  header.waits_for = ~0u;
   header.frame = kLastFrame;
   header.report = header.passed_on = {0, ~std::uint64_t{0}};
-  header.reporter = 7;
-  header.ack_mask = 0xff;
+  header.reporter = kMaxPlayers - 1;
+  header.ack_mask = ~0u;
   return header;
 }
 InputStream any_stream(Pcg32& random, Frame first, std::size_t cap) {
@@ -256,21 +257,20 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(reads(buffer, head(buffer, 0, kLastFrame)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, kLastFrame + 1u)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, 0xffffffffu)));
-  EXPECT_FALSE(reads(buffer, head(buffer, 128))) << "no flag";
-  const auto waiting = [&](std::uint8_t players) {
+  const auto waiting = [&](std::uint32_t players) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);
     writer.fixed(std::uint64_t{1});
     writer.fixed(std::uint16_t{3});
     writer.fixed(std::uint16_t{2});
     writer.byte(64);
-    writer.byte(players);
+    writer.number(players);
     writer.number(7);
     writer.byte(0);
     return reads(buffer, writer);
   };
   EXPECT_TRUE(waiting(1));
-  EXPECT_TRUE(waiting(255));
+  EXPECT_TRUE(waiting(~0u));
   EXPECT_FALSE(waiting(0)) << "waiting for nobody is not said";
   const auto slow = [&](std::uint8_t stretch, std::uint8_t player) {
     WireWriter writer(buffer, kDatagramCap);
@@ -286,10 +286,10 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
     return reads(buffer, writer);
   };
   EXPECT_TRUE(slow(1, 0));
-  EXPECT_TRUE(slow(255, 7));
+  EXPECT_TRUE(slow(255, 31));
   EXPECT_TRUE(slow(255, 0xff));
   EXPECT_FALSE(slow(0, 0)) << "slow by nothing is not said";
-  EXPECT_FALSE(slow(1, 8));
+  EXPECT_FALSE(slow(1, 32));
   EXPECT_FALSE(slow(1, 0xfe));
   const auto report_at = [&](std::int32_t difference) {
     WireWriter writer = head(buffer, 4);
@@ -312,8 +312,8 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
     writer.byte(0);
     return reads(buffer, writer);
   };
-  EXPECT_TRUE(reporter(7));
-  EXPECT_FALSE(reporter(8));
+  EXPECT_TRUE(reporter(31));
+  EXPECT_FALSE(reporter(32));
   EXPECT_FALSE(reporter(0xff));
   const auto ack_at = [&](std::int32_t difference) {
     WireWriter writer = head(buffer, 0, 7, 1);
@@ -345,8 +345,8 @@ bool slice_reads(std::uint8_t player, std::int32_t first, std::uint32_t count, s
 }
 TEST(Packet, SlicesOutOfRangeAreRefused) {
   EXPECT_TRUE(slice_reads(0, 0, 1, 1));
-  EXPECT_TRUE(slice_reads(7, kLastFrame, 128, 1));
-  EXPECT_FALSE(slice_reads(8, 0, 1, 1));
+  EXPECT_TRUE(slice_reads(31, kLastFrame, 128, 1));
+  EXPECT_FALSE(slice_reads(32, 0, 1, 1));
   EXPECT_FALSE(slice_reads(0, kLastFrame + 1, 1, 1));
   EXPECT_FALSE(slice_reads(0, -1, 1, 1));
   EXPECT_FALSE(slice_reads(0, INT32_MIN, 1, 1));
