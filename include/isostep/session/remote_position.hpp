@@ -16,11 +16,11 @@ template <class T> class RecentMedian {
     if (count_ < kValues) ++count_;
   }
   int count() const { return count_; }
-  /// `map(value)` of every one, 0 or more; count() > 0. Of an even number the upper one.
-  template <class Map> auto median(const Map& map) const {
-    decltype(map(values_[0])) sorted[kValues] = {};
-    for (int n = 0; n < count_; ++n) sorted[n] = map(values_[n]);
-    insertion_sort(sorted, static_cast<std::uint32_t>(count_), OwnKey{});
+  /// The one in the middle by key(value), a number of 64 bits without sign; count() > 0. Of an even number the upper one.
+  template <class Key> T median(const Key& key) const {
+    T sorted[kValues] = {};
+    for (int n = 0; n < count_; ++n) sorted[n] = values_[n];
+    insertion_sort(sorted, static_cast<std::uint32_t>(count_), key);
     return sorted[count_ / 2];
   }
   static constexpr int kValues = 9;  // a seventh of a second of datagrams at 60 Hz: four of them may be wrong
@@ -32,16 +32,21 @@ template <class T> class RecentMedian {
 
 class RemotePosition {
  public:
-  void heard(Frame frame, Time at) { said_.add({frame, at}); }
+  void heard(Frame frame, Time at, Time period) {
+    said_.add({frame, at});
+    // All that was said ages alike, so which one is in the middle changes only here.
+    middle_ = said_.median([&](const Said& said) {
+      constexpr std::uint64_t kAbove = std::uint64_t{1} << 62;  // of all times: what is subtracted leaves no sign
+      return kAbove + static_cast<std::uint64_t>(said.frame) * period - said.at;
+    });
+  }
   bool is_known() const { return said_.count() > 0; }
   /// [1/256 frame] the peer's next frame, as a datagram that came now would say. A silent peer has probably stopped.
   std::int64_t at(Time now, Time period) const {
     if (!is_known()) return 0;
-    return said_.median([&](const Said& said) {
-      const Time since = now > said.at ? now - said.at : 0;
-      return std::int64_t{said.frame} * 256 +
-             static_cast<std::int64_t>((since < kSecond ? since : kSecond) * 256 / period);
-    });
+    const Time since = now > middle_.at ? now - middle_.at : 0;
+    return std::int64_t{middle_.frame} * 256 +
+           static_cast<std::int64_t>((since < kSecond ? since : kSecond) * 256 / period);
   }
   /// Could a datagram that comes now say this? While little is known, anything could.
   bool is_near(Frame frame, Time now, Time period) const {
@@ -59,6 +64,7 @@ class RemotePosition {
   static constexpr Time kNear = kSecond / 4;  // [us] jitter and lost datagrams move what is said by less
 
   RecentMedian<Said> said_;
+  Said middle_;
 };
 
 }  // namespace isostep

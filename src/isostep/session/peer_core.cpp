@@ -121,7 +121,8 @@ void PeerCore::plan(Time now) {
   after_steps();
   limit_ = final_limit();
   settle();
-  for (std::size_t reporter = 0; reporter < kMachines; ++reporter) compare(reporter);
+  for (int p = 0; p < players(); ++p) compare(static_cast<std::size_t>(p));
+  compare(kHostMachine);
   stats_.delay = delay_.frames();
 }
 
@@ -237,7 +238,7 @@ bool PeerCore::accept_message(PeerLink& link, Bytes bytes, Time now) {
 void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now) {
   // Of an old or forged datagram only what stays true is taken: what was had, and the inputs.
   const bool is_current = link.position.is_near(header.frame, now, clock_.period());
-  link.position.heard(header.frame, now);
+  link.position.heard(header.frame, now, clock_.period());
   if (!link.position.is_near(link.newest_frame, now, clock_.period())) link.newest_frame = 0;
   if (is_current) link.meter.arrived(header.number, now);
   if (is_current && !is_after_pause(now)) {

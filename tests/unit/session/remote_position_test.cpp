@@ -35,7 +35,7 @@ TEST(RemotePosition, GoesOnWithTimeForASecond) {
   RemotePosition position;
   EXPECT_FALSE(position.is_known());
   EXPECT_EQ(position.at(0, kPeriod), 0);
-  position.heard(100, 5000);
+  position.heard(100, 5000, kPeriod);
   EXPECT_EQ(position.at(5000, kPeriod), 100 * 256);
   EXPECT_EQ(position.at(4000, kPeriod), 100 * 256) << "a time before that is that";
   EXPECT_EQ(position.at(10000, kPeriod), 100 * 256 + 128);
@@ -48,22 +48,22 @@ TEST(RemotePosition, WhatIsFarOffIsNotNearAndDoesNotMoveIt) {
   Time now = 0;
   for (Frame frame = 1000; frame < 1020; ++frame, now += kPeriod) {
     EXPECT_TRUE(position.is_near(frame, now, kPeriod));
-    position.heard(frame, now);
+    position.heard(frame, now, kPeriod);
   }
   const std::int64_t before = position.at(now, kPeriod);
   for (const Frame forged : {Frame{0}, Frame{990}, Frame{1050}, kLastFrame}) {
     EXPECT_FALSE(position.is_near(forged, now, kPeriod)) << forged;
   }
-  position.heard(kLastFrame, now);
-  position.heard(0, now);
+  position.heard(kLastFrame, now, kPeriod);
+  position.heard(0, now, kPeriod);
   EXPECT_NEAR(static_cast<double>(position.at(now, kPeriod) - before), 0, 256);
 }
 
 TEST(RemotePosition, FollowsAPeerThatIsReallyElsewhere) {
   RemotePosition position;
   Time now = 0;
-  for (Frame frame = 0; frame < 20; ++frame, now += kPeriod) position.heard(frame, now);
-  for (Frame frame = 500; frame < 505; ++frame, now += kPeriod) position.heard(frame, now);
+  for (Frame frame = 0; frame < 20; ++frame, now += kPeriod) position.heard(frame, now, kPeriod);
+  for (Frame frame = 500; frame < 505; ++frame, now += kPeriod) position.heard(frame, now, kPeriod);
   EXPECT_TRUE(position.is_near(505, now, kPeriod)) << "five datagrams are enough";
 }
 
