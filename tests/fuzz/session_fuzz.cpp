@@ -1,8 +1,8 @@
 // libFuzzer target: the input is a script of what a hostile peer says and when, to the parsers, a host, or a client.
 // SPDX-License-Identifier: MIT
 //
-// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include -Iinclude -Isrc -Itests
-//         tests/fuzz/session_fuzz.cpp src/isostep/{session,geometry,state}/*.cpp scalar/src/*.cpp
+// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include -Iinclude -Isrc
+//         -Itests tests/fuzz/session_fuzz.cpp src/isostep/{session,geometry,state}/*.cpp scalar/src/*.cpp
 //         src/transport/{simulated_network,impaired_direction,network_profile}.cpp build/release/libisostep.a
 //         -o session_fuzz
 

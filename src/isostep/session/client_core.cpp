@@ -251,8 +251,9 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   for (int p = 0; p < players(); ++p) {
     header.ack_mask |= 1u << p;
     header.ack[p] = is_own(p) && is_open_ ? accepted_[p] : streams_[static_cast<std::size_t>(p)].end();
-    // Who may run later does so before it asks the others to wait.
-    const bool measures = phase_ == SessionPhase::playing && !is_own(p) && (!is_far_ || lag_.is_at_most());
+    // Who may run later does so before it asks the others to wait; and that a snapshot fills our line is our affair.
+    const bool is_ours = (is_far_ && !lag_.is_at_most()) || repair_.stage == Repair::Stage::receives;
+    const bool measures = phase_ == SessionPhase::playing && !is_own(p) && !is_ours;
     header.slack[p] = static_cast<std::int8_t>(measures ? slack_[p].value() : RecentLeast::kNothing);
   }
   return Outgoing{host_.peer, Channel::datagram, compose(host_, header, now)};
