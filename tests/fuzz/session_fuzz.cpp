@@ -147,6 +147,10 @@ Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::uint8_t
   if ((flags & 32) != 0) header.stretch = script.byte() | 1;
   if ((flags & 32) != 0) header.slowest = script.byte() % 8;
   header.frame = script.frame(now);
+  if ((flags & 64) != 0) {
+    header.tempo = {script.byte(), script.frame(now), static_cast<std::uint8_t>(4 + script.byte() % 13),
+                    script.byte() % 2 == 0, static_cast<std::uint8_t>(script.byte() % 9 == 8 ? 0xff : 0)};
+  }
   if ((flags & 4) != 0) header.report = {script.frame(now), script.byte()};
   if ((flags & 8) != 0) {
     header.reporter = script.byte() % 8;
@@ -272,7 +276,10 @@ void attack_host(Script& script) {
         if (how % 8 == 0) host.session.disconnected(peer, now);
         if (how % 8 == 4) (void)host.session.kick_peer(peer, "");
         if (how % 4 == 1) write_progress(script.word(), bytes);
-        if (how % 4 > 1) write_ready(bytes);
+        if (how % 4 == 2) write_ready(bytes);
+        if (how % 4 == 3 && how < 128) write_ready(bytes);
+        if (how % 4 == 3 && how >= 128)
+          write_ask({how >= 192, static_cast<std::uint8_t>(how >= 192 ? 0 : how % 32)}, bytes);
         host.session.receive(peer, Channel::reliable, bytes, now);
         break;
       }

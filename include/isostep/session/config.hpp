@@ -65,6 +65,8 @@ struct SessionConfig {
   Address address;  // where the others' transports reach ours: text for SessionCore::poll_connect of theirs
   Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
   bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
+  bool players_set_tempo =
+      false;  // host: who plays may pause and set the speed; else the host's game is asked, by events
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
   /// its seat is ours again. 0: a new player.
   std::uint64_t token = 0;

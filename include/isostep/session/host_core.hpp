@@ -27,6 +27,8 @@ class HostCore : public PeerCore {
   std::uint64_t token() const override { return own_token_; }
   std::uint32_t local_players() const override { return hosted_; }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
+  bool pause(bool on) override;
+  bool set_speed(int speed) override;
   std::optional<Applicant> poll_applicant() override;
   bool admit(std::uint64_t applicant) override;
   bool refuse(std::uint64_t applicant, std::string_view reason) override;
@@ -107,6 +109,11 @@ class HostCore : public PeerCore {
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
   void begin(Time now);
+  // --- pauses and speeds, in host_tempo.cpp ---
+  bool wish_tempo(const Tempo& tempo);
+  Tempo latest_wish() const { return has_wish_ ? wished_ : announced(); }
+  void grant_tempo();
+  void take_ask(Guest& guest, Bytes message);
   /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
   void tend_guests(Time now);
   /// Those that a connection ever had: few, of many places.
@@ -235,6 +242,8 @@ class HostCore : public PeerCore {
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
   Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;
+  Tempo wished_;
+  bool has_wish_ = false;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
   Time began_ = 0;              // [us]

@@ -24,7 +24,14 @@ enum class MessageKind : std::uint8_t {
   candidate,
   known,
   support,
-  redirect
+  redirect,
+  ask
+};
+
+/// What a player asks the host for: a pause or its end, or else a speed.
+struct Ask {
+  bool is_paused = false;
+  std::uint8_t speed = 0;  // [1/8 of the match's rate] 0: none
 };
 
 /// As what a client comes.
@@ -96,6 +103,7 @@ void write_known(Bytes packet, std::vector<std::uint8_t>& out);
 void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
+void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);
 Result<Hello> read_hello(Bytes message);
@@ -109,5 +117,6 @@ Result<Candidate> read_candidate(Bytes message);
 Result<Packet> read_known(Bytes message);
 Result<std::uint32_t> read_support(Bytes message);
 Result<Address> read_redirect(Bytes message);
+Result<Ask> read_ask(Bytes message);
 
 }  // namespace isostep

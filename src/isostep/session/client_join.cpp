@@ -34,6 +34,8 @@ void ClientCore::connected(PeerId host, Time now) {
   host_.peer = host;
   host_.connect(now);
   must_greet_ = true;
+  must_ask_ = false;
+  forget_announced();
   is_greeted_ = must_ready_ = asked_ready_ = false;
   runs_ = is_restoring_ = must_begin_ = false;  // the greeting names the state that we go on from
   if (phase_ == SessionPhase::lost || phase_ == SessionPhase::refused) phase_ = SessionPhase::waiting;

@@ -83,6 +83,8 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
     if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
     else ++stats_.refused;
+  } else if (kind == MessageKind::ask && guest.stage == Guest::Stage::live) {
+    take_ask(guest, bytes);
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
@@ -149,6 +151,7 @@ void HostCore::before_steps(Time now) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
   reports_count_ = now >= reports_from_;
+  grant_tempo();
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) {
     fill_absent();
