@@ -80,6 +80,10 @@ void parse(Bytes bytes) {
   }
   (void)message_kind(bytes).ok();
   (void)read_hello(bytes).ok();
+  if (const Result<SavedMatch> saved = read_saved_match(bytes)) {
+    require(saved.value().players >= 1 && saved.value().players <= kMaxPlayers && saved.value().start.frame >= 0);
+  }
+  if (const Result<Ask> ask = read_ask(bytes)) require(ask.value().speed == 0 || !ask.value().is_paused);
   if (const Result<Welcome> welcome = read_welcome(bytes)) require(welcome.value().players <= kMaxPlayers);
   (void)read_refusal(bytes).ok();
   if (const Result<Piece> piece = read_piece(bytes)) require(piece.value().bytes.size() <= bytes.size());

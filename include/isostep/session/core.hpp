@@ -14,6 +14,7 @@
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
+#include "isostep/session/saved_match.hpp"
 #include "isostep/session/snapshot_transfer.hpp"
 #include "isostep/session/timeline.hpp"
 
@@ -151,6 +152,8 @@ class SessionCore {
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
 
+  /// Host of a match that has begun: all of it but the state `start.frame`.
+  virtual std::optional<SavedMatch> save_match() const { return std::nullopt; }
   /// See Session.
   virtual bool pause(bool) { return false; }
   virtual bool set_speed(int) { return false; }

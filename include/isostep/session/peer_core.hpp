@@ -49,6 +49,8 @@ class PeerCore : public SessionCore {
   /// No turn was taken for so long that what happened meanwhile says nothing of the others.
   virtual void paused(Time) {}
 
+  /// The state with which all begins is made, and saved.
+  virtual void ask_start() { act(RequestKind::save, 0); }
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 

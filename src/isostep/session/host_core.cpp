@@ -42,9 +42,10 @@ void HostCore::begin(Time now) {
   clock_.start(now);
   phase_ = hosted_ != 0 ? SessionPhase::playing : SessionPhase::watching;
   for (int p = 0; p < players(); ++p) {
-    if (seats_[p].is_taken) seats_[p].is_open = true;
+    if (seats_[p].is_taken && (is_local(p) || seats_[p].link >= 0)) seats_[p].is_open = true;
   }
-  SessionEvent event{.kind = SessionEvent::Kind::started, .frame = 0};
+  has_wish_ = wished_.speed != Tempo::kNormal;
+  SessionEvent event{.kind = SessionEvent::Kind::started, .frame = current()};
   tell(event);
 }
 
@@ -140,9 +141,8 @@ Frame HostCore::sends_until(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
-  bool all_taken = true;
-  for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
-  if (!started_ && (all_taken || must_start_)) begin(now);
+  if (!started_ && (all_are_here() || must_start_)) begin(now);
+  if (!started_ && is_resumed()) serve_snapshots();
   if (now >= next_tending_) {
     next_tending_ = now + clock_.period();
     tend_guests(now);

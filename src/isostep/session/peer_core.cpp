@@ -78,7 +78,7 @@ void PeerCore::plan(Time now) {
   pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_ || is_paused());
   if (!asked_start_) {
     asked_start_ = true;
-    act(RequestKind::save, 0);
+    ask_start();
     return;
   }
   if (!has_start_) return;
