@@ -43,6 +43,10 @@ void parse(Bytes bytes) {
   }
   (void)message_kind(bytes).ok();
   (void)read_hello(bytes).ok();
+  if (const Result<SavedMatch> saved = read_saved_match(bytes)) {
+    require(saved.value().players >= 1 && saved.value().players <= kMaxPlayers && saved.value().start.frame >= 0);
+  }
+  if (const Result<Ask> ask = read_ask(bytes)) require(ask.value().speed == 0 || !ask.value().is_paused);
   if (const Result<Welcome> welcome = read_welcome(bytes)) require(welcome.value().players <= kMaxPlayers);
   (void)read_refusal(bytes).ok();
   if (const Result<Piece> piece = read_piece(bytes)) require(piece.value().bytes.size() <= bytes.size());
@@ -168,7 +172,9 @@ void attack_host(Script& script) {
         if (how % 8 == 4) (void)host.session.kick_peer(peer, "");
         if (how % 4 == 1) write_progress(how < 128 ? script.byte() * 256u : script.word(), bytes);
         if (how % 4 == 2) write_ready(bytes);
-        if (how % 4 == 3) bytes = any_word_of_states(script, host.session.current(), false);
+        if (how % 4 == 3 && how < 128) bytes = any_word_of_states(script, host.session.current(), false);
+        if (how % 4 == 3 && how >= 128)
+          write_ask({how >= 192, static_cast<std::uint8_t>(how >= 192 ? 0 : how % 32)}, bytes);
         host.session.receive(peer, Channel::reliable, bytes, now);
         break;
       }

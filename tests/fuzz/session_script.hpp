@@ -111,6 +111,10 @@ inline Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::
   if ((flags & 32) != 0) header.stretch = script.byte() | 1;
   if ((flags & 32) != 0) header.slowest = script.byte() % 8;
   header.frame = script.frame(now);
+  if ((flags & 64) != 0) {
+    header.tempo = {script.byte(), script.frame(now), static_cast<std::uint8_t>(4 + script.byte() % 13),
+                    script.byte() % 2 == 0, static_cast<std::uint8_t>(script.byte() % 9 == 8 ? 0xff : 0)};
+  }
   if ((flags & 4) != 0) header.report = {script.frame(now), script.byte()};
   if ((flags & 8) != 0) {
     header.reporter = script.byte() % 8;

@@ -1,4 +1,5 @@
-// Everything at once, drawn from a seed: lines change, players fall silent, go, come back and join, hosts pause.
+// Everything at once, drawn from a seed: lines change, players fall silent, go, come back and join, hosts stand
+// still, and the match pauses and changes its speed.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -21,6 +22,7 @@ SessionConfig config_of(Pcg32& random) {
   config.patience = (1 + random.next() % 3) * kSecond;
   config.silence = (2 + random.next() % 3) * kSecond;
   config.exclusion = random.next() % 4 * kSecond;
+  config.players_set_tempo = random.next() % 2 == 0;
   config.deadline = random.next() % 3 == 0 ? 1 + static_cast<Frame>(random.next() % 12) : 0;
   return config;
 }
@@ -75,7 +77,7 @@ class Chaos {
   void disturb() {
     ++disturbances_;
     Machine<Toy>& one = someone();
-    switch (random_.next() % 8) {
+    switch (random_.next() % 10) {
       case 0: match_.network().cut(one.endpoint); break;
       case 1: match_.network().set_silent(one.endpoint, true); break;
       case 2: match_.network().set_silent(one.endpoint, false); break;
@@ -83,6 +85,8 @@ class Chaos {
       case 4: match_.host().plays = !match_.host().plays; break;
       case 5: match_.network().set_profile(one.endpoint, line()); break;
       case 6: one.slow = random_.next() % 40000; break;
+      case 8: (void)(random_.next() % 2 == 0 ? match_.host().session.pause() : one.session.pause()); break;
+      case 9: match_.host().session.set_speed(4 + static_cast<int>(random_.next() % 13)); break;
       case 7:
         if (match_.size() < 12) match_.add(line(), spectator_).returns = true;
         break;
@@ -98,6 +102,8 @@ class Chaos {
       match_.network().set_silent(machine.endpoint, false);
       match_.network().set_profile(machine.endpoint, profile("lan"));
     }
+    match_.host().session.unpause();
+    match_.host().session.set_speed(Tempo::kNormal);
     pass(40 * kSecond);
   }
 

@@ -26,6 +26,10 @@ class ClientCore : public PeerCore {
   void restored(bool ok) override;
   bool resync() override;
   std::uint32_t local_players() const override { return own_; }
+  bool pause(bool on) override { return ask({on, 0}); }
+  bool set_speed(int speed) override {
+    return Tempo::is_speed(speed) && ask({false, static_cast<std::uint8_t>(speed)});
+  }
   std::uint64_t token() const override { return token_; }
   SnapshotProgress snapshot_progress(PeerId) const override {
     if (!is_restoring_ && repair_.stage != Repair::Stage::receives) return {};
@@ -113,6 +117,7 @@ class ClientCore : public PeerCore {
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);
+  bool ask(const Ask& ask);
   bool is_own(int player) const { return (own_ >> player & 1) != 0; }
   int seats_wished() const { return config_.local_players > 1 ? config_.local_players : 1; }
   /// The host went on without us: from the first frames on that it has not accepted.
@@ -141,6 +146,8 @@ class ClientCore : public PeerCore {
   Repair repair_;
   Frame inquired_ = kNoFrame;  // the state of which the host asked for our hash chain
   bool asked_ready_ = false;
+  bool must_ask_ = false;
+  Ask ask_;
   int player_ = -1;        // the first of ours
   std::uint32_t own_ = 0;  // ours, a bit each: they come and go together
   bool is_open_ = false;

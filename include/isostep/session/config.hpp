@@ -72,6 +72,11 @@ struct SessionConfig {
   bool repair = false;
   Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
   bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
+  /// Host: goes on with this match, see Session::save_match. Frames are played when all of its seats have players again,
+  /// those of before, or after Session::start.
+  std::vector<std::uint8_t> saved_match;
+  bool players_set_tempo =
+      false;  // host: who plays may pause and set the speed; else the host's game is asked, by events
   /// Client: what Session::token() gave a former process of this player, which the host may not know to be dead yet:
   /// its seat is ours again. 0: a new player.
   std::uint64_t token = 0;

@@ -14,6 +14,7 @@
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
+#include "isostep/session/saved_match.hpp"
 #include "isostep/session/snapshot_transfer.hpp"
 #include "isostep/session/timeline.hpp"
 
@@ -47,31 +48,38 @@ enum class SessionPhase : std::uint8_t {
 
 struct SessionEvent {
   enum class Kind : std::uint8_t {
-    started,       // frame: the first
-    joined,        // player plays from frame on: reported when that is final, alike on all peers
-    left,          // player is gone from frame on: as well
-    waiting_for,   // players (a bit each) hold the match up, their inputs are missing; none: the host is silent
-    resumed,       // it goes on
-    slowed_by,     // all step as slowly as player's machine can: told when that begins, and when it is another's
-    full_speed,    // no longer
-    refused,       // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
-    lost_host,     // nothing was heard of it for too long, or the connection ended
-    seeks_host,    // likewise, but the match goes on at another
-    new_host,      // frame: where it goes on; player: the first of the host's, 0xff when it has none
-    deposed,       // host: the others went on without us, or have gone: we seek their host
-    desync,        // player's states differ from ours after state `agreed` and at the latest in state `frame`
-    outvoted,      // player's states are wrong, as of state `frame`: more than half of all machines have others
-    undecided,     // machines differ in state `frame`, and no majority says who is wrong
-    repaired,      // player has a state of the host's again; its states are compared from the one after `frame` on
-    bad_snapshot,  // the state that arrived does not have the host's hash, or was refused, or the host has none: error
-    misuse,        // requests of the last advance were not carried out
-    unhashed       // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
+    started,        // frame: the first
+    joined,         // player plays from frame on: reported when that is final, alike on all peers
+    left,           // player is gone from frame on: as well
+    waiting_for,    // players (a bit each) hold the match up, their inputs are missing; none: the host is silent
+    resumed,        // it goes on
+    paused,         // from frame on, by player; 0xff: by the host's game
+    unpaused,       // likewise
+    speed_changed,  // likewise: `speed`
+    asks_pause,     // host: player asks for it, and players_set_tempo is false: pause() or not
+    asks_unpause,   // likewise
+    asks_speed,     // likewise: `speed`
+    slowed_by,      // all step as slowly as player's machine can: told when that begins, and when it is another's
+    full_speed,     // no longer
+    refused,        // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
+    lost_host,      // nothing was heard of it for too long, or the connection ended
+    seeks_host,     // likewise, but the match goes on at another
+    new_host,       // frame: where it goes on; player: the first of the host's, 0xff when it has none
+    deposed,        // host: the others went on without us, or have gone: we seek their host
+    desync,         // player's states differ from ours after state `agreed` and at the latest in state `frame`
+    outvoted,       // player's states are wrong, as of state `frame`: more than half of all machines have others
+    undecided,      // machines differ in state `frame`, and no majority says who is wrong
+    repaired,       // player has a state of the host's again; its states are compared from the one after `frame` on
+    bad_snapshot,   // the state that arrived has not the host's hash, or was refused, or the host has none: error
+    misuse,         // requests of the last advance were not carried out
+    unhashed        // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
   };
   Kind kind;
   std::uint8_t player = 0xff;  // 0xff: none, or the host's machine
   Frame frame = kNoFrame;
   Frame agreed = kNoFrame;
   std::uint32_t players = 0;
+  std::uint8_t speed = 0;              // [1/8 of the match's rate]
   std::uint64_t ours = 0, theirs = 0;  // hash chains; outvoted: player's and the majority's
   Refusal field{};
 };
@@ -143,6 +151,12 @@ class SessionCore {
   virtual bool resync() { return false; }
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
+
+  /// Host of a match that has begun: all of it but the state `start.frame`.
+  virtual std::optional<SavedMatch> save_match() const { return std::nullopt; }
+  /// See Session.
+  virtual bool pause(bool) { return false; }
+  virtual bool set_speed(int) { return false; }
 
   // Host: see Session.
   virtual std::optional<Applicant> poll_applicant() { return std::nullopt; }

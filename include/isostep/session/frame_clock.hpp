@@ -10,14 +10,23 @@ namespace isostep {
 /// frame at the same time: so neither sees the other's inputs later than the network makes it.
 class FrameClock {
  public:
-  explicit FrameClock(int hz) : nominal_(kSecond / static_cast<Time>(hz)), period_(nominal_), interval_(period_) {}
+  explicit FrameClock(int hz)
+      : hz_(static_cast<Time>(hz)), nominal_(kSecond / hz_), period_(nominal_), interval_(nominal_) {}
 
   void start(Time now) { due_ = now; }
   bool is_due(Time now) const { return now >= due_; }
   Time until_due(Time now) const { return now >= due_ ? 0 : due_ - now; }
   Time period() const { return period_; }
+  /// [us] a frame at the match's speed, before it is stretched.
+  Time nominal() const { return nominal_; }
+  /// [1/8 of the match's rate]
+  void set_speed(int eighths) {
+    nominal_ = kSecond * 8 / (hz_ * static_cast<Time>(eighths));
+    stretch(parts_);
+  }
   /// [1/256 of the match's period] by which frames are longer: the whole match goes at the pace of its slowest machine.
   void stretch(int parts) {
+    parts_ = parts;
     period_ = nominal_ + nominal_ * static_cast<Time>(parts) / 256;
     set_interval();
   }
@@ -57,6 +66,8 @@ class FrameClock {
     interval_ = static_cast<Time>(period + period * clamped / (256 * kGain));
   }
 
+  Time hz_;                           // [1/s]
+  int parts_ = 0;                     // [1/256 period] of stretch
   Time nominal_, period_, interval_;  // [us] the match's; stretched; and leaning
   Time due_ = 0;
   std::int32_t smoothed_ = 0;  // [1/256 frame]

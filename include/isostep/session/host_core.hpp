@@ -16,6 +16,8 @@ namespace isostep {
 class HostCore : public PeerCore {
  public:
   HostCore(const SessionConfig& config, const InputRules& rules);
+  /// A match that was saved.
+  HostCore(const SessionConfig& config, const InputRules& rules, SavedMatch&& saved);
   /// A client that follows its host: with the same inputs, frames and seats.
   HostCore(PeerCore&& client, Succession&& succession, Time now);
 
@@ -25,9 +27,13 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> poll_send(Time now) override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void start(Time) override { must_start_ = true; }
+  void restored(bool ok) override;
+  std::optional<SavedMatch> save_match() const override;
   std::uint64_t token() const override { return own_token_; }
   std::uint32_t local_players() const override { return hosted_; }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
+  bool pause(bool on) override;
+  bool set_speed(int speed) override;
   std::optional<Applicant> poll_applicant() override;
   bool admit(std::uint64_t applicant) override;
   bool refuse(std::uint64_t applicant, std::string_view reason) override;
@@ -39,6 +45,8 @@ class HostCore : public PeerCore {
   bool is_local(int player) const override { return (hosted_ >> player & 1) != 0; }
   Frame sends_until(int player, const PeerLink& link) const override;
   bool running() const override { return started_; }
+  void ask_start() override;
+  void hash_known(Frame state, std::uint64_t hash) override;
   void before_steps(Time now) override;
   void before_frame(Time now) override;
   void after_steps() override { serve_snapshots(); }
@@ -111,6 +119,14 @@ class HostCore : public PeerCore {
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
 
   void begin(Time now);
+  // --- a match that was saved, in host_resume.cpp ---
+  bool is_resumed() const { return resumed_.frame != kNoFrame; }
+  bool all_are_here() const;
+  // --- pauses and speeds, in host_tempo.cpp ---
+  bool wish_tempo(const Tempo& tempo);
+  Tempo latest_wish() const { return has_wish_ ? wished_ : announced(); }
+  void grant_tempo();
+  void take_ask(Guest& guest, Bytes message);
   /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
   void tend_guests(Time now);
   /// Those that a connection ever had: few, of many places.
@@ -268,6 +284,11 @@ class HostCore : public PeerCore {
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
   Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;
+  HashReport resumed_;  // where the saved match goes on; kNoFrame: it is none
+  std::uint64_t resumed_hash_ = 0;
+  std::uint32_t sequels_ = 0;
+  Tempo wished_;
+  bool has_wish_ = false;
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
   Time figures_at_ = 0;         // [us] when figures are told again

@@ -27,6 +27,12 @@ class InputDelay {
     delay_ = delay_ + by < settings_.most ? delay_ + by : settings_.most;
     disregard();
   }
+  /// A frame takes `before` / `after` of the time that it took.
+  void rescale(int before, int after) {
+    const Frame same = (delay_ * after + before - 1) / before;
+    delay_ = same < settings_.least ? settings_.least : same > settings_.most ? settings_.most : same;
+    disregard();
+  }
   /// Somebody who may have needed the delay is gone: what is to spare soon is given up at once.
   void reconsider() {
     disregard();

@@ -33,7 +33,14 @@ enum class MessageKind : std::uint8_t {
   resync,
   offer,
   repaired,
-  figures
+  figures,
+  ask
+};
+
+/// What a player asks the host for: a pause or its end, or else a speed.
+struct Ask {
+  bool is_paused = false;
+  std::uint8_t speed = 0;  // [1/8 of the match's rate] 0: none
 };
 
 /// As what a client comes.
@@ -107,6 +114,7 @@ void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
 /// What the host knows of every player of the match.
 void write_figures(std::span<const PlayerStats> players, std::vector<std::uint8_t>& out);
+void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);
 Result<Hello> read_hello(Bytes message);
@@ -122,5 +130,6 @@ Result<std::uint32_t> read_support(Bytes message);
 Result<Address> read_redirect(Bytes message);
 /// Of exactly `into.size()` players; all but `early`, which is left as it was. On failure nothing is.
 Result<void> read_figures(Bytes message, std::span<PlayerStats> into);
+Result<Ask> read_ask(Bytes message);
 
 }  // namespace isostep

@@ -6,6 +6,7 @@
 
 #include "isostep/core/result.hpp"
 #include "isostep/session/input_stream.hpp"
+#include "isostep/session/tempo.hpp"
 
 namespace isostep {
 
@@ -32,6 +33,7 @@ struct PacketHeader {
   std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
   std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
   std::uint32_t waits_for = 0;   // host: players, a bit each, who hold the match up
+  Tempo tempo;                   // host: as last announced
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none

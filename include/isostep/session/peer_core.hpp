@@ -50,6 +50,8 @@ class PeerCore : public SessionCore {
   /// No turn was taken for so long that what happened meanwhile says nothing of the others.
   virtual void paused(Time) {}
 
+  /// The state with which all begins is made, and saved.
+  virtual void ask_start() { act(RequestKind::save, 0); }
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
@@ -73,6 +75,14 @@ class PeerCore : public SessionCore {
   int slowest() const { return slowest_; }
   /// The match stands, for these players (a bit each) or for the host's machine: tells the caller when that changes.
   void stands_for(std::uint32_t players);
+  /// A client: what the host's datagram says; later ones and those of a host that is new to us count.
+  void hear_tempo(const Tempo& tempo);
+  void forget_announced() { knows_tempo_ = false; }
+  /// The host: from the first frame on that nobody can have stepped when it hears of it.
+  void announce(Tempo tempo);
+  const Tempo& announced() const { return announced_; }
+  const Tempo& tempo() const { return tempo_; }
+  bool is_paused() const { return tempo_.is_paused; }
   void goes_on();
   /// As last told; 0: nobody.
   std::uint32_t waits_for() const { return stands_ ? waits_for_ : 0; }
@@ -115,6 +125,8 @@ class PeerCore : public SessionCore {
  private:
   void misused() override;
   void roll_back(Frame to);
+  void follow_tempo(Time now);
+  void take_up(const Tempo& tempo, Time now);
   void sample_local_inputs();
   bool may_step() const;
   void settle();
@@ -133,7 +145,9 @@ class PeerCore : public SessionCore {
   Time last_turn_ = 0;         // [us] of plan
   Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before
   bool has_turned_ = false;
-  int slowest_ = 0xff;  // as last told
+  int slowest_ = 0xff;       // as last told
+  Tempo announced_, tempo_;  // the latter is in force
+  bool knows_tempo_ = false;
   bool stands_ = false;
   std::uint32_t waits_for_ = 0;
   std::uint64_t outvoted_ = 0;  // machines, a bit each, as last told

@@ -82,6 +82,31 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// Host: begins although seats are empty.
   void start(Time now) { core_->start(latest(now)); }
 
+  /// Host, between two drives: the match in its newest final state as bytes, with the seats of its players, for
+  /// SessionConfig::saved_match of another process. An error when it has not begun, or the game has no portable form.
+  Result<void> save_match(Game& game, std::vector<std::uint8_t>& out) {
+    std::optional<SavedMatch> saved = core_->save_match();
+    if (!saved) return Error{ErrorCode::invalid, "of a host whose match has begun", "save_match"};
+    if constexpr (PortableState<Game>) {
+      const bool is_present = saved->start.frame == current();
+      if (!is_present) game.load(state(saved->start.frame));
+      Writer writer(saved->state);
+      game.write_portable(writer);
+      if (!is_present) game.load(state(current()));
+      write_saved_match(*saved, out);
+      return {};
+    } else {
+      return Error{ErrorCode::invalid, "of a game with a portable form", "save_match"};
+    }
+  }
+  /// The match stands still, or goes on: on all machines before the same frame, as events say. The host decides; a
+  /// client in the match asks it, see SessionConfig::players_set_tempo. False: not possible now.
+  bool pause() { return core_->pause(true); }
+  bool unpause() { return core_->pause(false); }
+  /// [1/8 of the match's rate] 4 to 16, likewise; in a pause for afterwards. False also where the host's most_packets is
+  /// below twice the rate.
+  bool set_speed(int eighths) { return core_->set_speed(eighths); }
+
   /// Host with SessionConfig::asks_admission: who waits for an answer, each once. One that comes after `silence` is too
   /// late. False: it has gone, or is refused all the same, for there is no seat.
   std::optional<Applicant> poll_applicant() { return core_->poll_applicant(); }

@@ -23,11 +23,12 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   for (int p = 0; p < players() && is_open_; ++p) {
     if (is_own(p) && host_.acked[p] > accepted_[p]) accepted_[p] = host_.acked[p];
   }
+  hear_tempo(header.tempo);
   if (runs_) {
     go_at_pace_of(host_.slowest, host_.stretch);
     if (host_.waits_for != 0) stands_for(host_.waits_for);
     else goes_on();
-    lean(now);
+    if (!is_paused()) lean(now);
   }
   take_hash(kHostMachine, header.report);
   if (header.reporter < players() && !is_own(header.reporter)) take_hash(header.reporter, header.passed_on);
@@ -159,6 +160,13 @@ void ClientCore::before_steps(Time now) {
   }
 }
 
+bool ClientCore::ask(const Ask& ask) {
+  if (!is_open_ || !host_.is_connected) return false;
+  must_ask_ = true;
+  ask_ = ask;
+  return true;
+}
+
 void ClientCore::blocked(Time now) {
   // Whose inputs are missing the host knows; that nothing comes of the host itself we see.
   if (now - host_.heard >= kTellBlocked) stands_for(welcome_.hosted);
@@ -235,6 +243,11 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     next_progress_ = now + clock_.period();
     told_ = static_cast<std::uint32_t>(portable_.size());
     write_progress(told_, message_);
+    return message();
+  }
+  if (must_ask_ && is_greeted_) {
+    must_ask_ = false;
+    write_ask(ask_, message_);
     return message();
   }
   if (must_ready_) {

@@ -36,6 +36,8 @@ void ClientCore::connected(PeerId host, Time now) {
   host_.peer = host;
   host_.connect(now);
   must_greet_ = true;
+  must_ask_ = false;
+  forget_announced();
   is_greeted_ = must_ready_ = asked_ready_ = false;
   repair_ = Repair{};
   inquired_ = kNoFrame;

@@ -93,6 +93,7 @@ const char* problem_of(const SessionConfig& config) {
   if (config.host && is_match && config.seed == 0) return "seed: of a host, a random number other than 0";
   if (config.mode == SessionMode::sync_test && config.window < 1)
     return "window: a sync test rolls back 1 or more frames";
+  if (!config.saved_match.empty() && (!config.host || !is_match)) return "saved_match: of a host";
   return nullptr;
 }
 

@@ -32,7 +32,8 @@ bool is_reason(std::string_view text) {
 }  // namespace
 
 void HostCore::tend_places(Time now) {
-  const Time passed = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
+  const Time turn = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
+  const Time passed = is_paused() ? 0 : turn;
   turn_at_ = now;
   for (Seat& seat : seats_) seat.idle = !started_ || seat.is_open ? 0 : seat.idle + passed;
   for (Guest& guest : guests_) {

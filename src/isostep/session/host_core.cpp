@@ -42,9 +42,10 @@ void HostCore::begin(Time now) {
   clock_.start(now);
   phase_ = hosted_ != 0 ? SessionPhase::playing : SessionPhase::watching;
   for (int p = 0; p < players(); ++p) {
-    if (seats_[p].is_taken) seats_[p].is_open = true;
+    if (seats_[p].is_taken && (is_local(p) || seats_[p].link >= 0)) seats_[p].is_open = true;
   }
-  SessionEvent event{.kind = SessionEvent::Kind::started, .frame = 0};
+  has_wish_ = wished_.speed != Tempo::kNormal;
+  SessionEvent event{.kind = SessionEvent::Kind::started, .frame = current()};
   tell(event);
 }
 
@@ -84,6 +85,8 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
     if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
     else ++stats_.refused;
+  } else if (kind == MessageKind::ask && guest.stage == Guest::Stage::live) {
+    take_ask(guest, bytes);
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
     guest.heard = now;
     guest.is_ready = true;
@@ -143,9 +146,8 @@ Frame HostCore::sends_until(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
-  bool all_taken = true;
-  for (int p = 0; p < players(); ++p) all_taken = all_taken && seats_[p].is_taken;
-  if (!started_ && (all_taken || must_start_)) begin(now);
+  if (!started_ && (all_are_here() || must_start_)) begin(now);
+  if (!started_ && is_resumed()) serve_snapshots();
   if (now >= next_tending_) {
     next_tending_ = now + clock_.period();
     tend_guests(now);
@@ -154,6 +156,7 @@ void HostCore::before_steps(Time now) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
   reports_count_ = now >= reports_from_;
+  grant_tempo();
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) {
     fill_absent();

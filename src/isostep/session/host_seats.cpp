@@ -35,7 +35,7 @@ bool HostCore::is_refused(Guest& guest, const Hello& hello) {
     return true;
   }
   const bool is_start = hello.have.frame == 0 && hashes_.has_chain(0);
-  if (!started_ && (!is_start || hello.have.chain != hashes_.chain(0))) {
+  if (!started_ && !is_resumed() && (!is_start || hello.have.chain != hashes_.chain(0))) {
     ShortText<kReplayValueCap> theirs, ours;
     refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(hashes_.chain(0)).view());
     return true;
@@ -74,6 +74,7 @@ bool HostCore::let_in(Guest& guest) {
     take_seats(guest, seats);
   }
   guest.must_welcome = true;
+  if (!started_ && guest.player >= 0) guest.opens = current();
   const HashReport& has = guest.wish.have;
   const Frame have = has.frame;
   // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
@@ -84,7 +85,6 @@ bool HostCore::let_in(Guest& guest) {
   if (has_inputs) {
     go_live(guest, have);
     guest.start_chain = has.chain;
-    if (!started_ && guest.player >= 0) guest.opens = 0;
   } else {
     guest.stage = Guest::Stage::needs_snapshot;
     guest.partial = guest.wish.partial_size > 0 ? guest.wish.partial : HashReport{};

@@ -94,6 +94,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.stretch = static_cast<std::uint8_t>(stats_.stretch);
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
+  header.tempo = announced();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];

@@ -269,8 +269,23 @@ Result<void> read_figures(Bytes message, std::span<PlayerStats> into) {
   return {};
 }
 
+void write_ask(const Ask& ask, std::vector<std::uint8_t>& out) {
+  Writer writer = begin(out, MessageKind::ask);
+  writer.write(ask.is_paused);
+  writer.write(ask.speed);
+}
+
+Result<Ask> read_ask(Bytes message) {
+  Reader reader = after_kind(message);
+  Ask ask;
+  reader.read(ask.is_paused);
+  reader.read(ask.speed);
+  if (ask.speed != 0 && (!Tempo::is_speed(ask.speed) || ask.is_paused)) reader.fail(ErrorCode::invalid, "no speed");
+  return finish(reader, "ask", ask);
+}
+
 Result<MessageKind> message_kind(Bytes message) {
-  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::figures);
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::ask);
   if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }

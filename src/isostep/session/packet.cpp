@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Layout: kind u8 | match u64 | number u16 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for varint]
-//         | frame varint | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
+//         | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
+//         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | ack mask varint | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
 constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
-                       kWaits = 64, kKnownFlags = 127;
+                       kWaits = 64, kHasTempo = 128;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -51,6 +52,24 @@ bool is_worth_delta(Bytes previous, Bytes input) {
   std::size_t changed = 0;
   for (std::size_t k = 0; k < input.size(); ++k) changed += previous[k] != input[k] ? 1 : 0;
   return changed + (input.size() + 7) / 8 <= input.size();
+}
+
+constexpr std::uint8_t kPaused = 128;
+void write_tempo(WireWriter& writer, Frame base, const Tempo& tempo) {
+  writer.number(tempo.number);
+  writer.difference(tempo.from - base);
+  writer.byte(static_cast<std::uint8_t>(tempo.speed | (tempo.is_paused ? kPaused : 0)));
+  writer.byte(tempo.by);
+}
+bool read_tempo(WireReader& reader, Frame base, Tempo& tempo) {
+  tempo.number = reader.number();
+  tempo.from = read_frame_near(reader, base);
+  const std::uint8_t speed = reader.byte();
+  tempo.speed = speed & (kPaused - 1);
+  tempo.is_paused = (speed & kPaused) != 0;
+  tempo.by = reader.byte();
+  const bool is_player = tempo.by < kMaxPlayers || tempo.by == 0xff;
+  return !reader.failed() && tempo.number != 0 && Tempo::is_speed(tempo.speed) && is_player;
 }
 
 void write_input(WireWriter& writer, Bytes previous, Bytes input) {
@@ -91,10 +110,10 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.fixed(header.match);
   writer.fixed(header.number);
   writer.fixed(header.time);
-  writer.byte(static_cast<std::uint8_t>((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) |
-                                        (has_report ? kHasReport : 0) | (passes_on ? kPassesOn : 0) |
-                                        (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
-                                        (header.waits_for != 0 ? kWaits : 0)));
+  writer.byte(static_cast<std::uint8_t>(
+      (header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) | (has_report ? kHasReport : 0) |
+      (passes_on ? kPassesOn : 0) | (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
+      (header.waits_for != 0 ? kWaits : 0) | (header.tempo.number != 0 ? kHasTempo : 0)));
   if (header.has_echo) writer.fixed(header.echo);
   if (header.stretch > 0) {
     writer.byte(header.stretch);
@@ -102,6 +121,7 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   }
   if (header.waits_for != 0) writer.number(header.waits_for);
   writer.number(static_cast<std::uint32_t>(header.frame));
+  if (header.tempo.number != 0) write_tempo(writer, header.frame, header.tempo);
   if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
     writer.byte(header.reporter);
@@ -168,7 +188,6 @@ Result<Packet> read_packet(Bytes bytes) {
   header.number = reader.fixed<std::uint16_t>();
   header.time = reader.fixed<std::uint16_t>();
   const std::uint8_t flags = reader.byte();
-  if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");
   header.has_echo = (flags & kHasEcho) != 0;
   header.started = (flags & kStarted) != 0;
   header.is_far = (flags & kIsFar) != 0;
@@ -186,6 +205,7 @@ Result<Packet> read_packet(Bytes bytes) {
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");
   header.frame = static_cast<Frame>(frame);
+  if ((flags & kHasTempo) != 0 && !read_tempo(reader, header.frame, header.tempo)) return refuse("no speed of a match");
   if ((flags & kHasReport) != 0) header.report = read_report(reader, header.frame);
   if ((flags & kPassesOn) != 0) {
     header.reporter = reader.byte();

@@ -46,7 +46,7 @@ bool PeerCore::wants_input(int player) const {
 }
 
 Time PeerCore::wait(Time now) const {
-  if (!running()) return 10 * kAsk;
+  if (!running() || is_paused()) return 10 * kAsk;
   const Time until = clock_.until_due(now);
   return until > 0 ? until : is_blocked_ ? kAsk : 0;
 }
@@ -74,10 +74,11 @@ void PeerCore::plan(Time now) {
   has_turned_ = true;
   last_turn_ = now;
   if (was_away && running()) paused(now);
-  pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_);
+  if (running()) follow_tempo(now);
+  pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_ || is_paused());
   if (!asked_start_) {
     asked_start_ = true;
-    act(RequestKind::save, 0);
+    ask_start();
     return;
   }
   if (!has_start_) return;
@@ -88,7 +89,7 @@ void PeerCore::plan(Time now) {
   is_misused_ = false;
   if (wrong < current()) roll_back(wrong);
   // By the clock and not by frames: a match that waits at every one of them is what a longer delay is for.
-  if (now >= next_observation_) {
+  if (now >= next_observation_ && !is_paused()) {
     next_observation_ = now + clock_.period();
     observe_delay();
     for (int p = 0; p < players(); ++p) {
@@ -99,7 +100,8 @@ void PeerCore::plan(Time now) {
   const int most = pace_.most_steps(kMostSteps);
   int steps = 0;
   for (; steps < most && (clock_.is_due(now) || hurries(now) || (steps == 1 && pace_.probes())); ++steps) {
-    if (steps >= kDueSteps && !hurries(now)) break;
+    follow_tempo(now);
+    if (is_paused() || (steps >= kDueSteps && !hurries(now))) break;
     sample_local_inputs();
     before_frame(now);
     if (!may_step()) {

@@ -128,6 +128,8 @@ TEST(Message, CutOrExtendedTheyAreRefused) {
   check(bytes, [](Bytes message) { return read_piece(message).ok(); });
   write_progress(99, bytes);
   check(bytes, [](Bytes message) { return read_progress(message).ok(); });
+  write_ask({true, 0}, bytes);
+  check(bytes, [](Bytes message) { return read_ask(message).ok(); });
   write_open(42, bytes);
   check(bytes, [](Bytes message) { return read_open(message).ok(); });
   PlayerStats figures[2];
@@ -186,6 +188,21 @@ TEST(Message, AHelloOfSomethingElseIsRefusedByName) {
   EXPECT_FALSE(read_hello(other).ok());
 }
 
+TEST(Message, WhatIsAskedForIsAPauseOrASpeed) {
+  const auto reads = [](const Ask& ask) {
+    Buffer bytes;
+    write_ask(ask, bytes);
+    const Result<Ask> read = read_ask(bytes);
+    return read && read.value().is_paused == ask.is_paused && read.value().speed == ask.speed;
+  };
+  EXPECT_TRUE(reads({true, 0}));
+  EXPECT_TRUE(reads({false, 0}));
+  EXPECT_TRUE(reads({false, Tempo::kSlowest}));
+  EXPECT_FALSE(reads({true, Tempo::kNormal})) << "both";
+  EXPECT_FALSE(reads({false, Tempo::kSlowest - 1}));
+  EXPECT_FALSE(reads({false, Tempo::kFastest + 1}));
+}
+
 TEST(Message, HowManySeatsIsOneAtLeast) {
   Buffer bytes;
   for (const int seats : {0, 1, static_cast<int>(kMaxPlayers), static_cast<int>(kMaxPlayers) + 1, 255}) {
@@ -227,7 +244,7 @@ TEST(Message, UnknownKindsAndSizesAreNoMessages) {
   EXPECT_FALSE(message_kind({}).ok());
   for (unsigned kind = 0; kind < 256; ++kind) {
     EXPECT_EQ(message_kind(Buffer{static_cast<std::uint8_t>(kind)}).ok(),
-              kind >= 1 && kind <= static_cast<unsigned>(MessageKind::figures))
+              kind >= 1 && kind <= static_cast<unsigned>(MessageKind::ask))
         << kind;
   }
   Buffer bytes(kReliableCap, 1);

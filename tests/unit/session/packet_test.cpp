@@ -35,6 +35,11 @@ PacketHeader any_header(Pcg32& random) {
     header.slowest = static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % kMaxPlayers);
   }
   header.frame = any_frame(random);
+  if (random.next() % 2 == 0) {
+    header.tempo = {1 + random.next() % 1000, any_frame(random), static_cast<std::uint8_t>(4 + random.next() % 13),
+                    random.next() % 2 == 0,
+                    static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % 32)};
+  }
   if (random.next() % 2 == 0) header.report = {any_frame(random), std::uint64_t{random.next()} << 32 | random.next()};
   if (random.next() % 2 == 0) {
     header.reporter = static_cast<std::uint8_t>(random.next() % kMaxPlayers);
@@ -54,6 +59,7 @@ PacketHeader largest_header() {
   header.has_echo = header.started = header.is_far = true;
   header.stretch = 255;
   header.waits_for = ~0u;
+  header.tempo = {~0u, 0, Tempo::kFastest, true, 31};
   header.frame = kLastFrame;
   header.report = header.passed_on = {0, ~std::uint64_t{0}};
   header.reporter = kMaxPlayers - 1;
@@ -88,6 +94,10 @@ void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.slowest, b.slowest);
   ASSERT_EQ(a.waits_for, b.waits_for);
   ASSERT_EQ(a.frame, b.frame);
+  ASSERT_EQ(a.tempo.number, b.tempo.number);
+  ASSERT_EQ(a.tempo.from, b.tempo.from);
+  ASSERT_EQ(a.tempo.by, b.tempo.by);
+  ASSERT_TRUE(a.tempo.same_as(b.tempo));
   ASSERT_EQ(a.report.frame, b.report.frame);
   ASSERT_EQ(a.report.chain, b.report.chain);
   ASSERT_EQ(a.reporter, b.reporter);
@@ -246,7 +256,7 @@ WireWriter head(std::uint8_t* buffer, std::uint8_t flags = 0, std::uint32_t fram
   writer.fixed(std::uint16_t{2});
   writer.byte(flags);
   writer.number(frame);
-  if ((flags & 0x0c) == 0) writer.byte(mask);
+  if ((flags & 0x8c) == 0) writer.byte(mask);
   return writer;
 }
 bool reads(const std::uint8_t* buffer, const WireWriter& writer) { return read_packet({buffer, writer.size()}).ok(); }
@@ -272,6 +282,22 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(waiting(1));
   EXPECT_TRUE(waiting(~0u));
   EXPECT_FALSE(waiting(0)) << "waiting for nobody is not said";
+  const auto tempo = [&](std::uint32_t number, std::int32_t from, std::uint8_t speed, std::uint8_t by) {
+    WireWriter writer = head(buffer, 128);
+    writer.number(number);
+    writer.difference(from);
+    writer.byte(speed);
+    writer.byte(by);
+    writer.byte(0);
+    return reads(buffer, writer);
+  };
+  EXPECT_TRUE(tempo(1, -7, 4, 0xff));
+  EXPECT_TRUE(tempo(1, 0, 128 + 16, 31));
+  EXPECT_FALSE(tempo(0, 0, 8, 0)) << "no change";
+  EXPECT_FALSE(tempo(1, -8, 8, 0)) << "before the first frame";
+  EXPECT_FALSE(tempo(1, 0, 3, 0));
+  EXPECT_FALSE(tempo(1, 0, 17, 0));
+  EXPECT_FALSE(tempo(1, 0, 8, 32));
   const auto slow = [&](std::uint8_t stretch, std::uint8_t player) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);

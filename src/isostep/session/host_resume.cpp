@@ -1,0 +1,87 @@
+// A host that goes on with a saved match: from its state, with its seats, and when all of its players are back.
+// SPDX-License-Identifier: MIT
+#include <bit>
+
+#include "isostep/session/host_core.hpp"
+
+namespace isostep {
+
+HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMatch&& saved) : HostCore(config, rules) {
+  hosted_ = saved.hosted;
+  tokens_ = saved.tokens;
+  sequels_ = saved.sequels + 1;
+  match_ = draw(Purpose::match, sequels_);
+  if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
+  resumed_ = saved.start;
+  resumed_hash_ = saved.hash;
+  wished_.speed = saved.speed;
+  portable_ = std::move(saved.state);
+  for (int p = 0; p < players(); ++p) {
+    seats_[p] = Seat{};
+    seats_[p].proof = saved.proofs[p];
+    seats_[p].is_kept = saved.proofs[p] != 0;
+    seats_[p].is_taken = is_local(p) || seats_[p].is_kept;
+    seats_[p].is_open = is_local(p);
+  }
+  timeline_.restart(resumed_.frame);
+  for (InputStream& stream : streams_) stream.reset(resumed_.frame);
+}
+
+void HostCore::ask_start() {
+  if (!is_resumed()) {
+    PeerCore::ask_start();
+    return;
+  }
+  act(RequestKind::restore, resumed_.frame);
+  act(RequestKind::save, resumed_.frame);
+}
+
+void HostCore::restored(bool ok) {
+  if (ok || has_start_) return;
+  phase_ = SessionPhase::refused;
+  SessionEvent event{.kind = SessionEvent::Kind::bad_snapshot};
+  event.frame = resumed_.frame;
+  tell(event);
+}
+
+void HostCore::hash_known(Frame state, std::uint64_t hash) {
+  if (!is_resumed() || has_start_) {
+    PeerCore::hash_known(state, hash);
+    return;
+  }
+  if (phase_ == SessionPhase::refused) return;
+  if (hash != resumed_hash_) {
+    restored(false);
+    return;
+  }
+  has_start_ = true;
+  hashes_.restart(resumed_, hash);
+  confirmed_state_ = resumed_.frame;
+}
+
+/// Of a match that goes on only who has its state counts: until then nobody plays, and nobody is missed.
+bool HostCore::all_are_here() const {
+  for (int p = 0; p < players(); ++p) {
+    const Seat& seat = seats_[p];
+    if (is_local(p) || (!is_resumed() && seat.is_taken)) continue;
+    if (seat.link < 0 || guests_[static_cast<std::size_t>(seat.link)].stage != Guest::Stage::live) return false;
+  }
+  return true;
+}
+
+std::optional<SavedMatch> HostCore::save_match() const {
+  if (!started_ || !has_start_) return std::nullopt;
+  SavedMatch saved;
+  saved.identity = config_.identity;
+  saved.start = hashes_.settled();
+  saved.hash = hashes_.hash(saved.start.frame);
+  saved.hosted = hosted_;
+  saved.speed = announced().speed;
+  saved.tokens = tokens_;
+  saved.sequels = sequels_;
+  saved.players = static_cast<std::uint8_t>(players());
+  for (int p = 0; p < players(); ++p) saved.proofs[p] = is_local(p) || !seats_[p].is_kept ? 0 : seats_[p].proof;
+  return saved;
+}
+
+}  // namespace isostep
