@@ -34,6 +34,12 @@ inline const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::left: return "left";
     case SessionEvent::Kind::waiting_for: return "waiting";
     case SessionEvent::Kind::resumed: return "resumed";
+    case SessionEvent::Kind::paused: return "paused";
+    case SessionEvent::Kind::unpaused: return "no longer paused";
+    case SessionEvent::Kind::speed_changed: return "speed changed";
+    case SessionEvent::Kind::asks_pause: return "asks for a pause";
+    case SessionEvent::Kind::asks_unpause: return "asks to go on";
+    case SessionEvent::Kind::asks_speed: return "asks for a speed";
     case SessionEvent::Kind::slowed_by: return "slowed by";
     case SessionEvent::Kind::full_speed: return "full speed";
     case SessionEvent::Kind::refused: return "refused";
