@@ -253,8 +253,8 @@ TYPED_TEST(JointTreesTest, TreesOfOneShapeShareBatchesAndTheRestIsOne) {
 }
 
 /// [rad] How far `axis` of a body turns in a step that begins with its joint free of its limit and the body flying past
-/// the joint: in the first sub-step it turns by 0.65 rad, unless the limit stops it. Axes of cones begin 0.25 rad apart:
-/// aligned ones have no row.
+/// the joint: in the first sub-step it turns by 0.65 rad, unless the limit stops it. Axes of cones begin 0.25 rad
+/// apart: aligned ones have no row.
 template <class S> double turned_in_a_step(Simd simd, JointType type, std::uint32_t flags, D3 velocity, int axis) {
   JointWorld<S> world;
   world.kernels = tree_kernels<S>(simd);

@@ -32,8 +32,8 @@ template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& 
 }  // namespace detail
 
 namespace detail {
-/// The narrowest kernels that take so many trees at once, for lanes without a tree cost as much as the others; `wide` if
-/// there are more trees than it has lanes.
+/// The narrowest kernels that take so many trees at once, for lanes without a tree cost as much as the others; `wide`
+/// if there are more trees than it has lanes.
 template <class S> ISO_INLINE const TreeKernels<S>& kernels_for(std::uint32_t trees, const TreeKernels<S>& wide) {
   const TreeKernels<S>* chosen = &wide;
   for (const Simd simd : {Simd::scalar, Simd::sse2, Simd::avx2, Simd::neon, Simd::wasm}) {

@@ -1,4 +1,4 @@
-// Bodies of joint_tree.hpp for joints with stops: those of a twist and a swing whose drives are limits and nothing else.
+// Bodies of joint_tree.hpp for joints with stops: of a twist and a swing whose drives are limits and nothing else.
 // SPDX-License-Identifier: MIT
 #pragma once
 

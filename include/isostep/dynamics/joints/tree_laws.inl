@@ -1,4 +1,5 @@
-// The law of drives that are limits and nothing else, of W trees. Part of tree_kernel.inl, with internal linkage like it.
+// The law of drives that are limits and nothing else, of W trees. Part of tree_kernel.inl, with internal linkage like
+// it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
