@@ -268,9 +268,7 @@ void attack_client(Script& script) {
         break;
       }
       case 6: {
-        PlayerStats figures[kMaxPlayers] = {{.waited = script.word(), .loss = script.word() % 1200}};
-        if (op < 80) write_open(script.frame(here), bytes);
-        else if (op < 128) write_figures({figures, op % 9u}, bytes);
+        if (op < 128) write_open(script.frame(here), bytes);
         else bytes = any_word_of_states(script, here, true);
         if (op % 7 == 0) (void)client.session.resync();
         hear(Channel::reliable, bytes);

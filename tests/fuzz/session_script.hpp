@@ -102,6 +102,8 @@ inline Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::
   PacketHeader header;
   header.match = match;
   header.number = static_cast<std::uint16_t>(script.byte() * 100);
+  if (header.number % 7 == 0) header.figured = script.byte() % 40;
+  if (header.number % 7 == 0) header.figures = {.waited = script.word(), .loss = script.word() % 1200};
   header.time = static_cast<std::uint16_t>(script.byte() * 256);
   const std::uint8_t flags = script.byte();
   header.has_echo = (flags & 1) != 0;

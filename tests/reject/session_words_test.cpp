@@ -76,6 +76,8 @@ TEST(HostileWords, FramesAndAcknowledgementsFromNowhereAreWithoutEffect) {
         header.echo = static_cast<std::uint16_t>(frame * 7);
         header.time = static_cast<std::uint16_t>(frame * 13);
         header.number = static_cast<std::uint16_t>(frame * 31);
+        header.figured = static_cast<std::uint8_t>(frame % 5);
+        header.figures = {.waited = 0xffffffffu, .round_trip = 0xffffffffu, .loss = 1000};
       }));
     }
     // Inputs of the far future: not even a fast clock gives them.

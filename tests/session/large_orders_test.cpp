@@ -169,7 +169,7 @@ TEST_P(OrdersInTrouble, ArriveWholeOnceAndInTurn) {
   SessionConfig config = config_of(3, std::get<0>(GetParam()));
   config.deadline = trouble.deadline;
   config.history = trouble.history;
-  config.patience = kSecond / 2;
+  config.patience = 10 * kSecond;  // who is never there for a second gives no large orders
   config.exclusion = 2 * kSecond;
   OrdersMatch orders(config, trouble.line);
   std::vector<std::uint8_t> file;
@@ -187,7 +187,8 @@ TEST_P(OrdersInTrouble, ArriveWholeOnceAndInTurn) {
     if (trouble.deadline == 0 && n % 3 == 1) orders.match.network().cut(orders.match.machine(1 + n % 2).endpoint);
     if (trouble.deadline == 0 && n % 4 == 2) {  // for longer than it is waited for
       orders.match.machine(2).plays = false;
-      orders.match.run(3 * kSecond, [] { return false; });
+      const Time away = trouble.history > 200 ? 3 * kSecond : 6 * kSecond;
+      orders.match.run(away, [] { return false; });
       orders.match.machine(2).plays = true;
     }
   }
@@ -201,7 +202,7 @@ TEST_P(OrdersInTrouble, ArriveWholeOnceAndInTurn) {
   std::uint64_t missed = 0;
   for (std::size_t p = 0; p < 3; ++p) missed += orders.match.host().session.stats().players[p].replaced;
   for (Frame f = 0; f < orders.match.host().end(); ++f) missed += orders.match.host().played(f, 2) ? 0 : 1;
-  EXPECT_GT(missed, 30u) << "there were frames in which a piece could be lost";
+  EXPECT_GT(missed, 10u) << "there were frames in which a piece could be lost";
   EXPECT_TRUE(trouble.history > 200 || orders.match.machine(2).restarts > 0) << "a snapshot was meant to come";
   expect_one_history(orders.match, true);
   ASSERT_TRUE(recorder.recorder.finish().ok());

@@ -14,6 +14,7 @@
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
+#include "isostep/session/player_stats.hpp"
 #include "isostep/session/saved_match.hpp"
 #include "isostep/session/snapshot_transfer.hpp"
 #include "isostep/session/timeline.hpp"

@@ -88,7 +88,8 @@ class HostCore : public PeerCore {
     std::uint32_t enrolled = 0;  // the roster that it has
     std::uint32_t players = 0;   // its seats, a bit each: they are taken, open and close together
     int player = -1;             // the first of them; -1: a spectator
-    bool must_welcome = false, must_open = false, must_close = false, must_tell_figures = false;
+    bool must_welcome = false, must_open = false, must_close = false;
+    int figures_left = 0;     // players whose figures it is told next, one with each datagram
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'

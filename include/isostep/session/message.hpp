@@ -3,11 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "isostep/session/packet.hpp"
-#include "isostep/session/player_stats.hpp"
 #include "isostep/session/roster.hpp"
 #include "isostep/state/replay_header.hpp"
 
@@ -33,7 +31,6 @@ enum class MessageKind : std::uint8_t {
   resync,
   offer,
   repaired,
-  figures,
   ask
 };
 
@@ -112,8 +109,6 @@ void write_known(Bytes packet, std::vector<std::uint8_t>& out);
 void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
-/// What the host knows of every player of the match.
-void write_figures(std::span<const PlayerStats> players, std::vector<std::uint8_t>& out);
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);
@@ -128,8 +123,6 @@ Result<Candidate> read_candidate(Bytes message);
 Result<Packet> read_known(Bytes message);
 Result<std::uint32_t> read_support(Bytes message);
 Result<Address> read_redirect(Bytes message);
-/// Of exactly `into.size()` players; all but `early`, which is left as it was. On failure nothing is.
-Result<void> read_figures(Bytes message, std::span<PlayerStats> into);
 Result<Ask> read_ask(Bytes message);
 
 }  // namespace isostep

@@ -6,6 +6,7 @@
 
 #include "isostep/core/result.hpp"
 #include "isostep/session/input_stream.hpp"
+#include "isostep/session/player_stats.hpp"
 #include "isostep/session/tempo.hpp"
 
 namespace isostep {
@@ -38,6 +39,8 @@ struct PacketHeader {
   HashReport report;             // the sender's newest confirmed
   std::uint8_t reporter = 0xff;  // the player whose report is passed on; 0xff: none
   HashReport passed_on;
+  std::uint8_t figured = 0xff;          // host: the player whose figures are told; 0xff: none
+  PlayerStats figures;                  // without `early`, which everybody sees for itself
   std::uint32_t ack_mask = 0;           // players of whom the sender says what it has
   Frame ack[kMaxPlayers] = {};          // first missing
   std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed

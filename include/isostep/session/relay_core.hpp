@@ -39,7 +39,8 @@ class RelayCore : public ClientCore {
     Frame state_from = 0;
     SnapshotTransfer transfer;
     Refusal refusal{};
-    bool must_welcome = false, must_close = false, must_tell_figures = false;
+    bool must_welcome = false, must_close = false;
+    int figures_left = 0;      // players whose figures it is told next, one with each datagram
     bool wants_state = false;  // its own is wrong: see Session::resync
     Time state_at = 0;         // [us] it is sent another not before
     bool has_spoken = false;   // it says something that is for this match

@@ -20,6 +20,12 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   stats_.round_trip = host_.round_trip;
   stats_.jitter = host_.meter.jitter(now);
   stats_.loss = host_.meter.loss(now);
+  if (header.figured < players()) {
+    PlayerStats& figures = stats_.players[header.figured];
+    const Frame early = figures.early;
+    figures = header.figures;
+    figures.early = early;
+  }
   for (int p = 0; p < players() && is_open_; ++p) {
     if (is_own(p) && host_.acked[p] > accepted_[p]) accepted_[p] = host_.acked[p];
   }

@@ -131,9 +131,6 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       }
     }
   }
-  if (kind == MessageKind::figures && is_greeted_) {
-    good = read_figures(bytes, {stats_.players, static_cast<std::size_t>(players())}).ok();
-  }
   if (!good) good = take_failover(kind, bytes, now) || take_repair(kind, bytes);
   if (good) {
     host_.heard = now;

@@ -20,7 +20,7 @@ void HostCore::keep_figures(Time now) {
   for (Guest& guest : guests()) {
     if (guest.stage != Guest::Stage::live) continue;
     // Who does not acknowledge is sent no more than it has to be.
-    guest.must_tell_figures = !is_unproven(guest) && acknowledges(guest, now);
+    guest.figures_left = !is_unproven(guest) && acknowledges(guest, now) ? players() : 0;
     for (int p = 0; p < players(); ++p) {
       if (!has(guest, p)) continue;
       PlayerStats& figures = stats_.players[p];

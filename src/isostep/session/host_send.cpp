@@ -74,11 +74,6 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     write_open(guest.opens, message_);
     return message();
   }
-  if (guest.must_tell_figures && guest.stage == Guest::Stage::live) {
-    guest.must_tell_figures = false;
-    write_figures({stats_.players, static_cast<std::size_t>(players())}, message_);
-    return message();
-  }
   return std::nullopt;
 }
 
@@ -113,6 +108,10 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     header.reporter = static_cast<std::uint8_t>(other.player);
     header.passed_on = other.report;
     break;
+  }
+  if (guest.figures_left > 0 && !sending) {
+    header.figured = static_cast<std::uint8_t>(--guest.figures_left);
+    header.figures = stats_.players[header.figured];
   }
   note_held_back(guest);
   const Bytes bytes = compose(guest, header, now, most);

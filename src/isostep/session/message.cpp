@@ -242,33 +242,6 @@ Result<Address> read_redirect(Bytes message) {
   return finish(reader, "redirect", address);
 }
 
-void write_figures(std::span<const PlayerStats> players, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::figures);
-  for (const PlayerStats& each : players) {
-    for (const std::uint32_t value : {each.replaced, each.waited, each.round_trip, each.jitter, each.loss}) {
-      writer.write(value);
-    }
-  }
-}
-
-Result<void> read_figures(Bytes message, std::span<PlayerStats> into) {
-  Reader reader = after_kind(message);
-  PlayerStats read[kMaxPlayers];
-  for (std::size_t p = 0; p < into.size(); ++p) {
-    read[p].early = into[p].early;
-    for (std::uint32_t* value :
-         {&read[p].replaced, &read[p].waited, &read[p].round_trip, &read[p].jitter, &read[p].loss}) {
-      reader.read(*value);
-    }
-    if (read[p].loss > 1000) reader.fail(ErrorCode::invalid, "more lost than sent");
-  }
-  reader.expect_end();
-  const Result<void> result = reader.result("figures");
-  if (!result) return result;
-  for (std::size_t p = 0; p < into.size(); ++p) into[p] = read[p];
-  return {};
-}
-
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out) {
   Writer writer = begin(out, MessageKind::ask);
   writer.write(ask.is_paused);

@@ -1,9 +1,10 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u64 | number u16 | time u16 | flags u8 | [echo u16] | [stretch u8, slowest u8] | [waits for varint]
+// Layout: kind u8 | match u64 | number u16 | time u16 | flags varint | [echo u16] | [stretch u8, slowest u8] | [waits for varint]
 //         | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
 //         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
+//         | [figures: player u8, replaced, waited, round trip, jitter, loss varint]
 //         | ack mask varint | {difference to frame, slack i8}...
 //         | slices {player u8, difference to frame, count varint, tokens: size varint, bytes}... to the end.
 // Tokens: 00nnnnnn  n + 1 times the previous input      01nnnnnn  n + 1 frames with nobody there
@@ -18,8 +19,8 @@ namespace isostep {
 namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
-constexpr std::uint8_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
-                       kWaits = 64, kHasTempo = 128;
+constexpr std::uint32_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
+                        kWaits = 64, kHasTempo = 128, kHasFigures = 256, kKnownFlags = 511;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -38,6 +39,23 @@ HashReport read_report(WireReader& reader, Frame base) {
   if (frame < 0 || frame > kLastFrame) reader.fail();
   report.frame = reader.failed() ? kNoFrame : static_cast<Frame>(frame);
   return report;
+}
+void write_figures(WireWriter& writer, const PacketHeader& header) {
+  const PlayerStats& figures = header.figures;
+  writer.byte(header.figured);
+  for (const std::uint32_t value :
+       {figures.replaced, figures.waited, figures.round_trip, figures.jitter, figures.loss}) {
+    writer.number(value);
+  }
+}
+void read_figures(WireReader& reader, PacketHeader& header) {
+  PlayerStats& figures = header.figures;
+  header.figured = reader.byte();
+  for (std::uint32_t* value :
+       {&figures.replaced, &figures.waited, &figures.round_trip, &figures.jitter, &figures.loss}) {
+    *value = reader.number();
+  }
+  if (header.figured >= kMaxPlayers || figures.loss > 1000) reader.fail();
 }
 Frame read_frame_near(WireReader& reader, Frame base) {
   const std::int64_t frame = std::int64_t{base} + reader.difference();
@@ -106,14 +124,15 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
     : buffer_(buffer), size_(0), frame_(header.frame) {
   WireWriter writer(buffer, kDatagramCap);
   const bool has_report = header.report.frame != kNoFrame, passes_on = header.reporter < kMaxPlayers;
+  const bool tells_figures = header.figured < kMaxPlayers;
   writer.byte(kKind);
   writer.fixed(header.match);
   writer.fixed(header.number);
   writer.fixed(header.time);
-  writer.byte(static_cast<std::uint8_t>(
-      (header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) | (has_report ? kHasReport : 0) |
-      (passes_on ? kPassesOn : 0) | (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
-      (header.waits_for != 0 ? kWaits : 0) | (header.tempo.number != 0 ? kHasTempo : 0)));
+  writer.number((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) | (has_report ? kHasReport : 0) |
+                (passes_on ? kPassesOn : 0) | (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
+                (header.waits_for != 0 ? kWaits : 0) | (header.tempo.number != 0 ? kHasTempo : 0) |
+                (tells_figures ? kHasFigures : 0));
   if (header.has_echo) writer.fixed(header.echo);
   if (header.stretch > 0) {
     writer.byte(header.stretch);
@@ -127,6 +146,7 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
     writer.byte(header.reporter);
     write_report(writer, header.frame, header.passed_on);
   }
+  if (tells_figures) write_figures(writer, header);
   writer.number(header.ack_mask);
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;
@@ -187,7 +207,8 @@ Result<Packet> read_packet(Bytes bytes) {
   header.match = reader.fixed<std::uint64_t>();
   header.number = reader.fixed<std::uint16_t>();
   header.time = reader.fixed<std::uint16_t>();
-  const std::uint8_t flags = reader.byte();
+  const std::uint32_t flags = reader.number();
+  if ((flags & ~kKnownFlags) != 0) return refuse("unknown flags");
   header.has_echo = (flags & kHasEcho) != 0;
   header.started = (flags & kStarted) != 0;
   header.is_far = (flags & kIsFar) != 0;
@@ -212,6 +233,7 @@ Result<Packet> read_packet(Bytes bytes) {
     header.passed_on = read_report(reader, header.frame);
     if (header.reporter >= kMaxPlayers) return refuse("passes on the hash of no player");
   }
+  if ((flags & kHasFigures) != 0) read_figures(reader, header);
   header.ack_mask = reader.number();
   for (std::size_t p = 0; p < kMaxPlayers; ++p) {
     if ((header.ack_mask >> p & 1) == 0) continue;

@@ -182,7 +182,7 @@ void RelayCore::before_steps(Time now) {
     if (!leaf.is_connected) continue;
     ++stats_.peers;
     tend(leaf, now);
-    if (tells && leaf.stage == Leaf::Stage::live) leaf.must_tell_figures = acknowledges(leaf, now);
+    if (tells && leaf.stage == Leaf::Stage::live) leaf.figures_left = acknowledges(leaf, now) ? players() : 0;
   }
 }
 

@@ -129,10 +129,7 @@ std::optional<Outgoing> RelayCore::next_message(Leaf& leaf, Time now) {
     return message_to(leaf);
   }
   if (receives) return next_piece(leaf, now);
-  if (!leaf.must_tell_figures || leaf.stage != Stage::live) return std::nullopt;
-  leaf.must_tell_figures = false;
-  write_figures({stats_.players, static_cast<std::size_t>(players())}, message_);
-  return message_to(leaf);
+  return std::nullopt;
 }
 
 std::optional<Outgoing> RelayCore::next_piece(Leaf& leaf, Time now) {
@@ -155,6 +152,11 @@ std::optional<Outgoing> RelayCore::next_datagram(Leaf& leaf, Time now) {
   header.stretch = static_cast<std::uint8_t>(stats_.stretch);
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
+  header.tempo = announced();
+  if (leaf.figures_left > 0 && !receives) {
+    header.figured = static_cast<std::uint8_t>(--leaf.figures_left);
+    header.figures = stats_.players[header.figured];
+  }
   leaf.more_at = now + (leaf.acked_at == 0 ? kProbeEvery : kStalledEvery);
   return Outgoing{leaf.peer, Channel::datagram, compose(leaf, header, now, most)};
 }

@@ -93,18 +93,6 @@ TEST(Message, EachIsReadAsItWasWritten) {
   EXPECT_EQ(read_progress(bytes).value(), 99u);
   write_open(42, bytes);
   EXPECT_EQ(read_open(bytes).value(), 42);
-  const PlayerStats figures[2] = {{.early = 3, .replaced = 4, .waited = 5, .round_trip = 6, .jitter = 7, .loss = 1000},
-                                  {.loss = 9}};
-  write_figures(figures, bytes);
-  PlayerStats read_back[2] = {{.early = -1}, {}};
-  ASSERT_TRUE(read_figures(bytes, read_back).ok());
-  EXPECT_EQ(read_back[0].early, -1) << "everybody sees that for itself";
-  EXPECT_EQ(read_back[0].replaced, 4u);
-  EXPECT_EQ(read_back[0].waited, 5u);
-  EXPECT_EQ(read_back[0].round_trip, 6u);
-  EXPECT_EQ(read_back[0].jitter, 7u);
-  EXPECT_EQ(read_back[0].loss, 1000u);
-  EXPECT_EQ(read_back[1].loss, 9u);
   write_ready(bytes);
   EXPECT_EQ(bytes, Buffer{static_cast<std::uint8_t>(MessageKind::ready)});
 }
@@ -132,12 +120,6 @@ TEST(Message, CutOrExtendedTheyAreRefused) {
   check(bytes, [](Bytes message) { return read_ask(message).ok(); });
   write_open(42, bytes);
   check(bytes, [](Bytes message) { return read_open(message).ok(); });
-  PlayerStats figures[2];
-  write_figures(figures, bytes);
-  check(bytes, [&](Bytes message) { return read_figures(message, figures).ok(); });
-  figures[1].loss = 1001;
-  write_figures(figures, bytes);
-  EXPECT_FALSE(read_figures(bytes, figures).ok()) << "more lost than sent";
 }
 
 TEST(Message, WelcomesThatMakeNoSenseAreRefused) {

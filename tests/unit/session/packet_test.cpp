@@ -34,6 +34,10 @@ PacketHeader any_header(Pcg32& random) {
     header.stretch = static_cast<std::uint8_t>(random.next() % 255 + 1);
     header.slowest = static_cast<std::uint8_t>(random.next() % 2 == 0 ? 0xff : random.next() % kMaxPlayers);
   }
+  if (random.next() % 3 == 0) {
+    header.figured = static_cast<std::uint8_t>(random.next() % kMaxPlayers);
+    header.figures = {0, random.next(), random.next(), random.next(), random.next(), random.next() % 1001};
+  }
   header.frame = any_frame(random);
   if (random.next() % 2 == 0) {
     header.tempo = {1 + random.next() % 1000, any_frame(random), static_cast<std::uint8_t>(4 + random.next() % 13),
@@ -85,6 +89,12 @@ InputStream any_stream(Pcg32& random, Frame first, std::size_t cap) {
 void expect_same(const PacketHeader& a, const PacketHeader& b) {
   ASSERT_EQ(a.match, b.match);
   ASSERT_EQ(a.number, b.number);
+  ASSERT_EQ(a.figured, b.figured);
+  ASSERT_EQ(a.figures.replaced, b.figures.replaced);
+  ASSERT_EQ(a.figures.waited, b.figures.waited);
+  ASSERT_EQ(a.figures.round_trip, b.figures.round_trip);
+  ASSERT_EQ(a.figures.jitter, b.figures.jitter);
+  ASSERT_EQ(a.figures.loss, b.figures.loss);
   ASSERT_EQ(a.time, b.time);
   ASSERT_EQ(a.has_echo, b.has_echo);
   ASSERT_EQ(a.echo, b.echo);
@@ -248,13 +258,13 @@ TEST(Packet, CutAnywhereItIsRefusedOrAWholeNumberOfSlices) {
 }
 
 /// The bytes of a header in which nothing is optional but the acknowledgements that are asked for.
-WireWriter head(std::uint8_t* buffer, std::uint8_t flags = 0, std::uint32_t frame = 7, std::uint8_t mask = 0) {
+WireWriter head(std::uint8_t* buffer, std::uint32_t flags = 0, std::uint32_t frame = 7, std::uint8_t mask = 0) {
   WireWriter writer(buffer, kDatagramCap);
   writer.byte(0xd1);
   writer.fixed(std::uint64_t{1});
   writer.fixed(std::uint16_t{3});
   writer.fixed(std::uint16_t{2});
-  writer.byte(flags);
+  writer.number(flags);
   writer.number(frame);
   if ((flags & 0x8c) == 0) writer.byte(mask);
   return writer;
@@ -267,6 +277,7 @@ TEST(Packet, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(reads(buffer, head(buffer, 0, kLastFrame)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, kLastFrame + 1u)));
   EXPECT_FALSE(reads(buffer, head(buffer, 0, 0xffffffffu)));
+  EXPECT_FALSE(reads(buffer, head(buffer, 512))) << "no flag";
   const auto waiting = [&](std::uint32_t players) {
     WireWriter writer(buffer, kDatagramCap);
     writer.byte(0xd1);
