@@ -10,7 +10,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 3;
+inline constexpr std::uint16_t kSessionProtocol = 4;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
