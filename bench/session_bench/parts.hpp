@@ -24,6 +24,8 @@ void report_bandwidth(const SessionBenchOptions& options);
 void report_genres(const SessionBenchOptions& options);
 /// The longest drive() of a match with a thousand bodies.
 void report_drives(const SessionBenchOptions& options);
+/// Seals of datagrams and messages; only where libsodium is.
+void report_sealing(const SessionBenchOptions& options);
 /// Memory and time of the states that are kept to explain a desync.
 void report_kept_states(const SessionBenchOptions& options);
 

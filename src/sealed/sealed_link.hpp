@@ -33,9 +33,10 @@ enum class Opened : std::uint8_t {
 ///     reply    2, e of who is connected to, sealed nothing                                 53 bytes
 ///     confirm  sealed nothing                                                              20 bytes
 /// Seals are ChaCha20-Poly1305 (RFC 8439) with the count of the sealed as the nonce; each direction and channel has a
-/// key of its own, from both `e`, their shared secret and the lobby's key. So other members cannot read along, nobody can
-/// later with the lobby's key, and no nonce comes twice under a key. Source: The Noise protocol framework, pattern
-/// NNpsk0. Differs: BLAKE2b once over the whole handshake; a MAC in the hello, so that a stranger's costs no curve.
+/// key of its own, from both `e`, their shared secret and the lobby's key. So other members cannot read along, nobody
+/// can later with the lobby's key, and no nonce comes twice under a key.
+/// Source:  The Noise protocol framework, pattern NNpsk0.
+/// Differs: BLAKE2b once over the whole handshake; a MAC in the hello, so that a stranger's costs no curve.
 class SealedLink {
  public:
   static constexpr std::size_t kHello = 58, kReply = 53;  // [bytes]

@@ -1,4 +1,4 @@
-// SealedTransport: encrypts and authenticates what a session says over any other transport, with keys of the game's lobby.
+// SealedTransport: encrypts and authenticates what goes over any other transport, with keys of the game's lobby.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -31,9 +31,9 @@ struct SealStatistics {
   std::uint64_t displaced = 0;   // connections that ended because a reliable message was not the sender's next
 };
 
-/// Models Endpoint, and Connector over one. The caller drives `inner` as without: poll, flush, wait. PeerIds are those of
-/// `inner`. A session's largest messages pass, for transports carry kSealRoom bytes more. Nothing is allocated for a
-/// datagram or a message; a link of 0.5 KB is for the highest PeerId that ever was.
+/// Models Endpoint, and Connector over one. The caller drives `inner` as without: poll, flush, wait. PeerIds are those
+/// of `inner`. A session's largest messages pass, for transports carry kSealRoom bytes more. Nothing is allocated for a
+/// datagram or a message; each PeerId that ever was has a link of 0.5 KB.
 template <transport::Endpoint Inner> class SealedTransport {
  public:
   /// `inner` outlives it.
@@ -50,6 +50,8 @@ template <transport::Endpoint Inner> class SealedTransport {
   Result<void> connect_to(std::string_view address) requires transport::Connector<Inner> {
     return inner_.connect_to(address);
   }
+  /// For the connections that we ask for from now on: where each two machines have a key, before connecting.
+  void set_own_key(std::uint64_t id) { settings_.own_key = id; }
   /// Once a turn, before receive(): ends handshakes that take too long. transport::deliver does it.
   void tend(Time now);
 
@@ -196,7 +198,7 @@ template <transport::Endpoint Inner> bool SealedTransport<Inner>::answer(Link& l
 }
 
 template <transport::Endpoint Inner> bool SealedTransport<Inner>::confirm(Link& link, PeerId peer, Bytes reply) {
-  const LobbyKey* key = find_key(settings_.own_key);
+  const LobbyKey* key = find_key(link.seal.key_id());
   std::uint8_t nothing[SealedLink::kSeal];
   return key != nullptr && link.seal.take_reply(*key, reply) && link.seal.seal(Channel::reliable, {}, nothing) &&
          inner_.send(peer, Channel::reliable, nothing).ok();

@@ -38,7 +38,7 @@ struct EnetStatistics {
 /// Models Connector. PeerId is ENet's index of the peer: the lowest free one, 0 on who only connects.
 /// A frame: poll(), receive() until it has nothing, the session, send(), flush(); then wait() instead of sleeping.
 /// Not secret and not authenticated: whoever sees the packets can forge them, and requests from forged addresses hold a
-/// host's places for ENet's 5 to 30 s each. IPv4 only. Time is ENet's: the system's
+/// host's places for ENet's 5 to 30 s each; see SealedTransport. IPv4 only; see UdpRelay. Time is ENet's: the system's
 /// clock, whose jumps count as silence.
 class EnetTransport {
  public:
@@ -52,8 +52,8 @@ class EnetTransport {
   /// Tells connected peers so, without waiting for what is unacknowledged.
   ~EnetTransport();
 
-  /// One more connection: `connected` or `disconnected` follows. What an earlier attempt has not reached by now is given
-  /// up without an event. A name is looked up at once, which may block.
+  /// One more connection: `connected` or `disconnected` follows. An earlier attempt that is under way is given up
+  /// without an event. A name is looked up at once, which may block.
   Result<void> connect_to(const std::string& address, std::uint16_t port);
   /// "192.0.2.7:4000", as the others of a match tell. Nothing is looked up: who names it may be hostile.
   Result<void> connect_to(std::string_view address);

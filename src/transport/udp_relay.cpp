@@ -11,8 +11,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -53,8 +55,8 @@ class Socket {
   int descriptor_ = -1;
 };
 
-Socket open_socket() {
-  Socket opened(::socket(AF_INET, SOCK_DGRAM, 0));
+Socket open_socket(int family) {
+  Socket opened(::socket(family, SOCK_DGRAM, 0));
   if (opened.descriptor() < 0) return opened;
   const int flags = ::fcntl(opened.descriptor(), F_GETFL, 0);
   if (flags < 0 || ::fcntl(opened.descriptor(), F_SETFL, flags | O_NONBLOCK) < 0) return Socket();
@@ -63,28 +65,56 @@ Socket open_socket() {
   return opened;
 }
 
-std::optional<sockaddr_in> look_up(const std::string& name, std::uint16_t port) {
-  addrinfo hints = {};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(name.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return std::nullopt;
-  sockaddr_in address = *reinterpret_cast<const sockaddr_in*>(found->ai_addr);
-  ::freeaddrinfo(found);
-  address.sin_port = htons(port);
-  return address;
+/// IPv4 or IPv6.
+struct UdpAddress {
+  sockaddr_storage storage = {};
+  socklen_t size = sizeof storage;
+
+  int family() const { return storage.ss_family; }
+  const sockaddr* generic() const { return reinterpret_cast<const sockaddr*>(&storage); }
+  sockaddr* generic() { return reinterpret_cast<sockaddr*>(&storage); }
+  in_port_t& port() {
+    return family() == AF_INET6 ? reinterpret_cast<sockaddr_in6*>(&storage)->sin6_port
+                                : reinterpret_cast<sockaddr_in*>(&storage)->sin_port;
+  }
+};
+
+/// The first of the name's; a name of both kinds is one of IPv4 where the system has that.
+std::optional<UdpAddress> look_up(const std::string& name, std::uint16_t port) {
+  for (const int family : {AF_INET, AF_INET6}) {
+    addrinfo hints = {};
+    hints.ai_family = family;
+    hints.ai_socktype = SOCK_DGRAM;
+    addrinfo* found = nullptr;
+    if (::getaddrinfo(name.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) continue;
+    UdpAddress address;
+    address.size = found->ai_addrlen;
+    std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
+    ::freeaddrinfo(found);
+    address.port() = htons(port);
+    return address;
+  }
+  return std::nullopt;
 }
 
-const sockaddr* generic(const sockaddr_in& address) { return reinterpret_cast<const sockaddr*>(&address); }
-sockaddr* generic(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
-
-/// Of a client: its address and port in one number.
-std::uint64_t key_of(const sockaddr_in& address) {
-  return std::uint64_t{address.sin_addr.s_addr} << 16 | address.sin_port;
+/// Of a client: its address and port, which is all that the system fills in of a sender.
+using Key = std::array<std::uint8_t, 16 + 4 + 2>;
+Key key_of(UdpAddress address) {
+  Key key{};
+  const in_port_t port = address.port();
+  std::memcpy(key.data() + 20, &port, sizeof port);
+  if (address.family() == AF_INET6) {
+    const auto& own = reinterpret_cast<const sockaddr_in6&>(address.storage);
+    std::memcpy(key.data(), &own.sin6_addr, 16);
+    std::memcpy(key.data() + 16, &own.sin6_scope_id, 4);
+  } else {
+    std::memcpy(key.data(), &reinterpret_cast<const sockaddr_in&>(address.storage).sin_addr, 4);
+  }
+  return key;
 }
 
 struct Client {
-  sockaddr_in address;
+  UdpAddress address;
   Socket upstream;
   ImpairedDirection up, down;
   Time last_heard;  // [us] by clock_now(), from the client
@@ -93,7 +123,7 @@ struct Client {
 };
 
 struct Packet {
-  std::uint64_t client;  // key
+  Key client;
   Direction direction;
   std::vector<std::uint8_t> bytes;
 };
@@ -105,40 +135,41 @@ struct UdpRelay::State {
   RelayStatistics statistics;
   Socket listener;
   std::uint16_t port = 0;
-  sockaddr_in target = {};
+  UdpAddress target;
   Time started = clock_now();
-  std::map<std::uint64_t, Client> clients;  // by key
+  std::map<Key, Client> clients;
   std::map<std::pair<Time, std::uint64_t>, Packet> queue;
   std::uint64_t queued = 0;  // orders what is due at one time
   std::vector<pollfd> polled;
-  std::vector<std::uint64_t> polled_clients;  // of polled[i + 1]
+  std::vector<Key> polled_clients;  // of polled[i + 1]
   std::uint8_t buffer[kLargestPacket + 1];
 
   RelayTraffic& traffic(Direction direction) { return direction == Direction::up ? statistics.up : statistics.down; }
   Result<void> bind();
-  Client* client_at(const sockaddr_in& address, Time now);
+  Client* client_at(const UdpAddress& address, Time now);
   bool make_room(Time now);
   void take_from_clients();
-  void take_from_target(std::uint64_t key);
-  void accept(std::uint64_t key, Client& client, Direction direction, std::size_t bytes, Time now);
+  void take_from_target(const Key& key);
+  void accept(const Key& key, Client& client, Direction direction, std::size_t bytes, Time now);
   void send_due(Time now);
   void send(const Packet& packet);
 };
 
 Result<void> UdpRelay::State::bind() {
-  const std::optional<sockaddr_in> to = look_up(settings.target_address, settings.target_port);
+  const std::optional<UdpAddress> to = look_up(settings.target_address, settings.target_port);
   if (!to || settings.target_port == 0) return failure("no such target", settings.target_address);
   target = *to;
-  std::optional<sockaddr_in> at = look_up(settings.listen_address, settings.listen_port);
+  std::optional<UdpAddress> at = look_up(settings.listen_address, settings.listen_port);
   if (!at) return failure("no such address to listen at", settings.listen_address);
-  listener = open_socket();
-  socklen_t size = sizeof *at;
-  const int descriptor = listener.descriptor();
-  if (descriptor < 0 || ::bind(descriptor, generic(*at), size) != 0 ||
-      ::getsockname(descriptor, generic(*at), &size) != 0) {
+  listener = open_socket(at->family());
+  const int descriptor = listener.descriptor(), no = 0;
+  // "::" is every address of both kinds, also where the system would take it for IPv6 alone.
+  if (at->family() == AF_INET6) ::setsockopt(descriptor, IPPROTO_IPV6, IPV6_V6ONLY, &no, sizeof no);
+  if (descriptor < 0 || ::bind(descriptor, at->generic(), at->size) != 0 ||
+      ::getsockname(descriptor, at->generic(), &at->size) != 0) {
     return failure("the port is taken, or the address is not of this machine", settings.listen_address);
   }
-  port = ntohs(at->sin_port);
+  port = ntohs(at->port());
   return {};
 }
 
@@ -153,14 +184,14 @@ bool UdpRelay::State::make_room(Time now) {
   return true;
 }
 
-Client* UdpRelay::State::client_at(const sockaddr_in& address, Time now) {
-  const std::uint64_t key = key_of(address);
+Client* UdpRelay::State::client_at(const UdpAddress& address, Time now) {
+  const Key key = key_of(address);
   const auto found = clients.find(key);
   if (found != clients.end()) return &found->second;
   if (!make_room(now)) return nullptr;
-  Socket upstream = open_socket();
+  Socket upstream = open_socket(target.family());
   // Connected, so that only the target can answer.
-  if (upstream.descriptor() < 0 || ::connect(upstream.descriptor(), generic(target), sizeof target) != 0) {
+  if (upstream.descriptor() < 0 || ::connect(upstream.descriptor(), target.generic(), target.size) != 0) {
     return nullptr;
   }
   const std::uint64_t stream = 2 * statistics.clients++;
@@ -174,9 +205,8 @@ Client* UdpRelay::State::client_at(const sockaddr_in& address, Time now) {
 
 void UdpRelay::State::take_from_clients() {
   for (int i = 0; i < kPacketsATurn; ++i) {
-    sockaddr_in from = {};
-    socklen_t size = sizeof from;
-    const ssize_t got = ::recvfrom(listener.descriptor(), buffer, sizeof buffer, 0, generic(from), &size);
+    UdpAddress from;
+    const ssize_t got = ::recvfrom(listener.descriptor(), buffer, sizeof buffer, 0, from.generic(), &from.size);
     if (got < 0) return;
     const Time now = clock_now();
     Client* client = client_at(from, now);
@@ -189,7 +219,7 @@ void UdpRelay::State::take_from_clients() {
   }
 }
 
-void UdpRelay::State::take_from_target(std::uint64_t key) {
+void UdpRelay::State::take_from_target(const Key& key) {
   const auto client = clients.find(key);
   if (client == clients.end()) return;
   for (int i = 0; i < kPacketsATurn; ++i) {
@@ -200,7 +230,7 @@ void UdpRelay::State::take_from_target(std::uint64_t key) {
 }
 
 /// The packet in the buffer.
-void UdpRelay::State::accept(std::uint64_t key, Client& client, Direction direction, std::size_t bytes, Time now) {
+void UdpRelay::State::accept(const Key& key, Client& client, Direction direction, std::size_t bytes, Time now) {
   RelayTraffic& counts = traffic(direction);
   ++counts.received;
   counts.received_bytes += bytes;
@@ -231,8 +261,8 @@ void UdpRelay::State::send(const Packet& packet) {
   if (client != clients.end() && packet.direction == Direction::up) {
     sent = ::send(client->second.upstream.descriptor(), packet.bytes.data(), packet.bytes.size(), 0);
   } else if (client != clients.end()) {
-    const sockaddr_in& to = client->second.address;
-    sent = ::sendto(listener.descriptor(), packet.bytes.data(), packet.bytes.size(), 0, generic(to), sizeof to);
+    const UdpAddress& to = client->second.address;
+    sent = ::sendto(listener.descriptor(), packet.bytes.data(), packet.bytes.size(), 0, to.generic(), to.size);
   }
   if (sent < 0) {
     ++counts.unsent;

@@ -15,8 +15,8 @@
 namespace isostep::transport {
 
 struct RelaySettings {
-  std::string listen_address = "127.0.0.1";
-  std::uint16_t listen_port = 0;  // 0: the system chooses
+  std::string listen_address = "127.0.0.1";  // "::" is every address of IPv6 and IPv4
+  std::uint16_t listen_port = 0;             // 0: the system chooses
   std::string target_address = "127.0.0.1";
   std::uint16_t target_port = 0;
   NetworkProfile profile = {};  // up: from the clients to the target
@@ -42,7 +42,8 @@ struct RelayStatistics {
 
 /// Each client address has a socket of its own towards the target, so that the target sees as many peers, and a
 /// schedule of its own: stream 2 n up and 2 n + 1 down for the n-th client. Packets leave up to 1 ms late, for poll()
-/// waits in milliseconds. IPv4, POSIX sockets.
+/// waits in milliseconds. IPv4 and IPv6 on either side, so that ENet, which knows IPv4 alone, reaches IPv6 and is
+/// reached from there. POSIX sockets.
 class UdpRelay {
  public:
   static constexpr std::size_t kLargestPacket = 4096;  // [bytes]

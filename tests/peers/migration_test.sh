@@ -12,24 +12,29 @@ match="$endless --migration 2 --players $players --scalar float $*"
 last=$((players - 1))
 # Word splitting is wanted: no argument holds a space.
 start_host 0 $match --bot 1
-pid_0=$host
+pid_0=$host pids=$host
+trap 'kill -KILL $pids 2>/dev/null; rm -rf "$dir"' EXIT # where the test fails, nobody else ends them
 for p in $(seq 1 $last); do
   "$tool" peer --connect "127.0.0.1:$port" $match --bot $((p + 1)) --hashes "$dir/$p.txt" --record "$dir/$p.replay" \
     >"$dir/$p.out" 2>"$dir/$p.err" &
   eval "pid_$p=\$!"
+  pids="$pids $!"
 done
 
-# kill_host DEAD MACHINES TIMES LIVING...: once all know who is there. Until all have found another, and a frame is final
-# there in which the dead one is away. Sets `next` to the peer that is the host.
+# kill_host DEAD MACHINES TIMES LIVING...: once all know who is there, and play. Until all have found another, and play on.
+# Sets `next` to the peer that is the host.
 kill_host() {
   dead=$1 machines=$2 times=$3
   shift 3
-  for p in "$@"; do await "another host: $machines\$" "$p"; done
+  for p in "$@"; do
+    await "another host: $machines\$" "$p"
+    await "is final" "$p"
+  done
   eval "kill -KILL \$pid_$dead; host=\$pid_$1"
   next=
   for p in "$@"; do
     await "new host: player" "$p" "$times"
-    await "left: player" "$p" "$times"
+    await "first one with the new host" "$p" "$times"
     if grep -q "^isostep peer host: .*new host" "$dir/$p.err"; then next=$p; fi
   done
   [ -n "$next" ] || fail "nobody says that it is the host"

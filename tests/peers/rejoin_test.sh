@@ -6,7 +6,7 @@ set -u
 tool=$1
 . "$(dirname "$0")/common.sh"
 
-match="$endless --scalar float"
+match="$endless --scalar float --replayed 0" # who comes late is sent a snapshot
 # Word splitting is wanted.
 start_host host $match --reservation 0 --bot 1 --hashes "$dir/host.txt" --record "$dir/host.replay"
 # join NAME WORDS...: sets `joined` to its process.
@@ -30,6 +30,7 @@ second=$joined
 await "joined: player 1" host 2
 await "joined: player 1" second
 await "is final" second
+grep -q "goes on from a snapshot" "$dir/second.err" || fail "the second player tells of no snapshot"
 interrupt "the second player" "$second"
 interrupt "the spectator" "$watcher"
 interrupt "the host" "$host"

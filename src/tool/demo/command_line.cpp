@@ -35,7 +35,8 @@ class DemoCommands {
         line_.add("peer", "one machine of a match over UDP, played by a bot", [this] { return command_peer(peer_); });
     command->add_option("--listen", peer_.listen, "on this UDP port (0: any): the host, with --migration all")
         ->check(CLI::Range(0, 65535));
-    command->add_option("--connect", peer_.connect, "HOST:PORT of the host");
+    command->add_option("--connect", peer_.connect,
+                        "HOST:PORT of the host; [ADDRESS]:PORT of IPv6, by a relay of its own");
     CommandLine::add_path(command, "--port-file", peer_.port_file, "write the port of who listens here");
     CLI::Option* migration =
         command
@@ -91,7 +92,10 @@ class DemoCommands {
     command->add_option("--listen", relay_.listen, "UDP port (0: any)")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    command->add_option("--target", relay_.target, "HOST:PORT to which packets go on")->required();
+    command->add_option("--bind", relay_.bind, "address to listen at; \"::\" is every one of IPv6 and IPv4")
+        ->check(CommandLine::refuse_blank, "")
+        ->capture_default_str();
+    command->add_option("--target", relay_.target, "HOST:PORT or [IPV6]:PORT to which packets go on")->required();
     command->add_option("--profile", relay_.profile, "a name, or items like latency=100,jitter=30,loss=5")
         ->capture_default_str();
     command->add_option("--seed", relay_.seed, "of everything that goes wrong")->capture_default_str();

@@ -89,11 +89,11 @@ int play(const PeerOptions& options, const Address& own_address, transport::Enet
   return peer.finish(end - start);
 }
 
-/// The line to the host: its own address, or that of a relay in front of it.
+/// The line to the host: its own address, or that of a relay in front of it, which is also the way to IPv6.
 UdpAddress open_line(const PeerOptions& options, std::optional<OwnRelay>& relay) {
   const UdpAddress address = parse_address(options.connect);
-  if (options.profile.empty()) return address;
-  relay.emplace(address, options.profile, options.bot);
+  if (options.profile.empty() && !address.is_ipv6()) return address;
+  relay.emplace(address, options.profile.empty() ? "loopback" : options.profile, options.bot);
   return relay->address();
 }
 

@@ -11,15 +11,16 @@ namespace isostep::tool {
 int command_relay(const RelayOptions& options) {
   const UdpAddress target = parse_address(options.target);
   transport::UdpRelay relay =
-      expect(transport::UdpRelay::open({.listen_port = static_cast<std::uint16_t>(options.listen),
+      expect(transport::UdpRelay::open({.listen_address = options.bind,
+                                        .listen_port = static_cast<std::uint16_t>(options.listen),
                                         .target_address = target.host,
                                         .target_port = target.port,
                                         .profile = profile_of(options.profile),
                                         .seed = options.seed}),
              "relay");
   write_port(options.port_file, relay.port());
-  std::fprintf(stderr, "isostep relay: 127.0.0.1:%u to %s, %s; Ctrl-C ends it\n", static_cast<unsigned>(relay.port()),
-               options.target.c_str(), options.profile.c_str());
+  std::fprintf(stderr, "isostep relay: %s, port %u, to %s, %s; Ctrl-C ends it\n", options.bind.c_str(),
+               static_cast<unsigned>(relay.port()), options.target.c_str(), options.profile.c_str());
   while (!interrupted()) {
     if (const Result<void> turn = relay.turn(50000); !turn) {
       throw ToolError(exit_status::kSoftware, std::string(turn.error().message.view()));

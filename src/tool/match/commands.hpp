@@ -36,6 +36,7 @@ int command_peer(const PeerOptions& options);
 
 struct RelayOptions {
   int listen = 0;
+  std::string bind = "127.0.0.1";
   std::string target;  // HOST:PORT
   std::string profile = "mobile";
   std::uint64_t seed = 1;

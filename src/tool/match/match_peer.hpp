@@ -34,8 +34,8 @@ template <class S> class MatchPeer {
  public:
   using Game = scenes::Match<S>;
 
-  /// `own_address`: where the others reach the transport. `inputs`: frame by frame, instead of the bot's; empty: the bot
-  /// plays.
+  /// `own_address`: where the others reach the transport. `inputs`: frame by frame, instead of the bot's; empty: the
+  /// bot plays.
   MatchPeer(const PeerOptions& options, const Address& own_address, std::vector<scenes::MatchInput> inputs,
             transport::EnetTransport& transport)
       : options_(options),
@@ -99,6 +99,7 @@ template <class S> class MatchPeer {
     if (recorder_) recorder_->restarted(frame);
     first_ = frame;
     hashes_.clear();
+    say("goes on from a snapshot, before frame " + std::to_string(frame));
   }
   void confirmed(Frame frame, std::uint64_t hash) {
     if (frame >= options_.frames) return;  // alike on all peers: the match ends here
@@ -107,6 +108,8 @@ template <class S> class MatchPeer {
     if (recorder_) recorder_->confirmed(frame, hash);
     hashes_.push_back(hash);
     if (hashes_.size() == 1) say("frame " + std::to_string(frame) + " is final, the first one here");
+    if (has_new_host_) say("frame " + std::to_string(frame) + " is final, the first one with the new host");
+    has_new_host_ = false;
   }
 
   /// Files are written if a frame is final; an exit status.
@@ -144,6 +147,7 @@ template <class S> class MatchPeer {
   Frame first_ = 0;  // of hashes_
   bool desynced_ = false, gave_up_ = false, has_met_ = false;
   bool must_reconnect_ = false;
+  bool has_new_host_ = false;      // of which no frame is final yet
   std::uint32_t told_tenths_ = 0;  // of a snapshot
   int told_machines_ = 0;
   Time reconnect_at_ = 0, alone_since_ = 0, done_at_ = 0;

@@ -141,6 +141,7 @@ template <class S> void MatchPeer<S>::report(const SessionEvent& event) {
     line += ": player " + std::to_string(event.player) + " from frame " + std::to_string(event.frame);
   }
   must_reconnect_ = must_reconnect_ || event.kind == SessionEvent::Kind::lost_host;
+  has_new_host_ = has_new_host_ || event.kind == SessionEvent::Kind::new_host;
   say(line);
   if (event.kind == SessionEvent::Kind::desync) write_desync_bundle(event);
 }

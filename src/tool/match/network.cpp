@@ -21,7 +21,9 @@ UdpAddress parse_address(const std::string& text) {
   if (colon == 0 || number < 1 || number > 65535) {
     throw ToolError(exit_status::kUsage, "\"" + text + "\" is no HOST:PORT");
   }
-  return {text.substr(0, colon), static_cast<std::uint16_t>(number)};
+  std::string host = text.substr(0, colon);
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  return {host, static_cast<std::uint16_t>(number)};
 }
 
 transport::NetworkProfile profile_of(const std::string& text) {

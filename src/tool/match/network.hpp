@@ -19,8 +19,9 @@ Time steady_now();
 struct UdpAddress {
   std::string host;
   std::uint16_t port;
+  bool is_ipv6() const { return host.find(':') != std::string::npos; }
 };
-/// Of "HOST:PORT". Throws ToolError 64.
+/// Of "HOST:PORT", of IPv6 "[ADDRESS]:PORT". Throws ToolError 64.
 UdpAddress parse_address(const std::string& text);
 /// A profile's name or items. Throws ToolError 64.
 transport::NetworkProfile profile_of(const std::string& text);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "transport/enet_transport.hpp"
@@ -103,6 +104,28 @@ TEST(SealedTransport, NobodyWithoutTheKeyIsHeardOf) {
     for (const int count : pair.host.counts) EXPECT_EQ(count, 0);
     EXPECT_EQ(pair.host.sealed.statistics().handshakes + pair.client.sealed.statistics().handshakes, 1u);
   }
+}
+
+TEST(SealedTransport, TheKeyThatAPeerHasShownSaysWhoItIs) {
+  SealSettings all = settings_of(1, 1);
+  all.keys.push_back({.id = 2, .secret = {}});
+  all.keys[1].secret.fill(2);
+  SimulatedNetwork network;
+  Side host(network, SimulatedNetwork::kHost, all);
+  std::vector<std::unique_ptr<Side>> clients;
+  for (const std::uint64_t id : {2u, 1u}) {
+    const EndpointId endpoint = network.add_client({});
+    clients.push_back(std::make_unique<Side>(network, endpoint, all));
+    clients.back()->sealed.set_own_key(id);
+    network.connect(endpoint);
+    for (int i = 0; i < 3; ++i) {
+      host.turn(0);
+      clients.back()->turn(0);
+    }
+  }
+  EXPECT_EQ(host.sealed.key_of(0), 2u);
+  EXPECT_EQ(host.sealed.key_of(1), 1u);
+  EXPECT_EQ(host.sealed.key_of(2), std::nullopt);
 }
 
 TEST(SealedTransport, StrangersWhoSaySomethingElseOrNothingAreDisconnected) {

@@ -95,6 +95,28 @@ TEST(EnetTransport, CarriesABlobThroughALossyRelay) {
   EXPECT_GT(pair.relay.statistics().down.lost + pair.relay.statistics().up.lost, 0u);
 }
 
+TEST(EnetTransport, GoesOverIPv6ByARelayAtEachEnd) {
+  EnetTransport host = listen_here();
+  Result<UdpRelay> out = UdpRelay::open({.listen_address = "::1", .target_port = host.port()});
+  if (!out) GTEST_SKIP() << "no IPv6";
+  Result<UdpRelay> in = UdpRelay::open({.target_address = "::1", .target_port = out.value().port()});
+  ASSERT_TRUE(in.ok());
+  EnetTransport client = connect_to(in.value().port());
+  Bench bench{{&host, &client}, &in.value()};
+  const auto both = [&](std::size_t endpoint, ArrivalKind kind, std::size_t times) {
+    return bench.turn_until([&] {
+      EXPECT_TRUE(out.value().turn(0).ok());
+      return bench.count(endpoint, kind) >= times;
+    });
+  };
+  ASSERT_TRUE(both(0, ArrivalKind::connected, 1) && both(1, ArrivalKind::connected, 1));
+  for (EnetTransport* endpoint : {&host, &client}) {
+    EXPECT_TRUE(endpoint->send(0, Channel::datagram, Bytevec(kMostDatagram, 1)).ok());
+    EXPECT_TRUE(endpoint->send(0, Channel::reliable, Bytevec(kMostReliable, 2)).ok());
+  }
+  EXPECT_TRUE(both(0, ArrivalKind::message, 2) && both(1, ArrivalKind::message, 2));
+}
+
 TEST(EnetTransport, DropsNoDatagramOnPurposeWhenRoundTripsGrow) {
   RelayedPair pair("latency=1");
   // Acknowledgements that come later and later are what makes ENet's throttle close.

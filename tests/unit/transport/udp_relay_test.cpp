@@ -63,6 +63,60 @@ TEST(UdpRelay, ForwardsToTheTargetAndBackAndKeepsClientsApart) {
   EXPECT_EQ(relay.statistics().down.received_bytes, 2u);
 }
 
+/// The system may be without IPv6, and then nothing of it can be tried.
+std::optional<UdpRelay> open_ipv6(const char* address, std::uint16_t target) {
+  Result<UdpRelay> relay = UdpRelay::open({.listen_address = address, .target_port = target});
+  if (!relay) return std::nullopt;
+  return std::move(relay.value());
+}
+UdpRelay open_to_ipv6(std::uint16_t port) {
+  Result<UdpRelay> relay = UdpRelay::open({.target_address = "::1", .target_port = port});
+  EXPECT_TRUE(relay.ok());
+  return std::move(relay.value());
+}
+
+TEST(UdpRelay, IsTheWayIntoIPv6AndOutOfIt) {
+  for (const char* address : {"::1", "::"}) {
+    const UdpSocket target, first, second;
+    std::optional<UdpRelay> out = open_ipv6(address, target.port());
+    if (!out) GTEST_SKIP() << "no IPv6";
+    UdpRelay in = open_to_ipv6(out->port());
+    const auto receive_by_both = [&](const UdpSocket& socket) -> std::optional<UdpSocket::Got> {
+      for (const Deadline deadline; !deadline.over();) {
+        if (auto got = socket.receive()) return got;
+        EXPECT_TRUE(in.turn(0).ok() && out->turn(1000).ok());
+      }
+      return std::nullopt;
+    };
+    first.send(in.port(), {1});
+    const auto from_first = receive_by_both(target);
+    second.send(in.port(), {2, 3});
+    const auto from_second = receive_by_both(target);
+    ASSERT_TRUE(from_first && from_second);
+    EXPECT_EQ(from_first->bytes, Bytevec{1});
+    EXPECT_EQ(from_second->bytes, (Bytevec{2, 3}));
+    EXPECT_NE(from_first->from, from_second->from) << "two ports of one IPv6 address are two clients";
+    target.send(from_first->from, {4});
+    target.send(from_second->from, {5});
+    const auto to_first = receive_by_both(first), to_second = receive_by_both(second);
+    ASSERT_TRUE(to_first && to_second);
+    EXPECT_EQ(to_first->bytes, Bytevec{4});
+    EXPECT_EQ(to_second->bytes, Bytevec{5});
+    EXPECT_EQ(out->statistics().clients, 2u);
+  }
+}
+
+TEST(UdpRelay, OnEveryAddressHearsIPv4AsWell) {
+  const UdpSocket target, client;
+  std::optional<UdpRelay> relay = open_ipv6("::", target.port());
+  if (!relay) GTEST_SKIP() << "no IPv6";
+  client.send(relay->port(), {1});
+  const auto got = receive(*relay, target);
+  ASSERT_TRUE(got.has_value());
+  target.send(got->from, {2});
+  EXPECT_TRUE(receive(*relay, client).has_value());
+}
+
 TEST(UdpRelay, LosesAndDoublesExactlyThePacketsOfItsSeed) {
   const UdpSocket target, client;
   const char* text = "loss=20,duplication=10,burst=1,burst-length=4";
