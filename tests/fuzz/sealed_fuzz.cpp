@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude -Isrc
-//         tests/fuzz/sealed_fuzz.cpp src/sealed/*.cpp src/isostep/state/{archive,fields}.cpp
+//         tests/fuzz/sealed_fuzz.cpp src/sealed/*.cpp
 //         src/transport/{simulated_network,impaired_direction,network_profile}.cpp build/release/libisostep.a
 //         scalar/src/*.cpp -lsodium -o sealed_fuzz
 
