@@ -25,7 +25,10 @@ enum class MessageKind : std::uint8_t {
   known,
   support,
   redirect,
-  ask
+  ask,
+  propose,
+  vote,
+  ballot
 };
 
 /// What a player asks the host for: a pause or its end, or else a speed.

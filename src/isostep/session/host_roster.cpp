@@ -103,6 +103,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   }
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
   for (View& view : views_) view = View{};
+  end_ballot();
   started_ = true;
   began_ = turn_at_ = backed_at_ = now;
   clock_.forget_lean();

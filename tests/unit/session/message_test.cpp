@@ -225,7 +225,7 @@ TEST(Message, ARefusalIsTextForPeopleAndNothingElse) {
 TEST(Message, UnknownKindsAndSizesAreNoMessages) {
   EXPECT_FALSE(message_kind({}).ok());
   for (unsigned kind = 0; kind < 256; ++kind) {
-    EXPECT_EQ(message_kind(Buffer{static_cast<std::uint8_t>(kind)}).ok(), kind >= 1 && kind <= 14) << kind;
+    EXPECT_EQ(message_kind(Buffer{static_cast<std::uint8_t>(kind)}).ok(), kind >= 1 && kind <= 17) << kind;
   }
   Buffer bytes(kReliableCap, 1);
   EXPECT_TRUE(message_kind(bytes).ok());
