@@ -46,6 +46,11 @@ void parse(Bytes bytes) {
   if (const Result<SavedMatch> saved = read_saved_match(bytes)) {
     require(saved.value().players >= 1 && saved.value().players <= kMaxPlayers && saved.value().start.frame >= 0);
   }
+  if (const Result<Ballot> ballot = read_ballot(bytes)) {
+    require(ballot.value().number != 0 && (ballot.value().yes & ballot.value().no) == 0);
+  }
+  if (const Result<PlayersProposal> proposal = read_proposal(bytes)) require(proposal.value().player < kMaxPlayers);
+  if (const Result<Votes> votes = read_votes(bytes)) require((votes.value().yes & votes.value().no) == 0);
   if (const Result<Ask> ask = read_ask(bytes)) require(ask.value().speed == 0 || !ask.value().is_paused);
   if (const Result<Welcome> welcome = read_welcome(bytes)) require(welcome.value().players <= kMaxPlayers);
   (void)read_refusal(bytes).ok();

@@ -115,7 +115,8 @@ TEST_P(Couch, ComesBackToAllOfItsSeats) {
       const Machine<Toy>& machine = match.machine(i);
       match.expect_all_play(machine);
       // Who was sent a snapshot does not hear of what was before.
-      for (const int p : {2, 3}) EXPECT_EQ(machine.count(Kind::left, p), machine.restarts > 0 ? 0 : 1) << p << " at " << i;
+      const int told = machine.restarts > 0 ? 0 : 1;
+      for (const int p : {2, 3}) EXPECT_EQ(machine.count(Kind::left, p), told) << p << " at " << i;
       EXPECT_EQ(machine.last(Kind::joined, 2).frame, machine.last(Kind::joined, 3).frame);
       SCOPED_TRACE(i);
       EXPECT_EQ(differences(machine, match.host(), match.straight(match.host().end())), 0u);

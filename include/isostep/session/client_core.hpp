@@ -30,6 +30,8 @@ class ClientCore : public PeerCore {
   bool set_speed(int speed) override {
     return Tempo::is_speed(speed) && ask({false, static_cast<std::uint8_t>(speed)});
   }
+  bool propose(int player, const Proposal& proposal) override;
+  bool vote(int player, bool yes) override;
   std::uint64_t token() const override { return token_; }
   SnapshotProgress snapshot_progress(PeerId) const override {
     if (!is_restoring_ && repair_.stage != Repair::Stage::receives) return {};
@@ -148,6 +150,9 @@ class ClientCore : public PeerCore {
   bool asked_ready_ = false;
   bool must_ask_ = false;
   Ask ask_;
+  bool must_propose_ = false;
+  PlayersProposal proposal_;
+  Votes votes_;            // that the host has not been told
   int player_ = -1;        // the first of ours
   std::uint32_t own_ = 0;  // ours, a bit each: they come and go together
   bool is_open_ = false;

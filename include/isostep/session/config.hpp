@@ -72,8 +72,9 @@ struct SessionConfig {
   bool repair = false;
   Time reservation = 60 * kSecond;  // [us] host: a seat that was played on is kept so long for its player's token
   bool asks_admission = false;      // host: its game decides whom it lets in, see Session::poll_applicant
-  /// Host: goes on with this match, see Session::save_match. Frames are played when all of its seats have players again,
-  /// those of before, or after Session::start.
+  bool votes = false;               // host: who plays may propose a vote, see Session::propose
+  /// Host: goes on with this match, see Session::save_match. Frames are played when all of its seats have their players
+  /// again, or after Session::start.
   std::vector<std::uint8_t> saved_match;
   bool players_set_tempo =
       false;  // host: who plays may pause and set the speed; else the host's game is asked, by events

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "isostep/session/applicant.hpp"
+#include "isostep/session/ballot.hpp"
 #include "isostep/session/bounded_queue.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/message.hpp"
@@ -60,6 +61,9 @@ struct SessionEvent {
     asks_pause,     // host: player asks for it, and players_set_tempo is false: pause() or not
     asks_unpause,   // likewise
     asks_speed,     // likewise: `speed`
+    vote,           // ballot: as it stands now, when it is opened, and when somebody has voted
+    vote_passed,    // ballot
+    vote_failed,    // ballot: also when the host that counted is gone
     slowed_by,      // all step as slowly as player's machine can: told when that begins, and when it is another's
     full_speed,     // no longer
     refused,        // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
@@ -80,6 +84,7 @@ struct SessionEvent {
   Frame frame = kNoFrame;
   Frame agreed = kNoFrame;
   std::uint32_t players = 0;
+  Ballot ballot{};
   std::uint8_t speed = 0;              // [1/8 of the match's rate]
   std::uint64_t ours = 0, theirs = 0;  // hash chains; outvoted: player's and the majority's
   Refusal field{};
@@ -158,6 +163,8 @@ class SessionCore {
   /// See Session.
   virtual bool pause(bool) { return false; }
   virtual bool set_speed(int) { return false; }
+  virtual bool propose(int, const Proposal&) { return false; }
+  virtual bool vote(int, bool) { return false; }
 
   // Host: see Session.
   virtual std::optional<Applicant> poll_applicant() { return std::nullopt; }

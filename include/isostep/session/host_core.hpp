@@ -34,6 +34,8 @@ class HostCore : public PeerCore {
   SnapshotProgress snapshot_progress(PeerId peer) const override;
   bool pause(bool on) override;
   bool set_speed(int speed) override;
+  bool propose(int player, const Proposal& proposal) override;
+  bool vote(int player, bool yes) override;
   std::optional<Applicant> poll_applicant() override;
   bool admit(std::uint64_t applicant) override;
   bool refuse(std::uint64_t applicant, std::string_view reason) override;
@@ -85,6 +87,7 @@ class HostCore : public PeerCore {
     std::vector<std::uint8_t> credential;
     Address address;
     bool must_enroll = false;
+    bool must_tell_ballot = false;
     std::uint32_t enrolled = 0;  // the roster that it has
     std::uint32_t players = 0;   // its seats, a bit each: they are taken, open and close together
     int player = -1;             // the first of them; -1: a spectator
@@ -123,6 +126,14 @@ class HostCore : public PeerCore {
   // --- a match that was saved, in host_resume.cpp ---
   bool is_resumed() const { return resumed_.frame != kNoFrame; }
   bool all_are_here() const;
+  // --- votes, in host_votes.cpp ---
+  std::uint32_t present_players() const;
+  bool open_ballot(int player, const Proposal& proposal);
+  bool count_votes(const Votes& votes, std::uint32_t of);
+  void ballot_changed();
+  void tend_ballot(Time now);
+  void carry_out(const Proposal& proposal);
+  void take_vote(Guest& guest, MessageKind kind, Bytes message);
   // --- pauses and speeds, in host_tempo.cpp ---
   bool wish_tempo(const Tempo& tempo);
   Tempo latest_wish() const { return has_wish_ ? wished_ : announced(); }
@@ -285,7 +296,12 @@ class HostCore : public PeerCore {
   std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
   Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;
-  HashReport resumed_;  // where the saved match goes on; kNoFrame: it is none
+  bool is_ballot_told_ = true;
+  Time ballot_told_at_ = 0;                // [us]
+  std::uint32_t ballots_ = 0;              // how many there were
+  Time ballot_until_ = 0;                  // [us]
+  Time may_propose_at_[kMaxPlayers] = {};  // [us]
+  HashReport resumed_;                     // where the saved match goes on; kNoFrame: it is none
   std::uint64_t resumed_hash_ = 0;
   std::uint32_t sequels_ = 0;
   Tempo wished_;

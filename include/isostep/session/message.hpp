@@ -31,7 +31,10 @@ enum class MessageKind : std::uint8_t {
   resync,
   offer,
   repaired,
-  ask
+  ask,
+  propose,
+  vote,
+  ballot
 };
 
 /// What a player asks the host for: a pause or its end, or else a speed.

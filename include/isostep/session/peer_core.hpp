@@ -75,6 +75,11 @@ class PeerCore : public SessionCore {
   int slowest() const { return slowest_; }
   /// The match stands, for these players (a bit each) or for the host's machine: tells the caller when that changes.
   void stands_for(std::uint32_t players);
+  /// How the vote stands.
+  void tell_ballot();
+  /// Nobody counts it any more.
+  void end_ballot();
+  Ballot ballot_;
   /// A client: what the host's datagram says; later ones and those of a host that is new to us count.
   void hear_tempo(const Tempo& tempo);
   void forget_announced() { knows_tempo_ = false; }

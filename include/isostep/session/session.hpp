@@ -103,9 +103,15 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// client in the match asks it, see SessionConfig::players_set_tempo. False: not possible now.
   bool pause() { return core_->pause(true); }
   bool unpause() { return core_->pause(false); }
-  /// [1/8 of the match's rate] 4 to 16, likewise; in a pause for afterwards. False also where the host's most_packets is
-  /// below twice the rate.
+  /// [1/8 of the match's rate] 4 to 16, likewise; in a pause for afterwards. False also where the host's most_packets
+  /// is below twice the rate.
   bool set_speed(int eighths) { return core_->set_speed(eighths); }
+
+  /// `player`, one of ours, asks all who play, see SessionConfig::votes; one vote at a time. What passes is done.
+  /// False: not now, or not sound. A client's that the host does not take is counted there.
+  bool propose(int player, const Proposal& proposal) { return core_->propose(player, proposal); }
+  /// In the vote of the last event `vote`; the last word counts. False: there is none, or the player is not ours.
+  bool vote(int player, bool yes) { return core_->vote(player, yes); }
 
   /// Host with SessionConfig::asks_admission: who waits for an answer, each once. One that comes after `silence` is too
   /// late. False: it has gone, or is refused all the same, for there is no seat.

@@ -166,6 +166,23 @@ void ClientCore::before_steps(Time now) {
   }
 }
 
+bool ClientCore::propose(int player, const Proposal& proposal) {
+  if (player < 0 || player >= players() || !is_local(player) || !host_.is_connected) return false;
+  if (!proposal.is_sound() || ballot_.is_open()) return false;
+  must_propose_ = true;
+  proposal_ = {static_cast<std::uint8_t>(player), proposal};
+  return true;
+}
+
+bool ClientCore::vote(int player, bool yes) {
+  if (player < 0 || player >= players() || !is_local(player) || !host_.is_connected || !ballot_.is_open()) return false;
+  const std::uint32_t own = 1u << player;
+  if (votes_.number != ballot_.number) votes_ = {ballot_.number, 0, 0};
+  votes_.yes = yes ? votes_.yes | own : votes_.yes & ~own;
+  votes_.no = yes ? votes_.no & ~own : votes_.no | own;
+  return true;
+}
+
 bool ClientCore::ask(const Ask& ask) {
   if (!is_open_ || !host_.is_connected) return false;
   must_ask_ = true;
@@ -249,6 +266,16 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     next_progress_ = now + clock_.period();
     told_ = static_cast<std::uint32_t>(portable_.size());
     write_progress(told_, message_);
+    return message();
+  }
+  if (must_propose_ && is_greeted_) {
+    must_propose_ = false;
+    write_proposal(proposal_, message_);
+    return message();
+  }
+  if ((votes_.yes | votes_.no) != 0 && is_greeted_) {
+    write_votes(votes_, message_);
+    votes_ = Votes{};
     return message();
   }
   if (must_ask_ && is_greeted_) {

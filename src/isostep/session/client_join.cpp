@@ -36,7 +36,9 @@ void ClientCore::connected(PeerId host, Time now) {
   host_.peer = host;
   host_.connect(now);
   must_greet_ = true;
-  must_ask_ = false;
+  must_ask_ = must_propose_ = false;
+  votes_ = Votes{};
+  end_ballot();
   forget_announced();
   is_greeted_ = must_ready_ = asked_ready_ = false;
   repair_ = Repair{};
@@ -129,6 +131,13 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       } else {
         open(first.value());
       }
+    }
+  }
+  if (kind == MessageKind::ballot && is_greeted_) {
+    if (const Result<Ballot> ballot = read_ballot(bytes)) {
+      good = true;
+      ballot_ = ballot.value();
+      tell_ballot();
     }
   }
   if (!good) good = take_failover(kind, bytes, now) || take_repair(kind, bytes);

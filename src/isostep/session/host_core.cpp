@@ -85,6 +85,8 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
     if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
     else ++stats_.refused;
+  } else if ((kind == MessageKind::propose || kind == MessageKind::vote) && guest.stage == Guest::Stage::live) {
+    take_vote(guest, kind, bytes);
   } else if (kind == MessageKind::ask && guest.stage == Guest::Stage::live) {
     take_ask(guest, bytes);
   } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
@@ -193,6 +195,7 @@ void HostCore::tend_guests(Time now) {
     }
     tend_repair(guest, now);
   }
+  tend_ballot(now);
   keep_roster();
   count_backers(now);
   tend_inquiry(now);

@@ -110,6 +110,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   }
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
+  end_ballot();
   started_ = true;
   began_ = turn_at_ = backed_at_ = now;
   clock_.forget_lean();

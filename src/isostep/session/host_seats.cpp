@@ -101,6 +101,7 @@ void HostCore::go_live(Guest& guest, Frame start) {
   guest.acked_at = guest.more_at = 0;
   guest.has_spoken = guest.has_more = false;
   guest.must_enroll = roster_.version > 0;
+  guest.must_tell_ballot = ballot_.is_open();
 }
 
 void HostCore::open_seats(Guest& guest, Time now) {

@@ -258,7 +258,7 @@ Result<Ask> read_ask(Bytes message) {
 }
 
 Result<MessageKind> message_kind(Bytes message) {
-  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::ask);
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::ballot);
   if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }

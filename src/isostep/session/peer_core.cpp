@@ -208,6 +208,24 @@ void PeerCore::tell_who_plays(Frame frame) {
   }
 }
 
+void PeerCore::tell_ballot() {
+  using Kind = SessionEvent::Kind;
+  const bool is_open = ballot_.outcome == Ballot::Outcome::open;
+  const bool has_passed = ballot_.outcome == Ballot::Outcome::passed;
+  SessionEvent event{.kind = is_open ? Kind::vote : has_passed ? Kind::vote_passed : Kind::vote_failed};
+  event.player = ballot_.by;
+  event.frame = current();
+  event.ballot = ballot_;
+  tell(event);
+}
+
+void PeerCore::end_ballot() {
+  const bool was_open = ballot_.is_open();
+  ballot_.outcome = Ballot::Outcome::failed;
+  if (was_open) tell_ballot();
+  ballot_ = Ballot{};
+}
+
 bool PeerCore::accept_datagram(PeerLink& link, Bytes bytes, Time now, Packet& packet) {
   ++stats_.datagrams_in;
   stats_.bytes_in += bytes.size();

@@ -40,6 +40,9 @@ inline const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::asks_pause: return "asks for a pause";
     case SessionEvent::Kind::asks_unpause: return "asks to go on";
     case SessionEvent::Kind::asks_speed: return "asks for a speed";
+    case SessionEvent::Kind::vote: return "vote";
+    case SessionEvent::Kind::vote_passed: return "vote passed";
+    case SessionEvent::Kind::vote_failed: return "vote failed";
     case SessionEvent::Kind::slowed_by: return "slowed by";
     case SessionEvent::Kind::full_speed: return "full speed";
     case SessionEvent::Kind::refused: return "refused";
