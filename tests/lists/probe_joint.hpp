@@ -13,6 +13,7 @@ template <class S> struct ProbeJoint {
   static constexpr const char* kFlagNames = "of a probe kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::length;
   static constexpr bool kTwoPoints = false;
+  static constexpr bool kTwistAndSwing = false;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
   static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }

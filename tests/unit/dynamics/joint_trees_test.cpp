@@ -252,5 +252,46 @@ TYPED_TEST(JointTreesTest, TreesOfOneShapeShareBatchesAndTheRestIsOne) {
   EXPECT_EQ(world.trees.batch_count(), 0u);
 }
 
+/// [rad] How far `axis` of a body turns in a step that begins with its joint free of its limit and the body flying past
+/// the joint: in the first sub-step it turns by 0.65 rad, unless the limit stops it. Axes of cones begin 0.25 rad
+/// apart: aligned ones have no row.
+template <class S> double turned_in_a_step(Simd simd, JointType type, std::uint32_t flags, D3 velocity, int axis) {
+  JointWorld<S> world;
+  world.kernels = tree_kernels<S>(simd);
+  world.gravity = {0, 0, 0};
+  for (int i = 0; i < 3; ++i) {  // side by side; the last flies
+    const D3 at = {0, 4.0 * i, 0};
+    const std::uint32_t body = world.add_box(at + D3{0.5, 0, 0}, 1, {0.1, 0.1, 0.1});
+    if (i == 2) world.states[body].velocity = JointWorld<S>::velocity(velocity);
+    JointProperties<S>& p = world.join(type, kNoBody, body, at);
+    p.flags = flags;
+    p.lower = S(-0.5);
+    p.upper = S(0.5);
+    p.cone = S(0.5);
+    if (flags == joint_flag::kCone) p.frame_b.orientation = rotation<S>({Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(-0.25));
+  }
+  const D3 before = world.axis(2, axis);
+  world.step();
+  const D3 now = world.axis(2, axis);
+  EXPECT_LT(norm(world.axis(1, axis) - before), 1e-3) << "neighbours stay";
+  return std::acos(before.x * now.x + before.y * now.y + before.z * now.z);
+}
+
+/// What is out of reach as a sub-step begins, and by no more than its speeds then tell, is judged by those that it ends
+/// with.
+TYPED_TEST(JointTreesTest, LimitsStopWhatIsTurnedTowardsThemWithinASubstep) {
+  using S = TypeParam;
+  for (const Simd simd : {Simd::scalar, Simd::best}) {
+    const auto turned = [simd](JointType type, std::uint32_t flags, D3 velocity, int axis) {
+      return turned_in_a_step<S>(simd, type, flags, velocity, axis);
+    };
+    EXPECT_NEAR(turned(JointType::hinge, joint_flag::kLimit, {0, 80, 0}, 0), 0.5, 0.02);
+    EXPECT_NEAR(turned(JointType::hinge, joint_flag::kLimit, {0, -80, 0}, 0), 0.5, 0.02);
+    EXPECT_NEAR(turned(JointType::ball, joint_flag::kLimit, {0, 80, 0}, 0), 0.5, 0.02);
+    EXPECT_NEAR(turned(JointType::ball, joint_flag::kCone, {0, 0, 80}, 2), 0.25, 0.02);
+    EXPECT_GT(turned(JointType::ball, 0, {0, 80, 0}, 0), 1.5);
+  }
+}
+
 }  // namespace
 }  // namespace isostep

@@ -13,6 +13,7 @@ template <class S> struct BallJoint : detail::PointJoint<S> {
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kCone;
   static constexpr const char* kFlagNames = "of a ball joint kLimit, kCone, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
+  static constexpr bool kTwistAndSwing = true;
 
   static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t block) { return block == 1; }
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {

@@ -13,6 +13,7 @@ template <class S> struct DistanceJoint {
   static constexpr const char* kFlagNames = "of a distance joint kLimit, kSpring, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::length;
   static constexpr bool kTwoPoints = true;
+  static constexpr bool kTwistAndSwing = false;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>& p) {
     if (p.lower < S(0)) return {Fault::bad_argument, "", "lower", "a length of 0 or more"};

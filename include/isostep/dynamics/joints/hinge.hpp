@@ -14,6 +14,7 @@ template <class S> struct HingeJoint : detail::PointJoint<S> {
       joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kMotor | joint_flag::kSpring;
   static constexpr const char* kFlagNames = "of a hinge kLimit, kMotor, kSpring, kCollideConnected";
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
+  static constexpr bool kTwistAndSwing = true;
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     joint.block_count = 2;

@@ -29,13 +29,15 @@ template <class S> ISO_INLINE void add_row(JointImpulse<S>& sum, const JointRow<
   }
 }
 
-/// Adds those of a sub-step. Kernels leave joints that are a point and nothing else without rows: theirs are the axes.
+/// Adds those of a sub-step. Kernels leave points without rows: theirs are the axes.
 template <class S> ISO_INLINE void add_impulses(const JointConstraint<S>& joint, JointImpulse<S>& sum) {
-  if (holds_point(joint.properties) && joint.block_count == 1 && joint.drive_count == 0) {
-    for (int k = 0; k < 3; ++k) sum.linear[k] = saturating_add(sum.linear[k], convert<S>(joint.blocks[0].impulse[k]));
-    return;
+  const bool point = holds_point(joint.properties), alone = joint.block_count == 1 && joint.drive_count == 0;
+  for (int k = 0; k < 3 && point; ++k) {
+    const Velocity<S> by = joint.blocks[0].impulse[k];
+    const S along = alone ? convert<S>(by) : saturate_to<S>(product(S(1), by));
+    sum.linear[k] = saturating_add(sum.linear[k], along);
   }
-  for (std::uint32_t i = 0; i < joint.block_count; ++i) {
+  for (std::uint32_t i = point ? 1 : 0; i < joint.block_count; ++i) {
     for (int r = 0; r < 3; ++r) add_row(sum, joint.blocks[i].rows[r], joint.arm_b, joint.blocks[i].impulse[r]);
   }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i)

@@ -27,6 +27,7 @@ concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> so
   { Joint<S>::kFlagNames } -> std::convertible_to<const char*>;     // to whom sets another: "of a hinge kLimit, ..."
   { Joint<S>::kMeasure } -> std::convertible_to<JointMeasure>;      // of its position
   { Joint<S>::kTwoPoints } -> std::convertible_to<bool>;            // origins are apart from the start
+  { Joint<S>::kTwistAndSwing } -> std::convertible_to<bool>;        // lower..upper of the twist, cone of the swing
   { Joint<S>::is_point(p) } -> std::same_as<bool>;                  // origins coincide, and the first block is they
   { Joint<S>::is_free(p, 0u) } -> std::same_as<bool>;               // no equality is in that block
   { Joint<S>::fault(p) } -> std::same_as<FaultReport>;              // of finite numbers that every kind would take
@@ -62,6 +63,11 @@ ISO_INLINE constexpr JointMeasure measure_of(JointType type) {
 ISO_INLINE constexpr bool joins_two_points(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kTwoPoints; });
+}
+/// Whether limits of a joint's properties are those of the twist about z and of the swing of z, where origins coincide.
+template <class S> ISO_INLINE constexpr bool bounds_twist_and_swing(JointType type) {
+  return visit_joint_type(type,
+                          [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::kTwistAndSwing; });
 }
 template <class S> ISO_INLINE bool holds_point(const JointProperties<S>& p) {
   return visit_joint_type(p.type,

@@ -32,7 +32,8 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
 /// Drives:  rows of their joint's blocks. While one is off its piece of the law (joint_drive.hpp) the pass begins
 ///          again with a new factorisation, see kMostPieceChanges. A block of drives alone, none of which acts, asks
-///          for nothing and is left out.
+///          for nothing and is left out. Limits of an angle that no speed of a sub-step reaches (tree_stops.inl) cost
+///          it one look at the bodies' orientations.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
 /// Batches: trees are solved by TreeKernels, as many of one shape at once as they are wide. Joints solved one after
 ///          another, and trees that share a body with them, are one batch more. Batches write no body in common: each
@@ -83,13 +84,13 @@ template <class S> class JointTrees {
   /// Where a shape's lists begin.
   struct Shape {
     std::uint32_t first_joint, joint_count, first_node, node_count, first_link, link_count, first_drive, drive_count,
-        first_body, body_count, row_blocks;
+        first_body, body_count, row_blocks, stops;
     bool written;  // joints write rows: it has more than points
   };
   struct Batch {
     const TreeKernels<S>* kernels;
     std::uint32_t shape;
-    std::uint32_t first_joint, first_row, first_idle;  // in lane_joints_, lane_rows_ and idle_
+    std::uint32_t first_joint, first_row, first_idle, first_held;  // in lane_joints_, lane_rows_, lane_bits_ and held_
     std::uint32_t lanes;
     std::size_t offset;  // [bytes] in memory_
   };
@@ -106,13 +107,17 @@ template <class S> class JointTrees {
   void gather_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void add_to_tree(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j, Tree& tree);
   bool same_shape(const Tree& a, const Tree& b) const;
-  void make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
+  void make_batches(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
+  void prepare_batch(const Batch& batch, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies);
   void add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree);
   void add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape);
   void add_batch(std::span<const JointConstraint<S>> joints, std::span<const Tree> trees, const TreeKernels<S>& kernels,
                  std::size_t offset);
   TreeShape shape_of(const Shape& shape) const;
   TreeRun<S> run_of(const Batch& batch, SolverBodies<S>* bodies);
+
+  // joint_tree_stops.inl
+  void set_stops(const Batch& batch, std::span<JointConstraint<S>> joints);
 
   // joint_tree_drives.inl
   void write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
@@ -170,7 +175,8 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> shape_given_;
   std::vector<Batch> batches_, odd_batches_;
   std::vector<std::uint32_t> lane_joints_, lane_rows_;
-  std::vector<std::uint32_t> idle_;  // of each batch's nodes
+  std::vector<std::uint32_t> lane_bits_;  // of each batch: idle of its nodes, then clear of its joints
+  std::vector<HeldLanes> held_;           // of each batch's drives
   AlignedBytes memory_;
 };
 

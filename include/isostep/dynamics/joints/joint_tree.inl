@@ -14,6 +14,7 @@ namespace isostep {
 template <class S>
 void JointTrees<S>::warm_start(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step) {
   const TreeRun<S> run = run_of(batch, step.bodies);
+  batch.kernels->place(run, joints.data(), step);
   if (shapes_[batch.shape].written) write_rows(batch, run, joints, step);
   set_pieces(batch, run, joints, step);
   batch.kernels->warm_start(run, joints.data(), step);
@@ -25,17 +26,27 @@ void JointTrees<S>::solve(const Batch& batch, std::span<JointConstraint<S>> join
   if (relax) return batch.kernels->relax(run_of(batch, step.bodies), step);
   batch.kernels->solve(run_of(batch, step.bodies), step);
 }
+/// Where a drive stands that is a limit and nothing else.
+ISO_INLINE DrivePiece piece_of(const HeldLanes& held, std::uint32_t lane) {
+  if ((held.below >> lane & 1u) != 0) return DrivePiece::lower;
+  return (held.above >> lane & 1u) != 0 ? DrivePiece::upper : DrivePiece::free;
+}
 template <class S> void JointTrees<S>::store(const Batch& batch, std::span<JointConstraint<S>> joints) {
   const TreeRun<S> run = run_of(batch, nullptr);
   batch.kernels->store(run, joints.data());
-  each_drive(batch, run, [&](const TreeDrive& of, std::size_t, std::uint32_t lane, bool has_tree) {
-    if (!has_tree) return;
-    JointConstraint<S>& joint = joints[run.joints[of.joint * static_cast<std::uint32_t>(batch.kernels->width) + lane]];
-    JointDrive<S>& drive = joint.drives[of.index];
-    Velocity<S>& impulse = joint.blocks[drive.block].impulse[static_cast<int>(of.place)];
-    drive.impulse = impulse;
-    impulse = Velocity<S>(0);
-  });
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+    const TreeDrive& of = run.shape.drives[d];
+    for (std::uint32_t lane = 0; lane < width; ++lane) {
+      if ((run.lanes >> lane & 1u) == 0) continue;
+      JointConstraint<S>& joint = joints[run.joints[of.joint * width + lane]];
+      JointDrive<S>& drive = joint.drives[of.index];
+      if (of.stops) drive.piece = piece_of(run.held[d], lane);
+      Velocity<S>& impulse = joint.blocks[drive.block].impulse[static_cast<int>(of.place)];
+      drive.impulse = impulse;
+      impulse = Velocity<S>(0);
+    }
+  }
 }
 
 // ---- joints one after another

@@ -5,6 +5,7 @@
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/joints/joint_tree_plan.inl"
+#include "isostep/dynamics/joints/joint_tree_stops.inl"
 #include "isostep/dynamics/joints/tree_lanes.hpp"
 
 namespace isostep {
@@ -16,7 +17,8 @@ ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t wo
   return hash ^ (hash >> 29);
 }
 /// A joint's rows, as far as kernels must know them: whether its first block is a point, whether there is a second,
-/// which of both may idle, and in which row each drive stands.
+/// which of both may idle, in which row each drive stands, and whether all of them are stops.
+inline constexpr std::uint32_t kStopsInLayout = 1u << 31;
 template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   std::uint32_t layout = (holds_point(p) ? 1u : 0u) | (joint.block_count > 1 ? 2u : 0u) | (is_free(p, 0) ? 4u : 0u) |
@@ -24,7 +26,22 @@ template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& 
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     layout |= (3 * joint.drives[i].block + joint.drives[i].place) << (8 + 3 * i);
   }
+  if (has_stops(joint)) layout |= kStopsInLayout;
   return layout;
+}
+}  // namespace detail
+
+namespace detail {
+/// The narrowest kernels that take so many trees at once, for lanes without a tree cost as much as the others; `wide`
+/// if there are more trees than it has lanes.
+template <class S> ISO_INLINE const TreeKernels<S>& kernels_for(std::uint32_t trees, const TreeKernels<S>& wide) {
+  const TreeKernels<S>* chosen = &wide;
+  for (const Simd simd : {Simd::scalar, Simd::sse2, Simd::avx2, Simd::neon, Simd::wasm}) {
+    const TreeKernels<S>* const kernels = tree_kernels<S>(simd);
+    if (kernels == nullptr || static_cast<std::uint32_t>(kernels->width) < trees) continue;
+    if (kernels->width < chosen->width) chosen = kernels;
+  }
+  return *chosen;
 }
 }  // namespace detail
 
@@ -91,7 +108,7 @@ template <class S> bool JointTrees<S>::same_shape(const Tree& a, const Tree& b) 
 /// Trees of one shape side by side, those next to each other in which the same drives act: a node that idles in all of
 /// them costs nothing.
 template <class S>
-void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, SolverBodies<S>& bodies,
+void JointTrees<S>::make_batches(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies,
                                  const TreeKernels<S>& wide) {
   shapes_.clear();
   shape_joints_.clear();
@@ -102,7 +119,8 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, Sol
   shape_given_.clear();
   lane_joints_.clear();
   lane_rows_.clear();
-  idle_.clear();
+  lane_bits_.clear();
+  held_.clear();
   sorted_trees_.resize(trees_.size());
   const auto count = static_cast<std::uint32_t>(trees_.size());
   stable_sort(trees_.data(), sorted_trees_.data(), count, ActiveOfTree{});
@@ -114,7 +132,7 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, Sol
     add_shape(joints, trees_[first]);
     while (first < end) {
       const std::uint32_t left = end - first;
-      const TreeKernels<S>& kernels = left > 1 ? wide : *tree_kernels<S>(Simd::scalar);
+      const TreeKernels<S>& kernels = detail::kernels_for(left, wide);
       const std::uint32_t taken = min(left, static_cast<std::uint32_t>(kernels.width));
       add_batch(joints, std::span<const Tree>(trees_).subspan(first, taken), kernels, bytes);
       bytes += static_cast<std::size_t>(kernels.width) * tree_bytes<S>(shape_of(shapes_.back()));
@@ -123,8 +141,14 @@ void JointTrees<S>::make_batches(std::span<const JointConstraint<S>> joints, Sol
     }
   }
   memory_.resize(bytes);
-  for (const Batch& batch : batches_) batch.kernels->prepare(run_of(batch, &bodies), joints.data());
-  for (const Batch& batch : odd_batches_) batch.kernels->prepare(run_of(batch, &bodies), joints.data());
+  for (const Batch& batch : batches_) prepare_batch(batch, joints, bodies);
+  for (const Batch& batch : odd_batches_) prepare_batch(batch, joints, bodies);
+}
+
+template <class S>
+void JointTrees<S>::prepare_batch(const Batch& batch, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies) {
+  batch.kernels->prepare(run_of(batch, &bodies), joints.data());
+  if (shapes_[batch.shape].stops > 0) set_stops(batch, joints);
 }
 
 template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree) {
@@ -143,6 +167,7 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
                  size(shape_bodies_),
                  tree.body_count,
                  0,
+                 0,
                  false};
   shape_bodies_.resize(shape.first_body + tree.body_count);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -152,7 +177,9 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
     if (node.block != 0) continue;
     const Ends& ends = ends_[node.joint];
     const bool turns = joint.block_count > 1;
-    shape_joints_.push_back({ends.a, ends.b, i, ends.a_moves, ends.b_moves, ends.closes_loop, turns});
+    const bool has_stops = (ends.layout & detail::kStopsInLayout) != 0;
+    const std::uint32_t stops = has_stops ? shape.stops++ : TreeJoint::kNoStops;
+    shape_joints_.push_back({ends.a, ends.b, i, ends.a_moves, ends.b_moves, ends.closes_loop, turns, stops});
     shape_bodies_[shape.first_body + ends.a] = {shape.joint_count, true, ends.a_moves};
     shape_bodies_[shape.first_body + ends.b] = {shape.joint_count, false, ends.b_moves};
     ++shape.joint_count;
@@ -172,9 +199,10 @@ template <class S> void JointTrees<S>::add_shape_node(const JointConstraint<S>& 
   if (!is_point) ++shape.row_blocks;
   shape.written = shape.written || !is_point;
   const auto number = static_cast<std::uint32_t>(shape_nodes_.size()) - shape.first_node;
+  const bool has_stops = (ends.layout & detail::kStopsInLayout) != 0;
   for (std::uint32_t k = 0; k < joint.drive_count; ++k) {
     if (joint.drives[k].block != node.block) continue;
-    shape_drives_.push_back({shape.joint_count, number, joint.drives[k].place, k});
+    shape_drives_.push_back({shape.joint_count, number, joint.drives[k].place, k, has_stops});
     ++made.drive_count;
   }
   shape.drive_count += made.drive_count;
@@ -197,12 +225,14 @@ void JointTrees<S>::add_batch(std::span<const JointConstraint<S>> joints, std::s
                        size(shapes_) - 1,
                        size(lane_joints_),
                        size(lane_rows_),
-                       size(idle_),
+                       size(lane_bits_),
+                       size(held_),
                        0xffffffffu >> (32 - trees.size()),
                        offset};
   lane_joints_.resize(lane_joints_.size() + std::size_t{shape.joint_count} * width);
   lane_rows_.resize(lane_rows_.size() + std::size_t{shape.body_count} * width);
-  idle_.resize(idle_.size() + shape.node_count);
+  lane_bits_.resize(lane_bits_.size() + shape.node_count + shape.joint_count, 0);
+  held_.resize(held_.size() + shape.drive_count, {});
   for (std::uint32_t lane = 0; lane < width; ++lane) {
     const Tree& tree = trees[lane < trees.size() ? lane : 0];
     const std::uint32_t* given = &shape_given_[shape.first_joint];
@@ -222,13 +252,16 @@ template <class S> TreeShape JointTrees<S>::shape_of(const Shape& shape) const {
           {shape_drives_.data() + shape.first_drive, shape.drive_count},
           {shape_bodies_.data() + shape.first_body, shape.body_count},
           {shape_given_.data() + shape.first_joint, shape.joint_count},
-          shape.row_blocks};
+          shape.row_blocks,
+          shape.stops};
 }
 template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBodies<S>* bodies) {
   return {shape_of(shapes_[batch.shape]),
           lane_joints_.data() + batch.first_joint,
           lane_rows_.data() + batch.first_row,
-          idle_.data() + batch.first_idle,
+          lane_bits_.data() + batch.first_idle,
+          lane_bits_.data() + batch.first_idle + shapes_[batch.shape].node_count,
+          held_.data() + batch.first_held,
           batch.lanes,
           memory_.data() + batch.offset,
           bodies != nullptr ? bodies->velocity.data() : nullptr,

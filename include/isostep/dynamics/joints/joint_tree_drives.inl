@@ -8,17 +8,19 @@
 
 namespace isostep {
 
-/// act(drive of the shape, its number, lane, whether the lane has a tree of its own)
+/// act(drive of the shape, its number, lane, whether the lane has a tree of its own), but for joints with stops.
 template <class S>
 template <class Act>
 void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
-    for (std::uint32_t lane = 0; lane < width; ++lane) act(run.shape.drives[d], d, lane, (run.lanes >> lane & 1u) != 0);
+    const TreeDrive& drive = run.shape.drives[d];
+    if (drive.stops) continue;
+    for (std::uint32_t lane = 0; lane < width; ++lane) act(drive, d, lane, (run.lanes >> lane & 1u) != 0);
   }
 }
 
-/// Rows, errors and springs of the joints that are more than a point.
+/// Rows, errors and springs of the joints that are more than a point and have no stops.
 template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
@@ -26,7 +28,7 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
   const SolverBodies<S>& bodies = *step.bodies;
   for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
     const TreeJoint& of = run.shape.joints[j];
-    if (!of.turns && run.shape.nodes[of.node].is_point()) continue;
+    if (of.stops != TreeJoint::kNoStops || (!of.turns && run.shape.nodes[of.node].is_point())) continue;
     for (std::uint32_t lane = 0; lane < width; ++lane) {
       if ((run.lanes >> lane & 1u) == 0) continue;
       JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
@@ -44,7 +46,7 @@ void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::s
                                const JointStep<S>& step) {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
-  std::uint32_t* const idle = idle_.data() + batch.first_idle;
+  std::uint32_t* const idle = run.idle;
   for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) idle[n] = run.shape.nodes[n].may_idle ? 0xffffffffu : 0u;
   each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
     JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
@@ -120,7 +122,9 @@ void JointTrees<S>::solve_driven(const Batch& batch, std::span<JointConstraint<S
     else kernels.find_right_sides(run, step);
     ask_drives(batch, run, joints, step);
     kernels.substitute(run);
-    if (!judge_drives(batch, run, joints, step, changes < detail::kMostPieceChanges)) break;
+    const bool may_hold = changes < detail::kMostPieceChanges;
+    const bool of_stops = (relax ? kernels.judge_relaxed : kernels.judge)(run, step, may_hold);
+    if (!judge_drives(batch, run, joints, step, may_hold) && !of_stops) break;
     kernels.restore(run);
     each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool) {
       JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];

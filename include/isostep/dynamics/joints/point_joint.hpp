@@ -9,6 +9,7 @@ namespace isostep::detail {
 /// The base of such a kind, which has the other members of `JointOf` (joint_kinds.hpp).
 template <class S> struct PointJoint {
   static constexpr bool kTwoPoints = false;
+  static constexpr bool kTwistAndSwing = false;
 
   /// Any setting is valid that is valid for all kinds.
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }

@@ -57,6 +57,7 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> pull_of_rows(const JointConstrai
 /// The base of joints whose origins move against each other, as PointJoint is that of others.
 template <class S> struct SlidingJoint {
   static constexpr bool kTwoPoints = false;
+  static constexpr bool kTwistAndSwing = false;
 
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
   static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }

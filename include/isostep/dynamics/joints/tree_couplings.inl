@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/tree_gather.inl"
+#include "isostep/dynamics/joints/tree_stops.inl"
 
 namespace isostep {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 /// As joint_couplings.hpp, of lanes.
 /// Symbols: r = arm from a body's centre to the joint, kappa = mass times inverse inertia. An impulse p at r turns the
 ///          body by C p, row i of C = kappa_i x r; that moves the end of another arm q of the body by (C p) x q.
-template <class S, int W, class Isa> struct TreeCoupler : TreeGatherer<S, W, Isa> {
-  using Base = TreeGatherer<S, W, Isa>;
+template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa> {
+  using Base = TreeStopper<S, W, Isa>;
   using Base::load;
   using Base::number;
   using Base::store;

@@ -30,13 +30,17 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   /// Of where bodies are now and what their joints ask.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
-    place_bodies(run, m, joints, step.states);
     Base::gather_rows(run, m, joints);
     const bool rapid = follow_masses(run, m, step.rapid);
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) linearise(run.shape, j, m, step, rapid);
     stiffen(run.shape, m);
-    for (const TreeNode& node : run.shape.nodes) Base::set_turns(run.shape, node, m);
+    set_turns(run, m);
     factorise(run, m);
+  }
+  static ISO_INLINE void set_turns(const TreeRun<S>& run, Memory m) {
+    for (const TreeNode& node : run.shape.nodes) {
+      if (!Base::is_clear(run, node)) Base::set_turns(run.shape, node, m);
+    }
   }
   /// Of rows that turn bodies as before, with drives on the pieces where they are now.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m) {
@@ -61,15 +65,13 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   }
   /// Whether a node asks for nothing in any lane.
   static ISO_INLINE bool idles(const TreeRun<S>& run, std::size_t node) {
-    constexpr std::uint32_t kAll = 0xffffffffu >> (32 - W);
-    return run.shape.nodes[node].may_idle && (run.idle[node] & kAll) == kAll;
+    return run.shape.nodes[node].may_idle && (run.idle[node] & Base::kAll) == Base::kAll;
   }
   /// The lanes in which it does.
   static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) { return Mask::from_bits(run.idle[node]); }
 
   template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
 
- private:
   static ISO_INLINE void place_bodies(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                       const BodyState<S>* states) {
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
@@ -88,23 +90,14 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       load_transposed<4>(centre, c);
       load_transposed<4>(orientation, q);
       store({c[0], c[1], c[2]}, m.bodies[b].centre);
-      store(matrix_of(q), m.bodies[b].rotation);
+      store(Base::matrix_of({q[0], q[1], q[2], q[3]}), m.bodies[b].rotation);
       L::zero().store(m.bodies[b].pull);
+      if (run.shape.stops == 0) continue;
+      for (int i = 0; i < 4; ++i) q[i].store(m.bodies[b].orientation[i]);
     }
   }
-  /// to_matrix() of mat3.hpp.
-  static ISO_INLINE Mat3<U> matrix_of(const U (&q)[4]) {
-    const auto xx = product(q[0], q[0]), yy = product(q[1], q[1]), zz = product(q[2], q[2]);
-    const auto xy = product(q[0], q[1]), xz = product(q[0], q[2]), yz = product(q[1], q[2]);
-    const auto wx = product(q[3], q[0]), wy = product(q[3], q[1]), wz = product(q[3], q[2]);
-    const auto one = widen<decltype(product(U{}, U{}))>(U::broadcast(Unit<S>(1)));
-    const auto twice = [](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(sum + sum); };
-    const auto rest = [one](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(one - (sum + sum)); };
-    return {{{rest(yy + zz), twice(xy - wz), twice(xz + wy)},
-             {twice(xy + wz), rest(xx + zz), twice(yz - wx)},
-             {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
-  }
 
+ private:
   /// Masses of those that spin, as BodyRows left them. Returns whether any does.
   static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
     bool some = false;

@@ -24,6 +24,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
   using Rows = TreeRowLanes<S, W>;
   using Link = TreeLinkLanes<S, W>;
   using Drive = TreeDriveLanes<S, W>;
+  using Stops = TreeStopLanes<S, W>;
   using Memory = TreeMemory<S, W>;
 
   template <class Wide, class One> static constexpr bool kLanesAndNothingBetween = sizeof(Wide) == W * sizeof(One);
@@ -32,7 +33,8 @@ template <class S, int W, class Isa> struct TreeGatherer {
                 kLanesAndNothingBetween<Node, TreeNodeLanes<S, 1>> &&
                 kLanesAndNothingBetween<Rows, TreeRowLanes<S, 1>> &&
                 kLanesAndNothingBetween<Link, TreeLinkLanes<S, 1>> &&
-                kLanesAndNothingBetween<Drive, TreeDriveLanes<S, 1>>);
+                kLanesAndNothingBetween<Drive, TreeDriveLanes<S, 1>> &&
+                kLanesAndNothingBetween<Stops, TreeStopLanes<S, 1>>);
   static_assert(sizeof(SolverMass<S>) == 10 * sizeof(S) && sizeof(Pose<S>) == 7 * sizeof(S));
   static_assert(offsetof(BodyState<S>, orientation) == offsetof(BodyState<S>, centre) + 3 * sizeof(S));
 
@@ -147,6 +149,12 @@ template <class S, int W, class Isa> struct TreeGatherer {
       load_transposed<4>(impulse, p);
       store({p[1], p[2], p[3]}, m.nodes[n].impulse);
     }
+    if (run.shape.stops == 0) return;
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
+      if (!has_stops(run, run.shape.nodes[n])) continue;
+      clear_rows(m.rows[run.shape.nodes[n].rows]);
+      store({V::zero(), V::zero(), V::zero()}, m.nodes[n].error);
+    }
   }
   static void store_impulses(const TreeRun<S>& run, JointConstraint<S>* joints) {
     const Memory m = Memory::of(run.memory, run.shape);
@@ -155,8 +163,9 @@ template <class S, int W, class Isa> struct TreeGatherer {
       const auto& impulse = m.nodes[n].impulse;
       for (int i = 0; i < W; ++i) {
         if (((run.lanes >> i) & 1u) == 0) continue;
-        joints[lane_joint(run, node.joint, i)].blocks[node.of_angles ? 1 : 0].impulse = {impulse[0][i], impulse[1][i],
-                                                                                         impulse[2][i]};
+        JointConstraint<S>& joint = joints[lane_joint(run, node.joint, i)];
+        joint.blocks[node.of_angles ? 1 : 0].impulse = {impulse[0][i], impulse[1][i], impulse[2][i]};
+        if (has_stops(run, node)) store_rows(run, node, m.rows[node.rows], i, joint);
       }
     }
   }
@@ -167,7 +176,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
   static ISO_INLINE void gather_rows(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints) {
     for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
       const TreeNode& node = run.shape.nodes[n];
-      if (node.is_point()) continue;
+      if (node.is_point() || has_stops(run, node)) continue;
       Rows& rows = m.rows[node.rows];
       for (std::uint32_t r = 0; r < 3; ++r) gather_row(run, node, r, joints, rows);
       const Velocity<S>* errors[W];
@@ -181,7 +190,40 @@ template <class S, int W, class Isa> struct TreeGatherer {
     return run.joints[joint * W + static_cast<std::size_t>(lane)];
   }
 
+  /// The lanes of a run, one bit each, whether or not a tree is in them.
+  static constexpr std::uint32_t kAll = 0xffffffffu >> (32 - W);
+  static ISO_INLINE bool has_stops(const TreeRun<S>& run, const TreeNode& node) {
+    return node.of_angles && run.shape.joints[node.joint].stops != TreeJoint::kNoStops;
+  }
+  /// Whether a node consists of limits that are reached in no lane.
+  static ISO_INLINE bool is_clear(const TreeRun<S>& run, const TreeNode& node) {
+    return node.may_idle && run.clear[node.joint] == kAll;
+  }
+
  private:
+  /// For what joints do to their bodies in sum: joint_impulse.hpp.
+  static ISO_INLINE void store_rows(const TreeRun<S>& run, const TreeNode& node, const Rows& rows, int lane,
+                                    JointConstraint<S>& joint) {
+    const auto row = [&](int r) ISO_INLINE_LAMBDA {
+      return Vec3<S>{rows.angular_b[3 * r][lane], rows.angular_b[3 * r + 1][lane], rows.angular_b[3 * r + 2][lane]};
+    };
+    for (int r = 0; r < 3; ++r) joint.blocks[1].rows[r].angular_b = row(r);
+    for (std::uint32_t d = node.first_drive; d < node.first_drive + node.drive_count; ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      joint.drives[drive.index].row.angular_b = row(static_cast<int>(drive.place));
+    }
+  }
+  /// For joints that are clear from the start of the step: what is not written yet is finite.
+  static ISO_INLINE void clear_rows(Rows& rows) {
+    const L zero = L::zero();
+    for (int i = 0; i < 9; ++i) {
+      zero.store(rows.linear[i]);
+      zero.store(rows.angular_a[i]);
+      zero.store(rows.angular_b[i]);
+      zero.store(rows.turn_a[i]);
+      zero.store(rows.turn_b[i]);
+    }
+  }
   static ISO_INLINE const JointBlock<S>& block_of(const TreeRun<S>& run, const TreeNode& node,
                                                   const JointConstraint<S>* joints, int lane) {
     return joints[lane_joint(run, node.joint, lane)].blocks[node.of_angles ? 1 : 0];

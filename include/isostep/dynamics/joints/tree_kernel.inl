@@ -5,22 +5,22 @@
 #pragma once
 
 #include "isostep/dynamics/joints/tree_factor.inl"
-#include "isostep/dynamics/joints/tree_push.inl"
+#include "isostep/dynamics/joints/tree_laws.inl"
 
 namespace isostep {
 namespace {
 
 /// All trees of a run have one shape, so that what differs between lanes are numbers; lanes never meet.
-template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
-  using Base = TreePusher<S, W, Isa>;
+template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
+  using Base = TreeLaws<S, W, Isa>;
   using Base::bounded;
+  using Base::choose;
   using Base::idle_lanes;
   using Base::idles;
   using Base::load;
   using Base::number;
   using Base::store;
   using Base::times;
-  using typename Base::Drive;
   using typename Base::Joint;
   using typename Base::L;
   using typename Base::Mask;
@@ -28,22 +28,28 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
   using typename Base::Node;
   using typename Base::V;
 
-  static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
+  static void place(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::gather_velocities(run, m);
+    Base::place_bodies(run, m, joints, step.states);
+    if (run.shape.stops > 0) Base::place_stops(run, m, step.h);
+  }
+  static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    Base::set_pieces(run, m);
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& drive = run.shape.drives[d];
       V::load(m.drives[d].impulse).store(m.nodes[drive.node].impulse[drive.place]);
     }
     Base::factorise(run, m, joints, step);
-    for (const std::uint32_t j : run.shape.given) Base::push_all(run.shape, j, m);
+    for (const std::uint32_t j : run.shape.given) Base::push_all(run, j, m);
     Base::scatter_velocities(run, m);
   }
 
   template <bool Relax> static void solve(const TreeRun<S>& run, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::gather_velocities(run, m);
-    find_right_sides<Relax>(run.shape, m, step);
+    find_right_sides<Relax>(run, m, step);
     substitute(run, m);
     Base::scatter_velocities(run, m);
   }
@@ -61,7 +67,9 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
   }
   template <bool Relax> static void find_right_sides_of(const TreeRun<S>& run, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
-    find_right_sides<Relax>(run.shape, m, step);
+    find_right_sides<Relax>(run, m, step);
+    Base::template bound_drives<Relax>(run, m, step);
+    Base::ask_drives(run, m);
   }
   static void substitute_all(const TreeRun<S>& run) {
     const Memory m = Memory::of(run.memory, run.shape);
@@ -70,8 +78,18 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
       V::load(m.drives[d].right).store(m.nodes[drive.node].right[drive.place]);
     }
     substitute(run, m);
-    for (std::size_t d = 0; d < run.shape.drives.size(); ++d)
-      tell_drive(run.shape, run.shape.drives[d], m, m.drives[d]);
+    tell_drives(run, m);
+  }
+  /// A joint that turns out not to be clear is judged from then on.
+  template <bool Relax> static bool judge(const TreeRun<S>& run, const JointStep<S>& step, bool may_hold) {
+    if (run.shape.stops == 0) return false;
+    const Memory m = Memory::of(run.memory, run.shape);
+    if (Base::find_reached(run, m, step.h)) {
+      Base::set_turns(run, m);
+      tell_drives(run, m);
+      Base::template bound_drives<Relax>(run, m, step);
+    }
+    return Base::judge_drives(run, m, may_hold);
   }
   static void restore(const TreeRun<S>& run) {
     const Memory m = Memory::of(run.memory, run.shape);
@@ -87,6 +105,8 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
   }
   static void resume(const TreeRun<S>& run) {
     const Memory m = Memory::of(run.memory, run.shape);
+    Base::change_pieces(run);
+    Base::set_pieces(run, m);
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& drive = run.shape.drives[d];
       auto& field = m.nodes[drive.node].impulse[drive.place];
@@ -110,16 +130,15 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
             with_headroom(right.y - round_with_headroom<V>(dot_sum(a.rows[1], v))),
             with_headroom(right.z - round_with_headroom<V>(dot_sum(a.rows[2], v)))};
   }
-  static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
-    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-  }
 
   // ---- right-hand sides
 
   template <bool Relax>
-  static ISO_INLINE void find_right_sides(const TreeShape& shape, Memory m, const JointStep<S>& step) {
-    for (std::size_t n = 0; n < shape.nodes.size(); ++n) find_right_side<Relax>(shape, n, m, step);
-    for (std::size_t d = 0; d < shape.drives.size(); ++d) tell_drive(shape, shape.drives[d], m, m.drives[d]);
+  static ISO_INLINE void find_right_sides(const TreeRun<S>& run, Memory m, const JointStep<S>& step) {
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
+      if (!idles(run, n)) find_right_side<Relax>(run.shape, n, m, step);
+    }
+    tell_drives(run, m);
   }
   /// Of K lambda = -(speed + bias), for velocities as they are before anything of this pass is applied.
   template <bool Relax>
@@ -135,9 +154,13 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
     }
     store(right, node.right);
   }
-  static ISO_INLINE void tell_drive(const TreeShape& shape, const TreeDrive& drive, Memory m, Drive& told) {
-    Base::speed_along(shape, drive, m).store(told.speed);
-    V::load(m.nodes[drive.node].impulse[drive.place]).store(told.impulse);
+  static ISO_INLINE void tell_drives(const TreeRun<S>& run, Memory m) {
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      if (run.clear[drive.joint] == Base::kAll) continue;
+      Base::speed_along(run.shape, drive, m).store(m.drives[d].speed);
+      V::load(m.nodes[drive.node].impulse[drive.place]).store(m.drives[d].impulse);
+    }
   }
 
   // ---- substitution
@@ -148,7 +171,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreePusher<S, W, Isa> {
     for (std::size_t n = count; n-- > 0;) {
       substitute_down(run, n, m);
       const TreeNode& node = run.shape.nodes[n];
-      if (node.of_angles || !run.shape.joints[node.joint].turns) Base::push_changes(run.shape, node.joint, m);
+      if (node.of_angles || !run.shape.joints[node.joint].turns) Base::push_changes(run, node.joint, m);
     }
   }
   static ISO_INLINE void substitute_up(const TreeRun<S>& run, std::size_t n, Memory m) {
@@ -188,6 +211,7 @@ template <class S, int W, class Isa> constexpr TreeKernels<S> make_tree_kernels(
           W,
           &Kernel::prepare,
           &Kernel::store_impulses,
+          &Kernel::place,
           &Kernel::warm_start,
           &Kernel::template solve<false>,
           &Kernel::template solve<true>,
@@ -195,6 +219,8 @@ template <class S, int W, class Isa> constexpr TreeKernels<S> make_tree_kernels(
           &Kernel::template find_right_sides_of<false>,
           &Kernel::template find_right_sides_of<true>,
           &Kernel::substitute_all,
+          &Kernel::template judge<false>,
+          &Kernel::template judge<true>,
           &Kernel::restore,
           &Kernel::resume,
           &Kernel::end};

@@ -12,12 +12,21 @@
 
 namespace isostep {
 
+/// The lanes in which a limit holds a drive, one bit each, and those in which it is to hold it next.
+struct HeldLanes {
+  std::uint32_t below, above, next_below, next_above;
+
+  ISO_INLINE std::uint32_t now() const { return below | above; }
+};
+
 /// Up to W trees of one shape. Lanes without a tree repeat the first one and write nothing.
 template <class S> struct TreeRun {
   TreeShape shape;
   const std::uint32_t* joints;       // in the step's constraints: W for every joint of the shape
   const std::uint32_t* rows;         // of SolverBodies: W for every body of the shape
-  const std::uint32_t* idle;         // for every node: the lanes in which it asks for nothing, one bit each
+  std::uint32_t* idle;               // for every node: the lanes in which it asks for nothing, one bit each
+  std::uint32_t* clear;              // for every joint: the lanes in which no limit is reached in this sub-step
+  HeldLanes* held;                   // for every drive of joints with stops
   std::uint32_t lanes;               // which of the W have a tree, one bit each
   unsigned char* memory;             // TreeMemory<S, W>
   MotionRow<Velocity<S>>* velocity;  // of SolverBodies
@@ -32,7 +41,9 @@ template <class S> struct TreeKernels {
   /// Once a step: from the constraints, and back.
   void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints);
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
-  /// Once a sub-step each, as JointTrees has them. Reads the constraints' rows, but of points.
+  /// Once a sub-step, first: where bodies are and how they move, and joints with stops as they are now.
+  void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
+  /// Once a sub-step each, as JointTrees has them. Reads the constraints' rows, but of points and of joints with stops.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
@@ -43,6 +54,9 @@ template <class S> struct TreeKernels {
   void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   /// From the drives' right-hand sides to their new speeds and impulses.
   void (*substitute)(const TreeRun<S>&);
+  /// Whether a drive of joints with stops is off its piece of the law, as JointTrees::judge_drives().
+  bool (*judge)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
+  bool (*judge_relaxed)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
   /// All as the pass began. Then, from the drives' impulses, scales and give of their next pieces, a new factorisation.
   void (*restore)(const TreeRun<S>&);
   void (*resume)(const TreeRun<S>&);

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "isostep/dynamics/joints/tree_shape.hpp"
+#include "isostep/math/quat.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -14,6 +15,7 @@ template <class S, int W> struct TreeBodyLanes {
   Velocity<S> linear[3][W], angular[3][W];              // [m/s], [rad/s] for the length of a pass
   Velocity<S> start_linear[3][W], start_angular[3][W];  // when the pass began, of trees with drives
   S centre[3][W];                                       // [m] now
+  Unit<S> orientation[4][W];                            // now, of trees with stops
   Unit<S> rotation[9][W];                               // body to world, now
   S kappa[6][W];                                        // [1/m^2] now
   S felt[6][W];                                         // [1/m^2] as the joints see it, tension in it
@@ -56,7 +58,24 @@ template <class S, int W> struct TreeDriveLanes {
   Velocity<S> high[W];     // [m/s]
   Unit<S> scale[W];        // [1] of the row: 1 a fixed speed, less a spring, 0 a constant impulse
   S give[W];               // [1] added to the row's entry of K: springs yield
+  S above_lower[W];        // [m] how far from its limits one of a joint with stops is
+  S below_upper[W];        // [m]
 };
+
+/// A joint whose rows are those of a twist and a swing, bounded or held, and nothing else: tree_stops.inl.
+template <class S, int W> struct TreeStopLanes {
+  Unit<S> frame_a[4][W], frame_b[4][W];  // rotations of the frames in their bodies
+  Unit<S> middle[2][W];                  // cosine and sine of half the angle in the middle of the twist's range
+  S twist[W], twist_slope[W];            // [1] cosine of a quarter of that range; no limit: below any. [rad] per cosine
+  S swing[W], swing_slope[W];            // [1] cosine of the cone; no limit: below any. [rad] per cosine
+  S lower[W], upper[W], cone[W];         // [rad]
+  S radius[W];                           // [m] of equalities
+  S twist_radius[W], swing_radius[W];    // [m] of drives
+  Velocity<S> reach[W];                  // [rad] a quarter of what it may turn by without reaching a limit
+};
+
+/// [1] below any cosine.
+template <class S> inline constexpr S kNoCosine = S(-2);
 
 template <class S, int W> struct TreeMemory {
   TreeBodyLanes<S, W>* bodies;
@@ -65,6 +84,7 @@ template <class S, int W> struct TreeMemory {
   TreeRowLanes<S, W>* rows;
   TreeLinkLanes<S, W>* links;
   TreeDriveLanes<S, W>* drives;
+  TreeStopLanes<S, W>* stops;
 
   static ISO_INLINE TreeMemory of(void* memory, const TreeShape& shape) {
     TreeMemory m;
@@ -74,6 +94,7 @@ template <class S, int W> struct TreeMemory {
     m.rows = reinterpret_cast<TreeRowLanes<S, W>*>(m.nodes + shape.nodes.size());
     m.links = reinterpret_cast<TreeLinkLanes<S, W>*>(m.rows + shape.row_blocks);
     m.drives = reinterpret_cast<TreeDriveLanes<S, W>*>(m.links + shape.links.size());
+    m.stops = reinterpret_cast<TreeStopLanes<S, W>*>(m.drives + shape.drives.size());
     return m;
   }
 };
@@ -83,8 +104,11 @@ template <class S> ISO_INLINE std::size_t tree_bytes_before_drives(const TreeSha
          shape.nodes.size() * sizeof(TreeNodeLanes<S, 1>) + shape.row_blocks * sizeof(TreeRowLanes<S, 1>) +
          shape.links.size() * sizeof(TreeLinkLanes<S, 1>);
 }
-template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
+template <class S> ISO_INLINE std::size_t tree_bytes_before_stops(const TreeShape& shape) {
   return tree_bytes_before_drives<S>(shape) + shape.drives.size() * sizeof(TreeDriveLanes<S, 1>);
+}
+template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
+  return tree_bytes_before_stops<S>(shape) + shape.stops * sizeof(TreeStopLanes<S, 1>);
 }
 
 /// The drives of W trees, whatever W is: for code that is compiled for no instruction set of its own.
@@ -103,11 +127,44 @@ template <class S> class TreeDriveView {
   ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return at<S>(drive, 6, lane); }
 
  private:
-  static constexpr std::size_t kWords = 7;
+  static constexpr std::size_t kWords = 9;
   static_assert(sizeof(Velocity<S>) == sizeof(S) && sizeof(Unit<S>) == sizeof(S));
   static_assert(sizeof(TreeDriveLanes<S, 1>) == kWords * sizeof(S));
   template <class T> ISO_INLINE T& at(std::size_t drive, std::size_t word, std::size_t lane) const {
     return *reinterpret_cast<T*>(first_ + ((drive * kWords + word) * width_ + lane) * sizeof(S));
+  }
+  unsigned char* first_;
+  std::size_t width_;
+};
+
+/// As TreeStopLanes.
+template <class S> struct TreeStopLimits {
+  SinCos<Unit<S>> middle;
+  S twist, twist_slope, swing, swing_slope, lower, upper, cone, radius, twist_radius, swing_radius;
+};
+/// Likewise its stops.
+template <class S> class TreeStopView {
+ public:
+  ISO_INLINE TreeStopView(unsigned char* memory, const TreeShape& shape, std::size_t width)
+      : first_(memory + tree_bytes_before_stops<S>(shape) * width), width_(width) {}
+
+  ISO_INLINE void set_frames(std::size_t stop, std::size_t lane, Quat<Unit<S>> a, Quat<Unit<S>> b) const {
+    const Unit<S> words[8] = {a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w};
+    for (std::size_t i = 0; i < 8; ++i) at<Unit<S>>(stop, i, lane) = words[i];
+  }
+  ISO_INLINE void set_limits(std::size_t stop, std::size_t lane, const TreeStopLimits<S>& limits) const {
+    at<Unit<S>>(stop, 8, lane) = limits.middle.cos;
+    at<Unit<S>>(stop, 9, lane) = limits.middle.sin;
+    const S words[10] = {limits.twist, limits.twist_slope, limits.swing,  limits.swing_slope,  limits.lower,
+                         limits.upper, limits.cone,        limits.radius, limits.twist_radius, limits.swing_radius};
+    for (std::size_t i = 0; i < 10; ++i) at<S>(stop, 10 + i, lane) = words[i];
+  }
+
+ private:
+  static constexpr std::size_t kWords = 21;
+  static_assert(sizeof(TreeStopLanes<S, 1>) == kWords * sizeof(S));
+  template <class T> ISO_INLINE T& at(std::size_t stop, std::size_t word, std::size_t lane) const {
+    return *reinterpret_cast<T*>(first_ + ((stop * kWords + word) * width_ + lane) * sizeof(S));
   }
   unsigned char* first_;
   std::size_t width_;

@@ -30,6 +30,9 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
     return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
   }
+  static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+  }
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
@@ -54,18 +57,21 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   // ---- impulses
 
   /// All impulses of a joint.
-  static ISO_INLINE void push_all(const TreeShape& shape, std::uint32_t j, Memory m) {
-    const TreeJoint& of = shape.joints[j];
+  static ISO_INLINE void push_all(const TreeRun<S>& run, std::uint32_t j, Memory m) {
+    const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-    push(shape, of, m, m.joints[j], load(m.nodes[of.node].impulse),
-         of.turns ? load(m.nodes[of.node - 1].impulse) : none);
+    if (!of.turns) return push(run.shape, of, m, load(m.nodes[of.node].impulse), none, 0);
+    const std::uint32_t clear = run.shape.nodes[of.node - 1].may_idle ? run.clear[j] : 0;
+    push(run.shape, of, m, load(m.nodes[of.node].impulse), load(m.nodes[of.node - 1].impulse), clear);
   }
   /// Adds a joint's solutions to its impulses, and to the bodies what they grew by.
-  static ISO_INLINE void push_changes(const TreeShape& shape, std::uint32_t j, Memory m) {
-    const TreeJoint& of = shape.joints[j];
+  static ISO_INLINE void push_changes(const TreeRun<S>& run, std::uint32_t j, Memory m) {
+    const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-    const Vec3<V> place = add_solution(shape, of.node, m);
-    push(shape, of, m, m.joints[j], place, of.turns ? add_solution(shape, of.node - 1, m) : none);
+    const Vec3<V> place = add_solution(run, of.node, m);
+    if (!of.turns) return push(run.shape, of, m, place, none, 0);
+    const std::uint32_t idle = run.shape.nodes[of.node - 1].may_idle ? run.idle[of.node - 1] & Base::kAll : 0;
+    push(run.shape, of, m, place, add_solution(run, of.node - 1, m), idle);
   }
   /// A change of one drive's impulse; bodies of lanes in which there is none stay as they are, signs of zeros too.
   static ISO_INLINE void push_row(const TreeShape& shape, const TreeDrive& drive, Memory m, V change) {
@@ -115,30 +121,35 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   }
 
   /// What a node's impulses grow by; a drive's solution counts as its row does.
-  static ISO_INLINE Vec3<V> add_solution(const TreeShape& shape, std::uint32_t n, Memory m) {
-    const TreeNode& of = shape.nodes[n];
+  static ISO_INLINE Vec3<V> add_solution(const TreeRun<S>& run, std::uint32_t n, Memory m) {
+    const TreeNode& of = run.shape.nodes[n];
     Node& node = m.nodes[n];
+    const V none = V::zero();
+    if (Base::idles(run, n)) return {none, none, none};
     Vec3<V> solution = load(node.right);
     for (std::uint32_t d = of.first_drive; d < of.first_drive + of.drive_count; ++d) {
-      V& of_drive = solution[static_cast<int>(shape.drives[d].place)];
+      V& of_drive = solution[static_cast<int>(run.shape.drives[d].place)];
       of_drive = round_to<V>(product(U::load(m.drives[d].scale), of_drive));
     }
     const Vec3<V> old = load(node.impulse);
-    const Vec3<V> impulse = bounded(old + solution, most_joint_impulse<S>());
+    Vec3<V> impulse = bounded(old + solution, most_joint_impulse<S>());
+    if (of.may_idle) impulse = choose(Base::idle_lanes(run, n), old, impulse);
     store(impulse, node.impulse);
     return impulse - old;
   }
 
-  static ISO_INLINE void push(const TreeShape& shape, const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> place,
-                              Vec3<V> angle) {
+  /// `still`: lanes in which the angles push nothing, not even a zero, which has a sign.
+  static ISO_INLINE void push(const TreeShape& shape, const TreeJoint& of, Memory m, Vec3<V> place, Vec3<V> angle,
+                              std::uint32_t still) {
+    const Joint& joint = m.joints[shape.nodes[of.node].joint];
     if (shape.row_blocks == 0) return push_point(of, m, joint, place);
     if (of.a_moves) {
       const L share = L::load(joint.share_a);
-      push_body<true>(shape, of, m, m.bodies[of.body_a], -times(share, place), -times(share, angle));
+      push_body<true>(shape, of, m, -times(share, place), -times(share, angle), still);
     }
     if (of.b_moves) {
       const L share = L::load(joint.share_b);
-      push_body<false>(shape, of, m, m.bodies[of.body_b], times(share, place), times(share, angle));
+      push_body<false>(shape, of, m, times(share, place), times(share, angle), still);
     }
   }
   static ISO_INLINE void push_point(const TreeJoint& of, Memory m, const Joint& joint, Vec3<V> impulse) {
@@ -158,8 +169,9 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   /// All rows of a joint at once: on a long arm a drive and the point turn a light body hard against each other, beyond
   /// the range of velocities, and what is left of both is little.
   template <bool IsA>
-  static ISO_INLINE void push_body(const TreeShape& shape, const TreeJoint& of, Memory m, Body& body, Vec3<V> place,
-                                   Vec3<V> angle) {
+  static ISO_INLINE void push_body(const TreeShape& shape, const TreeJoint& of, Memory m, Vec3<V> place, Vec3<V> angle,
+                                   std::uint32_t still) {
+    Body& body = m.bodies[IsA ? of.body_a : of.body_b];
     const TreeNode& node = shape.nodes[of.node];
     const Joint& joint = m.joints[node.joint];
     const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum)
@@ -177,13 +189,22 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
       const Mat3<L> linear = load(m.rows[node.rows].linear);
       for (int k = 0; k < 3; ++k) add(body.linear, k, across(linear, k, place));
     }
-    if (!of.turns) {
+    if (!of.turns || still == Base::kAll) {
       for (int k = 0; k < 3; ++k) add(body.angular, k, across(turn, k, place));
       return;
     }
     const Rows& rows = m.rows[shape.nodes[of.node - 1].rows];
     const Mat3<L> other = load(IsA ? rows.turn_a : rows.turn_b);
-    for (int k = 0; k < 3; ++k) add(body.angular, k, across(turn, k, place) + across(other, k, angle));
+    if (still == 0) {
+      for (int k = 0; k < 3; ++k) add(body.angular, k, across(turn, k, place) + across(other, k, angle));
+      return;
+    }
+    const Mask none = Mask::from_bits(still);
+    for (int k = 0; k < 3; ++k) {
+      const auto of_place = across(turn, k, place), of_both = of_place + across(other, k, angle);
+      const auto old = addable(V::load(body.angular[k]));
+      select(none, old + round_addable<V>(of_place), old + round_addable<V>(of_both)).store(body.angular[k]);
+    }
   }
 };
 

@@ -25,8 +25,12 @@ struct TreeJoint {
   std::uint32_t body_a, body_b;
   std::uint32_t node;  // its block of places; that of angles is the node before
   bool a_moves, b_moves;
-  bool closes_loop;  // through the world
-  bool turns;        // has a block of angles
+  bool closes_loop;     // through the world
+  bool turns;           // has a block of angles
+  std::uint32_t stops;  // in the stops of the memory; kNoStops: its rows are not those of a twist and a swing, or its
+                        // drives do more than bound them
+
+  static constexpr std::uint32_t kNoStops = 0xffffffffu;
 };
 /// A block of a joint that is eliminated in its turn.
 struct TreeNode {
@@ -51,6 +55,7 @@ struct TreeDrive {
   std::uint32_t joint, node;
   std::uint32_t place;  // of the node's three rows
   std::uint32_t index;  // of the joint's drives
+  bool stops;           // its joint has stops
 };
 /// A body of the shape, by a joint that it has. What does not move is one body an end, even where it is the same one.
 struct TreeBody {
@@ -66,6 +71,7 @@ struct TreeShape {
   KernelSpan<TreeBody> bodies;
   KernelSpan<std::uint32_t> given;  // joints in the order in which they were made
   std::uint32_t row_blocks;         // nodes that are no point
+  std::uint32_t stops;              // joints with stops
 };
 
 }  // namespace isostep

@@ -1,0 +1,85 @@
+// Bodies of joint_tree.hpp for joints with stops: of a twist and a swing whose drives are limits and nothing else.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/joints/joint_tree.hpp"
+#include "isostep/dynamics/joints/tree_lanes.hpp"
+
+namespace isostep {
+
+namespace detail {
+template <class S> ISO_INLINE bool has_stops(const JointConstraint<S>& joint) {
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    if (drive.asked != nullptr || drive.sprung || drive.driven) return false;
+  }
+  return joint.block_count > 1 && bounds_twist_and_swing<S>(joint.properties.type);
+}
+/// [rad] per cosine: from any angle below the one of this sine and cosine to it is at least so much times what its
+/// cosine is less. 1 / (sin R + sin(R / 2)), or 1 where that is less or the format has too few digits for it.
+template <class S> ISO_INLINE S slope_to(SinCos<Unit<S>> most) {
+  const S sum = convert<S>(most.sin) + sqrt(max(S(0.5) - S(0.5) * convert<S>(most.cos), S(0)));
+  return S(0.125) < sum ? max(S(1), S(1) / sum) : S(1);
+}
+template <class S> ISO_INLINE TreeStopLimits<S> stop_limits(const JointConstraint<S>& joint) {
+  const JointProperties<S>& p = joint.properties;
+  TreeStopLimits<S> limits = {};
+  const S middle = (p.lower + p.upper) * S(0.25);
+  limits.middle = middle == S(0) ? SinCos<Unit<S>>{Unit<S>(0), Unit<S>(1)} : sin_cos_to<Unit<S>>(middle);
+  limits.twist = limits.swing = kNoCosine<S>;
+  limits.twist_slope = limits.swing_slope = S(1);
+  if ((p.flags & joint_flag::kLimit) != 0) {
+    const SinCos<Unit<S>> range = sin_cos_to<Unit<S>>((p.upper - p.lower) * S(0.25));
+    limits.twist = convert<S>(range.cos);
+    limits.twist_slope = slope_to<S>(range);
+  }
+  if ((p.flags & joint_flag::kCone) != 0) {
+    const SinCos<Unit<S>> cone = sin_cos_to<Unit<S>>(p.cone);
+    limits.swing = convert<S>(cone.cos);
+    limits.swing_slope = slope_to<S>(cone);
+  }
+  limits.lower = p.lower;
+  limits.upper = p.upper;
+  limits.cone = p.cone;
+  limits.radius = joint.radius;
+  limits.twist_radius = joint.drives[0].radius;
+  limits.swing_radius = joint.drives[1].radius;
+  return limits;
+}
+}  // namespace detail
+
+/// Once a step: what kernels know of such joints. Drives that a sub-step does not look at ask for nothing.
+template <class S> void JointTrees<S>::set_stops(const Batch& batch, std::span<JointConstraint<S>> joints) {
+  const TreeRun<S> run = run_of(batch, nullptr);
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeStopView<S> stops(run.memory, run.shape, width);
+  const TreeDriveView<S> drives(run.memory, run.shape, width);
+  for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
+    const TreeJoint& of = run.shape.joints[j];
+    if (of.stops == TreeJoint::kNoStops) continue;
+    TreeStopLimits<S> limits = {};
+    for (std::uint32_t lane = width; lane-- > 0;) {
+      JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
+      const JointProperties<S>& p = joint.properties;
+      if (lane + 1 == width || (run.lanes >> lane & 1u) != 0) limits = detail::stop_limits(joint);
+      stops.set_frames(of.stops, lane, p.frame_a.orientation, p.frame_b.orientation);
+      stops.set_limits(of.stops, lane, limits);
+      detail::empty_block(joint.blocks[1]);
+    }
+  }
+  for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+    const TreeDrive& of = run.shape.drives[d];
+    if (!of.stops) continue;
+    for (std::uint32_t lane = 0; lane < width; ++lane) {
+      const JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+      drives.impulse(d, lane) = drive.piece == DrivePiece::free ? Velocity<S>(0) : drive.impulse;
+      drives.right(d, lane) = Velocity<S>(0);
+      drives.give(d, lane) = S(0);
+      if (drive.piece == DrivePiece::lower) run.held[d].below |= 1u << lane;
+      if (drive.piece == DrivePiece::upper) run.held[d].above |= 1u << lane;
+    }
+  }
+}
+
+}  // namespace isostep
