@@ -80,12 +80,11 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     substitute(run, m);
     tell_drives(run, m);
   }
-  /// A drive that turns out not to be clear is judged from then on. After a relaxed pass nothing moves: the sub-step
-  /// that follows finds it.
+  /// A joint that turns out not to be clear is judged from then on.
   template <bool Relax> static bool judge(const TreeRun<S>& run, const JointStep<S>& step, bool may_hold) {
     if (run.shape.stops == 0) return false;
     const Memory m = Memory::of(run.memory, run.shape);
-    if (!Relax && Base::find_reached(run, m, step.h)) {
+    if (Base::find_reached(run, m, step.h)) {
       Base::set_turns(run, m);
       tell_drives(run, m);
       Base::template bound_drives<Relax>(run, m, step);
