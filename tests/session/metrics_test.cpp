@@ -12,8 +12,8 @@ constexpr Time kMs = 1000;  // [us]
 constexpr std::size_t kMachines = 4;
 constexpr const char* kLines[kMachines] = {"", "latency=30,jitter=5,loss=0.5", "latency=60,jitter=40,loss=0.5",
                                            "latency=60,jitter=5,loss=5"};
-// [us] The mean difference of two delays that are even over +-jitter is two thirds of it. A tenth less or more, and half
-// a millisecond, for time stamps are whole ones.
+// [us] The mean difference of two delays that are even over +-jitter is two thirds of it. A tenth less or more, and
+// half a millisecond, for time stamps are whole ones.
 constexpr std::uint32_t kLeastJitter[kMachines] = {0, 2500, 23500, 2500},
                         kMostJitter[kMachines] = {0, 4100, 29900, 4100};
 constexpr std::uint32_t kWay[kMachines] = {0, 30000, 60000, 60000};  // [us]

@@ -1,4 +1,4 @@
-// Relays: spectators that serve spectators. The host pays for one, all confirm the same match, and it may be shown late.
+// Relays: spectators that serve spectators. The host pays for one, all confirm the same match, late if that is wanted.
 // SPDX-License-Identifier: MIT
 #include "session/altered_packet.hpp"
 #include "session/pace_watch.hpp"

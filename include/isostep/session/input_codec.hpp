@@ -14,9 +14,9 @@
 
 namespace isostep {
 
-/// Of one player's input for one frame [bytes]. What is not acknowledged travels with every frame, to players in at most
-/// seven datagrams: inputs of more than 8 KB, of all others in a round trip, do not keep up with 60 Hz. What is large
-/// and comes now and then is for WithOrders of large_order.hpp.
+/// Of one player's input for one frame [bytes]. What is not acknowledged travels with every frame, to players in at
+/// most seven datagrams: inputs of more than 8 KB, of all others in a round trip, do not keep up with 60 Hz. What is
+/// large and comes now and then is for WithOrders of large_order.hpp.
 inline constexpr std::size_t kInputCap = 512;
 
 /// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.
