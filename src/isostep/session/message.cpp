@@ -126,6 +126,7 @@ Result<Welcome> read_welcome(Bytes message) {
   if (welcome.players < 1 || welcome.players > kMaxPlayers || (std::uint64_t{welcome.hosted} >> welcome.players) != 0 ||
       (welcome.player >= welcome.players && welcome.player != 0xff)) {
     reader.fail(ErrorCode::invalid, "players out of range");
+    return finish(reader, "welcome", welcome);
   }
   // The others come after the first, and a spectator has none.
   const int before = welcome.player == 0xff ? 0 : welcome.player + 1;
