@@ -43,7 +43,8 @@ int main(int count, char** words) {
   std::vector<std::string> parts;
   for (const Part& part : kParts) parts.push_back(part.name);
   CLI::App app("What sessions cost: time in a frame, bytes on a link, rollbacks, kept states");
-  app.add_option("--parts", parts, "overhead, crowd, bandwidth, genres, rollback, drive, sealing, kept, separated by commas")
+  app.add_option("--parts", parts,
+                 "overhead, crowd, bandwidth, genres, rollback, drive, sealing, kept, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(parts));
   app.add_option("--players", options.players, "Of overhead and bandwidth")->delimiter(',')->check(CLI::Range(2, 8));

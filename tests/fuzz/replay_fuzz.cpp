@@ -3,7 +3,8 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include -Iinclude
-//         tests/fuzz/replay_fuzz.cpp src/isostep/{geometry,state}/*.cpp scalar/src/*.cpp build/release/libisostep.a -o replay_fuzz
+//         tests/fuzz/replay_fuzz.cpp src/isostep/{geometry,state}/*.cpp scalar/src/*.cpp build/release/libisostep.a
+//         -o replay_fuzz
 
 #include <cstddef>
 #include <cstdint>

@@ -19,7 +19,8 @@ ToyInput word_of(int player, Frame frame) {
 /// Two players at the host, two on one client, one on another.
 struct CouchMatch : VirtualMatch<Toy> {
   explicit CouchMatch(SessionMode mode, Time migration = 0, std::uint64_t seed = 1)
-      : VirtualMatch(config_for(mode, migration), [] { return std::make_unique<Toy>(40); }, word_of, seed) {}
+      : VirtualMatch(
+            config_for(mode, migration), [] { return std::make_unique<Toy>(40); }, word_of, seed) {}
 
   static SessionConfig config_for(SessionMode mode, Time migration) {
     SessionConfig config = config_of(5, mode);
@@ -250,7 +251,8 @@ TEST_P(Couch, AnOldHostKeepsAllOfItsPlayers) {
 TEST_P(Couch, PlaysUnderADeadline) {
   SessionConfig config = CouchMatch::config_for(GetParam(), 0);
   config.deadline = 8;
-  VirtualMatch<Toy> match(config, [] { return std::make_unique<Toy>(); }, word_of);
+  VirtualMatch<Toy> match(
+      config, [] { return std::make_unique<Toy>(); }, word_of);
   match.add(profile(kGoodLine), config).returns = true;
   config.local_players = 1;
   match.add(profile(kGoodLine), config).returns = true;

@@ -16,7 +16,8 @@ template <class T> class RecentMedian {
     if (count_ < kValues) ++count_;
   }
   int count() const { return count_; }
-  /// The one in the middle by key(value), a number of 64 bits without sign; count() > 0. Of an even number the upper one.
+  /// The one in the middle by key(value), a number of 64 bits without sign; count() > 0. Of an even number the upper
+  /// one.
   template <class Key> T median(const Key& key) const {
     T sorted[kValues] = {};
     for (int n = 0; n < count_; ++n) sorted[n] = values_[n];
