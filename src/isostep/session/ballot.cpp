@@ -2,25 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/ballot.hpp"
 
-#include "isostep/session/message.hpp"
-#include "isostep/state/archive.hpp"
+#include "message_format.hpp"
 
 namespace isostep {
 namespace {
-
-Writer begin(std::vector<std::uint8_t>& out, MessageKind kind) {
-  out.clear();
-  Writer writer(out);
-  writer.write(static_cast<std::uint8_t>(kind));
-  return writer;
-}
-Reader after_kind(Bytes message) { return Reader(message.subspan(message.empty() ? 0 : 1)); }
-template <class T> Result<T> finish(Reader& reader, const char* what, const T& value) {
-  reader.expect_end();
-  const Result<void> result = reader.result(what);
-  if (!result) return result.error();
-  return value;
-}
 
 void put(Writer& writer, const Proposal& proposal) {
   writer.write(static_cast<std::uint8_t>(proposal.kind));
@@ -48,7 +33,7 @@ bool Proposal::is_sound() const {
 }
 
 void write_proposal(const PlayersProposal& proposal, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::propose);
+  Writer writer = begin_message(MessageKind::propose, out);
   writer.write(proposal.player);
   put(writer, proposal.proposal);
 }
@@ -59,11 +44,11 @@ Result<PlayersProposal> read_proposal(Bytes message) {
   reader.read(proposal.player);
   if (proposal.player >= kMaxPlayers) reader.fail(ErrorCode::invalid, "no player");
   proposal.proposal = take(reader);
-  return finish(reader, "proposal", proposal);
+  return finish_message(reader, "proposal", proposal);
 }
 
 void write_votes(const Votes& votes, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::vote);
+  Writer writer = begin_message(MessageKind::vote, out);
   writer.write(votes.number);
   writer.write(votes.yes);
   writer.write(votes.no);
@@ -76,11 +61,11 @@ Result<Votes> read_votes(Bytes message) {
   reader.read(votes.yes);
   reader.read(votes.no);
   if ((votes.yes & votes.no) != 0) reader.fail(ErrorCode::invalid, "yes and no");
-  return finish(reader, "votes", votes);
+  return finish_message(reader, "votes", votes);
 }
 
 void write_ballot(const Ballot& ballot, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::ballot);
+  Writer writer = begin_message(MessageKind::ballot, out);
   writer.write(ballot.number);
   put(writer, ballot.proposal);
   writer.write(ballot.by);
@@ -105,7 +90,7 @@ Result<Ballot> read_ballot(Bytes message) {
   if (ballot.number == 0 || ballot.by >= kMaxPlayers || (ballot.yes & ballot.no) != 0) {
     reader.fail(ErrorCode::invalid, "a vote that cannot be");
   }
-  return finish(reader, "ballot", ballot);
+  return finish_message(reader, "ballot", ballot);
 }
 
 }  // namespace isostep

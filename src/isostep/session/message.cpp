@@ -3,21 +3,13 @@
 #include "isostep/session/message.hpp"
 
 #include "isostep/session/config.hpp"
-#include "isostep/state/archive.hpp"
 #include "isostep/state/replay_format.hpp"
+#include "message_format.hpp"
 
 namespace isostep {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x504f5349;  // "ISOP"
-
-Writer begin(std::vector<std::uint8_t>& out, MessageKind kind) {
-  out.clear();
-  Writer writer(out);
-  writer.write(static_cast<std::uint8_t>(kind));
-  return writer;
-}
-Reader after_kind(Bytes message) { return Reader(message.subspan(message.empty() ? 0 : 1)); }
 
 void write_report(Writer& writer, const HashReport& report) {
   writer.write(report.frame);
@@ -25,22 +17,15 @@ void write_report(Writer& writer, const HashReport& report) {
 }
 HashReport read_report(Reader& reader) {
   HashReport report;
-  reader.read(report.frame);
+  report.frame = read_frame(reader);
   reader.read(report.chain);
-  if (report.frame < 0 || report.frame > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
   return report;
-}
-template <class T> Result<T> finish(Reader& reader, const char* what, const T& value) {
-  reader.expect_end();
-  const Result<void> result = reader.result(what);
-  if (!result) return result.error();
-  return value;
 }
 
 Result<std::uint32_t> read_number(Bytes message, const char* what) {
   Reader reader = after_kind(message);
   const std::uint32_t number = reader.read<std::uint32_t>();
-  return finish(reader, what, number);
+  return finish_message(reader, what, number);
 }
 
 }  // namespace
@@ -48,7 +33,7 @@ Result<std::uint32_t> read_number(Bytes message, const char* what) {
 void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   std::vector<std::uint8_t> identity;
   write_replay_header(hello.identity, identity);
-  Writer writer = begin(out, MessageKind::hello);
+  Writer writer = begin_message(MessageKind::hello, out);
   writer.write(kMagic);
   writer.write(kSessionProtocol);
   writer.write(hello.spectator);
@@ -86,7 +71,7 @@ Result<Hello> read_hello(Bytes message) {
   hello.credential = reader.read_bytes(kCredentialCap);
   hello.address = read_address(reader);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
-  const Result<Hello> whole = finish(reader, "hello", hello);
+  const Result<Hello> whole = finish_message(reader, "hello", hello);
   if (!whole) return whole;
   const Result<ReplayHeader> header = read_replay_header(identity);
   if (!header) return header.error();
@@ -95,7 +80,7 @@ Result<Hello> read_hello(Bytes message) {
 }
 
 void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::welcome);
+  Writer writer = begin_message(MessageKind::welcome, out);
   writer.write(welcome.match);
   writer.write(welcome.players);
   writer.write(welcome.hosted);
@@ -126,7 +111,7 @@ Result<Welcome> read_welcome(Bytes message) {
   if (welcome.players < 1 || welcome.players > kMaxPlayers || (std::uint64_t{welcome.hosted} >> welcome.players) != 0 ||
       (welcome.player >= welcome.players && welcome.player != 0xff)) {
     reader.fail(ErrorCode::invalid, "players out of range");
-    return finish(reader, "welcome", welcome);
+    return finish_message(reader, "welcome", welcome);
   }
   // The others come after the first, and a spectator has none.
   const int before = welcome.player == 0xff ? 0 : welcome.player + 1;
@@ -140,11 +125,11 @@ Result<Welcome> read_welcome(Bytes message) {
   if (welcome.opens < kNoFrame || welcome.opens > kLastFrame || (welcome.opens != kNoFrame && !plays)) {
     reader.fail(ErrorCode::invalid, "opens out of range");
   }
-  return finish(reader, "welcome", welcome);
+  return finish_message(reader, "welcome", welcome);
 }
 
 void write_refusal(const Refusal& refusal, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::refuse);
+  Writer writer = begin_message(MessageKind::refuse, out);
   writer.write_text(refusal.key.view());
   writer.write_text(refusal.in_file.view());
   writer.write_text(refusal.here.view());
@@ -163,11 +148,11 @@ Result<Refusal> read_refusal(Bytes message) {
     }
   }
   refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(in_file), ShortText<kReplayValueCap>(here)};
-  return finish(reader, "refusal", refusal);
+  return finish_message(reader, "refusal", refusal);
 }
 
 void write_piece(const Piece& piece, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::piece);
+  Writer writer = begin_message(MessageKind::piece, out);
   writer.write(piece.offset);
   writer.write_bytes(piece.bytes);
 }
@@ -177,34 +162,34 @@ Result<Piece> read_piece(Bytes message) {
   Piece piece{};
   reader.read(piece.offset);
   piece.bytes = reader.read_bytes(kReliableCap);
-  return finish(reader, "piece", piece);
+  return finish_message(reader, "piece", piece);
 }
 
 void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out) {
-  begin(out, MessageKind::progress).write(arrived);
+  begin_message(MessageKind::progress, out).write(arrived);
 }
 
 Result<std::uint32_t> read_progress(Bytes message) { return read_number(message, "progress"); }
 
-void write_ready(std::vector<std::uint8_t>& out) { begin(out, MessageKind::ready); }
+void write_ready(std::vector<std::uint8_t>& out) { begin_message(MessageKind::ready, out); }
 
-void write_open(Frame first, std::vector<std::uint8_t>& out) { begin(out, MessageKind::open).write(first); }
+void write_open(Frame first, std::vector<std::uint8_t>& out) { begin_message(MessageKind::open, out).write(first); }
 
 Result<Frame> read_open(Bytes message) {
   Reader reader = after_kind(message);
   const Frame first = reader.read<Frame>();
   if (first < 0 || first > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
-  return finish(reader, "open", first);
+  return finish_message(reader, "open", first);
 }
 
 void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out) {
-  begin(out, MessageKind::enrolled).write(version);
+  begin_message(MessageKind::enrolled, out).write(version);
 }
 
 Result<std::uint32_t> read_enrolled(Bytes message) { return read_number(message, "enrolled"); }
 
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::candidate);
+  Writer writer = begin_message(MessageKind::candidate, out);
   writer.write(candidate.version);
   writer.write(candidate.ends);
 }
@@ -217,34 +202,34 @@ Result<Candidate> read_candidate(Bytes message) {
   for (const Frame end : candidate.ends) {
     if (end < 0 || end > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
   }
-  return finish(reader, "candidate", candidate);
+  return finish_message(reader, "candidate", candidate);
 }
 
 void write_known(Bytes packet, std::vector<std::uint8_t>& out) {
-  begin(out, MessageKind::known);
+  begin_message(MessageKind::known, out);
   out.insert(out.end(), packet.begin(), packet.end());
 }
 
 Result<Packet> read_known(Bytes message) { return read_packet(message.subspan(message.empty() ? 0 : 1)); }
 
 void write_support(std::uint32_t version, std::vector<std::uint8_t>& out) {
-  begin(out, MessageKind::support).write(version);
+  begin_message(MessageKind::support, out).write(version);
 }
 
 Result<std::uint32_t> read_support(Bytes message) { return read_number(message, "support"); }
 
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out) {
-  begin(out, MessageKind::redirect).write_text(address.view());
+  begin_message(MessageKind::redirect, out).write_text(address.view());
 }
 
 Result<Address> read_redirect(Bytes message) {
   Reader reader = after_kind(message);
   const Address address = read_address(reader);
-  return finish(reader, "redirect", address);
+  return finish_message(reader, "redirect", address);
 }
 
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(out, MessageKind::ask);
+  Writer writer = begin_message(MessageKind::ask, out);
   writer.write(ask.is_paused);
   writer.write(ask.speed);
 }
@@ -255,7 +240,7 @@ Result<Ask> read_ask(Bytes message) {
   reader.read(ask.is_paused);
   reader.read(ask.speed);
   if (ask.speed != 0 && (!Tempo::is_speed(ask.speed) || ask.is_paused)) reader.fail(ErrorCode::invalid, "no speed");
-  return finish(reader, "ask", ask);
+  return finish_message(reader, "ask", ask);
 }
 
 Result<MessageKind> message_kind(Bytes message) {

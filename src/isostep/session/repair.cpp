@@ -2,48 +2,28 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/repair.hpp"
 
-#include "isostep/session/message.hpp"
 #include "isostep/session/verdict.hpp"
-#include "isostep/state/archive.hpp"
+#include "message_format.hpp"
 
 namespace isostep {
 namespace {
 
 constexpr std::uint8_t kHostOnWire = 0xff;
 
-Writer begin(MessageKind kind, std::vector<std::uint8_t>& out) {
-  out.clear();
-  Writer writer(out);
-  writer.write(static_cast<std::uint8_t>(kind));
-  return writer;
-}
-Reader after_kind(Bytes message) { return Reader(message.subspan(message.empty() ? 0 : 1)); }
-
-Frame read_state(Reader& reader) {
-  const Frame state = reader.read<Frame>();
-  if (state < 0 || state > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
-  return state;
-}
-
-template <class T> Result<T> finish(Reader& reader, const char* what, const T& value) {
-  reader.expect_end();
-  const Result<void> result = reader.result(what);
-  if (!result) return result.error();
-  return value;
-}
-
 }  // namespace
 
-void write_inquiry(Frame state, std::vector<std::uint8_t>& out) { begin(MessageKind::inquiry, out).write(state); }
+void write_inquiry(Frame state, std::vector<std::uint8_t>& out) {
+  begin_message(MessageKind::inquiry, out).write(state);
+}
 
 Result<Frame> read_inquiry(Bytes message) {
   Reader reader = after_kind(message);
-  const Frame state = read_state(reader);
-  return finish(reader, "inquiry", state);
+  const Frame state = read_frame(reader);
+  return finish_message(reader, "inquiry", state);
 }
 
 void write_statement(const Statement& statement, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(MessageKind::statement, out);
+  Writer writer = begin_message(MessageKind::statement, out);
   writer.write(statement.frame);
   writer.write(statement.is_known);
   writer.write(statement.chain);
@@ -52,14 +32,14 @@ void write_statement(const Statement& statement, std::vector<std::uint8_t>& out)
 Result<Statement> read_statement(Bytes message) {
   Reader reader = after_kind(message);
   Statement statement;
-  statement.frame = read_state(reader);
+  statement.frame = read_frame(reader);
   reader.read(statement.is_known);
   reader.read(statement.chain);
-  return finish(reader, "statement", statement);
+  return finish_message(reader, "statement", statement);
 }
 
 void write_statements(const Statements& statements, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(MessageKind::statements, out);
+  Writer writer = begin_message(MessageKind::statements, out);
   writer.write(statements.frame);
   std::uint8_t count = 0;
   for (const Statements::One& one : statements.of) count = static_cast<std::uint8_t>(count + (one.is_asked ? 1 : 0));
@@ -76,7 +56,7 @@ void write_statements(const Statements& statements, std::vector<std::uint8_t>& o
 Result<Statements> read_statements(Bytes message) {
   Reader reader = after_kind(message);
   Statements statements;
-  statements.frame = read_state(reader);
+  statements.frame = read_frame(reader);
   const std::uint8_t count = reader.read<std::uint8_t>();
   if (count > kMachines) reader.fail(ErrorCode::invalid, "more machines than there can be");
   for (std::uint8_t i = 0; i < count && reader.ok(); ++i) {
@@ -91,13 +71,13 @@ Result<Statements> read_statements(Bytes message) {
     reader.read(one.has_spoken);
     reader.read(one.chain);
   }
-  return finish(reader, "statements", statements);
+  return finish_message(reader, "statements", statements);
 }
 
-void write_resync(std::vector<std::uint8_t>& out) { begin(MessageKind::resync, out); }
+void write_resync(std::vector<std::uint8_t>& out) { begin_message(MessageKind::resync, out); }
 
 void write_offer(const RepairOffer& offer, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(MessageKind::offer, out);
+  Writer writer = begin_message(MessageKind::offer, out);
   writer.write(offer.start.frame);
   writer.write(offer.start.chain);
   writer.write(offer.hash);
@@ -107,15 +87,15 @@ void write_offer(const RepairOffer& offer, std::vector<std::uint8_t>& out) {
 Result<RepairOffer> read_offer(Bytes message) {
   Reader reader = after_kind(message);
   RepairOffer offer;
-  offer.start.frame = read_state(reader);
+  offer.start.frame = read_frame(reader);
   reader.read(offer.start.chain);
   reader.read(offer.hash);
   reader.read(offer.snapshot_size);
-  return finish(reader, "offer", offer);
+  return finish_message(reader, "offer", offer);
 }
 
 void write_repaired(const Repaired& repaired, std::vector<std::uint8_t>& out) {
-  Writer writer = begin(MessageKind::repaired, out);
+  Writer writer = begin_message(MessageKind::repaired, out);
   writer.write(repaired.player);
   writer.write(repaired.after);
 }
@@ -126,8 +106,8 @@ Result<Repaired> read_repaired(Bytes message) {
   reader.read(repaired.player);
   if (repaired.player >= kMaxPlayers && repaired.player != 0xff)
     reader.fail(ErrorCode::invalid, "a player out of range");
-  repaired.after = read_state(reader);
-  return finish(reader, "repaired", repaired);
+  repaired.after = read_frame(reader);
+  return finish_message(reader, "repaired", repaired);
 }
 
 }  // namespace isostep
