@@ -1,6 +1,7 @@
 // A match is saved by its host, and another process goes on with it: the same frame, the same seats, nobody absent.
 // SPDX-License-Identifier: MIT
 #include "session/pace_watch.hpp"
+#include "session/recorded_play.hpp"
 
 namespace isostep::test {
 namespace {
@@ -216,6 +217,24 @@ TEST_P(SavedMatches, AreOfAHostThatPlays) {
   config.saved_match = save();
   Session<Toy> session(config);
   EXPECT_EQ(session.poll_event()->field.here.view(), "saved_match: of a host");
+}
+
+TEST_P(SavedMatches, AreRecordedFromWhereTheyGoOn) {
+  const std::vector<std::uint8_t> bytes = save();
+  const Frame start = read_saved_match(bytes).value().start.frame;
+  const std::unique_ptr<Match> after = resume(bytes);
+  std::vector<std::uint8_t> file;
+  MachineRecorder<Toy> recorder(after->host(), file);
+  after->add(profile(kGoodLine), client(2, before.machine(1).session.token()));
+  after->add(profile(kGoodLine), client(1, before.machine(2).session.token()));
+  ASSERT_TRUE(after->run_to(start + 300, 30 * kSecond));
+  ASSERT_TRUE(recorder.recorder.finish().ok());
+  EXPECT_EQ(recorder.recorder.first(), start);
+  const Played<Toy> played = play(config_of(4, GetParam()), file, Toy(40));
+  EXPECT_TRUE(played.events.empty());
+  EXPECT_EQ(played.first, start);
+  EXPECT_GE(played.hashes.size(), 300u);
+  for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], after->host().hashes[f]);
 }
 
 }  // namespace
