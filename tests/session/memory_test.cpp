@@ -222,5 +222,72 @@ TEST(Soak, OfAnHourNeedsNoMoreMemoryThanItsFirstMinutesAndStaysOneHistory) {
               most / 1024);
 }
 
+/// An hour in which whoever is the host stands still for twenty seconds every five minutes, and comes back as a player.
+TEST(Soak, OfAnHourInWhichHostsFollowEachOtherNeedsNoMoreMemoryAndStaysOneHistory) {
+  constexpr Frame kMinute = 3600;
+  constexpr std::size_t kMachines = 4;
+  SessionConfig config;
+  config.players = kMachines;
+  config.migration = kSecond;
+  VirtualMatch<Toy> match(
+      config, [] { return std::make_unique<Toy>(100); },
+      [](int player, Frame frame) { return toy_input(29, player, frame); });
+  for (std::size_t p = 1; p < kMachines; ++p) match.add(profile("latency=30,jitter=5,loss=0.5"));
+
+  struct Confirmed {
+    Frame frame = kNoFrame;
+    std::uint64_t hash = 0;
+  };
+  std::vector<Confirmed> said(1 << 12);  // by whoever confirmed the frame first
+  Frame newest = 0;
+  std::uint64_t wrong = 0, compared = 0;
+  for (std::size_t i = 0; i < kMachines; ++i) {
+    Machine<Toy>& machine = match.machine(i);
+    machine.keeps = false;
+    machine.slow = 4000;
+    machine.was_confirmed = [&](Frame frame, std::uint64_t hash) {
+      Confirmed& first = said[static_cast<std::size_t>(frame) % said.size()];
+      newest = std::max(newest, frame);
+      if (first.frame < frame) first = {frame, hash};
+      if (first.frame != frame) return;
+      wrong += first.hash != hash ? 1 : 0;
+      ++compared;
+    };
+  }
+  const auto host = [&]() -> Machine<Toy>& {
+    std::size_t i = 0;
+    while (i + 1 < kMachines && !match.machine(i).session.config().host) ++i;
+    return match.machine(i);
+  };
+
+  std::size_t after_ten_minutes = 0, most = 0;
+  int deposed = 0;
+  for (int minute = 1; minute <= 60; ++minute) {
+    ASSERT_TRUE(match.run(120 * kSecond, [&] { return newest >= minute * kMinute; })) << minute;
+    if (minute == 11) after_ten_minutes = live;
+    if (minute > 11) most = std::max(most, live);
+    if (minute % 5 == 0) {
+      Machine<Toy>& old = host();
+      old.plays = false;
+      match.run(20 * kSecond, [] { return false; });
+      old.plays = true;
+    }
+    for (std::size_t i = 0; i < kMachines; ++i) {
+      deposed += match.machine(i).count(SessionEvent::Kind::deposed);
+      match.machine(i).events.clear();
+      match.machine(i).events.shrink_to_fit();
+    }
+  }
+  match.run(20 * kSecond, [] { return false; });
+  for (std::size_t i = 0; i < kMachines; ++i) {
+    EXPECT_EQ(match.machine(i).session.phase(), SessionPhase::playing) << i;
+    deposed += match.machine(i).count(SessionEvent::Kind::deposed);
+  }
+  EXPECT_EQ(deposed, 12);
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_GT(compared, static_cast<std::uint64_t>(newest) * 3);
+  EXPECT_LT(most, after_ten_minutes + 64 * 1024);
+}
+
 }  // namespace
 }  // namespace isostep::test

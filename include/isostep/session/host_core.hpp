@@ -53,6 +53,8 @@ class HostCore : public PeerCore {
   void before_frame(Time now) override;
   void after_steps() override { serve_snapshots(); }
   void observe_delay() override;
+  /// Without a majority with us the others may have another host: what we step then may be in no match.
+  Frame final_limit() const override { return is_backed_ ? PeerCore::final_limit() : hashes_.settled().frame; }
   void paused(Time now) override;
   void blocked(Time now) override;
   void unblocked(Time now) override;
