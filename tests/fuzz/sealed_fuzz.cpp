@@ -1,8 +1,8 @@
 // libFuzzer target: the input is what a stranger or a listener on the line says to sealed endpoints, and when.
 // SPDX-License-Identifier: MIT
 //
-// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Iscalar/include -Iinclude -Isrc
-//         tests/fuzz/sealed_fuzz.cpp src/sealed/*.cpp
+// clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include
+//         -Iinclude -Isrc tests/fuzz/sealed_fuzz.cpp src/sealed/*.cpp
 //         src/transport/{simulated_network,impaired_direction,network_profile}.cpp build/release/libisostep.a
 //         scalar/src/*.cpp -lsodium -o sealed_fuzz
 

@@ -93,6 +93,7 @@ void attack_host(Script& script) {
   Time now = 1000;
   std::deque<std::pair<Channel, Buffer>> up, down;
   bool cut = false;
+  bool has_couch = false;  // somebody asked for several seats
   std::uint64_t match = 0;
   std::uint8_t seats[3] = {0xff, 0xff, 0xff};
   std::uint64_t tokens[3] = {};
@@ -161,6 +162,7 @@ void attack_host(Script& script) {
         if ((how & 2) != 0) hello.token = tokens[1 + (how >> 7)];
         if ((how & 8) != 0) hello.seat = static_cast<int>(how >> 4 & 3) - 1;
         if ((how & 64) != 0) hello.seats = 1 + (how >> 4 & 3);
+        has_couch = has_couch || hello.seats > 1;
         if ((how & 4) != 0) hello.have = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial = {script.frame(host.session.current()), script.byte()};
         if ((how & 8) != 0) hello.partial_size = script.word();
@@ -193,7 +195,7 @@ void attack_host(Script& script) {
     }
     require(host.session.confirmed() >= settled);
     const auto first = host.session.peer_of(1), second = host.session.peer_of(2);
-    require(!first || !second || *first != *second);
+    require(!first || !second || *first != *second || has_couch);
     settled = host.session.confirmed();
   }
   // The honest never differ, and neither is told so of the other.
