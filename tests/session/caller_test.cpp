@@ -149,7 +149,8 @@ struct LongGame {
   std::uint64_t hash() const { return sum; }
 };
 
-TEST(Caller, LongInputsKeepUpWithTheirFrames) {
+/// [us] that 600 frames take over a line that loses bursts, as this seed draws them.
+Time time_of_long_inputs(std::uint64_t seed) {
   VirtualMatch<LongGame> match(
       config_of(2), [] { return std::make_unique<LongGame>(); },
       [](int player, Frame frame) {
@@ -157,13 +158,26 @@ TEST(Caller, LongInputsKeepUpWithTheirFrames) {
         Pcg32 random = Pcg32::seeded(static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(player));
         for (std::uint32_t& word : input.words) word = random.next();
         return input;
-      });
+      },
+      seed);
   match.add(profile("wifi"));
-  ASSERT_TRUE(match.run_to(60, 10 * kSecond));
+  EXPECT_TRUE(match.run_to(60, 10 * kSecond));
   const Time before = match.now();
-  ASSERT_TRUE(match.run_to(660, 20 * kSecond));
-  EXPECT_LT(match.now() - before, 11 * kSecond) << "600 frames are ten seconds";
+  EXPECT_TRUE(match.run_to(660, 20 * kSecond));
   EXPECT_EQ(match.network().oversized(), 0u);
+  return match.now() - before;
+}
+
+// One match may be unlucky: a burst stands for as long as its inputs take to be acknowledged again.
+TEST(Caller, LongInputsKeepUpWithTheirFrames) {
+  constexpr std::uint64_t kMatches = 40;
+  Time sum = 0;
+  for (std::uint64_t seed = 1; seed <= kMatches; ++seed) {
+    const Time time = time_of_long_inputs(seed);
+    EXPECT_LT(time, 12 * kSecond) << seed;
+    sum += time;
+  }
+  EXPECT_LT(sum / kMatches, 11 * kSecond) << "600 frames are ten seconds";
 }
 
 TEST(Caller, ARestartedProcessProvesByItsTokenWhoItWas) {

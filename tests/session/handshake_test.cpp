@@ -180,7 +180,7 @@ TEST(Handshake, RefusesAnotherProtocol) {
 
 TEST(Handshake, IsOverBeforeItBeginsWhenTheConfigurationCannotBe) {
   SessionConfig config;
-  config.players = 9;
+  config.players = static_cast<int>(kMaxPlayers) + 1;
   Session<Toy> session(config);
   const std::optional<SessionEvent> event = session.poll_event();
   ASSERT_TRUE(event.has_value());
