@@ -98,9 +98,9 @@ std::optional<UdpAddress> look_up(const std::string& name, std::uint16_t port) {
 }
 
 /// Of a client: its address and port, which is all that the system fills in of a sender.
-using Key = std::array<std::uint8_t, 16 + 4 + 2>;
-Key key_of(UdpAddress address) {
-  Key key{};
+using AddressBytes = std::array<std::uint8_t, 16 + 4 + 2>;
+AddressBytes key_of(UdpAddress address) {
+  AddressBytes key{};
   const in_port_t port = address.port();
   std::memcpy(key.data() + 20, &port, sizeof port);
   if (address.family() == AF_INET6) {
@@ -123,7 +123,7 @@ struct Client {
 };
 
 struct Packet {
-  Key client;
+  AddressBytes client;
   Direction direction;
   std::vector<std::uint8_t> bytes;
 };
@@ -137,11 +137,11 @@ struct UdpRelay::State {
   std::uint16_t port = 0;
   UdpAddress target;
   Time started = clock_now();
-  std::map<Key, Client> clients;
+  std::map<AddressBytes, Client> clients;
   std::map<std::pair<Time, std::uint64_t>, Packet> queue;
   std::uint64_t queued = 0;  // orders what is due at one time
   std::vector<pollfd> polled;
-  std::vector<Key> polled_clients;  // of polled[i + 1]
+  std::vector<AddressBytes> polled_clients;  // of polled[i + 1]
   std::uint8_t buffer[kLargestPacket + 1];
 
   RelayTraffic& traffic(Direction direction) { return direction == Direction::up ? statistics.up : statistics.down; }
@@ -149,8 +149,8 @@ struct UdpRelay::State {
   Client* client_at(const UdpAddress& address, Time now);
   bool make_room(Time now);
   void take_from_clients();
-  void take_from_target(const Key& key);
-  void accept(const Key& key, Client& client, Direction direction, std::size_t bytes, Time now);
+  void take_from_target(const AddressBytes& key);
+  void accept(const AddressBytes& key, Client& client, Direction direction, std::size_t bytes, Time now);
   void send_due(Time now);
   void send(const Packet& packet);
 };
@@ -185,7 +185,7 @@ bool UdpRelay::State::make_room(Time now) {
 }
 
 Client* UdpRelay::State::client_at(const UdpAddress& address, Time now) {
-  const Key key = key_of(address);
+  const AddressBytes key = key_of(address);
   const auto found = clients.find(key);
   if (found != clients.end()) return &found->second;
   if (!make_room(now)) return nullptr;
@@ -219,7 +219,7 @@ void UdpRelay::State::take_from_clients() {
   }
 }
 
-void UdpRelay::State::take_from_target(const Key& key) {
+void UdpRelay::State::take_from_target(const AddressBytes& key) {
   const auto client = clients.find(key);
   if (client == clients.end()) return;
   for (int i = 0; i < kPacketsATurn; ++i) {
@@ -230,7 +230,7 @@ void UdpRelay::State::take_from_target(const Key& key) {
 }
 
 /// The packet in the buffer.
-void UdpRelay::State::accept(const Key& key, Client& client, Direction direction, std::size_t bytes, Time now) {
+void UdpRelay::State::accept(const AddressBytes& key, Client& client, Direction direction, std::size_t bytes, Time now) {
   RelayTraffic& counts = traffic(direction);
   ++counts.received;
   counts.received_bytes += bytes;

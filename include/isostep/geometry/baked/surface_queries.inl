@@ -67,21 +67,21 @@ struct GridRay {
   };
   /// Where the way passes a triangle from its outward side, or from either.
   ISO_INLINE Entry enter(const TriangleCorners& triangle, bool back_faces) const {
-    constexpr Entry kNone = {-1, false};
+    constexpr Entry kMissed = {-1, false};
     const GridVector p[3] = {on_grid(triangle.points[0]), on_grid(triangle.points[1]), on_grid(triangle.points[2])};
     const Int128 sides[3] = {wide_dot(cross(p[0], p[1]), way), wide_dot(cross(p[1], p[2]), way),
                              wide_dot(cross(p[2], p[0]), way)};
     const Int128 sum = sides[0] + sides[1] + sides[2];
     const bool behind = sum > Int128(0);
-    if (sum == Int128(0) || (behind && !back_faces)) return kNone;
+    if (sum == Int128(0) || (behind && !back_faces)) return kMissed;
     for (const Int128& side : sides) {
-      if (behind ? side < Int128(0) : side > Int128(0)) return kNone;
+      if (behind ? side < Int128(0) : side > Int128(0)) return kMissed;
     }
     const GridVector e = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
                      f = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
     const Int128 height = wide_dot(cross(e, f), p[0]);
     const Int128 fall = behind ? sum : -sum, start = behind ? height : -height;
-    if (start < Int128(0) || start > fall) return kNone;
+    if (start < Int128(0) || start > fall) return kMissed;
     const UInt128Parts n = parts(start), d = parts(fall);
     const int right = d.high == 0 ? 0 : static_cast<int>(std::bit_width(d.high));
     const auto shifted = [right](UInt128Parts v) ISO_INLINE_LAMBDA {
