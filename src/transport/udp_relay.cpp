@@ -230,7 +230,8 @@ void UdpRelay::State::take_from_target(const AddressBytes& key) {
 }
 
 /// The packet in the buffer.
-void UdpRelay::State::accept(const AddressBytes& key, Client& client, Direction direction, std::size_t bytes, Time now) {
+void UdpRelay::State::accept(const AddressBytes& key, Client& client, Direction direction, std::size_t bytes,
+                             Time now) {
   RelayTraffic& counts = traffic(direction);
   ++counts.received;
   counts.received_bytes += bytes;
