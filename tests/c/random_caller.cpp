@@ -180,9 +180,9 @@ class Drawer {
   double real() {
     switch (dice_.below(12)) {
       case 0: return 0;
-      case 1: return -1;
-      case 2: return 1e30;
-      case 3: return dice_.one_in(4) ? 0.0 / zero_ : 1;
+      case 1: return dice_.one_in(3) ? -1 : 0.5;
+      case 2: return dice_.one_in(6) ? 1e30 : 0.25;
+      case 3: return dice_.one_in(10) ? 0.0 / zero_ : 1;
       default: return static_cast<double>(dice_.below(4000)) / 1000;
     }
   }
@@ -202,14 +202,17 @@ class Drawer {
     const bool is_joint = name == "joint" || function_.find("coupling") != std::string::npos;
     return id(kind[0] != '\0' ? kind : is_joint ? "iso_joint" : "iso_body");
   }
-  /// Ids are kept by the family of the world that the call is given.
-  std::uint32_t family_of_ids() const {
-    iso_scalar scalar = family_;
-    if (world() != nullptr) iso_world_get_scalar(world(), &scalar);
-    return scalar;
+  /// Ids are kept by the world that gave them, and those of records by their kind.
+  std::string key(const std::string& kind) const {
+    std::string of = kind;
+    for (const char* verb : {"_add_", "_set_", "_get_", "_remove_"}) {
+      const std::size_t at = function_.find(verb);
+      if (kind == "iso_record" && at != std::string::npos) of += function_.substr(at + std::strlen(verb));
+    }
+    return of + std::to_string(reinterpret_cast<std::uintptr_t>(world_));
   }
   std::uint64_t id(const std::string& kind) {
-    const std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    const std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.empty() || dice_.one_in(30)) return dice_.one_in(2) ? 0 : dice_.next();
     return known[dice_.below(known.size())];
   }
@@ -218,7 +221,7 @@ class Drawer {
     const bool shape = has("_blob") || has("_sphere") || has("_box") || has("_capsule") || has("_half_space") ||
                        has("_cylinder") || has("_cone") || has("_hull") || has("_compound");
     const char* kind = has("body_create") ? "iso_body" : has("create") ? "iso_joint" : shape ? "iso_shape" : "iso_record";
-    std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.size() < 60) known.push_back(made);
     else known[dice_.below(60)] = made;
   }
@@ -258,9 +261,13 @@ class Drawer {
   /// Defaults with some members changed.
   void fill(std::uint8_t* at, const Fact& fact, bool same_size) {
     std::memcpy(at, fact.image.data(), fact.size);
+    bool is_solid = false;  // its defaults are no shape
+    for (const char* solid : {"_sphere", "_box", "_capsule", "_cylinder", "_cone", "_half_space"}) {
+      is_solid = is_solid || fact.name.substr(7) == solid;
+    }
     for (const Member& member : fact.members) {
       if (fact.sized && member.offset < 8) continue;
-      const bool names = member.kind == id_ || member.kind == pointer_;
+      const bool names = member.kind == id_ || member.kind == pointer_ || (is_solid && member.kind != struct_);
       if (member.kind == struct_ || names || dice_.one_in(6)) change(at + member.offset, member, fact);
     }
     if (fact.sized && !same_size && dice_.one_in(4)) {
@@ -272,14 +279,15 @@ class Drawer {
     switch (member.kind) {
       case struct_: {
         const Fact* inner = facts_.named(member.of);
-        if (inner != nullptr && !dice_.one_in(2)) {
+        const bool is_size = fact.name.substr(7) == "_box";
+        if (inner != nullptr && (is_size || dice_.one_in(3))) {
           for (const Member& deeper : inner->members) {
-            if (deeper.kind == struct_ || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
+            if (deeper.kind == struct_ || is_size || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
           }
         }
         return;
       }
-      case id_: return put(at, dice_.one_in(3) ? 0 : id(member.of), 8);
+      case id_: return put(at, dice_.one_in(5) ? 0 : id(member.of), 8);
       case pointer_: return put(at, dice_.one_in(3) ? 0 : reinterpret_cast<std::uintptr_t>(lists_), 8);
       case bool_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(2), 1);
       case enum_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(4), 4);
