@@ -17,7 +17,24 @@
 
 namespace {
 
-enum Kind { number_, unit_, bool_, enum_, id_, pointer_, struct_, char_, i16_, i32_, u8_, u16_, u32_, u64_, f32_, f64_ };
+enum Kind {
+  number_,
+  unit_,
+  bool_,
+  enum_,
+  id_,
+  pointer_,
+  struct_,
+  char_,
+  i16_,
+  i32_,
+  u8_,
+  u16_,
+  u32_,
+  u64_,
+  f32_,
+  f64_
+};
 struct Member {
   std::size_t offset, size;
   Kind kind;
@@ -40,10 +57,10 @@ class Facts {
 #include "calls.inl"
 #undef ISO_STRUCT
 #undef ISO_MEMBER
-#define ISO_INIT(name)                                                     \
-  {                                                                        \
-    name made;                                                             \
-    if (name##_init(&made) == ISO_OK) keep(#name, &made, sizeof made);     \
+#define ISO_INIT(name)                                                 \
+  {                                                                    \
+    name made;                                                         \
+    if (name##_init(&made) == ISO_OK) keep(#name, &made, sizeof made); \
   }
 #include "calls.inl"
 #undef ISO_INIT
@@ -194,8 +211,8 @@ class Drawer {
     if (name == "each") return dice_.below(4);
     if (name == "frame" || name == "most_frames") return dice_.below(60);
     if (name == "user_data") return dice_.next();
-    if (family_ == 3 && (name == "value" || name == "radius" || name == "pitch" || name == "ratio" ||
-                         name == "rope" || name == "gravity_scale" || name.find("damping") != std::string::npos)) {
+    if (family_ == 3 && (name == "value" || name == "radius" || name == "pitch" || name == "ratio" || name == "rope" ||
+                         name == "gravity_scale" || name.find("damping") != std::string::npos)) {
       return static_cast<std::uint64_t>(iso_q32_from_double(real()));
     }
     const char* kind = name == "shape" ? "iso_shape" : name == "id" ? "iso_record" : name == "body" ? "iso_body" : "";
@@ -220,7 +237,10 @@ class Drawer {
     const auto has = [&](const char* part) { return function_.find(part) != std::string::npos; };
     const bool shape = has("_blob") || has("_sphere") || has("_box") || has("_capsule") || has("_half_space") ||
                        has("_cylinder") || has("_cone") || has("_hull") || has("_compound");
-    const char* kind = has("body_create") ? "iso_body" : has("create") ? "iso_joint" : shape ? "iso_shape" : "iso_record";
+    const char* kind = has("body_create") ? "iso_body"
+                       : has("create")    ? "iso_joint"
+                       : shape            ? "iso_shape"
+                                          : "iso_record";
     std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.size() < 60) known.push_back(made);
     else known[dice_.below(60)] = made;
@@ -294,7 +314,8 @@ class Drawer {
       case u32_: return put(at, dice_.below(kElements), 4);
       case number_:
       case unit_: {
-        for (std::size_t i = 0, width = width_of(fact); i + width <= member.size; i += width) number(at + i, member, fact);
+        for (std::size_t i = 0, width = width_of(fact); i + width <= member.size; i += width)
+          number(at + i, member, fact);
         return;
       }
       case f64_: {
@@ -370,7 +391,8 @@ class Drawer {
     if (kind == "tape") status = iso_tape_destroy(static_cast<iso_tape*>(handle));
     if (kind == "replay") status = iso_replay_destroy(static_cast<iso_replay*>(handle));
     if (kind == "blob") status = iso_blob_destroy(static_cast<iso_blob*>(handle));
-    if (status != ISO_OK) std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
+    if (status != ISO_OK)
+      std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
     bury(kind, handle);
   }
 
@@ -389,7 +411,8 @@ class Drawer {
   double zero_ = 0;
   char scene_[8] = "random";
   alignas(16) std::uint64_t lists_[512] = {};  // what pointers within structs point to: 400 places and more
-  std::map<std::string, Handles> handles_ = {{"world", {}}, {"snapshot", {}}, {"tape", {}}, {"replay", {}}, {"blob", {}}};
+  std::map<std::string, Handles> handles_ = {
+      {"world", {}}, {"snapshot", {}}, {"tape", {}}, {"replay", {}}, {"blob", {}}};
   std::map<std::string, std::vector<std::uint64_t>> ids_;
   std::vector<std::vector<std::uint8_t>> bytes_;
 };
@@ -405,7 +428,8 @@ const std::vector<Call>& all_calls() {
 #define ISO_P(type, to, is_const, name) static_cast<type>(drawer.pointer(to, is_const, name))
 #define ISO_V(type, name) drawer.value<type>(name)
 #define ISO_CALL(f, ...) {#f, true, []([[maybe_unused]] Drawer& drawer) { return f(__VA_ARGS__); }},
-#define ISO_ASK(f, ...) {#f, false, []([[maybe_unused]] Drawer& drawer) { return (void)f(__VA_ARGS__), iso_status{0}; }},
+#define ISO_ASK(f, ...) \
+  {#f, false, []([[maybe_unused]] Drawer& drawer) { return (void)f(__VA_ARGS__), iso_status{0}; }},
 #include "calls.inl"
   };
   return calls;
@@ -419,7 +443,8 @@ struct Often {
     for (const Call& call : all_calls()) {
       const std::string name = call.name;
       const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
-      if (has("_body_create") || has("_add_box") || has("_add_sphere") || has("_create_six_axis")) bodies.push_back(&call);
+      if (has("_body_create") || has("_add_box") || has("_add_sphere") || has("_create_six_axis"))
+        bodies.push_back(&call);
       const bool makes = has("_body_create") || has("_add_") || (has("_create_") && !has("blob_") && !has("replay_"));
       if (makes) all.push_back(&call);
     }
@@ -518,7 +543,8 @@ int main() {
     const bool leaves_traces = name == "iso_world_apply" || name.find("add_ragdoll") != std::string::npos;
     if (status != ISO_OK && looks && !leaves_traces && iso_world_hash(drawer.world()) != before) {
       return std::printf("call %llu, %s: refused, and the world is another: %s\n", static_cast<unsigned long long>(i),
-                         call.name, iso_last_error()), 1;
+                         call.name, iso_last_error()),
+             1;
     }
     if (status == ISO_OK) ++succeeded[name];
     drawer.end(status);

@@ -159,8 +159,8 @@ std::string region_text(const Schema& schema) {
   text += "\n";
   text += list_text("ISO_C_FOR_EACH_SIZED", "What begins with its size, of a family.",
                     names_of(schema.families[0].structs, true));
-  text += list_text("ISO_C_FOR_EACH_COMMON_SIZED", "The same of structs without numbers.",
-                    names_of(schema.common, true));
+  text +=
+      list_text("ISO_C_FOR_EACH_COMMON_SIZED", "The same of structs without numbers.", names_of(schema.common, true));
   text += list_text("ISO_C_FOR_EACH_RECORD", "Records that are registered with a world.", schema.records);
   text += list_text("ISO_C_FOR_EACH_SHAPE", "Shapes that numbers describe.", schema.shapes);
   text += list_text("ISO_C_FOR_EACH_JOINT", "Joints by name.", schema.joints);
