@@ -27,7 +27,7 @@ static int verify(const void* file, size_t size) {
   iso_replay_result result;
   ISO(iso_replay_result_init(&result));
   ISO(iso_replay_verify(file, size, ISO_SIMD_BEST, UINT64_MAX, &result));
-  printf("%s: %s\n", result.scene, result.text); /* a pushed ball: verified, 90 frames */
+  printf("%s: %s\n", result.scene, result.text); /* a pushed ball: VERIFIED 90 frames */
   return result.outcome == ISO_VERIFY_OUTCOME_VERIFIED ? 0 : 1;
 }
 /* README: end */

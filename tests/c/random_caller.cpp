@@ -2,7 +2,7 @@
 // with random members and sizes, damaged bytes. Each call has a known status; one that is refused changes nothing.
 // SPDX-License-Identifier: MIT
 //
-// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first that is wrong.
+// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first wrong one.
 
 #include <cstdio>
 #include <cstdlib>
@@ -539,7 +539,7 @@ int main() {
     if (std::strcmp(iso_status_text(status), "unknown status") == 0) {
       return std::printf("call %llu, %s: status %d\n", static_cast<unsigned long long>(i), call.name, status), 1;
     }
-    // Of commands as bytes, what comes before the damage was done; of a ragdoll that is taken back, its ids are used up.
+    // Of commands as bytes, what comes before the damage was done; a ragdoll that is taken back has used up ids.
     const bool leaves_traces = name == "iso_world_apply" || name.find("add_ragdoll") != std::string::npos;
     if (status != ISO_OK && looks && !leaves_traces && iso_world_hash(drawer.world()) != before) {
       return std::printf("call %llu, %s: refused, and the world is another: %s\n", static_cast<unsigned long long>(i),
