@@ -40,10 +40,10 @@ enum {
 
 /* Sessions */
 
-/* A session decides which frames a game steps, with whose inputs, and when: lockstep, rollback, watching, sync tests and
+/* A session decides which frames a game steps, with whose inputs, and when: lockstep, rollback, watching, sync tests,
    replays. It has no sockets, no clock and no threads: bytes and the time go in, bytes and requests come out. See
-   SESSIONS.md. Times are microseconds since any moment of the caller's choice and never run backwards; frames count from
-   0, -1 is none; sets of players are a bit each.
+   SESSIONS.md. Times are microseconds since any moment of the caller's choice and never run backwards; frames count
+   from 0, -1 is none; sets of players are a bit each.
 
    Strings that come out end with a zero byte and hold until the session's next call. Structs that are filled here begin
    with `size`, which the caller sets: iso_session_event event = {sizeof event}. */
@@ -65,25 +65,28 @@ enum {
   ISO_NORMAL_SPEED = 8 /* [1/8 of the match's rate] 4 to 16 may be set */
 };
 
-enum {                /* iso_session_config.mode */
-       ISO_LOCKSTEP,  /* a frame is stepped when all its inputs are known */
-       ISO_ROLLBACK,  /* a frame is stepped when it is due; wrong guesses are stepped again */
-       ISO_SPECTATOR, /* no player; steps what is known, and catches up when behind */
-       ISO_SYNC_TEST, /* one machine: every frame is rolled back, stepped again and compared */
-       ISO_REPLAY     /* plays a recorded match */
+/* iso_session_config.mode */
+enum {
+  ISO_LOCKSTEP,  /* a frame is stepped when all its inputs are known */
+  ISO_ROLLBACK,  /* a frame is stepped when it is due; wrong guesses are stepped again */
+  ISO_SPECTATOR, /* no player; steps what is known, and catches up when behind */
+  ISO_SYNC_TEST, /* one machine: every frame is rolled back, stepped again and compared */
+  ISO_REPLAY     /* plays a recorded match */
 };
 
-enum {                     /* iso_session_config.predictor */
-       ISO_REPEAT_LAST,    /* a held stick stays held */
-       ISO_PREDICT_NEUTRAL /* nobody gives the same order twice */
+/* iso_session_config.predictor */
+enum {
+  ISO_REPEAT_LAST,    /* a held stick stays held */
+  ISO_PREDICT_NEUTRAL /* nobody gives the same order twice */
 };
 
-enum {               /* iso_session_config_preset */
-       ISO_FIGHTING, /* two players; a frame of delay is felt */
-       ISO_BRAWLER,  /* a few players on one small stage */
-       ISO_RACING,   /* many players; a step is cheap, and others' cars may be corrected */
-       ISO_STRATEGY, /* orders now and then; nothing that is shown may be taken back */
-       ISO_SANDBOX   /* a thousand awake bodies: a step is dear */
+/* iso_session_config_preset */
+enum {
+  ISO_FIGHTING, /* two players; a frame of delay is felt */
+  ISO_BRAWLER,  /* a few players on one small stage */
+  ISO_RACING,   /* many players; a step is cheap, and others' cars may be corrected */
+  ISO_STRATEGY, /* orders now and then; nothing that is shown may be taken back */
+  ISO_SANDBOX   /* a thousand awake bodies: a step is dear */
 };
 
 typedef struct iso_session_config {
@@ -97,20 +100,19 @@ typedef struct iso_session_config {
   uint8_t players_set_tempo; /* host: who plays may pause and set the speed; else the host's game is asked, by events */
   uint8_t reserved1[2];
   int32_t players;
-  int32_t local_players; /* host: how many of the first play here, 0: dedicated; client: for how many seats it asks */
-  int32_t hz;            /* [1/s] */
-  int32_t window;        /* [frames] rollback: stepped on guesses at most; sync test: rolled back */
-  int32_t delay;         /* [frames] an input waits at first; adapts between the next two */
-  int32_t least_delay;   /* [frames] */
-  int32_t most_delay;    /* [frames] */
-  int32_t deadline;      /* [frames] host: an input that is late by so many is replaced by the guess; 0: none */
-  uint64_t silence;      /* [us] without a word from a peer until it counts as lost */
-  uint64_t patience;     /* [us] that one player may make the others wait within a minute; then it is left out */
-  uint64_t exclusion;    /* [us] for so long */
-  int32_t kept;          /* states kept, more than window, delay and latency; iso_game.save has slots below this */
-  int32_t history;       /* frames of inputs kept: how long a snapshot may take to reach a late joiner */
-  int32_t
-      most_replayed; /* [frames] whose state is at most so old steps them all; who has an older one is sent a snapshot */
+  int32_t local_players;   /* host: how many of the first play here, 0: dedicated; client: for how many seats it asks */
+  int32_t hz;              /* [1/s] */
+  int32_t window;          /* [frames] rollback: stepped on guesses at most; sync test: rolled back */
+  int32_t delay;           /* [frames] an input waits at first; adapts between the next two */
+  int32_t least_delay;     /* [frames] */
+  int32_t most_delay;      /* [frames] */
+  int32_t deadline;        /* [frames] host: an input that is late by so many is replaced by the guess; 0: none */
+  uint64_t silence;        /* [us] without a word from a peer until it counts as lost */
+  uint64_t patience;       /* [us] that one player may make the others wait within a minute; then it is left out */
+  uint64_t exclusion;      /* [us] for so long */
+  int32_t kept;            /* states kept, more than window, delay and latency; iso_game.save has slots below this */
+  int32_t history;         /* frames of inputs kept: how long a snapshot may take to reach a late joiner */
+  int32_t most_replayed;   /* [frames] whose state is at most so old steps them all; older ones are sent a snapshot */
   int32_t max_peers;       /* whom the host serves: the players, and as many spectators as they leave room for */
   int32_t max_strangers;   /* host: connections beside those; peers are numbered below the sum of both */
   uint32_t snapshot_cap;   /* [bytes] of a snapshot that a client accepts */
@@ -123,14 +125,13 @@ typedef struct iso_session_config {
   int32_t seat;             /* client: this seat, and those after it for further players of ours, or none; -1: any */
   uint32_t credential_size; /* [bytes] */
   uint8_t credential[256];  /* client: for the host's game */
-  char address[72];     /* where the others' transports reach ours, at most 64 characters: iso_session_poll_connect */
-  char name[136];       /* what all peers must have alike: the game and its version, 1 to 128 characters of ASCII */
-  char input_text[136]; /* likewise: names the fields of an input, at most 128 characters */
-  uint64_t
-      input_schema;     /* 0: the hash of input_text, the sizes and neutral; else this, as of a C++ peer's InputCodec */
-  uint32_t input_least; /* [bytes] an input has, 0 to input_cap */
-  uint32_t input_cap;   /* [bytes] and at most, 1 to ISO_INPUT_CAP */
-  uint32_t predictor;   /* ISO_REPEAT_LAST ...; iso_game.predict replaces it */
+  char address[72];      /* where the others' transports reach ours, at most 64 characters: iso_session_poll_connect */
+  char name[136];        /* what all peers must have alike: the game and its version, 1 to 128 characters of ASCII */
+  char input_text[136];  /* likewise: names the fields of an input, at most 128 characters */
+  uint64_t input_schema; /* 0: hash of input_text, sizes and neutral; else this, as of a C++ InputCodec */
+  uint32_t input_least;  /* [bytes] an input has, 0 to input_cap */
+  uint32_t input_cap;    /* [bytes] and at most, 1 to ISO_INPUT_CAP */
+  uint32_t predictor;    /* ISO_REPEAT_LAST ...; iso_game.predict replaces it */
   uint32_t neutral_size; /* [bytes] input_least to input_cap */
   uint8_t neutral[512];  /* what is played for who is not there */
 } iso_session_config;
@@ -149,10 +150,11 @@ typedef struct iso_input {
   uint8_t reserved;
   uint8_t bytes[512]; /* zero from `size` on */
 } iso_input;
-enum {                  /* iso_input.status; a game may look at ISO_DISCONNECTED, and at nothing else */
-       ISO_CONFIRMED,   /* the player's own word */
-       ISO_PREDICTED,   /* a guess; the frame will be stepped again if it was wrong */
-       ISO_DISCONNECTED /* the player is gone: the bytes are `neutral` */
+/* iso_input.status; a game may look at ISO_DISCONNECTED, and at nothing else */
+enum {
+  ISO_CONFIRMED,   /* the player's own word */
+  ISO_PREDICTED,   /* a guess; the frame will be stepped again if it was wrong */
+  ISO_DISCONNECTED /* the player is gone: the bytes are `neutral` */
 };
 
 /* The game: what is saved, rolled back, hashed and sent to who joins late. At least one of `world`, `block` and
@@ -187,11 +189,11 @@ typedef struct iso_game {
 } iso_game;
 ISO_API iso_status iso_game_init(iso_game* game); /* all null */
 
-/* `file`: of ISO_REPLAY the recording of a match, of a host that goes on with one what iso_session_save_match gave; else
-   null. ISO_REFUSED: see iso_session_config_problem. What is wrong with a file is the event ISO_EVENT_REFUSED. */
+/* `file`: of ISO_REPLAY the recording of a match, of a host that goes on with one what iso_session_save_match gave;
+   else null. ISO_REFUSED: see iso_session_config_problem. What is wrong with a file is the event ISO_EVENT_REFUSED. */
 ISO_API iso_status iso_session_create(const iso_session_config* config, const iso_game* game, const void* file,
                                       size_t file_size, iso_session** out);
-/* Refused from within a callback, and then the session stays. Null is allowed. World, block and user come to no harm. */
+/* Refused from within a callback, and then the session stays. Null is allowed. The world and the block stay. */
 ISO_API iso_status iso_session_destroy(iso_session* session);
 /* Of the last call that returned ISO_REFUSED or ISO_CORRUPT: why; never null. */
 ISO_API const char* iso_session_problem(const iso_session* session);
@@ -209,12 +211,13 @@ ISO_API const char* iso_session_problem(const iso_session* session);
 
    A transport of isostep's does the first and the last by its _deliver and _dispatch. */
 
-enum {                     /* iso_request.kind */
-       ISO_NOTHING,        /* the turn is done */
-       ISO_STEP,           /* step the game by one frame, before the next call */
-       ISO_ROLLED_BACK,    /* the state is again that before `frame` */
-       ISO_RESTARTED,      /* the state is one that arrived from elsewhere, before `frame` */
-       ISO_FRAME_CONFIRMED /* `frame` is final, once each, ascending; `hash`: of the state after it */
+/* iso_request.kind */
+enum {
+  ISO_NOTHING,        /* the turn is done */
+  ISO_STEP,           /* step the game by one frame, before the next call */
+  ISO_ROLLED_BACK,    /* the state is again that before `frame` */
+  ISO_RESTARTED,      /* the state is one that arrived from elsewhere, before `frame` */
+  ISO_FRAME_CONFIRMED /* `frame` is final, once each, ascending; `hash`: of the state after it */
 };
 typedef struct iso_request {
   uint32_t size;
@@ -261,36 +264,37 @@ ISO_API iso_status iso_session_poll_connect(iso_session* session, const char** a
 /* [us] until the next frame is due: how long a loop may sleep when the network is silent. */
 ISO_API uint64_t iso_session_wait(const iso_session* session, uint64_t now);
 
-enum {                          /* iso_session_event.kind */
-       ISO_EVENT_NONE,          /* there is none */
-       ISO_EVENT_STARTED,       /* frame: the first */
-       ISO_EVENT_JOINED,        /* player plays from frame on: reported when that is final, alike on all peers */
-       ISO_EVENT_LEFT,          /* player is gone from frame on: as well */
-       ISO_EVENT_WAITING_FOR,   /* players hold the match up, their inputs are missing; none: the host is silent */
-       ISO_EVENT_RESUMED,       /* it goes on */
-       ISO_EVENT_PAUSED,        /* from frame on, by player; ISO_NO_PLAYER: by the host's game */
-       ISO_EVENT_UNPAUSED,      /* likewise */
-       ISO_EVENT_SPEED_CHANGED, /* likewise: speed */
-       ISO_EVENT_ASKS_PAUSE,    /* host: player asks for it, and players_set_tempo is 0: iso_session_pause or not */
-       ISO_EVENT_ASKS_UNPAUSE,  /* likewise */
-       ISO_EVENT_ASKS_SPEED,    /* likewise: speed */
-       ISO_EVENT_VOTE,          /* the ballot as it stands now, when it is opened, and when somebody has voted */
-       ISO_EVENT_VOTE_PASSED,   /* likewise */
-       ISO_EVENT_VOTE_FAILED,   /* likewise; also when the host that counted is gone */
-       ISO_EVENT_SLOWED_BY,     /* all step as slowly as player's machine can */
-       ISO_EVENT_FULL_SPEED,    /* no longer */
-       ISO_EVENT_REFUSED,       /* key: what differs, or why not; the host reports whom it refused */
-       ISO_EVENT_LOST_HOST,     /* nothing was heard of it for too long, or the connection ended */
-       ISO_EVENT_SEEKS_HOST,    /* likewise, but the match goes on at another */
-       ISO_EVENT_NEW_HOST,      /* frame: where it goes on; player: the first of the host's */
-       ISO_EVENT_DEPOSED,       /* host: the others went on without us, or have gone: we seek their host */
-       ISO_EVENT_DESYNC,   /* player's states differ from ours after state agreed and at the latest in state frame */
-       ISO_EVENT_OUTVOTED, /* player's states are wrong, as of state frame: more than half of all machines have others */
-       ISO_EVENT_UNDECIDED,    /* machines differ in state frame, and no majority says who is wrong */
-       ISO_EVENT_REPAIRED,     /* player has a state of the host's again */
-       ISO_EVENT_BAD_SNAPSHOT, /* the state that arrived has not the host's hash, or was refused, or the host has none */
-       ISO_EVENT_MISUSE,       /* requests of the last turn were not carried out */
-       ISO_EVENT_UNHASHED      /* sync test: the game takes another byte `ours` of state frame, and its hash stays */
+/* iso_session_event.kind */
+enum {
+  ISO_EVENT_NONE,          /* there is none */
+  ISO_EVENT_STARTED,       /* frame: the first */
+  ISO_EVENT_JOINED,        /* player plays from frame on: reported when that is final, alike on all peers */
+  ISO_EVENT_LEFT,          /* player is gone from frame on: as well */
+  ISO_EVENT_WAITING_FOR,   /* players hold the match up, their inputs are missing; none: the host is silent */
+  ISO_EVENT_RESUMED,       /* it goes on */
+  ISO_EVENT_PAUSED,        /* from frame on, by player; ISO_NO_PLAYER: by the host's game */
+  ISO_EVENT_UNPAUSED,      /* likewise */
+  ISO_EVENT_SPEED_CHANGED, /* likewise: speed */
+  ISO_EVENT_ASKS_PAUSE,    /* host: player asks for it, and players_set_tempo is 0: iso_session_pause or not */
+  ISO_EVENT_ASKS_UNPAUSE,  /* likewise */
+  ISO_EVENT_ASKS_SPEED,    /* likewise: speed */
+  ISO_EVENT_VOTE,          /* the ballot as it stands now, when it is opened, and when somebody has voted */
+  ISO_EVENT_VOTE_PASSED,   /* likewise */
+  ISO_EVENT_VOTE_FAILED,   /* likewise; also when the host that counted is gone */
+  ISO_EVENT_SLOWED_BY,     /* all step as slowly as player's machine can */
+  ISO_EVENT_FULL_SPEED,    /* no longer */
+  ISO_EVENT_REFUSED,       /* key: what differs, or why not; the host reports whom it refused */
+  ISO_EVENT_LOST_HOST,     /* nothing was heard of it for too long, or the connection ended */
+  ISO_EVENT_SEEKS_HOST,    /* likewise, but the match goes on at another */
+  ISO_EVENT_NEW_HOST,      /* frame: where it goes on; player: the first of the host's */
+  ISO_EVENT_DEPOSED,       /* host: the others went on without us, or have gone: we seek their host */
+  ISO_EVENT_DESYNC,        /* player's states differ from ours after state agreed and at the latest in state frame */
+  ISO_EVENT_OUTVOTED,      /* player's states are wrong, as of state frame: most machines have others */
+  ISO_EVENT_UNDECIDED,     /* machines differ in state frame, and no majority says who is wrong */
+  ISO_EVENT_REPAIRED,      /* player has a state of the host's again */
+  ISO_EVENT_BAD_SNAPSHOT,  /* the state that arrived has another hash, was refused, or the host has none */
+  ISO_EVENT_MISUSE,        /* requests of the last turn were not carried out */
+  ISO_EVENT_UNHASHED       /* sync test: the game takes another byte `ours` of state frame, and its hash stays */
 };
 typedef struct iso_session_event {
   uint32_t size;
@@ -316,15 +320,16 @@ typedef struct iso_session_event {
 /* The session keeps the last 128: stats.events_lost. */
 ISO_API iso_status iso_session_poll_event(iso_session* session, iso_session_event* out);
 
-enum {                    /* phases */
-       ISO_WAITING,       /* for the others, or for the host */
-       ISO_JOINING,       /* a snapshot arrives, or the frames since */
-       ISO_PLAYING,       /* a player of ours is in the match; replay, sync test: running */
-       ISO_WATCHING,      /* as a spectator, or cut out of the match and on the way back */
-       ISO_SEEKING,       /* the host is gone, and another machine follows it */
-       ISO_LOST,          /* the host is gone: connect again */
-       ISO_PHASE_REFUSED, /* the host will not have us: the event says why */
-       ISO_OVER           /* a replay has ended */
+/* phases */
+enum {
+  ISO_WAITING,       /* for the others, or for the host */
+  ISO_JOINING,       /* a snapshot arrives, or the frames since */
+  ISO_PLAYING,       /* a player of ours is in the match; replay, sync test: running */
+  ISO_WATCHING,      /* as a spectator, or cut out of the match and on the way back */
+  ISO_SEEKING,       /* the host is gone, and another machine follows it */
+  ISO_LOST,          /* the host is gone: connect again */
+  ISO_PHASE_REFUSED, /* the host will not have us: the event says why */
+  ISO_OVER           /* a replay has ended */
 };
 ISO_API uint32_t iso_session_phase(const iso_session* session);
 /* Says who we are after a crash: iso_session_config.token. 0: not seated yet. */
