@@ -176,7 +176,7 @@ typedef struct iso_game {
   void (*restarted)(void* user, int32_t frame);   /* the state is one that arrived from elsewhere, before `frame` */
   void (*confirmed)(void* user, int32_t frame, uint64_t hash); /* `frame` is final, hash: of the state after it */
   /* State of another form: save, load and hash together, write and read together, or else nobody joins late. */
-  void (*save)(void* user, uint32_t slot); /* into a place of the game's own, below config.kept + 1 */
+  void (*save)(void* user, uint32_t slot); /* into a place of the game's own, below config.kept */
   void (*load)(void* user, uint32_t slot); /* what was saved there last */
   uint64_t (*hash)(void* user);
   size_t (*write)(void* user, void* bytes, size_t room); /* returns the size, and writes nothing where room is less */
