@@ -159,4 +159,8 @@ iso_status iso_game_init(iso_game* game) {
   game->size = sizeof *game;
   return ISO_OK;
 }
+
+uint64_t iso_hash_bytes(const void* bytes, size_t size) {
+  return bytes == nullptr && size > 0 ? 0 : isostep::hash_bytes(bytes, size);
+}
 }

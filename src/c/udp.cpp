@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "call.hpp"
 #include "isostep_udp.h"
 #include "live_handles.hpp"
+#include "public_session.hpp"
 #include "transport/enet_transport.hpp"
 #include "transport/pump.hpp"
 
@@ -23,38 +23,6 @@ namespace isostep::c {
 namespace {
 
 using Ports = LiveHandles<iso_udp>;
-
-/// A session of isostep.h, as deliver() and dispatch() know one; the first refusal stays.
-struct PublicSession {
-  iso_session* session;
-  iso_status status = ISO_OK;
-
-  void keep(iso_status one) {
-    if (status == ISO_OK) status = one;
-  }
-  void connected(PeerId peer, Time now, bool incoming) {
-    keep(iso_session_connected(session, peer, now, incoming ? 1 : 0));
-  }
-  void disconnected(PeerId peer, Time now) { keep(iso_session_disconnected(session, peer, now)); }
-  void receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
-    keep(iso_session_receive(session, peer, static_cast<std::uint32_t>(channel), bytes.data(), bytes.size(), now));
-  }
-  std::optional<Address> poll_connect() {
-    const char* address = nullptr;
-    keep(iso_session_poll_connect(session, &address));
-    if (address == nullptr) return std::nullopt;
-    return Address(std::string_view(address));
-  }
-  std::optional<Outgoing> poll_send(Time now) {
-    iso_outgoing out{};
-    out.size = sizeof out;
-    const std::uint8_t* bytes = nullptr;
-    keep(iso_session_poll_send(session, now, &out, &bytes));
-    if (bytes == nullptr) return std::nullopt;
-    return Outgoing{static_cast<PeerId>(out.peer), static_cast<Channel>(out.channel), Bytes(bytes, out.length),
-                    out.close != 0};
-  }
-};
 
 template <class F> iso_status call(const iso_udp* udp, F&& function) {
   if (udp == nullptr) return ISO_NULL;

@@ -46,7 +46,7 @@ enum {
    from 0, -1 is none; sets of players are a bit each.
 
    Strings that come out end with a zero byte and hold until the session's next call. Structs that are filled here begin
-   with `size`, which the caller sets: iso_session_event event = {sizeof event}. */
+   with `size`, which the caller sets: iso_session_event event = {.size = sizeof event}. */
 
 typedef struct iso_session iso_session;
 
@@ -188,6 +188,8 @@ typedef struct iso_game {
   int32_t (*valid)(void* user, const void* bytes, size_t size);
 } iso_game;
 ISO_API iso_status iso_game_init(iso_game* game); /* all null */
+/* XXH3-64, with which `block` is hashed: for iso_game.hash. */
+ISO_API uint64_t iso_hash_bytes(const void* bytes, size_t size);
 
 /* `file`: of ISO_REPLAY the recording of a match, of a host that goes on with one what iso_session_save_match gave;
    else null. ISO_REFUSED: see iso_session_config_problem. What is wrong with a file is the event ISO_EVENT_REFUSED. */
