@@ -65,7 +65,7 @@ enum {
   ISO_NORMAL_SPEED = 8 /* [1/8 of the match's rate] 4 to 16 may be set */
 };
 
-/* iso_session_config.mode */
+typedef uint32_t iso_session_mode;
 enum {
   ISO_LOCKSTEP,  /* a frame is stepped when all its inputs are known */
   ISO_ROLLBACK,  /* a frame is stepped when it is due; wrong guesses are stepped again */
@@ -74,13 +74,13 @@ enum {
   ISO_REPLAY     /* plays a recorded match */
 };
 
-/* iso_session_config.predictor */
+typedef uint32_t iso_predictor;
 enum {
   ISO_REPEAT_LAST,    /* a held stick stays held */
   ISO_PREDICT_NEUTRAL /* nobody gives the same order twice */
 };
 
-/* iso_session_config_preset */
+typedef uint32_t iso_genre;
 enum {
   ISO_FIGHTING, /* two players; a frame of delay is felt */
   ISO_BRAWLER,  /* a few players on one small stage */
@@ -91,7 +91,7 @@ enum {
 
 typedef struct iso_session_config {
   uint32_t size;
-  uint32_t mode;             /* ISO_LOCKSTEP ... */
+  iso_session_mode mode;
   uint8_t host;              /* others connect to us; the host fixes what was played */
   uint8_t relays;            /* spectator: it serves up to max_peers further ones, who connect to it as to a host */
   uint8_t repair;            /* who is outvoted takes the host's state again by itself */
@@ -131,15 +131,15 @@ typedef struct iso_session_config {
   uint64_t input_schema; /* 0: hash of input_text, sizes and neutral; else this, as of a C++ InputCodec */
   uint32_t input_least;  /* [bytes] an input has, 0 to input_cap */
   uint32_t input_cap;    /* [bytes] and at most, 1 to ISO_INPUT_CAP */
-  uint32_t predictor;    /* ISO_REPEAT_LAST ...; iso_game.predict replaces it */
-  uint32_t neutral_size; /* [bytes] input_least to input_cap */
-  uint8_t neutral[512];  /* what is played for who is not there */
+  iso_predictor predictor; /* iso_game.predict replaces it */
+  uint32_t neutral_size;   /* [bytes] input_least to input_cap */
+  uint8_t neutral[512];    /* what is played for who is not there */
 } iso_session_config;
 
 /* C++'s defaults; inputs of 1 byte, neutral 0. `name`, `seed` (of a host) and the input are to be set. */
 ISO_API iso_status iso_session_config_init(iso_session_config* config);
 /* Likewise, with mode, window, delays and deadline for a genre and so many players. */
-ISO_API iso_status iso_session_config_preset(iso_session_config* config, uint32_t genre, int32_t players);
+ISO_API iso_status iso_session_config_preset(iso_session_config* config, iso_genre genre, int32_t players);
 /* The first rule that it breaks, as the name of the field and what it may be; or null. */
 ISO_API const char* iso_session_config_problem(const iso_session_config* config);
 
@@ -150,7 +150,8 @@ typedef struct iso_input {
   uint8_t reserved;
   uint8_t bytes[512]; /* zero from `size` on */
 } iso_input;
-/* iso_input.status; a game may look at ISO_DISCONNECTED, and at nothing else */
+/* Of an input. A game may look at ISO_DISCONNECTED, and at nothing else. */
+typedef uint32_t iso_input_status;
 enum {
   ISO_CONFIRMED,   /* the player's own word */
   ISO_PREDICTED,   /* a guess; the frame will be stepped again if it was wrong */
@@ -213,7 +214,7 @@ ISO_API const char* iso_session_problem(const iso_session* session);
 
    A transport of isostep's does the first and the last by its _deliver and _dispatch. */
 
-/* iso_request.kind */
+typedef uint32_t iso_request_kind;
 enum {
   ISO_NOTHING,        /* the turn is done */
   ISO_STEP,           /* step the game by one frame, before the next call */
@@ -223,7 +224,7 @@ enum {
 };
 typedef struct iso_request {
   uint32_t size;
-  uint32_t kind;
+  iso_request_kind kind;
   int32_t frame;
   uint32_t reserved;
   uint64_t hash;
@@ -245,16 +246,20 @@ ISO_API iso_status iso_session_add_local_input(iso_session* session, int32_t pla
 ISO_API uint8_t iso_session_wants_input(const iso_session* session, int32_t player);
 
 /* The transport's side. `incoming`: the other side asked for the connection, as all do at a host. */
-enum { ISO_DATAGRAM, ISO_RELIABLE }; /* channels: may be lost, doubled, late; arrives whole and in order */
+typedef uint32_t iso_channel;
+enum {
+  ISO_DATAGRAM, /* may be lost, doubled, late or out of order */
+  ISO_RELIABLE  /* arrives whole and in order, or the connection ends */
+};
 ISO_API iso_status iso_session_connected(iso_session* session, uint32_t peer, uint64_t now, uint8_t incoming);
 ISO_API iso_status iso_session_disconnected(iso_session* session, uint32_t peer, uint64_t now);
 /* Malformed bytes are counted, and otherwise without effect. */
-ISO_API iso_status iso_session_receive(iso_session* session, uint32_t peer, uint32_t channel, const void* bytes,
+ISO_API iso_status iso_session_receive(iso_session* session, uint32_t peer, iso_channel channel, const void* bytes,
                                        size_t size, uint64_t now);
 typedef struct iso_outgoing {
   uint32_t size;
   uint32_t peer;
-  uint32_t channel;
+  iso_channel channel;
   uint32_t length; /* [bytes] 0: nothing to send, `close` alone */
   uint8_t close;   /* end the connection after it */
   uint8_t reserved1[7];
@@ -266,7 +271,7 @@ ISO_API iso_status iso_session_poll_connect(iso_session* session, const char** a
 /* [us] until the next frame is due: how long a loop may sleep when the network is silent. */
 ISO_API uint64_t iso_session_wait(const iso_session* session, uint64_t now);
 
-/* iso_session_event.kind */
+typedef uint32_t iso_event_kind;
 enum {
   ISO_EVENT_NONE,          /* there is none */
   ISO_EVENT_STARTED,       /* frame: the first */
@@ -300,14 +305,14 @@ enum {
 };
 typedef struct iso_session_event {
   uint32_t size;
-  uint32_t kind;
+  iso_event_kind kind;
   uint32_t player; /* ISO_NO_PLAYER: none, or the host's machine */
   int32_t frame;
   int32_t agreed; /* [frame] */
   uint32_t players;
-  uint32_t speed;    /* [1/8 of the match's rate] */
-  uint32_t vote;     /* its number in the match; 0: none */
-  uint32_t proposal; /* ISO_VOTE_PAUSE ... */
+  uint32_t speed; /* [1/8 of the match's rate] */
+  uint32_t vote;  /* its number in the match; 0: none */
+  iso_proposal proposal;
   uint32_t subject;
   uint32_t proposer;
   uint32_t voters;       /* players */
@@ -322,7 +327,7 @@ typedef struct iso_session_event {
 /* The session keeps the last 128: stats.events_lost. */
 ISO_API iso_status iso_session_poll_event(iso_session* session, iso_session_event* out);
 
-/* phases */
+typedef uint32_t iso_phase;
 enum {
   ISO_WAITING,       /* for the others, or for the host */
   ISO_JOINING,       /* a snapshot arrives, or the frames since */
@@ -333,7 +338,7 @@ enum {
   ISO_PHASE_REFUSED, /* the host will not have us: the event says why */
   ISO_OVER           /* a replay has ended */
 };
-ISO_API uint32_t iso_session_phase(const iso_session* session);
+ISO_API iso_phase iso_session_phase(const iso_session* session);
 /* Says who we are after a crash: iso_session_config.token. 0: not seated yet. */
 ISO_API uint64_t iso_session_token(const iso_session* session);
 ISO_API int32_t iso_session_local_player(const iso_session* session);   /* the first of this machine; -1: none yet */
@@ -388,9 +393,10 @@ ISO_API iso_status iso_session_resync(iso_session* session); /* client: takes a 
 ISO_API iso_status iso_session_pause(iso_session* session);
 ISO_API iso_status iso_session_unpause(iso_session* session);
 ISO_API iso_status iso_session_set_speed(iso_session* session, int32_t eighths);
-enum { ISO_VOTE_PAUSE = 1, ISO_VOTE_UNPAUSE, ISO_VOTE_SPEED, ISO_VOTE_KICK, ISO_VOTE_OTHER }; /* proposals */
+typedef uint32_t iso_proposal;
+enum { ISO_VOTE_PAUSE = 1, ISO_VOTE_UNPAUSE, ISO_VOTE_SPEED, ISO_VOTE_KICK, ISO_VOTE_OTHER };
 /* `player`, one of ours, asks all who play. `subject`: speed [1/8], whom to kick, or what the game likes. */
-ISO_API iso_status iso_session_propose(iso_session* session, int32_t player, uint32_t proposal, uint32_t subject);
+ISO_API iso_status iso_session_propose(iso_session* session, int32_t player, iso_proposal proposal, uint32_t subject);
 /* In the vote of the last event; the last word counts. */
 ISO_API iso_status iso_session_vote(iso_session* session, int32_t player, uint8_t yes);
 
@@ -421,16 +427,17 @@ ISO_API int32_t iso_session_peer_of(const iso_session* session,
 ISO_API iso_status iso_session_save_match(iso_session* session, void* bytes, size_t* size);
 
 /* Recordings of the confirmed frames, from the next frame stepped on. One of each kind at a time. */
+typedef uint32_t iso_recording;
 enum {
   ISO_RECORD_MATCH, /* inputs and hashes: a few kilobytes a minute, for ISO_REPLAY by who has the game */
   ISO_RECORD_WORLD  /* the world's commands and hashes: `isostep verify` plays it without the game. Of a game with a
                        world, to which nothing else records meanwhile */
 };
 /* `scene`: of ISO_RECORD_WORLD the name in the file, 1 to 128 characters; null: config.name. */
-ISO_API iso_status iso_session_record(iso_session* session, uint32_t kind, const char* scene);
+ISO_API iso_status iso_session_record(iso_session* session, iso_recording kind, const char* scene);
 /* Ends it with the last confirmed frame; the file. Asked with too little room it stays for the next call. It has ended
    before where the session restarted from another state. */
-ISO_API iso_status iso_session_recorded(iso_session* session, uint32_t kind, void* bytes, size_t* size);
+ISO_API iso_status iso_session_recorded(iso_session* session, iso_recording kind, void* bytes, size_t* size);
 
 /* A network in virtual time, for tests and testbeds: endpoint 0 is the host, clients follow. */
 typedef struct iso_network iso_network;
