@@ -271,6 +271,10 @@ ISO_API iso_status iso_session_poll_connect(iso_session* session, const char** a
 /* [us] until the next frame is due: how long a loop may sleep when the network is silent. */
 ISO_API uint64_t iso_session_wait(const iso_session* session, uint64_t now);
 
+/* What players may vote on. */
+typedef uint32_t iso_proposal;
+enum { ISO_VOTE_PAUSE = 1, ISO_VOTE_UNPAUSE, ISO_VOTE_SPEED, ISO_VOTE_KICK, ISO_VOTE_OTHER };
+
 typedef uint32_t iso_event_kind;
 enum {
   ISO_EVENT_NONE,          /* there is none */
@@ -393,8 +397,6 @@ ISO_API iso_status iso_session_resync(iso_session* session); /* client: takes a 
 ISO_API iso_status iso_session_pause(iso_session* session);
 ISO_API iso_status iso_session_unpause(iso_session* session);
 ISO_API iso_status iso_session_set_speed(iso_session* session, int32_t eighths);
-typedef uint32_t iso_proposal;
-enum { ISO_VOTE_PAUSE = 1, ISO_VOTE_UNPAUSE, ISO_VOTE_SPEED, ISO_VOTE_KICK, ISO_VOTE_OTHER };
 /* `player`, one of ours, asks all who play. `subject`: speed [1/8], whom to kick, or what the game likes. */
 ISO_API iso_status iso_session_propose(iso_session* session, int32_t player, iso_proposal proposal, uint32_t subject);
 /* In the vote of the last event; the last word counts. */
