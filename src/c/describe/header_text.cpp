@@ -68,8 +68,8 @@ std::string enum_text(const Enum& described) {
   std::string row;
   for (std::size_t i = 0; i < described.values.size(); ++i) {
     const Enumerator& value = described.values[i];
-    const std::string one = "ISO_" + upper(described.name) + "_" + upper(value.name) + " = " +
-                            std::to_string(value.value) + (i + 1 < described.values.size() ? "," : "");
+    const std::string one =
+        name_of(value, described) + " = " + std::to_string(value.value) + (i + 1 < described.values.size() ? "," : "");
     if (2 + row.size() + one.size() + 1 > kColumns) {
       text += "\n " + row;
       row.clear();

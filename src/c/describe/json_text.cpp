@@ -53,8 +53,8 @@ std::string struct_text(const Struct& described, const Family* family) {
 std::string enum_text(const Enum& described) {
   std::vector<std::string> values;
   for (const Enumerator& value : described.values) {
-    values.push_back("{" + pair("name", "ISO_" + upper(described.name) + "_" + upper(value.name)) + ", " +
-                     pair("base", value.name) + ", " + pair("value", value.value) + "}");
+    values.push_back("{" + pair("name", name_of(value, described)) + ", " + pair("base", value.name) + ", " +
+                     pair("value", value.value) + "}");
   }
   return "{" + pair("name", "iso_" + described.name) + ", \"flags\": " + (described.is_flags ? "true" : "false") +
          ", \"values\": " + rows(values, "      ") + "}";

@@ -1,0 +1,45 @@
+// Structs that C and C++ have alike: taken from a caller of another age, and given to one.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "include/isostep.h"
+
+namespace isostep::c {
+
+/// [bytes] The smallest struct has its size and a word; a newer caller's is not longer than this library's by more.
+inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
+template <class T> bool is_size(std::uint32_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
+
+/// What a caller's struct holds of `to`, which keeps its defaults beyond: that of an older caller is shorter; of a newer
+/// one the part that this library does not know is zero.
+template <class T> iso_status take(const T* from, T& to) {
+  if (from == nullptr) return ISO_NULL;
+  const std::uint32_t size = from->size;
+  if (!is_size<T>(size)) return ISO_WRONG_SIZE;
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(from);
+  for (std::size_t i = sizeof(T); i < size; ++i) {
+    if (bytes[i] != 0) return ISO_WRONG_SIZE;
+  }
+  std::memcpy(&to, from, size < sizeof(T) ? size : sizeof(T));
+  to.size = sizeof(T);
+  return ISO_OK;
+}
+
+/// Is there room for what is filled: a struct whose size the caller has set?
+template <class T> iso_status can_give(const T* to) {
+  if (to == nullptr) return ISO_NULL;
+  return is_size<T>(to->size) ? ISO_OK : ISO_WRONG_SIZE;
+}
+/// After can_give: as much as the caller's struct holds, and zeros where it knows more than this library.
+template <class T> void give(const T& from, T* to) {
+  const std::uint32_t size = to->size;
+  std::memset(to, 0, size);
+  std::memcpy(to, &from, size < sizeof(T) ? size : sizeof(T));
+  to->size = size;
+}
+
+}  // namespace isostep::c
