@@ -2864,7 +2864,8 @@ typedef struct iso_game {
   /* 0: no player can make this input; it has a size within the bounds. */
   int32_t (*valid)(void* user, const void* bytes, size_t size);
 } iso_game;
-ISO_API iso_status iso_game_init(iso_game* game); /* all null */
+/* all null */
+ISO_API iso_status iso_game_init(iso_game* game);
 /* XXH3-64, with which `block` is hashed: for iso_game.hash. */
 ISO_API uint64_t iso_hash_bytes(const void* bytes, size_t size);
 
@@ -3021,10 +3022,14 @@ enum {
 ISO_API iso_phase iso_session_phase(const iso_session* session);
 /* Says who we are after a crash: iso_session_config.token. 0: not seated yet. */
 ISO_API uint64_t iso_session_token(const iso_session* session);
-ISO_API int32_t iso_session_local_player(const iso_session* session);   /* the first of this machine; -1: none yet */
-ISO_API uint32_t iso_session_local_players(const iso_session* session); /* all of them */
-ISO_API int32_t iso_session_current(const iso_session* session);        /* the next frame to be stepped */
-ISO_API int32_t iso_session_confirmed(const iso_session* session);      /* states up to this one are final */
+/* the first of this machine; -1: none yet */
+ISO_API int32_t iso_session_local_player(const iso_session* session);
+/* all of them */
+ISO_API uint32_t iso_session_local_players(const iso_session* session);
+/* the next frame to be stepped */
+ISO_API int32_t iso_session_current(const iso_session* session);
+/* states up to this one are final */
+ISO_API int32_t iso_session_confirmed(const iso_session* session);
 /* What a player did in a frame that is at most `kept` frames old; ISO_DISCONNECTED for who was absent. */
 ISO_API iso_status iso_session_input(const iso_session* session, int32_t frame, int32_t player, iso_input* out);
 /* [bytes] Of the snapshot under way: on a client the one that it waits for, on a host the one that `peer` is sent. */
@@ -3067,8 +3072,10 @@ typedef struct iso_player_stats {
 ISO_API iso_status iso_session_get_player_stats(const iso_session* session, int32_t player, iso_player_stats* out);
 
 /* Decisions. Those of who may not make them, or not now, are refused. */
-ISO_API iso_status iso_session_start(iso_session* session, uint64_t now); /* host: begins although seats are empty */
-ISO_API iso_status iso_session_resync(iso_session* session); /* client: takes a state of the host's, keeps its seat */
+/* host: begins although seats are empty */
+ISO_API iso_status iso_session_start(iso_session* session, uint64_t now);
+/* client: takes a state of the host's, keeps its seat */
+ISO_API iso_status iso_session_resync(iso_session* session);
 /* The match stands still, or goes on, on all machines before the same frame. A client's is a request to the host. */
 ISO_API iso_status iso_session_pause(iso_session* session);
 ISO_API iso_status iso_session_unpause(iso_session* session);
@@ -3129,10 +3136,12 @@ ISO_API iso_status iso_network_set_profile(iso_network* network, uint32_t client
 ISO_API const char* iso_network_problem(const iso_network* network);
 /* Refused while the last connection between them is not over. */
 ISO_API iso_status iso_network_connect(iso_network* network, uint32_t from, uint32_t to);
-ISO_API iso_status iso_network_cut(iso_network* network, uint32_t client); /* both sides hear it now */
+/* both sides hear it now */
+ISO_API iso_status iso_network_cut(iso_network* network, uint32_t client);
 ISO_API iso_status iso_network_set_silent(iso_network* network, uint32_t endpoint,
                                           uint8_t silent);                                      /* as a pulled cable */
-ISO_API iso_status iso_network_set_side(iso_network* network, uint32_t endpoint, int32_t side); /* sides do not meet */
+/* sides do not meet */
+ISO_API iso_status iso_network_set_side(iso_network* network, uint32_t endpoint, int32_t side);
 /* Lets everything due until then happen; refused where that is in the past. */
 ISO_API iso_status iso_network_advance_to(iso_network* network, uint64_t now);
 /* What has arrived goes into the session; what it has to say goes out. Addresses of a migration are endpoints: "2". */
