@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <string>
 
+#include "functions.hpp"
 #include "numbers.hpp"
 #include "output.hpp"
+#include "structs.hpp"
 
 using namespace isostep::csharp;
 
@@ -18,6 +20,11 @@ int main(int argc, char** argv) {
   const std::filesystem::path package = argv[2];
   Files files;
   add_numbers(source, files);
+  const Schema schema = read_schema(source);
+  add_enums(schema, files);
+  add_structs(schema, files);
+  add_functions(schema, files);
+  add_methods(schema, files);
   const int differ = write_or_check(package, files, check);
   std::printf("%d of %zu files %s\n", differ, files.size(), check ? "differ" : "written");
   return check && differ > 0 ? 1 : 0;

@@ -8,6 +8,7 @@
 #include "isostep/scalar/math_tables.hpp"
 #include "isostep/scalar/rsqrt.hpp"
 #include "isostep/scalar/scalar.hpp"
+#include "names.hpp"
 
 namespace isostep::csharp {
 namespace {
@@ -110,8 +111,8 @@ template <class S> Words family_words(const std::string& scalar, const std::stri
   return words;
 }
 
-struct Family {
-  std::string space;
+/// Expands templates with the words of one family.
+struct Templates {
   Words words;
   std::filesystem::path templates;
   Files& files;
@@ -130,7 +131,7 @@ void add_family(const std::filesystem::path& templates, Files& files, const std:
   const std::string number = read_file(templates / "Number.cs.in");
   files["Runtime/Numbers/" + scalar + ".cs"] = expand(number, words_of<S>(scalar, summary, "Number.cs.in"));
   files["Runtime/Numbers/" + unit + ".cs"] = expand(number, words_of<Unit<S>>(unit, unit_summary, "Number.cs.in"));
-  Family family{space, family_words<S>(scalar, space), templates, files};
+  Templates family{family_words<S>(scalar, space), templates, files};
   family.add("Numbers/" + scalar + "Mixed.cs", "MixedNumber.cs.in");
   family.add(space + "/Vec3.cs", "Vec3.cs.in",
              {{"V", "Vec3"},
@@ -146,6 +147,16 @@ void add_family(const std::filesystem::path& templates, Files& files, const std:
   family.add(space + "/Quat.cs", "Quat.cs.in");
 }
 
+/// Worlds of every family; vectors without arithmetic where a compiler could change it.
+void add_worlds(const std::filesystem::path& templates, Files& files) {
+  for (const Family& each : families()) {
+    const Words words = {{"S", each.number}, {"NS", each.space}, {"P", each.prefix}, {"P_PASCAL", pascal(each.prefix)}};
+    Templates family{words, templates, files};
+    family.add(each.space + "/World.cs", "World.cs.in");
+    if (each.number.front() != 'Q') family.add(each.space + "/Vectors.cs", "FloatVec3.cs.in");
+  }
+}
+
 }  // namespace
 
 void add_numbers(const std::filesystem::path& source, Files& files) {
@@ -156,6 +167,7 @@ void add_numbers(const std::filesystem::path& source, Files& files) {
                      "The directions beside Q16: 30 bits after the point, -2 to 2.");
   add_family<Q32_32>(templates, files, "Q32", "Fixed32", "Fixed point with 32 bits before the point and 32 after.",
                      "The directions beside Q32: 62 bits after the point, -2 to 2.");
+  add_worlds(templates, files);
 }
 
 }  // namespace isostep::csharp
