@@ -129,7 +129,7 @@ class Method {
     parameter(of + "[] " + name);
     fix(of + "* " + camel(function_.arguments[at_].name + "_at") + " = " + name);
     pass(camel(function_.arguments[at_].name + "_at"));
-    pass("Text.Length(" + name + ")");
+    pass("NativeText.Length(" + name + ")");
     at_ += 2;
     return true;
   }
@@ -148,7 +148,7 @@ class Method {
     pass("&bytes");
     pass("&size");
     returns_ = "byte[]";
-    result_ = "Text.Copy(bytes, size)";
+    result_ = "NativeText.Copy(bytes, size)";
     at_ += 2;
     return true;
   }
@@ -169,7 +169,7 @@ class Method {
     before("UIntPtr count;");
     fix(of + "* at = " + name);
     pass("at");
-    pass("Text.Length(" + name + ")");
+    pass("NativeText.Length(" + name + ")");
     pass("&count");
     returns_ = "int";
     result_ = "(int)count";
@@ -199,7 +199,7 @@ class Method {
   }
   bool take_text(const std::string& name) {
     parameter("string " + name);
-    fix("byte* " + name + "At = Text.Bytes(" + name + ")");
+    fix("byte* " + name + "At = NativeText.Bytes(" + name + ")");
     pass(name + "At");
     ++at_;
     return true;
@@ -280,7 +280,7 @@ class Method {
     const std::string modifier = handle_.empty() ? "public static " : "public ";
     if (plain != "Status") {
       const std::string returned = plain == "byte*" ? "string" : plain == "byte" ? "bool" : plain;
-      const std::string value = plain == "byte*" ? "Text.Read(" + call + ")" : plain == "byte" ? call + " != 0" : call;
+      const std::string value = plain == "byte*" ? "NativeText.Read(" + call + ")" : plain == "byte" ? call + " != 0" : call;
       if (parameters_.empty()) return indent + modifier + returned + " " + name + " { get { return " + value + "; } }\n";
       return wrapped(indent + modifier + returned + " " + name + "(" + parameters_ + ")", indent + "    ") + indent + "{\n" +
              before_ + fixed_ + wrapped(indent + "    return " + value + ";", indent + "        ") + indent + "}\n";

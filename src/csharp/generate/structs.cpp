@@ -98,8 +98,8 @@ class Writer {
     comment(member);
     line("public string " + name);
     line("{");
-    line("    get { fixed (byte* at = " + hidden + ") return Text.Read(at, " + count + "); }");
-    line("    set { fixed (byte* at = " + hidden + ") Text.Write(value, at, " + count + ", \"" + name + "\"); }");
+    line("    get { fixed (byte* at = " + hidden + ") return NativeText.Read(at, " + count + "); }");
+    line("    set { fixed (byte* at = " + hidden + ") NativeText.Write(value, at, " + count + ", \"" + name + "\"); }");
     line("}");
   }
 

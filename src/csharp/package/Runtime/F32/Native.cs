@@ -299,7 +299,7 @@ namespace Isostep
         public static extern Status iso_f32_ball_init(F32.Ball* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_constant_velocity_init(AntVelocity* @out);
+        public static extern Status iso_f32_constant_velocity_init(F32.ConstantVelocity* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_fixed_init(F32.Fixed* @out);
@@ -482,7 +482,8 @@ namespace Isostep
         public static extern Status iso_f32_create_ball(IntPtr world, F32.Ball* joint, JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_create_constant_velocity(IntPtr world, AntVelocity* joint, JointId* @out);
+        public static extern Status iso_f32_create_constant_velocity(IntPtr world, F32.ConstantVelocity* joint,
+            JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_create_fixed(IntPtr world, F32.Fixed* joint, JointId* @out);

@@ -52,7 +52,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (Child* at = found)
-                CheckList(Native.iso_f32_body_get_children(Pointer, body.Value, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_body_get_children(Pointer, body.Value, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -215,7 +215,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (RayHit* at = found)
-                CheckList(Native.iso_f32_cast_ray_all(Pointer, &ray, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_cast_ray_all(Pointer, &ray, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -232,7 +232,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (ShapeHit* at = found)
-                CheckList(Native.iso_f32_cast_shape_all(Pointer, &cast, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_cast_shape_all(Pointer, &cast, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -258,7 +258,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (OverlapHit* at = found)
-                CheckList(Native.iso_f32_overlap_shape(Pointer, &query, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_overlap_shape(Pointer, &query, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -267,7 +267,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (BodyId* at = found)
-                CheckList(Native.iso_f32_overlap_box(Pointer, &query, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_overlap_box(Pointer, &query, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -335,7 +335,7 @@ namespace Isostep.F32
         {
             UIntPtr count;
             fixed (ContactPoint* at = found)
-                CheckList(Native.iso_f32_body_get_contacts(Pointer, body.Value, at, Text.Length(found), &count));
+                CheckList(Native.iso_f32_body_get_contacts(Pointer, body.Value, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -388,7 +388,7 @@ namespace Isostep.F32
             return filled;
         }
 
-        public JointId CreateConstantVelocity(AntVelocity joint)
+        public JointId CreateConstantVelocity(ConstantVelocity joint)
         {
             JointId filled;
             Check(Native.iso_f32_create_constant_velocity(Pointer, &joint, &filled));

@@ -299,7 +299,7 @@ namespace Isostep
         public static extern Status iso_f64_ball_init(F64.Ball* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_constant_velocity_init(AntVelocity* @out);
+        public static extern Status iso_f64_constant_velocity_init(F64.ConstantVelocity* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_fixed_init(F64.Fixed* @out);
@@ -482,7 +482,8 @@ namespace Isostep
         public static extern Status iso_f64_create_ball(IntPtr world, F64.Ball* joint, JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_create_constant_velocity(IntPtr world, AntVelocity* joint, JointId* @out);
+        public static extern Status iso_f64_create_constant_velocity(IntPtr world, F64.ConstantVelocity* joint,
+            JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_create_fixed(IntPtr world, F64.Fixed* joint, JointId* @out);

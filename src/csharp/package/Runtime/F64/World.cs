@@ -37,7 +37,7 @@ namespace Isostep.F64
             ShapeId shape;
             fixed (Child* at = children)
             fixed (IntPtr* blobsAt = pointers)
-                Check(Native.iso_f64_add_compound(Pointer, at, Text.Length(children), blobsAt, Text.Length(pointers), &shape));
+                Check(Native.iso_f64_add_compound(Pointer, at, NativeText.Length(children), blobsAt, NativeText.Length(pointers), &shape));
             return shape;
         }
 
@@ -50,7 +50,7 @@ namespace Isostep.F64
             fixed (RagdollBone* at = bones)
             fixed (BodyId* bodiesAt = bodies)
             fixed (JointId* jointsAt = joints)
-                Check(Native.iso_f64_add_ragdoll(Pointer, at, Text.Length(bones), settings.HasValue ? &value : null,
+                Check(Native.iso_f64_add_ragdoll(Pointer, at, NativeText.Length(bones), settings.HasValue ? &value : null,
                     bodiesAt, jointsAt));
         }
 
@@ -60,7 +60,7 @@ namespace Isostep.F64
             if (hits.Length < (long)rays.Length * each) throw new ArgumentException("room for each of each ray", "hits");
             fixed (RayCast* at = rays)
             fixed (RayHit* hitsAt = hits)
-                Check(Native.iso_f64_cast_rays(Pointer, at, Text.Length(rays), hitsAt, (UIntPtr)each));
+                Check(Native.iso_f64_cast_rays(Pointer, at, NativeText.Length(rays), hitsAt, (UIntPtr)each));
         }
 
         /// <summary>Likewise of shapes.</summary>
@@ -69,7 +69,7 @@ namespace Isostep.F64
             if (hits.Length < (long)casts.Length * each) throw new ArgumentException("room for each of each cast", "hits");
             fixed (ShapeCast* at = casts)
             fixed (ShapeHit* hitsAt = hits)
-                Check(Native.iso_f64_cast_shapes(Pointer, at, Text.Length(casts), hitsAt, (UIntPtr)each));
+                Check(Native.iso_f64_cast_shapes(Pointer, at, NativeText.Length(casts), hitsAt, (UIntPtr)each));
         }
 
         /// <summary>The hull of points [m].</summary>
@@ -77,7 +77,7 @@ namespace Isostep.F64
         {
             IntPtr made;
             fixed (Vec3* at = points)
-                IsostepException.Check(Native.iso_f64_blob_create_hull(at, Text.Length(points), home, &made));
+                IsostepException.Check(Native.iso_f64_blob_create_hull(at, NativeText.Length(points), home, &made));
             return new Blob(made);
         }
     }

@@ -303,7 +303,7 @@ namespace Isostep
         public static extern Status iso_q16_ball_init(Fixed16.Ball* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_constant_velocity_init(AntVelocity* @out);
+        public static extern Status iso_q16_constant_velocity_init(Fixed16.ConstantVelocity* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_fixed_init(Fixed16.Fixed* @out);
@@ -486,7 +486,8 @@ namespace Isostep
         public static extern Status iso_q16_create_ball(IntPtr world, Fixed16.Ball* joint, JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_create_constant_velocity(IntPtr world, AntVelocity* joint, JointId* @out);
+        public static extern Status iso_q16_create_constant_velocity(IntPtr world, Fixed16.ConstantVelocity* joint,
+            JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_create_fixed(IntPtr world, Fixed16.Fixed* joint, JointId* @out);

@@ -52,7 +52,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (Child* at = found)
-                CheckList(Native.iso_q16_body_get_children(Pointer, body.Value, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_body_get_children(Pointer, body.Value, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -214,7 +214,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (RayHit* at = found)
-                CheckList(Native.iso_q16_cast_ray_all(Pointer, &ray, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_cast_ray_all(Pointer, &ray, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -231,7 +231,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (ShapeHit* at = found)
-                CheckList(Native.iso_q16_cast_shape_all(Pointer, &cast, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_cast_shape_all(Pointer, &cast, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -257,7 +257,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (OverlapHit* at = found)
-                CheckList(Native.iso_q16_overlap_shape(Pointer, &query, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_overlap_shape(Pointer, &query, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -266,7 +266,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (BodyId* at = found)
-                CheckList(Native.iso_q16_overlap_box(Pointer, &query, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_overlap_box(Pointer, &query, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -334,7 +334,7 @@ namespace Isostep.Fixed16
         {
             UIntPtr count;
             fixed (ContactPoint* at = found)
-                CheckList(Native.iso_q16_body_get_contacts(Pointer, body.Value, at, Text.Length(found), &count));
+                CheckList(Native.iso_q16_body_get_contacts(Pointer, body.Value, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -387,7 +387,7 @@ namespace Isostep.Fixed16
             return filled;
         }
 
-        public JointId CreateConstantVelocity(AntVelocity joint)
+        public JointId CreateConstantVelocity(ConstantVelocity joint)
         {
             JointId filled;
             Check(Native.iso_q16_create_constant_velocity(Pointer, &joint, &filled));

@@ -30,19 +30,6 @@ namespace Isostep.Fixed32
         }
     }
 
-    public unsafe partial struct AntVelocity
-    {
-        public static AntVelocity Default
-        {
-            get
-            {
-                AntVelocity result = new AntVelocity();
-                IsostepException.Check(Native.iso_q32_constant_velocity_init(&result));
-                return result;
-            }
-        }
-    }
-
     public unsafe partial struct Attractor
     {
         public static Attractor Default
@@ -233,6 +220,19 @@ namespace Isostep.Fixed32
             {
                 Cone result = new Cone();
                 IsostepException.Check(Native.iso_q32_cone_init(&result));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct ConstantVelocity
+    {
+        public static ConstantVelocity Default
+        {
+            get
+            {
+                ConstantVelocity result = new ConstantVelocity();
+                IsostepException.Check(Native.iso_q32_constant_velocity_init(&result));
                 return result;
             }
         }

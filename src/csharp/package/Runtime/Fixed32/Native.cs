@@ -303,7 +303,7 @@ namespace Isostep
         public static extern Status iso_q32_ball_init(Fixed32.Ball* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_constant_velocity_init(AntVelocity* @out);
+        public static extern Status iso_q32_constant_velocity_init(Fixed32.ConstantVelocity* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_fixed_init(Fixed32.Fixed* @out);
@@ -486,7 +486,8 @@ namespace Isostep
         public static extern Status iso_q32_create_ball(IntPtr world, Fixed32.Ball* joint, JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_create_constant_velocity(IntPtr world, AntVelocity* joint, JointId* @out);
+        public static extern Status iso_q32_create_constant_velocity(IntPtr world, Fixed32.ConstantVelocity* joint,
+            JointId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_create_fixed(IntPtr world, Fixed32.Fixed* joint, JointId* @out);

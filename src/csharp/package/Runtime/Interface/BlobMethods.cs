@@ -28,7 +28,7 @@ namespace Isostep
             return filled;
         }
 
-        public ShapeType GetType()
+        public ShapeType GetShapeType()
         {
             ShapeType filled;
             Check(Native.iso_blob_get_type(Pointer, &filled));

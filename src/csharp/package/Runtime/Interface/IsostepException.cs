@@ -35,8 +35,8 @@ namespace Isostep
         /// <summary>The library's own words for its last error on this thread.</summary>
         internal static unsafe IsostepException Of(Status status, string words)
         {
-            string last = words ?? Text.Read(Native.iso_last_error());
-            return new IsostepException(status, string.IsNullOrEmpty(last) ? Text.Read(Native.iso_status_text(status)) : last,
+            string last = words ?? NativeText.Read(Native.iso_last_error());
+            return new IsostepException(status, string.IsNullOrEmpty(last) ? NativeText.Read(Native.iso_status_text(status)) : last,
                 null, null, null);
         }
 
@@ -44,8 +44,8 @@ namespace Isostep
         {
             FaultReport report = FaultReport.Sized();
             if (status < 0 || Native.iso_world_fault(world, &report) != Status.Ok) return Of(status, null);
-            return new IsostepException(status, Text.Read(Native.iso_last_error()), Text.Read(report.Command),
-                Text.Read(report.Field), Text.Read(report.Expected));
+            return new IsostepException(status, NativeText.Read(Native.iso_last_error()), NativeText.Read(report.Command),
+                NativeText.Read(report.Field), NativeText.Read(report.Expected));
         }
     }
 }

@@ -15,7 +15,7 @@ namespace Isostep
 #endif
 
         /// <summary>The release, "0.1.0".</summary>
-        public static string Version => Text.Read(Native.iso_version());
+        public static string Version => NativeText.Read(Native.iso_version());
 
         /// <summary>The number in the shared library's name: another one is another interface.</summary>
         public static uint AbiVersion => Native.iso_abi_version();

@@ -25,7 +25,7 @@ namespace Isostep
         public Replay(byte[] file)
         {
             IntPtr made;
-            fixed (byte* at = file) IsostepException.Check(Native.iso_replay_open(at, Text.Length(file), &made));
+            fixed (byte* at = file) IsostepException.Check(Native.iso_replay_open(at, NativeText.Length(file), &made));
             Pointer = made;
         }
 
@@ -33,7 +33,7 @@ namespace Isostep
         public static ReplayInfo About(byte[] file)
         {
             ReplayInfo info = ReplayInfo.Sized();
-            fixed (byte* at = file) IsostepException.Check(Native.iso_replay_about(at, Text.Length(file), &info));
+            fixed (byte* at = file) IsostepException.Check(Native.iso_replay_about(at, NativeText.Length(file), &info));
             return info;
         }
 
@@ -43,7 +43,7 @@ namespace Isostep
         {
             ReplayResult result = ReplayResult.Sized();
             fixed (byte* at = file)
-                IsostepException.Check(Native.iso_replay_verify(at, Text.Length(file), simd, mostFrames, &result));
+                IsostepException.Check(Native.iso_replay_verify(at, NativeText.Length(file), simd, mostFrames, &result));
             return result;
         }
 
@@ -59,7 +59,7 @@ namespace Isostep
         public static Blob Read(byte[] file, BlobHome home = BlobHome.Carried)
         {
             IntPtr made;
-            fixed (byte* at = file) IsostepException.Check(Native.iso_blob_read(at, Text.Length(file), home, &made));
+            fixed (byte* at = file) IsostepException.Check(Native.iso_blob_read(at, NativeText.Length(file), home, &made));
             return new Blob(made);
         }
 

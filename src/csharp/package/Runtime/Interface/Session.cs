@@ -28,7 +28,7 @@ namespace Isostep
             }
             IntPtr made;
             fixed (byte* at = file)
-                IsostepException.Check(Native.iso_session_create(&config, &game, at, Text.Length(file), &made));
+                IsostepException.Check(Native.iso_session_create(&config, &game, at, NativeText.Length(file), &made));
             Pointer = made;
         }
 
@@ -98,7 +98,7 @@ namespace Isostep
         {
             byte* address;
             Check(Native.iso_session_poll_connect(Pointer, &address));
-            return Text.Read(address);
+            return NativeText.Read(address);
         }
 
         protected override void Destroy(IntPtr handle) => IsostepException.Check(Native.iso_session_destroy(handle));
@@ -149,7 +149,7 @@ namespace Isostep
         /// <summary>The first rule that it breaks, or null.</summary>
         public string Problem
         {
-            get { fixed (SessionConfig* at = &this) return Text.Read(Native.iso_session_config_problem(at)); }
+            get { fixed (SessionConfig* at = &this) return NativeText.Read(Native.iso_session_config_problem(at)); }
         }
     }
 }

@@ -150,19 +150,19 @@ namespace Isostep
         /// <summary>Reasons are printable ASCII of 1 to 128 characters, for people.</summary>
         public void Refuse(ulong applicant, string reason)
         {
-            fixed (byte* reasonAt = Text.Bytes(reason))
+            fixed (byte* reasonAt = NativeText.Bytes(reason))
                 Check(Native.iso_session_refuse(Pointer, applicant, reasonAt));
         }
 
         public void Kick(int player, string reason)
         {
-            fixed (byte* reasonAt = Text.Bytes(reason))
+            fixed (byte* reasonAt = NativeText.Bytes(reason))
                 Check(Native.iso_session_kick(Pointer, player, reasonAt));
         }
 
         public void KickPeer(uint peer, string reason)
         {
-            fixed (byte* reasonAt = Text.Bytes(reason))
+            fixed (byte* reasonAt = NativeText.Bytes(reason))
                 Check(Native.iso_session_kick_peer(Pointer, peer, reasonAt));
         }
 
@@ -189,7 +189,7 @@ namespace Isostep
         /// config.name.</summary>
         public void Record(RecordingKind kind, string scene)
         {
-            fixed (byte* sceneAt = Text.Bytes(scene))
+            fixed (byte* sceneAt = NativeText.Bytes(scene))
                 Check(Native.iso_session_record(Pointer, kind, sceneAt));
         }
 

@@ -12,14 +12,14 @@ namespace Isostep
         public uint AddClient(string profile)
         {
             uint filled;
-            fixed (byte* profileAt = Text.Bytes(profile))
+            fixed (byte* profileAt = NativeText.Bytes(profile))
                 Check(Native.iso_network_add_client(Pointer, profileAt, &filled));
             return filled;
         }
 
         public void SetProfile(uint client, string profile)
         {
-            fixed (byte* profileAt = Text.Bytes(profile))
+            fixed (byte* profileAt = NativeText.Bytes(profile))
                 Check(Native.iso_network_set_profile(Pointer, client, profileAt));
         }
 

@@ -336,28 +336,28 @@ namespace Isostep
         /// <summary>"q32.32"; empty where the file does not tell</summary>
         public string Scalar
         {
-            get { fixed (byte* at = scalar) return Text.Read(at, 32); }
-            set { fixed (byte* at = scalar) Text.Write(value, at, 32, "Scalar"); }
+            get { fixed (byte* at = scalar) return NativeText.Read(at, 32); }
+            set { fixed (byte* at = scalar) NativeText.Write(value, at, 32, "Scalar"); }
         }
         private fixed byte scene[136];
         public string Scene
         {
-            get { fixed (byte* at = scene) return Text.Read(at, 136); }
-            set { fixed (byte* at = scene) Text.Write(value, at, 136, "Scene"); }
+            get { fixed (byte* at = scene) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = scene) NativeText.Write(value, at, 136, "Scene"); }
         }
         private fixed byte world[32];
         /// <summary>Its kind; empty: rigid bodies</summary>
         public string World
         {
-            get { fixed (byte* at = world) return Text.Read(at, 32); }
-            set { fixed (byte* at = world) Text.Write(value, at, 32, "World"); }
+            get { fixed (byte* at = world) return NativeText.Read(at, 32); }
+            set { fixed (byte* at = world) NativeText.Write(value, at, 32, "World"); }
         }
         private fixed byte engine[32];
         /// <summary>The version that recorded it</summary>
         public string Engine
         {
-            get { fixed (byte* at = engine) return Text.Read(at, 32); }
-            set { fixed (byte* at = engine) Text.Write(value, at, 32, "Engine"); }
+            get { fixed (byte* at = engine) return NativeText.Read(at, 32); }
+            set { fixed (byte* at = engine) NativeText.Write(value, at, 32, "Engine"); }
         }
         private fixed byte reserved1[3];
 
@@ -390,28 +390,28 @@ namespace Isostep
         private fixed byte scalar[32];
         public string Scalar
         {
-            get { fixed (byte* at = scalar) return Text.Read(at, 32); }
-            set { fixed (byte* at = scalar) Text.Write(value, at, 32, "Scalar"); }
+            get { fixed (byte* at = scalar) return NativeText.Read(at, 32); }
+            set { fixed (byte* at = scalar) NativeText.Write(value, at, 32, "Scalar"); }
         }
         private fixed byte scene[136];
         public string Scene
         {
-            get { fixed (byte* at = scene) return Text.Read(at, 136); }
-            set { fixed (byte* at = scene) Text.Write(value, at, 136, "Scene"); }
+            get { fixed (byte* at = scene) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = scene) NativeText.Write(value, at, 136, "Scene"); }
         }
         private fixed byte lanes[16];
         /// <summary>That stepped it; empty: nothing did</summary>
         public string Lanes
         {
-            get { fixed (byte* at = lanes) return Text.Read(at, 16); }
-            set { fixed (byte* at = lanes) Text.Write(value, at, 16, "Lanes"); }
+            get { fixed (byte* at = lanes) return NativeText.Read(at, 16); }
+            set { fixed (byte* at = lanes) NativeText.Write(value, at, 16, "Lanes"); }
         }
         private fixed byte text[512];
         /// <summary>The outcome as a sentence</summary>
         public string Text
         {
-            get { fixed (byte* at = text) return Text.Read(at, 512); }
-            set { fixed (byte* at = text) Text.Write(value, at, 512, "Text"); }
+            get { fixed (byte* at = text) return NativeText.Read(at, 512); }
+            set { fixed (byte* at = text) NativeText.Write(value, at, 512, "Text"); }
         }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -444,8 +444,8 @@ namespace Isostep
         /// <summary>One line</summary>
         public string Text
         {
-            get { fixed (byte* at = text) return Text.Read(at, 512); }
-            set { fixed (byte* at = text) Text.Write(value, at, 512, "Text"); }
+            get { fixed (byte* at = text) return NativeText.Read(at, 512); }
+            set { fixed (byte* at = text) NativeText.Write(value, at, 512, "Text"); }
         }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -531,22 +531,22 @@ namespace Isostep
         /// <summary>Where the others' transports reach ours, at most 64 characters: iso_session_poll_connect</summary>
         public string Address
         {
-            get { fixed (byte* at = address) return Text.Read(at, 72); }
-            set { fixed (byte* at = address) Text.Write(value, at, 72, "Address"); }
+            get { fixed (byte* at = address) return NativeText.Read(at, 72); }
+            set { fixed (byte* at = address) NativeText.Write(value, at, 72, "Address"); }
         }
         private fixed byte name[136];
         /// <summary>What all peers must have alike: the game and its version, 1 to 128 characters of ASCII</summary>
         public string Name
         {
-            get { fixed (byte* at = name) return Text.Read(at, 136); }
-            set { fixed (byte* at = name) Text.Write(value, at, 136, "Name"); }
+            get { fixed (byte* at = name) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = name) NativeText.Write(value, at, 136, "Name"); }
         }
         private fixed byte inputText[136];
         /// <summary>Likewise: names the fields of an input, at most 128 characters</summary>
         public string InputText
         {
-            get { fixed (byte* at = inputText) return Text.Read(at, 136); }
-            set { fixed (byte* at = inputText) Text.Write(value, at, 136, "InputText"); }
+            get { fixed (byte* at = inputText) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = inputText) NativeText.Write(value, at, 136, "InputText"); }
         }
         /// <summary>0: hash of input_text, sizes and neutral; else this, as of a C++ InputCodec</summary>
         public ulong InputSchema;
@@ -700,22 +700,22 @@ namespace Isostep
         /// <summary>Refused: what differs</summary>
         public string Key
         {
-            get { fixed (byte* at = key) return Text.Read(at, 40); }
-            set { fixed (byte* at = key) Text.Write(value, at, 40, "Key"); }
+            get { fixed (byte* at = key) return NativeText.Read(at, 40); }
+            set { fixed (byte* at = key) NativeText.Write(value, at, 40, "Key"); }
         }
         private fixed byte theirsText[136];
         /// <summary>There, or in the file</summary>
         public string TheirsText
         {
-            get { fixed (byte* at = theirsText) return Text.Read(at, 136); }
-            set { fixed (byte* at = theirsText) Text.Write(value, at, 136, "TheirsText"); }
+            get { fixed (byte* at = theirsText) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = theirsText) NativeText.Write(value, at, 136, "TheirsText"); }
         }
         private fixed byte oursText[136];
         /// <summary>Here</summary>
         public string OursText
         {
-            get { fixed (byte* at = oursText) return Text.Read(at, 136); }
-            set { fixed (byte* at = oursText) Text.Write(value, at, 136, "OursText"); }
+            get { fixed (byte* at = oursText) return NativeText.Read(at, 136); }
+            set { fixed (byte* at = oursText) NativeText.Write(value, at, 136, "OursText"); }
         }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -851,8 +851,8 @@ namespace Isostep
         /// <summary>Empty: every interface</summary>
         public string BindAddress
         {
-            get { fixed (byte* at = bindAddress) return Text.Read(at, 72); }
-            set { fixed (byte* at = bindAddress) Text.Write(value, at, 72, "BindAddress"); }
+            get { fixed (byte* at = bindAddress) return NativeText.Read(at, 72); }
+            set { fixed (byte* at = bindAddress) NativeText.Write(value, at, 72, "BindAddress"); }
         }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>

@@ -29,7 +29,7 @@ namespace Isostep
             void* bytes;
             UIntPtr size;
             Check(Native.iso_tape_bytes(Pointer, &bytes, &size));
-            return Text.Copy(bytes, size);
+            return NativeText.Copy(bytes, size);
         }
 
         /// <summary>Forgets those bytes, for who writes the file as it grows.</summary>

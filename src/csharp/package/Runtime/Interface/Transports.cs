@@ -28,7 +28,7 @@ namespace Isostep
             IntPtr made;
             byte[] problem = new byte[256];
             fixed (byte* at = problem)
-                Check(Native.iso_udp_listen(port, null, &made, at, Text.Length(problem)), problem);
+                Check(Native.iso_udp_listen(port, null, &made, at, NativeText.Length(problem)), problem);
             return new UdpTransport(made);
         }
 
@@ -38,8 +38,8 @@ namespace Isostep
             IntPtr made;
             byte[] problem = new byte[256];
             fixed (byte* at = problem)
-            fixed (byte* addressAt = Text.Bytes(address))
-                Check(Native.iso_udp_connect(addressAt, port, null, &made, at, Text.Length(problem)), problem);
+            fixed (byte* addressAt = NativeText.Bytes(address))
+                Check(Native.iso_udp_connect(addressAt, port, null, &made, at, NativeText.Length(problem)), problem);
             return new UdpTransport(made);
         }
 
@@ -47,7 +47,7 @@ namespace Isostep
         {
             if (status == Status.Ok) return;
             string words;
-            fixed (byte* at = problem) words = Text.Read(at, problem.Length);
+            fixed (byte* at = problem) words = NativeText.Read(at, problem.Length);
             throw IsostepException.Of(status, words.Length == 0 ? null : words);
         }
 

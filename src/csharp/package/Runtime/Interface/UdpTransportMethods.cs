@@ -9,7 +9,7 @@ namespace Isostep
         /// <summary>One more connection, beside or after the first.</summary>
         public void ConnectTo(string address, ushort port)
         {
-            fixed (byte* addressAt = Text.Bytes(address))
+            fixed (byte* addressAt = NativeText.Bytes(address))
                 Check(Native.iso_udp_connect_to(Pointer, addressAt, port));
         }
 

@@ -16,8 +16,8 @@ namespace Isostep
                 FaultReport report = FaultReport.Sized();
                 Check(Native.iso_world_fault(Pointer, &report));
                 if (report.Status == 0) return null;
-                return new IsostepException((Status)report.Status, FaultText(), Text.Read(report.Command),
-                    Text.Read(report.Field), Text.Read(report.Expected));
+                return new IsostepException((Status)report.Status, FaultText(), NativeText.Read(report.Command),
+                    NativeText.Read(report.Field), NativeText.Read(report.Expected));
             }
         }
 
@@ -27,7 +27,7 @@ namespace Isostep
             CheckList(Native.iso_world_fault_text(Pointer, null, &size));
             byte[] text = new byte[(int)size];
             fixed (byte* at = text) Check(Native.iso_world_fault_text(Pointer, at, &size));
-            fixed (byte* at = text) return Text.Read(at);
+            fixed (byte* at = text) return NativeText.Read(at);
         }
 
         internal override void Check(Status status)

@@ -32,7 +32,7 @@ namespace Isostep
         {
             UIntPtr count;
             fixed (BodyId* at = found)
-                CheckList(Native.iso_world_bodies(Pointer, at, Text.Length(found), &count));
+                CheckList(Native.iso_world_bodies(Pointer, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -40,7 +40,7 @@ namespace Isostep
         {
             UIntPtr count;
             fixed (JointId* at = found)
-                CheckList(Native.iso_world_joints(Pointer, at, Text.Length(found), &count));
+                CheckList(Native.iso_world_joints(Pointer, at, NativeText.Length(found), &count));
             return (int)count;
         }
 
@@ -52,7 +52,7 @@ namespace Isostep
         }
 
         /// <summary>Null for what is no world.</summary>
-        public string SimdName { get { return Text.Read(Native.iso_world_simd_name(Pointer)); } }
+        public string SimdName { get { return NativeText.Read(Native.iso_world_simd_name(Pointer)); } }
 
         /// <summary>The structure that finds bodies near each other. Never changes a bit.</summary>
         public void UseBroadPhase(BroadPhase name)
@@ -100,7 +100,7 @@ namespace Isostep
         public void Read(byte[] bytes)
         {
             fixed (byte* bytesAt = bytes)
-                Check(Native.iso_world_read(Pointer, bytesAt, Text.Length(bytes)));
+                Check(Native.iso_world_read(Pointer, bytesAt, NativeText.Length(bytes)));
         }
 
         /// <summary>Commands and steps as the log has them: a frame of a replay, a message from another machine. What
@@ -108,7 +108,7 @@ namespace Isostep
         public void Apply(byte[] commands)
         {
             fixed (byte* commandsAt = commands)
-                Check(Native.iso_world_apply(Pointer, commandsAt, Text.Length(commands)));
+                Check(Native.iso_world_apply(Pointer, commandsAt, NativeText.Length(commands)));
         }
 
         /// <summary>1: every accepted command and every step is appended to the world's log. Not while a tape records
@@ -124,7 +124,7 @@ namespace Isostep
             void* bytes;
             UIntPtr size;
             Check(Native.iso_world_log(Pointer, &bytes, &size));
-            return Text.Copy(bytes, size);
+            return NativeText.Copy(bytes, size);
         }
 
         public void ClearLog()
@@ -187,7 +187,7 @@ namespace Isostep
         {
             UIntPtr filled;
             fixed (BodyId* bodiesAt = bodies)
-                Check(Native.iso_bodies_destroy(Pointer, bodiesAt, Text.Length(bodies), &filled));
+                Check(Native.iso_bodies_destroy(Pointer, bodiesAt, NativeText.Length(bodies), &filled));
             return (int)filled;
         }
 
@@ -457,7 +457,7 @@ namespace Isostep
         /// world to one.</summary>
         public void Record(Tape tape, string scene)
         {
-            fixed (byte* sceneAt = Text.Bytes(scene))
+            fixed (byte* sceneAt = NativeText.Bytes(scene))
                 Check(Native.iso_world_record(Pointer, tape == null ? IntPtr.Zero : tape.Pointer, sceneAt));
         }
     }

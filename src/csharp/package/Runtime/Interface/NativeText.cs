@@ -6,7 +6,7 @@ using System.Text;
 
 namespace Isostep
 {
-    internal static unsafe class Text
+    internal static unsafe class NativeText
     {
         /// <summary>Up to the zero byte; null stays null.</summary>
         internal static string Read(byte* text)
