@@ -140,7 +140,7 @@ void read_enumerators(const std::string& body, const std::string& name, Schema& 
 
 void read_function(const Item& item, Schema& schema) {
   Function function;
-  const std::string text = item.text.substr(8);  // behind ISO_API
+  const std::string text = item.text.substr(item.text.find("API ") + 4);
   const std::size_t open = text.find('(');
   const std::size_t name = text.find_last_of(" *", open) + 1;
   function.name = text.substr(name, open - name);
@@ -183,7 +183,7 @@ void read_header(const std::string& text, Schema& schema) {
       }
       made.sized = made.members.front().name == "size" && made.members.front().kind == "u32";
       place(made);
-    } else if (item.text.compare(0, 8, "ISO_API ") == 0) {
+    } else if (item.text.compare(0, 4, "ISO_") == 0 && item.text.find("API ") != std::string::npos) {
       read_function(item, schema);
     }
   }
