@@ -112,14 +112,16 @@ void place(Struct& made) {
   made.size = (end + widest - 1) / widest * widest;
 }
 
-void read_struct(const Item& item, Schema& schema) {
+/// False: interface.json has it.
+bool read_struct(const Item& item, Schema& schema) {
   static const std::regex form("^typedef struct (\\w+) \\{(.*)\\} (\\w+)$");
   std::smatch match;
-  if (!std::regex_match(item.text, match, form)) return;
+  if (!std::regex_match(item.text, match, form) || schema.find(match[3]) != nullptr) return false;
   Struct made;
   made.name = match[3];
   made.base = made.name.substr(4);
   schema.structs.push_back(made);
+  return true;
 }
 
 void read_enumerators(const std::string& body, const std::string& name, Schema& schema) {
@@ -131,7 +133,7 @@ void read_enumerators(const std::string& body, const std::string& name, Schema& 
     if (equals != std::string::npos) next = std::strtoll(item.text.c_str() + equals + 3, nullptr, 0);
     made.values.push_back({item.text.substr(0, equals), item.comment, next++});
   }
-  if (!name.empty()) schema.enums.push_back(made);
+  if (!name.empty() && !is_enum(schema, name)) schema.enums.push_back(made);
   const bool statuses = made.values.back().value < 0;
   if (name.empty()) {
     for (const Enumerator& value : made.values) (statuses ? schema.statuses : schema.constants).push_back(value);
@@ -174,7 +176,7 @@ void read_header(const std::string& text, Schema& schema) {
       read_enumerators(text.substr(at, text.find('}', at) - at), pending == "iso_status" ? "" : pending, schema);
       pending.clear();
     } else if (item.text.compare(0, 15, "typedef struct ") == 0) {
-      read_struct(item, schema);
+      if (!read_struct(item, schema)) continue;
       Struct& made = schema.structs.back();
       at = text.find("typedef struct " + made.name + " {", at);
       at = text.find('{', at) + 1;

@@ -199,6 +199,19 @@ namespace Isostep
         }
     }
 
+    public unsafe partial struct UdpSettings
+    {
+        public static UdpSettings Default
+        {
+            get
+            {
+                UdpSettings result = new UdpSettings();
+                IsostepException.Check(Native.iso_udp_settings_init(&result));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct WorldCounts
     {
         public static WorldCounts Default

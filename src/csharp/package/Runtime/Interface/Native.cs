@@ -706,5 +706,52 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_network_dispatch(IntPtr network, uint endpoint, IntPtr session, ulong now);
+
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_settings_init(UdpSettings* settings);
+
+        /// <summary>Accepts connections: a host, or a machine that may follow one. Port 0 lets the system choose.
+        /// `settings`: null for the defaults. ISO_REFUSED: `problem` (or null) gets a sentence of at most `room` bytes
+        /// with its zero.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_listen(ushort port, UdpSettings* settings, IntPtr* @out, byte* problem,
+            UIntPtr room);
+
+        /// <summary>Accepts none, and connects to one host. A name is looked up at once, which may block.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_connect(byte* address, ushort port, UdpSettings* settings,
+            IntPtr* @out, byte* problem, UIntPtr room);
+
+        /// <summary>Tells connected peers so, without waiting for what is unacknowledged. Null is allowed.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_destroy(IntPtr udp);
+
+        /// <summary>One more connection, beside or after the first.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_connect_to(IntPtr udp, byte* address, ushort port);
+
+        /// <summary>Tries the address asked for last again: after ISO_EVENT_LOST_HOST.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_connect_again(IntPtr udp);
+
+        /// <summary>Of who listens</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern ushort iso_udp_port(IntPtr udp);
+
+        /// <summary>What has arrived goes into the session; what it has to say goes out, also to addresses that it
+        /// names ("192.0.2.7:4000", iso_session_config.address).</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_deliver(IntPtr udp, IntPtr session, ulong now);
+
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_dispatch(IntPtr udp, IntPtr session, ulong now);
+
+        /// <summary>Blocks until a packet arrives or this time [us] is over, rounded down to whole
+        /// milliseconds.</summary>
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_wait(IntPtr udp, ulong longest);
+
+        [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_udp_get_statistics(IntPtr udp, UdpStatistics* @out);
     }
 }
