@@ -10,6 +10,7 @@ namespace Isostep.Fixed16
             return new Vec3(direction.X * s, direction.Y * s, direction.Z * s);
         }
         public static Vec3 operator *(Q16 s, UnitVec3 direction) => direction * s;
+        public static Vec3 operator *(UnitVec3 direction, int s) => direction * (Q16)s;
     }
 
     // What vectors do with directions.
@@ -17,6 +18,7 @@ namespace Isostep.Fixed16
     {
         public static Vec3 operator *(Vec3 v, Q16Unit s) => new Vec3(v.X * s, v.Y * s, v.Z * s);
         public static Vec3 operator *(Q16Unit s, Vec3 v) => v * s;
+        public static Vec3 operator *(Vec3 v, int s) => v * (Q16)s;
 
         /// <summary>What v has along the direction n, rounded once.</summary>
         public static Q16 Dot(Vec3 v, UnitVec3 n)

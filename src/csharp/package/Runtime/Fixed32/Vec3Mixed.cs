@@ -10,6 +10,7 @@ namespace Isostep.Fixed32
             return new Vec3(direction.X * s, direction.Y * s, direction.Z * s);
         }
         public static Vec3 operator *(Q32 s, UnitVec3 direction) => direction * s;
+        public static Vec3 operator *(UnitVec3 direction, int s) => direction * (Q32)s;
     }
 
     // What vectors do with directions.
@@ -17,6 +18,7 @@ namespace Isostep.Fixed32
     {
         public static Vec3 operator *(Vec3 v, Q32Unit s) => new Vec3(v.X * s, v.Y * s, v.Z * s);
         public static Vec3 operator *(Q32Unit s, Vec3 v) => v * s;
+        public static Vec3 operator *(Vec3 v, int s) => v * (Q32)s;
 
         /// <summary>What v has along the direction n, rounded once.</summary>
         public static Q32 Dot(Vec3 v, UnitVec3 n)

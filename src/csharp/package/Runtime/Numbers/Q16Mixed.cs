@@ -15,6 +15,9 @@ namespace Isostep
             return new Q16(Rounding.Round(Rounding.Product(a.Raw, b.Raw), Q16Unit.FractionBits));
         }
         public static Q16 operator *(Q16Unit a, Q16 b) => b * a;
+        /// <summary>A whole number is a Q16, not a Q16Unit.</summary>
+        public static Q16 operator *(Q16 a, int b) => a * (Q16)b;
+        public static Q16 operator *(int a, Q16 b) => (Q16)a * b;
 
         /// <summary>To nearest.</summary>
         public static explicit operator Q16(Q16Unit a)

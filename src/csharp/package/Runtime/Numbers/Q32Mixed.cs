@@ -15,6 +15,9 @@ namespace Isostep
             return new Q32(Rounding.Round(Rounding.Product(a.Raw, b.Raw), Q32Unit.FractionBits));
         }
         public static Q32 operator *(Q32Unit a, Q32 b) => b * a;
+        /// <summary>A whole number is a Q32, not a Q32Unit.</summary>
+        public static Q32 operator *(Q32 a, int b) => a * (Q32)b;
+        public static Q32 operator *(int a, Q32 b) => (Q32)a * b;
 
         /// <summary>To nearest.</summary>
         public static explicit operator Q32(Q32Unit a)
