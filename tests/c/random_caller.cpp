@@ -10,8 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
-#include <typeindex>
+#include <type_traits>
 #include <vector>
 
 #include "isostep.h"
@@ -32,47 +31,39 @@ struct Fact {
   std::vector<std::uint8_t> image;  // what _init makes of it
 };
 
-/// Structs by their type, with their members and defaults.
+/// Structs by name, with their members and defaults.
 class Facts {
  public:
   Facts() {
-    Fact* now = nullptr;
-#define ISO_STRUCT(name_, is_sized)             \
-  now = &by_type_[typeid(name_)];               \
-  now->name = #name_;                           \
-  now->size = sizeof(name_);                    \
-  now->sized = is_sized;                        \
-  now->image.assign(sizeof(name_), 0);          \
-  by_name_[#name_] = now;
-#define ISO_MEMBER(name_, offset, size, kind, of) now->members.push_back({offset, size, kind, of});
+#define ISO_STRUCT(name, is_sized) begin(#name, sizeof(name), is_sized);
+#define ISO_MEMBER(name, offset, size, kind, of) now_->members.push_back({offset, size, kind, of});
 #include "calls.inl"
 #undef ISO_STRUCT
 #undef ISO_MEMBER
-#define ISO_CALL(f, ...) keep_image(#f, f);
-#define ISO_ASK(f, ...)
-#include "calls.inl"
-#undef ISO_CALL
-#undef ISO_ASK
+#define ISO_INIT(name)                                                     \
+  {                                                                        \
+    name made;                                                             \
+    if (name##_init(&made) == ISO_OK) keep(#name, &made, sizeof made);     \
   }
-  const Fact* of(std::type_index type) const {
-    const auto found = by_type_.find(type);
-    return found == by_type_.end() ? nullptr : &found->second;
+#include "calls.inl"
+#undef ISO_INIT
   }
   const Fact* named(const std::string& name) const {
     const auto found = by_name_.find(name);
-    return found == by_name_.end() ? nullptr : found->second;
+    return found == by_name_.end() ? nullptr : &found->second;
   }
 
  private:
-  template <class T> void keep_image(const char* name, iso_status (*init)(T*)) {
-    const std::string text = name;
-    if (text.size() < 5 || text.compare(text.size() - 5, 5, "_init") != 0) return;
-    if constexpr (requires { sizeof(T); }) init(reinterpret_cast<T*>(by_type_[typeid(T)].image.data()));
+  void begin(const char* name, std::size_t size, bool sized) {
+    now_ = &by_name_[name];
+    *now_ = {name, size, sized, {}, std::vector<std::uint8_t>(size, 0)};
   }
-  template <class F> void keep_image(const char*, F) {}
+  void keep(const char* name, const void* image, std::size_t size) {
+    std::memcpy(by_name_[name].image.data(), image, size);
+  }
 
-  std::map<std::type_index, Fact> by_type_;
-  std::map<std::string, Fact*> by_name_;
+  std::map<std::string, Fact> by_name_;
+  Fact* now_ = nullptr;
 };
 
 /// Splitmix64.
@@ -98,7 +89,7 @@ void run_here(void*, std::int32_t copies, iso_task task, void* data) {
 
 constexpr std::size_t kRegion = 1 << 16;  // [bytes] that each pointer argument has
 constexpr std::size_t kElements = 20;     // of an array, at most
-constexpr std::size_t kAlive = 6;         // handles of a kind
+constexpr std::size_t kAlive = 12;        // handles of a kind
 
 /// What there is of a kind of handle.
 struct Handles {
@@ -131,6 +122,7 @@ class Drawer {
     const std::string prefix = function_.substr(4, 4);
     family_ = prefix == "f32_" ? 0 : prefix == "f64_" ? 1 : prefix == "q16_" ? 2 : prefix == "q32_" ? 3 : 4;
     world_ = choose_world();
+    damage();
   }
   /// Takes note of what was made and destroyed.
   void end(iso_status status) {
@@ -158,21 +150,30 @@ class Drawer {
   void keep_bytes(std::vector<std::uint8_t> bytes) {
     if (bytes.empty() || bytes.size() > kRegion) return;
     if (bytes_.size() < 40) bytes_.push_back(std::move(bytes));
-    else bytes_[dice_.below(40)] = std::move(bytes);
+    else bytes_[kept_ + dice_.below(40 - kept_)] = std::move(bytes);
+  }
+  void keep_for_ever(std::vector<std::uint8_t> bytes) {
+    if (bytes.size() > kRegion) return;
+    bytes_.insert(bytes_.begin(), std::move(bytes));
+    ++kept_;
   }
   Dice& dice() { return dice_; }
 
-  template <class T> T draw(const char* name_given) {
-    const std::string name = name_given;
-    if constexpr (std::is_same_v<T, iso_run>) {
-      return dice_.one_in(2) ? run_here : nullptr;
-    } else if constexpr (std::is_pointer_v<T>) {
-      return dice_.one_in(60) ? nullptr : pointer<std::remove_pointer_t<T>>(name);
-    } else if constexpr (std::is_floating_point_v<T>) {
-      return static_cast<T>(real());
-    } else {
-      return static_cast<T>(integer(sizeof(T), name));
+  /// To what an argument points: `to` as in "iso_world", "const iso_blob*" or "void".
+  void* pointer(const std::string& to, bool is_const, const std::string& name) {
+    if (dice_.one_in(60)) return nullptr;
+    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+      if (to == std::string("iso_") + kind) return handle(kind);
     }
+    if (to == "char") return is_const ? static_cast<void*>(scene_) : region();
+    if (to == "void") return is_const ? static_cast<void*>(damaged_) : name == "user" ? nullptr : region();
+    if (to.find('*') != std::string::npos) return slots(to, is_const);
+    return numbers(to, is_const);
+  }
+  template <class T> T value(const std::string& name) {
+    if constexpr (std::is_same_v<T, iso_run>) return dice_.one_in(2) ? run_here : nullptr;
+    else if constexpr (std::is_floating_point_v<T>) return static_cast<T>(real());
+    else return static_cast<T>(integer(sizeof(T), name));
   }
 
  private:
@@ -201,8 +202,14 @@ class Drawer {
     const bool is_joint = name == "joint" || function_.find("coupling") != std::string::npos;
     return id(kind[0] != '\0' ? kind : is_joint ? "iso_joint" : "iso_body");
   }
+  /// Ids are kept by the family of the world that the call is given.
+  std::uint32_t family_of_ids() const {
+    iso_scalar scalar = family_;
+    if (world() != nullptr) iso_world_get_scalar(world(), &scalar);
+    return scalar;
+  }
   std::uint64_t id(const std::string& kind) {
-    const std::vector<std::uint64_t>& known = ids_[kind];
+    const std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
     if (known.empty() || dice_.one_in(30)) return dice_.one_in(2) ? 0 : dice_.next();
     return known[dice_.below(known.size())];
   }
@@ -211,65 +218,41 @@ class Drawer {
     const bool shape = has("_blob") || has("_sphere") || has("_box") || has("_capsule") || has("_half_space") ||
                        has("_cylinder") || has("_cone") || has("_hull") || has("_compound");
     const char* kind = has("body_create") ? "iso_body" : has("create") ? "iso_joint" : shape ? "iso_shape" : "iso_record";
-    std::vector<std::uint64_t>& known = ids_[kind];
+    std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
     if (known.size() < 60) known.push_back(made);
     else known[dice_.below(60)] = made;
   }
 
   std::uint8_t* region() { return reinterpret_cast<std::uint8_t*>(regions_[used_++ % kRegions].get()); }
 
-  template <class To> To* pointer(const std::string& name) {
-    using Plain = std::remove_const_t<To>;
-    if constexpr (std::is_same_v<Plain, iso_world>) return static_cast<To*>(handle("world"));
-    else if constexpr (std::is_same_v<Plain, iso_snapshot>) return static_cast<To*>(handle("snapshot"));
-    else if constexpr (std::is_same_v<Plain, iso_tape>) return static_cast<To*>(handle("tape"));
-    else if constexpr (std::is_same_v<Plain, iso_replay>) return static_cast<To*>(handle("replay"));
-    else if constexpr (std::is_same_v<Plain, iso_blob>) return static_cast<To*>(handle("blob"));
-    else if constexpr (std::is_same_v<Plain, char>) return std::is_const_v<To> ? scene_ : text(name);
-    else if constexpr (std::is_void_v<Plain>) return std::is_const_v<To> ? const_cast<void*>(damaged()) : memory(name);
-    else if constexpr (std::is_pointer_v<Plain>) return slots<To>();
-    else return numbers<To>();
-  }
-  char* text(const std::string&) { return reinterpret_cast<char*>(region()); }
-  void* memory(const std::string& name) { return name == "user" ? nullptr : region(); }
   /// Handles that are given, or room for those that are made.
-  template <class To> To* slots() {
+  void* slots(const std::string& to, bool is_const) {
     auto** const all = reinterpret_cast<void**>(region());
-    using Pointee = std::remove_const_t<std::remove_pointer_t<std::remove_const_t<To>>>;
-    if constexpr (std::is_const_v<To>) {
-      for (std::size_t i = 0; i < kElements; ++i) all[i] = handle("blob");
-    } else {
-      all[0] = nullptr;
-      const char* kind = std::is_same_v<Pointee, iso_world>      ? "world"
-                         : std::is_same_v<Pointee, iso_snapshot> ? "snapshot"
-                         : std::is_same_v<Pointee, iso_tape>     ? "tape"
-                         : std::is_same_v<Pointee, iso_replay>   ? "replay"
-                         : std::is_same_v<Pointee, iso_blob>     ? "blob"
-                                                                 : "";
-      if (kind[0] != '\0') out_handles_.push_back({kind, all});
+    for (std::size_t i = 0; i < kElements; ++i) all[i] = is_const ? handle("blob") : nullptr;
+    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+      if (!is_const && to == std::string("iso_") + kind + "*") out_handles_.push_back({kind, all});
     }
-    return static_cast<To*>(static_cast<void*>(all));
+    return all;
   }
-  template <class To> To* numbers() {
-    using Plain = std::remove_const_t<To>;
+  void* numbers(const std::string& to, bool is_const) {
     std::uint8_t* const at = region();
-    if (const Fact* fact = facts_.of(typeid(Plain))) {
+    if (const Fact* fact = facts_.named(to)) {
       const bool same_size = !dice_.one_in(25);
       for (std::size_t i = 0; i < kElements; ++i) fill(at + i * fact->size, *fact, same_size);
-    } else if constexpr (sizeof(Plain) == 8) {
-      auto* const words = reinterpret_cast<std::uint64_t*>(at);
-      for (std::size_t i = 0; i < kElements; ++i) words[i] = std::is_const_v<To> ? id("iso_body") : dice_.below(60000);
-      if (!std::is_const_v<To>) out_id_ = words;
+      return at;
     }
-    return reinterpret_cast<To*>(at);
-  }
-  const void* damaged() {
-    const std::vector<std::uint8_t>& whole = bytes_[dice_.below(bytes_.size())];
-    std::uint8_t* const at = region();
-    std::memcpy(at, whole.data(), whole.size());
-    size_ = whole.size();
-    if (dice_.one_in(3)) at[dice_.below(size_)] ^= static_cast<std::uint8_t>(1u << dice_.below(8));
+    auto* const words = reinterpret_cast<std::uint64_t*>(at);
+    for (std::size_t i = 0; i < kElements; ++i) words[i] = is_const ? id("iso_body") : dice_.below(60000);
+    if (!is_const) out_id_ = words;
     return at;
+  }
+  /// Bytes for this call: whole, or with a bit flipped.
+  void damage() {
+    const std::vector<std::uint8_t>& whole = bytes_[dice_.below(bytes_.size())];
+    damaged_ = region();
+    std::memcpy(damaged_, whole.data(), whole.size());
+    size_ = whole.size();
+    if (dice_.one_in(3)) damaged_[dice_.below(size_)] ^= static_cast<std::uint8_t>(1u << dice_.below(8));
   }
 
   /// Defaults with some members changed.
@@ -388,7 +371,8 @@ class Drawer {
   Dice dice_;
   std::string function_;
   std::unique_ptr<std::uint64_t[]> regions_[kRegions];
-  std::size_t used_ = 0, size_ = 0;
+  std::size_t used_ = 0, size_ = 0, kept_ = 0;
+  std::uint8_t* damaged_ = nullptr;
   std::uint64_t* out_id_ = nullptr;
   std::vector<std::pair<const char*, void**>> out_handles_;
   std::vector<std::pair<const char*, void*>> taken_;
@@ -407,15 +391,76 @@ struct Call {
   bool has_status;
   iso_status (*call)(Drawer&);
 };
-/// In a tuple with braces arguments are drawn from left to right.
+/// The order in which a compiler draws the arguments is of no account: the draws of one do not depend on another's.
 const std::vector<Call>& all_calls() {
   static const std::vector<Call> calls = {
-#define ISO_CALL(f, ...) {#f, true, [](Drawer& drawer) { (void)drawer; return std::apply(f, std::tuple{__VA_ARGS__}); }},
-#define ISO_ASK(f, ...) \
-  {#f, false, [](Drawer& drawer) { (void)drawer; (void)std::apply(f, std::tuple{__VA_ARGS__}); return iso_status{0}; }},
+#define ISO_P(type, to, is_const, name) static_cast<type>(drawer.pointer(to, is_const, name))
+#define ISO_V(type, name) drawer.value<type>(name)
+#define ISO_CALL(f, ...) {#f, true, []([[maybe_unused]] Drawer& drawer) { return f(__VA_ARGS__); }},
+#define ISO_ASK(f, ...) {#f, false, []([[maybe_unused]] Drawer& drawer) { return (void)f(__VA_ARGS__), iso_status{0}; }},
 #include "calls.inl"
   };
   return calls;
+}
+
+/// Calls that are drawn more often than others: what makes bodies and what names them.
+struct Often {
+  std::vector<const Call*> bodies, all;
+
+  Often() {
+    for (const Call& call : all_calls()) {
+      const std::string name = call.name;
+      const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+      if (has("_body_create") || has("_add_box") || has("_add_sphere") || has("_create_six_axis")) bodies.push_back(&call);
+      const bool makes = has("_body_create") || has("_add_") || (has("_create_") && !has("blob_") && !has("replay_"));
+      if (makes) all.push_back(&call);
+    }
+  }
+  const Call& draw(Dice& dice) const {
+    if (dice.one_in(6)) return *bodies[dice.below(bodies.size())];
+    return dice.one_in(3) ? *all[dice.below(all.size())] : all_calls()[dice.below(all_calls().size())];
+  }
+};
+
+/// A recording of forty frames of a world with a body, and the file of a hull.
+void keep_files(Drawer& drawer) {
+  iso_q32_settings settings;
+  iso_q32_settings_init(&settings);
+  iso_world* world = nullptr;
+  iso_tape* tape = nullptr;
+  if (iso_q32_world_create(&settings, &world) != ISO_OK || iso_tape_create(&tape) != ISO_OK) return;
+  iso_world_record(world, tape, "drawn");
+  iso_q32_box box;
+  iso_q32_box_init(&box);
+  const std::int64_t one = iso_q32_from_double(1);
+  box.half_extents = {one, one, one};
+  iso_q32_body_definition definition;
+  iso_q32_body_definition_init(&definition);
+  definition.type = ISO_BODY_TYPE_DYNAMIC;
+  iso_q32_add_box(world, &box, &definition.shape);
+  iso_body body = 0;
+  iso_q32_body_create(world, &definition, &body);
+  for (int i = 0; i < 40; ++i) {
+    iso_world_step(world, nullptr);
+    iso_tape_end_frame(tape);
+  }
+  iso_tape_finish(tape);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  iso_tape_bytes(tape, &bytes, &size);
+  const auto* const first = static_cast<const std::uint8_t*>(bytes);
+  for (int i = 0; i < 4; ++i) drawer.keep_for_ever({first, first + size});
+  iso_tape_destroy(tape);
+  iso_world_destroy(world);
+  const iso_q32_vec3 points[] = {{0, 0, 0}, {one, 0, 0}, {0, one, 0}, {0, 0, one}};
+  iso_blob* hull = nullptr;
+  std::vector<std::uint8_t> file(kRegion);
+  size = file.size();
+  if (iso_q32_blob_create_hull(points, 4, ISO_BLOB_HOME_CARRIED, &hull) != ISO_OK) return;
+  iso_blob_write(hull, file.data(), &size);
+  file.resize(size);
+  for (int i = 0; i < 4; ++i) drawer.keep_for_ever(file);
+  iso_blob_destroy(hull);
 }
 
 /// States and logs of a world, and recordings, for calls that read bytes.
@@ -447,8 +492,10 @@ int main() {
   std::map<std::string, std::uint64_t> succeeded;
   std::map<iso_status, std::uint64_t> statuses;
   int selfchecks = 0;
+  const Often often;
+  keep_files(drawer);
   for (std::uint64_t i = 0; i < count; ++i) {
-    const Call& call = calls[drawer.dice().below(calls.size())];
+    const Call& call = often.draw(drawer.dice());
     const std::string name = call.name;
     if (name == "iso_selfcheck" && ++selfchecks > 1) continue;  // half a second
     drawer.begin(call.name);
@@ -459,8 +506,9 @@ int main() {
     if (std::strcmp(iso_status_text(status), "unknown status") == 0) {
       return std::printf("call %llu, %s: status %d\n", static_cast<unsigned long long>(i), call.name, status), 1;
     }
-    // Of commands as bytes, what comes before the damage was done.
-    if (status != ISO_OK && looks && name != "iso_world_apply" && iso_world_hash(drawer.world()) != before) {
+    // Of commands as bytes, what comes before the damage was done; of a ragdoll that is taken back, its ids are used up.
+    const bool leaves_traces = name == "iso_world_apply" || name.find("add_ragdoll") != std::string::npos;
+    if (status != ISO_OK && looks && !leaves_traces && iso_world_hash(drawer.world()) != before) {
       return std::printf("call %llu, %s: refused, and the world is another: %s\n", static_cast<unsigned long long>(i),
                          call.name, iso_last_error()), 1;
     }
