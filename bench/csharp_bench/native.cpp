@@ -14,9 +14,7 @@ namespace {
 
 constexpr int kBodies = 1000, kFrames = 100, kCalls = 1000000;
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 template <class S> void frames(const char* name) {
   iso::World<S> world;

@@ -11,7 +11,8 @@ internal static class Layout
         int fields = 0;
         foreach (LayoutTable.Row row in LayoutTable.Rows)
         {
-            if (Marshal.SizeOf(row.Type) != row.Size) throw new Exception(row.Type + " has " + Marshal.SizeOf(row.Type));
+            int size = Marshal.SizeOf(row.Type);
+            if (size != row.Size) throw new Exception(row.Type + " has " + size + " bytes");
             FieldInfo[] members =
                 row.Type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
             Array.Sort(members, (a, b) => a.MetadataToken.CompareTo(b.MetadataToken));

@@ -75,7 +75,7 @@ internal static class MatchTest
         IntPtr host = HostLibrary.Create(isFixed, Profile);
         for (ulong now = 0; hashes.Count < Frames || HostLibrary.match_confirmed(host) < Frames; now += 1000)
         {
-            if (now > 120 * 1000 * 1000) throw new Exception("after two minutes only " + hashes.Count + " frames are final");
+            if (now > 120 * 1000 * 1000) throw new Exception("in two minutes only " + hashes.Count + " frames");
             HostLibrary.match_turn(host, now);
             turn(host, now);
         }

@@ -14,7 +14,8 @@ namespace NUnit.Framework
         {
             if (!fact) throw new Exception(otherwise);
         }
-        public static void AreEqual<T>(T expected, T actual) => IsTrue(expected.Equals(actual), expected + " is " + actual);
+        public static void AreEqual<T>(T expected, T actual) =>
+            IsTrue(expected.Equals(actual), expected + " is " + actual);
         public static void AreNotEqual<T>(T a, T b) => IsTrue(!a.Equals(b), a + " twice");
         public static void Greater(ulong a, ulong b) => IsTrue(a > b, a + " is not above " + b);
     }

@@ -29,7 +29,8 @@ template <class S> void play(const char* name) {
     world.load(frame);
   }
   const auto hit = world.cast_ray({0, 5, 0}, {0, -10, 0});
-  std::printf("%s hit %" PRIu64 " %.6f\n", name, hit ? world.user_data(hit->body) : 0, hit ? iso::to_double(hit->point.y) : 0);
+  std::printf("%s hit %" PRIu64 " %.6f\n", name, hit ? world.user_data(hit->body) : 0,
+              hit ? iso::to_double(hit->point.y) : 0);
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ template <class S> struct Game : iso::Composite<iso::World<S>, Score> {
     auto& world = this->world;
     world.create({.shape = world.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
     const auto ball = world.add_shape(iso::Sphere{0.5});
-    for (int n : {0, 1}) pucks[n] = world.create({.type = iso::dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}});
+    for (int n : {0, 1})
+      pucks[n] = world.create({.type = iso::dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}});
   }
   void step(iso::InputView<Input> inputs) {
     for (int n : {0, 1}) this->world.apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});
@@ -119,7 +120,8 @@ EXPORT int match_receive(void* match, std::uint32_t* peer, std::uint32_t* channe
                                                                  : 2;
 }
 EXPORT void match_send(void* match, std::uint32_t peer, std::uint32_t channel, const std::uint8_t* bytes, int size) {
-  static_cast<void>(static_cast<Match*>(match)->client.send(peer, static_cast<iso::Channel>(channel),
-                                                           {bytes, static_cast<std::size_t>(size)}).ok());
+  static_cast<void>(static_cast<Match*>(match)
+                        ->client.send(peer, static_cast<iso::Channel>(channel), {bytes, static_cast<std::size_t>(size)})
+                        .ok());
 }
 EXPORT void match_hang_up(void* match, std::uint32_t peer) { static_cast<Match*>(match)->client.disconnect(peer); }

@@ -57,9 +57,8 @@ std::vector<Item> items_of(const std::string& text, char end) {
 
 const std::map<std::string, std::string>& plain_kinds() {
   static const std::map<std::string, std::string> kinds = {
-      {"uint8_t", "u8"},   {"uint16_t", "u16"}, {"uint32_t", "u32"}, {"uint64_t", "u64"},
-      {"int32_t", "i32"},  {"double", "f64"},   {"float", "f32"},    {"char", "char"},
-      {"size_t", "handle"}};
+      {"uint8_t", "u8"}, {"uint16_t", "u16"}, {"uint32_t", "u32"}, {"uint64_t", "u64"}, {"int32_t", "i32"},
+      {"double", "f64"}, {"float", "f32"},    {"char", "char"},    {"size_t", "handle"}};
   return kinds;
 }
 bool is_enum(const Schema& schema, const std::string& type) {
@@ -70,7 +69,8 @@ bool is_enum(const Schema& schema, const std::string& type) {
 }
 
 Member member_of(const Item& item, const Schema& schema) {
-  static const std::regex callback("^[^(]*\\(\\*(\\w+)\\).*"), plain("^(?:const )?(\\w+) ?(\\*?) ?(\\w+)(?:\\[(\\d+)\\])?$");
+  static const std::regex callback("^[^(]*\\(\\*(\\w+)\\).*"),
+      plain("^(?:const )?(\\w+) ?(\\*?) ?(\\w+)(?:\\[(\\d+)\\])?$");
   Member member;
   member.comment = item.comment;
   std::smatch match;

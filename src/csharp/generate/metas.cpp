@@ -47,15 +47,17 @@ const std::map<std::string, Platform>& platforms() {
   return all;
 }
 std::string enabled(const std::string& platform, bool on, const std::string& settings) {
-  return "  - first:\n      " + platform + "\n    second:\n      enabled: " + (on ? "1" : "0") + "\n      settings:" +
-         (settings.empty() ? " {}\n" : "\n        " + settings + "\n");
+  return "  - first:\n      " + platform + "\n    second:\n      enabled: " + (on ? "1" : "0") +
+         "\n      settings:" + (settings.empty() ? " {}\n" : "\n        " + settings + "\n");
 }
 std::string plugin_importer(const fs::path& path) {
   const std::string folder = path.parent_path().filename().string();
   const auto found = platforms().find(folder);
-  std::string text = "  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
-                     "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n"
-                     "  platformData:\n" + enabled("Any: ", false, "");
+  std::string text =
+      "  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
+      "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n"
+      "  platformData:\n" +
+      enabled("Any: ", false, "");
   if (found != platforms().end()) {
     text += enabled("Editor: Editor", found->second.in_editor, "CPU: " + found->second.cpu);
     text += enabled(found->second.name, true, "CPU: " + found->second.cpu);
@@ -69,8 +71,9 @@ std::string importer_of(const fs::path& path, bool is_folder) {
   if (is_folder) return "folderAsset: yes\n" + importer("DefaultImporter");
   if (path == "package.json") return importer("PackageManifestImporter");
   if (kind == ".cs") {
-    return importer("MonoImporter", "  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
-                                    "  icon: {instanceID: 0}\n");
+    return importer("MonoImporter",
+                    "  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
+                    "  icon: {instanceID: 0}\n");
   }
   if (kind == ".asmdef") return importer("AssemblyDefinitionImporter");
   if (plugins.count(kind) != 0) return plugin_importer(path);

@@ -37,23 +37,32 @@ std::string pascal(const std::string& name) {
   return result;
 }
 std::string camel(const std::string& name) {
-  static const std::set<std::string> keywords = {"ref", "in", "out", "object", "event", "base", "fixed", "lock", "params"};
+  static const std::set<std::string> keywords = {"ref",  "in",    "out",  "object", "event",
+                                                 "base", "fixed", "lock", "params"};
   std::string result = pascal(name);
   result[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(result[0])));
   return keywords.count(result) != 0 ? "@" + result : result;
 }
 
 std::string type_name(const std::string& c_name) {
-  static const std::map<std::string, std::string> own = {
-      {"iso_input", "SessionInput"},      {"iso_game", "SessionGame"},           {"iso_request", "SessionRequest"},
-      {"iso_phase", "SessionPhase"},      {"iso_event_kind", "SessionEventKind"}, {"iso_recording", "RecordingKind"},
-      {"iso_network", "SimulatedNetwork"}, {"iso_udp", "UdpTransport"},          {"iso_body", "BodyId"},
-      {"iso_shape", "ShapeId"},           {"iso_joint", "JointId"},              {"iso_record", "RecordId"}};
+  static const std::map<std::string, std::string> own = {{"iso_input", "SessionInput"},
+                                                         {"iso_game", "SessionGame"},
+                                                         {"iso_request", "SessionRequest"},
+                                                         {"iso_phase", "SessionPhase"},
+                                                         {"iso_event_kind", "SessionEventKind"},
+                                                         {"iso_recording", "RecordingKind"},
+                                                         {"iso_network", "SimulatedNetwork"},
+                                                         {"iso_udp", "UdpTransport"},
+                                                         {"iso_body", "BodyId"},
+                                                         {"iso_shape", "ShapeId"},
+                                                         {"iso_joint", "JointId"},
+                                                         {"iso_record", "RecordId"}};
   const auto found = own.find(c_name);
   if (found != own.end()) return found->second;
   std::string name = c_name.substr(4);
   for (const Family& family : families()) {
-    if (name.compare(0, family.prefix.size() + 1, family.prefix + "_") == 0) name = name.substr(family.prefix.size() + 1);
+    if (name.compare(0, family.prefix.size() + 1, family.prefix + "_") == 0)
+      name = name.substr(family.prefix.size() + 1);
   }
   return pascal(name);
 }
@@ -81,7 +90,8 @@ std::string enumerator_name(const Enum& of, const std::string& value) {
 std::string summary(const std::string& comment, const std::string& indent) {
   if (comment.empty()) return "";
   std::string escaped;
-  for (const char c : comment) escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : comment)
+    escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
   std::string result, line = indent + "/// <summary>";
   std::size_t at = 0;
   escaped = std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(escaped[0])))) + escaped.substr(1);

@@ -64,7 +64,8 @@ Schema read_schema(const std::filesystem::path& source) {
   Schema schema;
   read_json(json::parse(read_file(source / "src/c/interface.json")), schema);
   const std::string header = read_file(source / "src/c/include/isostep.h");
-  read_header("typedef int32_t iso_status;" + between(header, "typedef int32_t iso_status;", "typedef uint64_t"), schema);
+  read_header("typedef int32_t iso_status;" + between(header, "typedef int32_t iso_status;", "typedef uint64_t"),
+              schema);
   read_header(between(header, "/* Sessions */", "/* End of sessions */"), schema);
   const std::string udp = read_file(source / "src/c/include/isostep_udp.h");
   read_header(between(udp, "extern \"C\" {\n#endif\n", "#ifdef __cplusplus"), schema);

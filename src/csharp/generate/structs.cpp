@@ -173,7 +173,8 @@ void add_enums(const Schema& schema, Files& files) {
       if (fault.value != 0) status.values.push_back({fault.name, "", fault.value});
     }
   }
-  body += "    /// <summary>What a call returns: 0, what is wrong with the call, or above 0 the world's fault.</summary>\n";
+  body +=
+      "    /// <summary>What a call returns: 0, what is wrong with the call, or above 0 the world's fault.</summary>\n";
   body += enum_text(status, "int") + "\n";
   body += "    public static class Limits\n    {\n";
   for (const Enumerator& value : schema.constants) {
@@ -214,9 +215,10 @@ std::string layout_table(const Schema& schema) {
     std::string line = "        R(typeof(Isostep." + (family != nullptr ? family->space + "." : "") +
                        type_name(each.name) + "), " + std::to_string(each.size);
     for (const Member& member : each.members) {
-      const bool unrolled = member.count != 0 && (member.kind == "struct" || member.kind == "id" ||
-                                                  ((member.kind == "number" || member.kind == "unit") &&
-                                                   family != nullptr && family->number.front() == 'Q'));
+      const bool unrolled =
+          member.count != 0 &&
+          (member.kind == "struct" || member.kind == "id" ||
+           ((member.kind == "number" || member.kind == "unit") && family != nullptr && family->number.front() == 'Q'));
       std::string offset = std::to_string(member.offset);
       if (unrolled) offset = "-" + std::to_string(member.count) + ", " + offset;
       if (line.size() + offset.size() > 112) {

@@ -4,8 +4,8 @@ using System.Runtime.InteropServices;
 
 namespace Isostep.F64
 {
-    // Floating point crosses as it is. There is no arithmetic here: what a C# compiler makes of it is not the same on every
-    // machine. A game that computes its inputs to the world uses fixed point, or knows what it does.
+    // Floating point crosses as it is. There is no arithmetic here: what a C# compiler makes of it is not the same on
+    // every machine. A game that computes what goes into its world does so in fixed point.
 
     /// <summary>A vector of lengths [m], velocities [m/s], ...</summary>
     [StructLayout(LayoutKind.Sequential)]

@@ -17,7 +17,8 @@ namespace Isostep.Fixed32
             Pointer = made;
         }
 
-        /// <summary>In the state before a replay's first frame; of a replay with another scalar it is refused.</summary>
+        /// <summary>In the state before a replay's first frame; of a replay with another scalar it is refused.
+        /// </summary>
         public World(Replay replay)
         {
             IntPtr made;
@@ -37,11 +38,13 @@ namespace Isostep.Fixed32
             ShapeId shape;
             fixed (Child* at = children)
             fixed (IntPtr* blobsAt = pointers)
-                Check(Native.iso_q32_add_compound(Pointer, at, NativeText.Length(children), blobsAt, NativeText.Length(pointers), &shape));
+                Check(Native.iso_q32_add_compound(Pointer, at, NativeText.Length(children), blobsAt,
+                    NativeText.Length(pointers), &shape));
             return shape;
         }
 
-        /// <summary>A figure of bodies and joints, all of it or nothing; one of each a bone, a root's joint is null.</summary>
+        /// <summary>A figure of bodies and joints, all of it or nothing; one of each a bone, a root's joint is null.
+        /// </summary>
         public void AddRagdoll(RagdollBone[] bones, BodyId[] bodies, JointId[] joints, RagdollSettings? settings = null)
         {
             if (bodies.Length < bones.Length || joints.Length < bones.Length)
@@ -50,14 +53,16 @@ namespace Isostep.Fixed32
             fixed (RagdollBone* at = bones)
             fixed (BodyId* bodiesAt = bodies)
             fixed (JointId* jointsAt = joints)
-                Check(Native.iso_q32_add_ragdoll(Pointer, at, NativeText.Length(bones), settings.HasValue ? &value : null,
-                    bodiesAt, jointsAt));
+                Check(Native.iso_q32_add_ragdoll(Pointer, at, NativeText.Length(bones),
+                    settings.HasValue ? &value : null, bodiesAt, jointsAt));
         }
 
-        /// <summary>Many rays at once; `each` hits for each, the nearest in order, then some whose Body is null.</summary>
+        /// <summary>Many rays at once; `each` hits for each, the nearest in order, then some whose Body is null.
+        /// </summary>
         public void CastRays(RayCast[] rays, RayHit[] hits, int each = 1)
         {
-            if (hits.Length < (long)rays.Length * each) throw new ArgumentException("room for each of each ray", "hits");
+            if (hits.Length < (long)rays.Length * each)
+                throw new ArgumentException("room for `each` hits a ray", "hits");
             fixed (RayCast* at = rays)
             fixed (RayHit* hitsAt = hits)
                 Check(Native.iso_q32_cast_rays(Pointer, at, NativeText.Length(rays), hitsAt, (UIntPtr)each));
@@ -66,7 +71,8 @@ namespace Isostep.Fixed32
         /// <summary>Likewise of shapes.</summary>
         public void CastShapes(ShapeCast[] casts, ShapeHit[] hits, int each = 1)
         {
-            if (hits.Length < (long)casts.Length * each) throw new ArgumentException("room for each of each cast", "hits");
+            if (hits.Length < (long)casts.Length * each)
+                throw new ArgumentException("room for `each` hits a cast", "hits");
             fixed (ShapeCast* at = casts)
             fixed (ShapeHit* hitsAt = hits)
                 Check(Native.iso_q32_cast_shapes(Pointer, at, NativeText.Length(casts), hitsAt, (UIntPtr)each));

@@ -236,69 +236,47 @@ namespace Isostep
 
     public enum SessionMode : uint
     {
-        /// <summary>A frame is stepped when all its inputs are known</summary>
         Lockstep = 0,
-        /// <summary>A frame is stepped when it is due; wrong guesses are stepped again</summary>
         Rollback = 1,
-        /// <summary>No player; steps what is known, and catches up when behind</summary>
         Spectator = 2,
-        /// <summary>One machine: every frame is rolled back, stepped again and compared</summary>
         SyncTest = 3,
-        /// <summary>Plays a recorded match</summary>
         Replay = 4,
     }
 
     public enum Predictor : uint
     {
-        /// <summary>A held stick stays held</summary>
         RepeatLast = 0,
-        /// <summary>Nobody gives the same order twice</summary>
         PredictNeutral = 1,
     }
 
     public enum Genre : uint
     {
-        /// <summary>Two players; a frame of delay is felt</summary>
         Fighting = 0,
-        /// <summary>A few players on one small stage</summary>
         Brawler = 1,
-        /// <summary>Many players; a step is cheap, and others' cars may be corrected</summary>
         Racing = 2,
-        /// <summary>Orders now and then; nothing that is shown may be taken back</summary>
         Strategy = 3,
-        /// <summary>A thousand awake bodies: a step is dear</summary>
         Sandbox = 4,
     }
 
     public enum InputStatus : uint
     {
-        /// <summary>The player's own word</summary>
         Confirmed = 0,
-        /// <summary>A guess; the frame will be stepped again if it was wrong</summary>
         Predicted = 1,
-        /// <summary>The player is gone: the bytes are `neutral`</summary>
         Disconnected = 2,
     }
 
     public enum RequestKind : uint
     {
-        /// <summary>The turn is done</summary>
         Nothing = 0,
-        /// <summary>Step the game by one frame, before the next call</summary>
         Step = 1,
-        /// <summary>The state is again that before `frame`</summary>
         RolledBack = 2,
-        /// <summary>The state is one that arrived from elsewhere, before `frame`</summary>
         Restarted = 3,
-        /// <summary>`frame` is final, once each, ascending; `hash`: of the state after it</summary>
         FrameConfirmed = 4,
     }
 
     public enum Channel : uint
     {
-        /// <summary>May be lost, doubled, late or out of order</summary>
         Datagram = 0,
-        /// <summary>Arrives whole and in order, or the connection ends</summary>
         Reliable = 1,
     }
 
@@ -313,92 +291,52 @@ namespace Isostep
 
     public enum SessionEventKind : uint
     {
-        /// <summary>There is none</summary>
         None = 0,
-        /// <summary>Frame: the first</summary>
         Started = 1,
-        /// <summary>Player plays from frame on: reported when that is final, alike on all peers</summary>
         Joined = 2,
-        /// <summary>Player is gone from frame on: as well</summary>
         Left = 3,
-        /// <summary>Players hold the match up, their inputs are missing; none: the host is silent</summary>
         WaitingFor = 4,
-        /// <summary>It goes on</summary>
         Resumed = 5,
-        /// <summary>From frame on, by player; ISO_NO_PLAYER: by the host's game</summary>
         Paused = 6,
-        /// <summary>Likewise</summary>
         Unpaused = 7,
-        /// <summary>Likewise: speed</summary>
         SpeedChanged = 8,
-        /// <summary>Host: player asks for it, and players_set_tempo is 0: iso_session_pause or not</summary>
         AsksPause = 9,
-        /// <summary>Likewise</summary>
         AsksUnpause = 10,
-        /// <summary>Likewise: speed</summary>
         AsksSpeed = 11,
-        /// <summary>The ballot as it stands now, when it is opened, and when somebody has voted</summary>
         Vote = 12,
-        /// <summary>Likewise</summary>
         VotePassed = 13,
-        /// <summary>Likewise; also when the host that counted is gone</summary>
         VoteFailed = 14,
-        /// <summary>All step as slowly as player's machine can</summary>
         SlowedBy = 15,
-        /// <summary>No longer</summary>
         FullSpeed = 16,
-        /// <summary>Key: what differs, or why not; the host reports whom it refused</summary>
         Refused = 17,
-        /// <summary>Nothing was heard of it for too long, or the connection ended</summary>
         LostHost = 18,
-        /// <summary>Likewise, but the match goes on at another</summary>
         SeeksHost = 19,
-        /// <summary>Frame: where it goes on; player: the first of the host's</summary>
         NewHost = 20,
-        /// <summary>Host: the others went on without us, or have gone: we seek their host</summary>
         Deposed = 21,
-        /// <summary>Player's states differ from ours after state agreed and at the latest in state frame</summary>
         Desync = 22,
-        /// <summary>Player's states are wrong, as of state frame: most machines have others</summary>
         Outvoted = 23,
-        /// <summary>Machines differ in state frame, and no majority says who is wrong</summary>
         Undecided = 24,
-        /// <summary>Player has a state of the host's again</summary>
         Repaired = 25,
-        /// <summary>The state that arrived has another hash, was refused, or the host has none</summary>
         BadSnapshot = 26,
-        /// <summary>Requests of the last turn were not carried out</summary>
         Misuse = 27,
-        /// <summary>Sync test: the game takes another byte `ours` of state frame, and its hash stays</summary>
         Unhashed = 28,
     }
 
     public enum SessionPhase : uint
     {
-        /// <summary>For the others, or for the host</summary>
         Waiting = 0,
-        /// <summary>A snapshot arrives, or the frames since</summary>
         Joining = 1,
-        /// <summary>A player of ours is in the match; replay, sync test: running</summary>
         Playing = 2,
-        /// <summary>As a spectator, or cut out of the match and on the way back</summary>
         Watching = 3,
-        /// <summary>The host is gone, and another machine follows it</summary>
         Seeking = 4,
-        /// <summary>The host is gone: connect again</summary>
         Lost = 5,
-        /// <summary>The host will not have us: the event says why</summary>
         Refused = 6,
-        /// <summary>A replay has ended</summary>
         Over = 7,
     }
 
     public enum RecordingKind : uint
     {
-        /// <summary>Inputs and hashes: a few kilobytes a minute, for ISO_REPLAY by who has the game</summary>
         Match = 0,
-        /// <summary>The world's commands and hashes: `isostep verify` plays it without the game. Of a game with a
-        /// world, to which nothing else records meanwhile</summary>
         World = 1,
     }
 

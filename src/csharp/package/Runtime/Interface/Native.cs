@@ -644,7 +644,6 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_kick_peer(IntPtr session, uint peer, byte* reason);
 
-        /// <summary>Host: who has the seat; -1: nobody</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern int iso_session_peer_of(IntPtr session, int player);
 
@@ -687,7 +686,6 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_network_cut(IntPtr network, uint client);
 
-        /// <summary>As a pulled cable</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_network_set_silent(IntPtr network, uint endpoint, byte silent);
 

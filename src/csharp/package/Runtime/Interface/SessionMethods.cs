@@ -166,7 +166,6 @@ namespace Isostep
                 Check(Native.iso_session_kick_peer(Pointer, peer, reasonAt));
         }
 
-        /// <summary>Host: who has the seat; -1: nobody</summary>
         public int PeerOf(int player)
         {
             return Native.iso_session_peer_of(Pointer, player);

@@ -35,7 +35,6 @@ namespace Isostep
             Check(Native.iso_network_cut(Pointer, client));
         }
 
-        /// <summary>As a pulled cable</summary>
         public void SetSilent(uint endpoint, bool silent)
         {
             Check(Native.iso_network_set_silent(Pointer, endpoint, (byte)(silent ? 1 : 0)));

@@ -6,9 +6,9 @@ using System.Runtime.InteropServices;
 namespace Isostep
 {
     /// <summary>The directions beside Q16: 30 bits after the point, -2 to 2.</summary>
-    /// <remarks>The arithmetic of isostep's Fixed&lt;int32_t, 30&gt;, bit for bit: sums wrap, products round
-    /// to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none throws.
-    /// </remarks>
+    /// <remarks>The arithmetic of isostep's Fixed&lt;int32_t, 30&gt;, bit for bit: sums wrap, products
+    /// round to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none
+    /// throws.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Q16Unit : IEquatable<Q16Unit>, IComparable<Q16Unit>
     {
@@ -39,7 +39,8 @@ namespace Isostep
         public static Q16Unit Ratio(int numerator, int denominator)
         {
             long quotient = Rounding.Divide((long)numerator, denominator, FractionBits);
-            return quotient > int.MaxValue ? Highest : quotient < int.MinValue ? Lowest : new Q16Unit((int)quotient);
+            if (quotient > int.MaxValue) return Highest;
+            return quotient < int.MinValue ? Lowest : new Q16Unit((int)quotient);
         }
 
         /// <summary>To nearest, ties away from zero; outside the range the nearest end, NaN is 0. Of a constant it is

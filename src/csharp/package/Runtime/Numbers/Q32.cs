@@ -6,9 +6,9 @@ using System.Runtime.InteropServices;
 namespace Isostep
 {
     /// <summary>Fixed point with 32 bits before the point and 32 after.</summary>
-    /// <remarks>The arithmetic of isostep's Fixed&lt;int64_t, 32&gt;, bit for bit: sums wrap, products round
-    /// to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none throws.
-    /// </remarks>
+    /// <remarks>The arithmetic of isostep's Fixed&lt;int64_t, 32&gt;, bit for bit: sums wrap, products
+    /// round to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none
+    /// throws.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Q32 : IEquatable<Q32>, IComparable<Q32>
     {
@@ -39,7 +39,8 @@ namespace Isostep
         public static Q32 Ratio(int numerator, int denominator)
         {
             long quotient = Rounding.Divide((long)numerator, denominator, FractionBits);
-            return quotient > long.MaxValue ? Highest : quotient < long.MinValue ? Lowest : new Q32((long)quotient);
+            if (quotient > long.MaxValue) return Highest;
+            return quotient < long.MinValue ? Lowest : new Q32((long)quotient);
         }
 
         /// <summary>To nearest, ties away from zero; outside the range the nearest end, NaN is 0. Of a constant it is

@@ -6,9 +6,9 @@ using System.Runtime.InteropServices;
 namespace Isostep
 {
     /// <summary>The directions beside Q32: 62 bits after the point, -2 to 2.</summary>
-    /// <remarks>The arithmetic of isostep's Fixed&lt;int64_t, 62&gt;, bit for bit: sums wrap, products round
-    /// to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none throws.
-    /// </remarks>
+    /// <remarks>The arithmetic of isostep's Fixed&lt;int64_t, 62&gt;, bit for bit: sums wrap, products
+    /// round to nearest (ties up), quotients to nearest (ties away from zero) and end at the format's ends; none
+    /// throws.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Q32Unit : IEquatable<Q32Unit>, IComparable<Q32Unit>
     {
@@ -39,7 +39,8 @@ namespace Isostep
         public static Q32Unit Ratio(int numerator, int denominator)
         {
             long quotient = Rounding.Divide((long)numerator, denominator, FractionBits);
-            return quotient > long.MaxValue ? Highest : quotient < long.MinValue ? Lowest : new Q32Unit((long)quotient);
+            if (quotient > long.MaxValue) return Highest;
+            return quotient < long.MinValue ? Lowest : new Q32Unit((long)quotient);
         }
 
         /// <summary>To nearest, ties away from zero; outside the range the nearest end, NaN is 0. Of a constant it is
