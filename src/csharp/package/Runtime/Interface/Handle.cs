@@ -4,8 +4,8 @@ using System;
 
 namespace Isostep
 {
-    /// <summary>Dispose() frees the object, once, on the thread that uses it. There is no finalizer: an object that is not
-    /// disposed is a leak, never a crash.</summary>
+    /// <summary>Dispose() frees the object, once, on the thread that uses it. There is no finalizer: an object that is
+    /// not disposed is a leak, never a crash.</summary>
     public abstract class Handle : IDisposable
     {
         internal IntPtr Pointer;

@@ -36,16 +36,16 @@ namespace Isostep
         internal static unsafe IsostepException Of(Status status, string words)
         {
             string last = words ?? NativeText.Read(Native.iso_last_error());
-            return new IsostepException(status, string.IsNullOrEmpty(last) ? NativeText.Read(Native.iso_status_text(status)) : last,
-                null, null, null);
+            if (string.IsNullOrEmpty(last)) last = NativeText.Read(Native.iso_status_text(status));
+            return new IsostepException(status, last, null, null, null);
         }
 
         internal static unsafe IsostepException OfWorld(Status status, IntPtr world)
         {
             FaultReport report = FaultReport.Sized();
             if (status < 0 || Native.iso_world_fault(world, &report) != Status.Ok) return Of(status, null);
-            return new IsostepException(status, NativeText.Read(Native.iso_last_error()), NativeText.Read(report.Command),
-                NativeText.Read(report.Field), NativeText.Read(report.Expected));
+            return new IsostepException(status, NativeText.Read(Native.iso_last_error()),
+                NativeText.Read(report.Command), NativeText.Read(report.Field), NativeText.Read(report.Expected));
         }
     }
 }

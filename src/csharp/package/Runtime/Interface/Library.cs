@@ -26,8 +26,8 @@ namespace Isostep
 
         public static bool Has(Scalar scalar) => Native.iso_has_scalar(scalar) != 0;
 
-        /// <summary>Replays the built-in recordings with every scalar and set of lanes, in half a second: what a game asks
-        /// at start, for Sound.</summary>
+        /// <summary>Replays the built-in recordings with every scalar and set of lanes, in half a second: what a game
+        /// asks at start, for Sound.</summary>
         public static SelfcheckResult Selfcheck()
         {
             SelfcheckResult result = SelfcheckResult.Sized();

@@ -4,8 +4,8 @@ using System;
 
 namespace Isostep
 {
-    /// <summary>A recording that grows: world.Record(tape, "scene"), then EndFrame() after each frame, then Finish() and
-    /// Bytes: a file that `isostep verify` plays without the game.</summary>
+    /// <summary>A recording that grows: world.Record(tape, "scene"), then EndFrame() after each frame, then Finish()
+    /// and Bytes: a file that `isostep verify` plays without the game.</summary>
     public sealed unsafe partial class Tape : Handle
     {
         public Tape()
@@ -43,7 +43,10 @@ namespace Isostep
         {
             ReplayResult result = ReplayResult.Sized();
             fixed (byte* at = file)
-                IsostepException.Check(Native.iso_replay_verify(at, NativeText.Length(file), simd, mostFrames, &result));
+            {
+                UIntPtr size = NativeText.Length(file);
+                IsostepException.Check(Native.iso_replay_verify(at, size, simd, mostFrames, &result));
+            }
             return result;
         }
 
@@ -59,7 +62,8 @@ namespace Isostep
         public static Blob Read(byte[] file, BlobHome home = BlobHome.Carried)
         {
             IntPtr made;
-            fixed (byte* at = file) IsostepException.Check(Native.iso_blob_read(at, NativeText.Length(file), home, &made));
+            fixed (byte* at = file)
+                IsostepException.Check(Native.iso_blob_read(at, NativeText.Length(file), home, &made));
             return new Blob(made);
         }
 

@@ -5,16 +5,17 @@ using System;
 namespace Isostep
 {
     /// <summary>A turn of the game's loop:
-    /// what the transport has goes in; AddLocalInput(...); Advance(now); then while (session.Next(out request)) step the
-    /// game where request.Kind is Step, with session.Inputs; what PollSend gives goes out.</summary>
+    /// what the transport has goes in; AddLocalInput(...); Advance(now); then while (session.Next(out request)) step
+    /// the game where request.Kind is Step, with session.Inputs; what PollSend gives goes out.</summary>
     public sealed unsafe partial class Session : Handle
     {
         // Named by the library while the session lives.
         private readonly WorldBase world;
         private readonly NativeBlock block;
 
-        /// <summary>The game is a world, a block of bytes, or both: saved, rolled back and hashed as one. They outlive the
-        /// session. `file`: the recording of SessionMode.Replay, or what SaveMatch() gave a host that goes on.</summary>
+        /// <summary>The game is a world, a block of bytes, or both: saved, rolled back and hashed as one. They outlive
+        /// the session. `file`: the recording of SessionMode.Replay, or what SaveMatch() gave a host that goes
+        /// on.</summary>
         public Session(SessionConfig config, WorldBase world, NativeBlock block = null, byte[] file = null)
         {
             this.world = world;
@@ -35,8 +36,8 @@ namespace Isostep
         public WorldBase World => world;
         public NativeBlock Block => block;
 
-        /// <summary>The next request of the turn; false: the turn is done. A step that is asked for comes before the next
-        /// call.</summary>
+        /// <summary>The next request of the turn; false: the turn is done. A step that is asked for comes before the
+        /// next call.</summary>
         public bool Next(out SessionRequest request)
         {
             SessionRequest next = SessionRequest.Sized();
@@ -56,8 +57,8 @@ namespace Isostep
             }
         }
 
-        /// <summary>For the next frame; until that is stepped a later one replaces it. False: not a player of ours, not in
-        /// the match now, or no input.</summary>
+        /// <summary>For the next frame; until that is stepped a later one replaces it. False: not a player of ours, not
+        /// in the match now, or no input.</summary>
         public bool AddLocalInput(int player, byte[] input)
         {
             fixed (byte* at = input) return AddLocalInput(player, at, input.Length);
@@ -92,8 +93,8 @@ namespace Isostep
             fixed (byte* at = bytes) Check(Native.iso_session_receive(Pointer, peer, channel, at, (UIntPtr)size, now));
         }
 
-        /// <summary>To the transport: connect to this machine, as SessionConfig.Address of its session says; null: none.
-        /// </summary>
+        /// <summary>To the transport: connect to this machine, as SessionConfig.Address of its session says; null:
+        /// none. </summary>
         public string PollConnect()
         {
             byte* address;
@@ -124,8 +125,8 @@ namespace Isostep
             return first[player].Bytes[index];
         }
 
-        /// <summary>The player is gone, and its bytes are SessionConfig.Neutral: all that a game may look at beside them.
-        /// </summary>
+        /// <summary>The player is gone, and its bytes are SessionConfig.Neutral: all that a game may look at beside
+        /// them. </summary>
         public bool IsDisconnected(int player)
         {
             if ((uint)player >= (uint)Players) throw new ArgumentOutOfRangeException("player");

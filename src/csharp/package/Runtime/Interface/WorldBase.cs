@@ -4,8 +4,9 @@ using System;
 
 namespace Isostep
 {
-    /// <summary>A rigid-body world. Worlds are made in the namespace of their scalar: new Isostep.Fixed32.World(settings).
-    /// Arrays that it shows (events, poses) hold until the next call that changes it.</summary>
+    /// <summary>A rigid-body world. Worlds are made in the namespace of their scalar: new
+    /// Isostep.Fixed32.World(settings). Arrays that it shows (events, poses) hold until the next call that changes
+    /// it.</summary>
     public abstract unsafe partial class WorldBase : Handle
     {
         /// <summary>Why the last refused call was refused; Status 0: none was.</summary>

@@ -5,7 +5,8 @@ using Isostep.Fixed32;
 
 namespace Isostep.Samples
 {
-    /// <summary>The game's state is a world and four bytes of score; a player's input is one byte: -1, 0 or 1.</summary>
+    /// <summary>The game's state is a world and four bytes of score; a player's input is one byte: -1, 0 or
+    /// 1.</summary>
     public sealed class TwoPucks : IDisposable
     {
         public readonly World World = new World();
