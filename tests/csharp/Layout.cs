@@ -22,7 +22,8 @@ internal static class Layout
                 int copies = 1;
                 if (row.Offsets[i] < 0) copies = -row.Offsets[i++];  // an array that C# has as so many members
                 long offset = (long)Marshal.OffsetOf(row.Type, members[at].Name);
-                if (offset != row.Offsets[i]) throw new Exception(row.Type + "." + members[at].Name + " is at " + offset);
+                if (offset != row.Offsets[i])
+                    throw new Exception(row.Type + "." + members[at].Name + " is at " + offset);
                 at += copies;
                 ++fields;
             }

@@ -94,8 +94,8 @@ internal static class NumberVectors
     {
         int failures = 0;
         Q16 value;
-        string[] noNumbers = { "", "-", ".5", "1.", "01", "1e3", "+1", " 1", "1 ", "0x1", "1,5", null, "32768", "-32769",
-            "32767.99999999", "99999999999999999999999", "-32768.00001" };
+        string[] noNumbers = { "", "-", ".5", "1.", "01", "1e3", "+1", " 1", "1 ", "0x1", "1,5", null, "32768",
+            "-32769", "32767.99999999", "99999999999999999999999", "-32768.00001" };
         foreach (string text in noNumbers)
         {
             if (!Q16.TryParse(text, out value)) continue;
