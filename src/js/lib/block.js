@@ -10,10 +10,10 @@ const kArrays = {
   i8: Int8Array, i16: Int16Array, i32: Int32Array, i64: BigInt64Array, f32: Float32Array, f64: Float64Array
 };
 
-/** [[name, type, offset, count or undefined]], each at a multiple of its own size, and the size of them all. */
+/** [[name, type, offset, count or undefined]] and the size of them all: as those members of a C struct. */
 function layoutOf(fields) {
   const places = [];
-  let end = 0;
+  let end = 0, align = 1;
   for (const [name, kind] of Object.entries(fields)) {
     const [type, count] = Array.isArray(kind) ? kind : [kind];
     if (!Object.hasOwn(kArrays, type)) throw badValue(name, `one of ${Object.keys(kArrays).join(', ')}`, type);
@@ -22,9 +22,10 @@ function layoutOf(fields) {
     end = Math.ceil(end / size) * size;
     places.push([name, type, end, count]);
     end += size * (count ?? 1);
+    align = Math.max(align, size);
   }
   if (end === 0) throw new IsostepError({status: -100, reason: 'a block without fields', field: 'fields'});
-  return {places, size: Math.ceil(end / 8) * 8};
+  return {places, size: Math.ceil(end / align) * align};
 }
 
 /**

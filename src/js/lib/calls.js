@@ -103,9 +103,14 @@ export class Calls {
       const at = this.take(size);
       this.call(this.full(struct.init), at);
       defaults = this.module.bytes(at, size).slice();
-    } else if (struct?.sized) {
+    } else if (struct !== undefined) {
       defaults = new Uint8Array(size);
-      new DataView(defaults.buffer).setUint32(0, size, true);
+      const view = new DataView(defaults.buffer);
+      if (struct.sized) view.setUint32(0, size, true);
+      for (const [key, kind] of struct.fields) {  // what 0 would be no turn
+        if (kind === 'quat') this.layout(name).write(view, 0, {[key]: [0, 0, 0, 1]});
+        if (kind === 'pose') this.layout(name).write(view, 0, {[key]: {orientation: [0, 0, 0, 1]}});
+      }
     }
     this.#defaults.set(name, defaults);
     return defaults;

@@ -1,10 +1,7 @@
 // The simulated network in virtual time, for tests and testbeds: endpoint 0 is the host, clients follow.
 // SPDX-License-Identifier: MIT
 
-import {IsostepError} from './errors.js';
 import {Handle} from './handle.js';
-
-const kRefused = -11;
 
 /** Between sessions of one engine; what befalls their packets depends on the seed alone. */
 export class SimulatedNetwork extends Handle {
@@ -19,14 +16,7 @@ export class SimulatedNetwork extends Handle {
     super(calls.module, at, 'iso_network_destroy', 'network');
     this.#calls = calls;
   }
-  #run(name, ...words) {
-    const status = this.module.call(name, this.at, ...words);
-    if (status === kRefused) {
-      const reason = this.module.text(this.module.call('iso_network_problem', this.at));
-      throw new IsostepError({status, reason, command: name.replace(/^iso_/, '')});
-    }
-    if (status !== 0) this.#calls.fail(name, status);
-  }
+  #run(name, ...words) { this.#calls.call(name, this.at, ...words); }
 
   /** A new endpoint on a line: 'wifi', 'latency=80,jitter=20,loss=5' ([ms], [ms], [%]); its number. */
   addClient(profile) {

@@ -1,7 +1,7 @@
 // A session: which frames a game steps, with whose inputs, and when. No sockets and no clock: times [us] are given.
 // SPDX-License-Identifier: MIT
 
-import {badValue, IsostepError} from './errors.js';
+import {badValue} from './errors.js';
 import {Handle} from './handle.js';
 import {unsigned} from './module.js';
 
@@ -34,12 +34,7 @@ export class Session extends Handle {
     }
     calls.layout('session_config').write(calls.module.view, settings, config, 'config');
     const bytes = file === undefined ? 0 : calls.placeBytes(file, 'file'), out = calls.take(4);
-    const status = calls.module.call('iso_session_create', settings, placeGame(calls, game), bytes, file?.byteLength ?? 0, out);
-    if (status === kRefused) {
-      const reason = calls.module.text(calls.module.call('iso_session_config_problem', settings));
-      throw new IsostepError({status, reason, command: 'session_create'});
-    }
-    if (status !== 0) calls.fail('iso_session_create', status);
+    calls.call('iso_session_create', settings, placeGame(calls, game), bytes, file?.byteLength ?? 0, out);
     return new Session(calls, calls.module.view.getUint32(out, true), game);
   }
   constructor(calls, at, game) {
@@ -57,7 +52,7 @@ export class Session extends Handle {
     return true;
   }
   /** Why the last call was refused. */
-  get problem() { return this.module.text(this.module.call('iso_session_problem', this.at)); }
+  get problem() { return this.module.text(this.module.call('iso_last_error')); }
 
   // ---- a turn
 
