@@ -30,25 +30,26 @@ bool input_has_ended() {
 
 int main(int count, char** words) {
   if (count != 2) return 64;
-  auto transport = iso::transport::EnetTransport::listen(0, {.timeout = 60 * iso::kSecond});
-  if (!transport) return 1;
+  auto opened = iso::transport::EnetTransport::listen(0, {.timeout = 60 * iso::kSecond});
+  if (!opened) return 1;
+  iso::transport::EnetTransport& transport = opened.value();
   Game game;
   iso::SessionConfig config = config_of(game);
   config.silence = config.patience = 60 * iso::kSecond;
   iso::Session<Game> session(config);
-  std::printf("%llu %u\n", static_cast<unsigned long long>(iso::InputCodec<Push>::schema()), transport->port());
+  std::printf("%llu %u\n", static_cast<unsigned long long>(iso::InputCodec<Push>::schema()), transport.port());
   std::fflush(stdout);
   Printer printer{std::atoi(words[1])};
   const auto start = std::chrono::steady_clock::now();
   while (!input_has_ended()) {
     const auto passed = std::chrono::steady_clock::now() - start;
     const auto now = static_cast<iso::Time>(std::chrono::duration_cast<std::chrono::microseconds>(passed).count());
-    transport->poll();
-    iso::transport::deliver(*transport, session, now);
+    transport.poll();
+    iso::transport::deliver(transport, session, now);
     session.add_local_input(0, {static_cast<std::int8_t>((session.current() / 11) % 3 - 1)});
     iso::drive(session, game, now, printer);
-    iso::transport::dispatch(*transport, session, now);
-    transport->flush();
-    transport->wait(2000);
+    iso::transport::dispatch(transport, session, now);
+    transport.flush();
+    transport.wait(2000);
   }
 }
