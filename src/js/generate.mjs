@@ -45,11 +45,12 @@ function member(struct, i, offset) {
   return count ? [camel(name), element, offset(i), count] : [camel(name), element, offset(i)];
 }
 
+const sessions = readSessions(header);
 const functions = new Set(described.functions.map(one => one.name));
 function layouts() {
   const made = {};
   for (const struct of described.structs) {
-    if (struct.family !== '' && struct.family !== 'f32') continue;
+    if ((struct.family !== '' && struct.family !== 'f32') || Object.hasOwn(sessions.structs, struct.base)) continue;
     const versions = Object.fromEntries(['f32', 'f64', 'q16', 'q32'].map(family => [family, struct.family === '' ? struct
       : described.structs.find(one => one.base === struct.base && one.family === family)]));
     const offset = i => place(family =>  // padding differs, so by name
@@ -66,10 +67,10 @@ function layouts() {
 
 /** Names that functions exist for, in the header's order. */
 const named = pattern => described.functions.map(one => pattern.exec(one.name)?.[1]).filter(Boolean);
-const sessions = readSessions(header);
 const flags = Object.fromEntries(described.enums.filter(one => one.flags).map(one =>
   [`${camel(bare(one.name))}s`, Object.fromEntries(one.values.map(({base, value}) => [camel(base), value]))]));
-const enums = Object.fromEntries(described.enums.filter(one => !one.flags).map(one =>
+const enums = Object.fromEntries(described.enums
+  .filter(one => !one.flags && !Object.hasOwn(sessions.enums, bare(one.name))).map(one =>
   [bare(one.name), Object.fromEntries(one.values.map(({base, value}) => [base, value]))]));
 const lists = {
   shapes: named(/^iso_f32_(.*)_primitive$/),
