@@ -23,12 +23,16 @@ std::string trimmed(std::string text) {
   return text;
 }
 
+std::string without_comments(const std::string& text) {
+  static const std::regex comment("/\\*[^*]*\\*/");
+  return std::regex_replace(text, comment, "");
+}
+
 Enum enum_of(const std::string& name, const std::string& body) {
   static const std::regex enumerator("ISO_(\\w+)(?: = (\\d+))?");
-  static const std::regex comment("/\\*[^*]*\\*/");
   Enum described{name, false, {}, "ISO_"};
   std::uint32_t next = 0;
-  const std::string bare = std::regex_replace(body, comment, "");
+  const std::string bare = without_comments(body);
   for (Lines at(bare.begin(), bare.end(), enumerator), end; at != end; ++at) {
     if ((*at)[2].matched) next = static_cast<std::uint32_t>(std::stoul((*at)[2]));
     described.values.push_back({lower((*at)[1]), next++});
@@ -80,7 +84,7 @@ Struct struct_of(const std::string& name, const std::string& body, const Schema&
     if ((*at)[4].matched) member.comment = trimmed(std::string((*at)[4]).substr(1));
     if (!place(described, member)) problem = name + "." + member.name;
   }
-  for (const char c : body) members += c == ';' ? 1 : 0;
+  for (const char c : without_comments(body)) members += c == ';' ? 1 : 0;
   if (lines < members || described.align == 0 || described.size % described.align != 0) problem = name;
   if (described.members.empty()) return described;
   const Member& first = described.members[0];
