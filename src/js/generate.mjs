@@ -1,23 +1,31 @@
-// Writes lib/generated/interface.js and types/generated.d.ts from src/c/interface.json and the sessions of isostep.h:
-// node generate.mjs [FOLDER to write to, else here]. What is committed is what this writes; a test compares.
+// Writes lib/generated/interface.js and types/generated.d.ts from src/c/interface.json: node generate.mjs [FOLDER to
+// write to, else here]. What is committed is what this writes; a test compares.
 // SPDX-License-Identifier: MIT
 
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-import {readSessions} from './generate_sessions.mjs';
-
 const here = dirname(fileURLToPath(import.meta.url));
 const to = process.argv[2] ?? here;
 const described = JSON.parse(readFileSync(join(here, '../c/interface.json'), 'utf8'));
-const header = readFileSync(join(here, '../c/include/isostep.h'), 'utf8');
 
-export const camel = name => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const camel = name => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const pascal = name => camel(`_${name}`);
 const bare = name => name.replace(/^iso_((f32|f64|q16|q32)_)?/, '');
 
 // ---- layouts
+
+/** What C's names of enumerators begin with where the enumeration says it already. */
+const kPrefixes = {
+  event_kind: 'event_', phase: 'phase_', proposal: 'vote_', recording: 'record_', request_kind: 'frame_'
+};
+/** Members of a byte that are truth values, which C says in comments alone. */
+const kBools = {
+  session_config: ['host', 'relays', 'repair', 'asks_admission', 'votes', 'players_set_tempo'],
+  applicant: ['spectator'],
+  outgoing: ['close']
+};
 
 /** Places of the families with numbers of four bytes and of eight: one number where they are the same. */
 function place(pick) {
@@ -28,9 +36,13 @@ function place(pick) {
 
 /** [key, kind, place, count, partner's place] of a member; undefined: it is not JavaScript's concern. */
 function member(struct, i, offset) {
-  const {name, kind, of, count} = struct.members[i];
+  const {name, of, count} = struct.members[i];
+  const kind = kBools[struct.base]?.includes(name) ? 'bool' : struct.members[i].kind;
   const find = other => struct.members.findIndex(one => one.name === other);
   if (kind === 'reserved' || /^reserved\d*$/.test(name) || (struct.sized && i === 0)) return undefined;
+  const used = find(`${name}_size`);  // bytes of which so many count
+  if (kind === 'u8' && count && used >= 0) return [camel(name), 'bytes', offset(i), count, offset(used)];
+  if (name.endsWith('_size') && find(name.slice(0, -5)) >= 0) return undefined;
   if (kind === 'bool' && name.startsWith('has_') && find(name.slice(4)) >= 0) return undefined;
   const element = ['struct', 'enum'].includes(kind) ? bare(of) : kind === 'pointer' && of !== 'iso_text' ? 'list' : kind;
   const has = find(`has_${name}`);
@@ -45,12 +57,11 @@ function member(struct, i, offset) {
   return count ? [camel(name), element, offset(i), count] : [camel(name), element, offset(i)];
 }
 
-const sessions = readSessions(header);
 const functions = new Set(described.functions.map(one => one.name));
 function layouts() {
   const made = {};
   for (const struct of described.structs) {
-    if ((struct.family !== '' && struct.family !== 'f32') || Object.hasOwn(sessions.structs, struct.base)) continue;
+    if (struct.family !== '' && struct.family !== 'f32') continue;
     const versions = Object.fromEntries(['f32', 'f64', 'q16', 'q32'].map(family => [family, struct.family === '' ? struct
       : described.structs.find(one => one.base === struct.base && one.family === family)]));
     const offset = i => place(family =>  // padding differs, so by name
@@ -69,17 +80,16 @@ function layouts() {
 const named = pattern => described.functions.map(one => pattern.exec(one.name)?.[1]).filter(Boolean);
 const flags = Object.fromEntries(described.enums.filter(one => one.flags).map(one =>
   [`${camel(bare(one.name))}s`, Object.fromEntries(one.values.map(({base, value}) => [camel(base), value]))]));
-const enums = Object.fromEntries(described.enums
-  .filter(one => !one.flags && !Object.hasOwn(sessions.enums, bare(one.name))).map(one =>
-  [bare(one.name), Object.fromEntries(one.values.map(({base, value}) => [base, value]))]));
+const enums = Object.fromEntries(described.enums.filter(one => !one.flags).map(one => {
+  const name = bare(one.name), prefix = new RegExp(`^${kPrefixes[name] ?? ''}`);
+  return [name, Object.fromEntries(one.values.map(({base, value}) => [base.replace(prefix, ''), value]))];
+}));
 const lists = {
   shapes: named(/^iso_f32_(.*)_primitive$/),
   joints: named(/^iso_f32_create_(.*)$/),
   records: named(/^iso_f32_set_(.*)$/)
 };
-const schema = {
-  abi: described.abi, ...lists, flags, enums: {...enums, ...sessions.enums}, structs: {...layouts(), ...sessions.structs}
-};
+const schema = {abi: described.abi, ...lists, flags, enums, structs: layouts()};
 
 /** As JavaScript, a line each member of what is named. */
 function literal(value) {
@@ -132,8 +142,8 @@ function typeOf(kind, count) {
   return count ? `${one}[]` : one;
 }
 const commentsOf = name => {
-  const struct = described.structs.find(one => one.base === name);
-  return key => (struct ? struct.members.find(one => camel(one.name) === key)?.comment : sessions.comments[name]?.[key]);
+  const {members} = described.structs.find(one => one.base === name);
+  return key => members.find(one => camel(one.name) === key)?.comment;
 };
 function interfaceOf([name, {fields}]) {
   const comment = commentsOf(name);

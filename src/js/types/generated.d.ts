@@ -294,6 +294,184 @@ export interface SelfcheckResult {
   text: string;
 }
 
+export interface SessionConfig {
+  mode: SessionModeName;
+  /** others connect to us; the host fixes what was played */
+  host: boolean;
+  /** spectator: it serves up to max_peers further ones, who connect to it as to a host */
+  relays: boolean;
+  /** who is outvoted takes the host's state again by itself */
+  repair: boolean;
+  /** host: its game decides whom it lets in: iso_session_poll_applicant */
+  asksAdmission: boolean;
+  /** host: who plays may propose a vote */
+  votes: boolean;
+  /** host: who plays may pause and set the speed; else the host's game is asked, by events */
+  playersSetTempo: boolean;
+  players: number;
+  /** host: how many of the first play here, 0: dedicated; client: for how many seats it asks */
+  localPlayers: number;
+  /** [1/s] */
+  hz: number;
+  /** [frames] rollback: stepped on guesses at most; sync test: rolled back */
+  window: number;
+  /** [frames] an input waits at first; adapts between the next two */
+  delay: number;
+  /** [frames] */
+  leastDelay: number;
+  /** [frames] */
+  mostDelay: number;
+  /** [frames] host: an input that is late by so many is replaced by the guess; 0: none */
+  deadline: number;
+  /** [us] without a word from a peer until it counts as lost */
+  silence: bigint;
+  /** [us] that one player may make the others wait within a minute; then it is left out */
+  patience: bigint;
+  /** [us] for so long */
+  exclusion: bigint;
+  /** states kept, more than window, delay and latency; iso_game.save has slots below this */
+  kept: number;
+  /** frames of inputs kept: how long a snapshot may take to reach a late joiner */
+  history: number;
+  /** [frames] whose state is at most so old steps them all; older ones are sent a snapshot */
+  mostReplayed: number;
+  /** whom the host serves: the players, and as many spectators as they leave room for */
+  maxPeers: number;
+  /** host: connections beside those; peers are numbered below the sum of both */
+  maxStrangers: number;
+  /** [bytes] of a snapshot that a client accepts */
+  snapshotCap: number;
+  /** [1/s] datagrams, and messages, accepted of one peer */
+  mostPackets: number;
+  /** [frames] relay: it and all whom it serves see the match so late */
+  broadcastDelay: number;
+  /** host: 64 random bits that no other match has, and a secret: tokens come of it. 0 is refused */
+  seed: bigint;
+  /** [us] without a word from the host until the clients go on without it; 0: never */
+  migration: bigint;
+  /** [us] host: a seat that was played on is kept so long for its player's token */
+  reservation: bigint;
+  /** client: what iso_session_token gave a former process of this player; 0: a new player */
+  token: bigint;
+  /** client: this seat, and those after it for further players of ours, or none; -1: any */
+  seat: number;
+  /** client: for the host's game */
+  credential: Uint8Array;
+  /** where the others' transports reach ours, at most 64 characters: iso_session_poll_connect */
+  address: string;
+  /** what all peers must have alike: the game and its version, 1 to 128 characters of ASCII */
+  name: string;
+  /** likewise: names the fields of an input, at most 128 characters */
+  inputText: string;
+  /** 0: hash of input_text, sizes and neutral; else this, as of a C++ InputCodec */
+  inputSchema: bigint;
+  /** [bytes] an input has, 0 to input_cap */
+  inputLeast: number;
+  /** [bytes] and at most, 1 to INPUT_CAP */
+  inputCap: number;
+  /** iso_game.predict replaces it */
+  predictor: PredictorName;
+  /** what is played for who is not there */
+  neutral: Uint8Array;
+}
+
+export interface SessionEvent {
+  kind: EventKindName;
+  /** NO_PLAYER: none, or the host's machine */
+  player: number;
+  frame: number;
+  /** [frame] */
+  agreed: number;
+  players: number;
+  /** [1/8 of the match's rate] */
+  speed: number;
+  /** its number in the match; 0: none */
+  vote: number;
+  proposal: ProposalName;
+  subject: number;
+  proposer: number;
+  /** players */
+  voters: number;
+  /** players */
+  yes: number;
+  /** players */
+  no: number;
+  /** hash chains; outvoted: player's */
+  ours: bigint;
+  /** and the majority's */
+  theirs: bigint;
+  /** refused: what differs */
+  key: string;
+  /** there, or in the file */
+  theirsText: string;
+  /** here */
+  oursText: string;
+}
+
+export interface SessionStats {
+  /** [frames] an input waits now */
+  delay: number;
+  /** carried out, again or for the first time */
+  steps: bigint;
+  /** by depth [frames] */
+  rollbacks: bigint[];
+  /** times that a due frame had to wait */
+  waits: bigint;
+  datagramsOut: bigint;
+  datagramsIn: bigint;
+  /** datagrams' and messages' own, without UDP/IP */
+  bytesOut: bigint;
+  bytesIn: bigint;
+  /** datagrams and messages that were malformed or not for us */
+  refused: bigint;
+  /** dropped unread */
+  flooded: bigint;
+  /** host: peers that did not acknowledge what they were sent */
+  putOut: bigint;
+  /** the caller did not take them in time */
+  eventsLost: bigint;
+  /** [us] client: to the host; host: the slowest client's */
+  roundTrip: bigint;
+  /** connected */
+  peers: number;
+  /** that decide without a host, with migration */
+  machines: number;
+  /** [us] client: of the host's datagrams */
+  jitter: number;
+  /** [permille] likewise */
+  loss: number;
+  /** [1/256 period] by which frames are longer than they should be */
+  stretch: number;
+}
+
+export interface PlayerStats {
+  /** [frames] by which the latest input of a second came before it was needed; negative: late */
+  early: number;
+  /** inputs that came after the deadline */
+  replaced: number;
+  /** [us] that the others waited for it within the last minute */
+  waited: number;
+  /** [us] to the host and back */
+  roundTrip: number;
+  /** [us] */
+  jitter: number;
+  /** [permille] of its datagrams that the host did not get */
+  loss: number;
+}
+
+export interface Applicant {
+  peer: number;
+  id: bigint;
+  spectator: boolean;
+  /** that it asks for, with those after it; -1: any */
+  seat: number;
+  /** how many */
+  seats: number;
+  /** whose token it has shown; -1: nobody's */
+  player: number;
+  credential: Uint8Array;
+}
+
 export interface Pose<N = number> {
   position: Vec3<N>;
   orientation: Quat<N>;
@@ -1447,182 +1625,4 @@ export interface SensorMount<N = number> {
   on: bigint;
   /** of the sensor's origin in the carrier's frame */
   frame: Pose<N>;
-}
-
-export interface SessionConfig {
-  mode: SessionModeName;
-  /** others connect to us; the host fixes what was played */
-  host: boolean;
-  /** spectator: it serves up to max_peers further ones, who connect to it as to a host */
-  relays: boolean;
-  /** who is outvoted takes the host's state again by itself */
-  repair: boolean;
-  /** host: its game decides whom it lets in: iso_session_poll_applicant */
-  asksAdmission: boolean;
-  /** host: who plays may propose a vote */
-  votes: boolean;
-  /** host: who plays may pause and set the speed; else the host's game is asked, by events */
-  playersSetTempo: boolean;
-  players: number;
-  /** host: how many of the first play here, 0: dedicated; client: for how many seats it asks */
-  localPlayers: number;
-  /** [1/s] */
-  hz: number;
-  /** [frames] rollback: stepped on guesses at most; sync test: rolled back */
-  window: number;
-  /** [frames] an input waits at first; adapts between the next two */
-  delay: number;
-  /** [frames] */
-  leastDelay: number;
-  /** [frames] */
-  mostDelay: number;
-  /** [frames] host: an input that is late by so many is replaced by the guess; 0: none */
-  deadline: number;
-  /** [us] without a word from a peer until it counts as lost */
-  silence: bigint;
-  /** [us] that one player may make the others wait within a minute; then it is left out */
-  patience: bigint;
-  /** [us] for so long */
-  exclusion: bigint;
-  /** states kept, more than window, delay and latency; iso_game.save has slots below this */
-  kept: number;
-  /** frames of inputs kept: how long a snapshot may take to reach a late joiner */
-  history: number;
-  /** [frames] whose state is at most so old steps them all; older ones are sent a snapshot */
-  mostReplayed: number;
-  /** whom the host serves: the players, and as many spectators as they leave room for */
-  maxPeers: number;
-  /** host: connections beside those; peers are numbered below the sum of both */
-  maxStrangers: number;
-  /** [bytes] of a snapshot that a client accepts */
-  snapshotCap: number;
-  /** [1/s] datagrams, and messages, accepted of one peer */
-  mostPackets: number;
-  /** [frames] relay: it and all whom it serves see the match so late */
-  broadcastDelay: number;
-  /** host: 64 random bits that no other match has, and a secret: tokens come of it. 0 is refused */
-  seed: bigint;
-  /** [us] without a word from the host until the clients go on without it; 0: never */
-  migration: bigint;
-  /** [us] host: a seat that was played on is kept so long for its player's token */
-  reservation: bigint;
-  /** client: what iso_session_token gave a former process of this player; 0: a new player */
-  token: bigint;
-  /** client: this seat, and those after it for further players of ours, or none; -1: any */
-  seat: number;
-  /** client: for the host's game */
-  credential: Uint8Array;
-  /** where the others' transports reach ours, at most 64 characters: iso_session_poll_connect */
-  address: string;
-  /** what all peers must have alike: the game and its version, 1 to 128 characters of ASCII */
-  name: string;
-  /** likewise: names the fields of an input, at most 128 characters */
-  inputText: string;
-  /** 0: hash of input_text, sizes and neutral; else this, as of a C++ InputCodec */
-  inputSchema: bigint;
-  /** [bytes] an input has, 0 to input_cap */
-  inputLeast: number;
-  /** [bytes] and at most, 1 to INPUT_CAP */
-  inputCap: number;
-  /** iso_game.predict replaces it */
-  predictor: PredictorName;
-  /** what is played for who is not there */
-  neutral: Uint8Array;
-}
-
-export interface SessionEvent {
-  kind: EventKindName;
-  /** NO_PLAYER: none, or the host's machine */
-  player: number;
-  frame: number;
-  /** [frame] */
-  agreed: number;
-  players: number;
-  /** [1/8 of the match's rate] */
-  speed: number;
-  /** its number in the match; 0: none */
-  vote: number;
-  proposal: ProposalName;
-  subject: number;
-  proposer: number;
-  /** players */
-  voters: number;
-  /** players */
-  yes: number;
-  /** players */
-  no: number;
-  /** hash chains; outvoted: player's */
-  ours: bigint;
-  /** and the majority's */
-  theirs: bigint;
-  /** refused: what differs */
-  key: string;
-  /** there, or in the file */
-  theirsText: string;
-  /** here */
-  oursText: string;
-}
-
-export interface SessionStats {
-  /** [frames] an input waits now */
-  delay: number;
-  /** carried out, again or for the first time */
-  steps: bigint;
-  /** by depth [frames] */
-  rollbacks: bigint[];
-  /** times that a due frame had to wait */
-  waits: bigint;
-  datagramsOut: bigint;
-  datagramsIn: bigint;
-  /** datagrams' and messages' own, without UDP/IP */
-  bytesOut: bigint;
-  bytesIn: bigint;
-  /** datagrams and messages that were malformed or not for us */
-  refused: bigint;
-  /** dropped unread */
-  flooded: bigint;
-  /** host: peers that did not acknowledge what they were sent */
-  putOut: bigint;
-  /** the caller did not take them in time */
-  eventsLost: bigint;
-  /** [us] client: to the host; host: the slowest client's */
-  roundTrip: bigint;
-  /** connected */
-  peers: number;
-  /** that decide without a host, with migration */
-  machines: number;
-  /** [us] client: of the host's datagrams */
-  jitter: number;
-  /** [permille] likewise */
-  loss: number;
-  /** [1/256 period] by which frames are longer than they should be */
-  stretch: number;
-}
-
-export interface PlayerStats {
-  /** [frames] by which the latest input of a second came before it was needed; negative: late */
-  early: number;
-  /** inputs that came after the deadline */
-  replaced: number;
-  /** [us] that the others waited for it within the last minute */
-  waited: number;
-  /** [us] to the host and back */
-  roundTrip: number;
-  /** [us] */
-  jitter: number;
-  /** [permille] of its datagrams that the host did not get */
-  loss: number;
-}
-
-export interface Applicant {
-  peer: number;
-  id: bigint;
-  spectator: boolean;
-  /** that it asks for, with those after it; -1: any */
-  seat: number;
-  /** how many */
-  seats: number;
-  /** whose token it has shown; -1: nobody's */
-  player: number;
-  credential: Uint8Array;
 }
