@@ -1,7 +1,6 @@
 #!/bin/sh
-# pages_test.sh FOLDER REPOSITORY: every block of src/js/README.md is true. Blocks of js run one by one, in the folder
-# where the package is installed; those after a line <!-- from FILE --> are the parts of that file between its marks; the
-# example compiles strictly and runs.
+# pages_test.sh FOLDER REPOSITORY: the blocks of js of src/js/README.md run, one by one, in the folder where the package is
+# installed; the example, of which the blocks of ts are (tests/readme), compiles strictly and plays.
 # SPDX-License-Identifier: MIT
 set -u
 . "$2/tests/scratch.sh"
@@ -17,17 +16,6 @@ for block in "$work"/block*.mjs; do
   [ -f "$block" ] || fail "the page has no block of js"
   (cd "$work" && node "$block" >out 2>&1) || fail "$(cat "$block"; cat "$work/out")"
   blocks=$((blocks + 1))
-done
-
-quoted() { # file
-  awk -v mark="<!-- from $1 -->" '/^```$/ {inside = 0} inside; /^```ts$/ {inside = last == mark} {last = $0}' "$page"
-}
-marked() { # file
-  awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}
-    inside {if (indent < 0) indent = match($0, /[^ ]/); print substr($0, indent)}' "$1"
-}
-for file in $(sed -n 's/^<!-- from \(src\/js\/.*\) -->$/\1/p' "$page" | sort -u); do
-  [ "$(quoted "$file")" = "$(marked "$2/$file")" ] || fail "the page's part of $file differs from it"
 done
 
 cp "$2"/src/js/example/* "$2/tests/js/types_test.ts" "$work" || exit 1
