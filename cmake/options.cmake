@@ -8,6 +8,7 @@ option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; to
 option(ISOSTEP_SEALED "isostep::sealed: transports encrypted by libsodium; tests, examples, benchmarks bring it where that is" OFF)
 option(ISOSTEP_THREADS "isostep::threads: a step's work on oneTBB's threads; the tool brings it anyway" OFF)
 option(ISOSTEP_C "isostep::c: the C interface, as a shared library" ${PROJECT_IS_TOP_LEVEL})
+option(ISOSTEP_JS_MODULE "The module of the npm package, of a WebAssembly target: see src/js/build.sh" OFF)
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)
