@@ -7,6 +7,7 @@ option(ISOSTEP_FULL_TESTS "Also those tests that build the library once more, or
 option(ISOSTEP_TRANSPORT "isostep::transport: ENet and the simulated network; tool, examples and tests bring it anyway" OFF)
 option(ISOSTEP_SEALED "isostep::sealed: transports encrypted by libsodium; tests, examples, benchmarks bring it where that is" OFF)
 option(ISOSTEP_THREADS "isostep::threads: a step's work on oneTBB's threads; the tool brings it anyway" OFF)
+option(ISOSTEP_C "isostep::c: the C interface, as a shared library" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)

@@ -1,0 +1,12 @@
+// The version of the C interface.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace isostep::c {
+
+/// The number in the soname. It moves when a program that was built before could not run: the gate in tests/c says so.
+inline constexpr std::uint32_t kAbiVersion = 0;
+
+}  // namespace isostep::c
