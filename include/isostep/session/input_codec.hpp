@@ -167,11 +167,15 @@ template <class Command, std::size_t N> struct DefaultPredictor<CommandList<Comm
 struct InputRules {
   std::size_t cap;       // [bytes]
   std::uint64_t schema;  // digest of the layout
-  bool (*valid)(Bytes input);
-  /// The guess for the frame `ahead` frames after `last`; writes at most `cap` bytes and returns how many.
-  std::size_t (*predict)(Bytes last, Frame ahead, std::uint8_t* to);
+  bool (*is_valid)(const InputRules& rules, Bytes input);
+  std::size_t (*guess)(const InputRules& rules, Bytes last, Frame ahead, std::uint8_t* to);
   std::size_t neutral_size;
   std::uint8_t neutral[kInputCap];  // Input{}
+  const void* user;                 // of those two functions
+
+  bool valid(Bytes input) const { return is_valid(*this, input); }
+  /// The guess for the frame `ahead` frames after `last`; writes at most `cap` bytes and returns how many.
+  std::size_t predict(Bytes last, Frame ahead, std::uint8_t* to) const { return guess(*this, last, ahead, to); }
 };
 
 template <class Input, class Predictor = typename DefaultPredictor<Input>::Type> InputRules input_rules() {
@@ -180,11 +184,11 @@ template <class Input, class Predictor = typename DefaultPredictor<Input>::Type>
   InputRules rules{};
   rules.cap = Codec::kCap;
   rules.schema = Codec::schema();
-  rules.valid = [](Bytes bytes) {
+  rules.is_valid = [](const InputRules&, Bytes bytes) {
     Input input{};
     return Codec::decode(bytes, input);
   };
-  rules.predict = [](Bytes last, Frame ahead, std::uint8_t* to) {
+  rules.guess = [](const InputRules&, Bytes last, Frame ahead, std::uint8_t* to) {
     Input input{};
     Codec::decode(last, input);
     return Codec::encode(Predictor::predict(input, ahead), to);

@@ -41,8 +41,10 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   using Input = typename Game::Input;
 
   explicit Session(const SessionConfig& config, Bytes recording = {})
-      : core_(make_session_core(config, input_rules<Input, Predictor>(), recording)),
-        states_(static_cast<std::size_t>(core_->config().kept)) {
+      : Session(config, input_rules<Input, Predictor>(), recording) {}
+  /// Of inputs whose size and guess are known at run time only, as those of the C interface.
+  Session(const SessionConfig& config, const InputRules& rules, Bytes recording)
+      : core_(make_session_core(config, rules, recording)), states_(static_cast<std::size_t>(core_->config().kept)) {
     const std::size_t steps = states_.size() * 2 + 8;
     requests_.reserve(steps * 2 + 8);
     values_.reserve(steps * static_cast<std::size_t>(core_->config().players));
@@ -266,6 +268,44 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
 }
 }  // namespace detail
 
+/// Carries out a request that is no `step`, and calls `observer` as drive() does: for who asks for the steps one by one.
+template <class Game, class Predictor, class Observer>
+void carry_out(Session<Game, Predictor>& session, Game& game, const Request<typename Game::Input>& request,
+               Observer& observer) {
+  const Frame frame = request.frame;
+  switch (request.kind) {
+    case RequestKind::save:
+      game.save(session.state(frame));
+      session.saved(frame, game.hash());
+      break;
+    case RequestKind::load:
+      game.load(session.state(frame));
+      detail::rolled_back(observer, frame);
+      break;
+    case RequestKind::step: break;
+    case RequestKind::capture:
+      if constexpr (PortableState<Game>) {
+        const bool is_present = frame == session.current();
+        if (!is_present) game.load(session.state(frame));
+        detail::write_whole(game, session.portable());
+        if (!is_present) game.load(session.state(session.current()));
+      }
+      break;
+    case RequestKind::restore:
+      if constexpr (PortableState<Game>) {
+        const bool ok = detail::read_whole(game, session.portable());
+        session.restored(ok);
+        if (ok) detail::restarted(observer, frame);
+      } else {
+        session.restored(false);
+      }
+      break;
+    case RequestKind::probe:
+      if constexpr (PortableState<Game>) detail::probe(session, game, frame);
+      break;
+  }
+}
+
 /// Plays what is due: carries out the session's requests with the game, and calls `observer`:
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
 ///   rolled_back(f)                  the state is again that before frame f
@@ -277,46 +317,14 @@ template <class Game, class Predictor, class Observer = NoObserver>
 int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& observer = Observer{}) {
   int steps = 0;
   for (const Request<typename Game::Input>& request : session.advance(now)) {
-    const Frame frame = request.frame;
-    switch (request.kind) {
-      case RequestKind::save:
-        game.save(session.state(frame));
-        session.saved(frame, game.hash());
-        break;
-      case RequestKind::load:
-        game.load(session.state(frame));
-        detail::rolled_back(observer, frame);
-        break;
-      case RequestKind::step:
-        detail::before_step(observer, frame);
-        game.step(request.inputs);
-        detail::after_step(observer, frame);
-        ++steps;
-        break;
-      case RequestKind::capture:
-        if constexpr (PortableState<Game>) {
-          const bool is_present = frame == session.current();
-          if (!is_present) game.load(session.state(frame));
-          session.portable().clear();
-          Writer writer(session.portable());
-          game.write_portable(writer);
-          if (!is_present) game.load(session.state(session.current()));
-        }
-        break;
-      case RequestKind::restore:
-        if constexpr (PortableState<Game>) {
-          Reader reader(session.portable());
-          const bool ok = game.read_portable(reader).ok() && reader.remaining() == 0;
-          session.restored(ok);
-          if (ok) detail::restarted(observer, frame);
-        } else {
-          session.restored(false);
-        }
-        break;
-      case RequestKind::probe:
-        if constexpr (PortableState<Game>) detail::probe(session, game, frame);
-        break;
+    if (request.kind != RequestKind::step) {
+      carry_out(session, game, request, observer);
+      continue;
     }
+    detail::before_step(observer, request.frame);
+    game.step(request.inputs);
+    detail::after_step(observer, request.frame);
+    ++steps;
   }
   while (const std::optional<SessionCore::Confirmed> confirmed = session.poll_confirmed()) {
     detail::confirmed(observer, confirmed->frame, confirmed->hash);

@@ -1,0 +1,166 @@
+// The configuration of sessions in C.
+// SPDX-License-Identifier: MIT
+#include "session_config.hpp"
+
+#include <cstring>
+
+#include "call.hpp"
+#include "isostep/core/version.hpp"
+#include "isostep/session/preset.hpp"
+#include "isostep/state/hash.hpp"
+
+namespace isostep::c {
+namespace {
+
+template <std::size_t N> bool ends(const char (&text)[N], std::size_t most) {
+  const void* const end = std::memchr(text, 0, N);
+  return end != nullptr && static_cast<std::size_t>(static_cast<const char*>(end) - text) <= most;
+}
+
+/// Numbers that C and C++ have alike: an entry is a field that is copied as it is.
+#define ISO_SESSION_FIELDS(X)                                                                                        \
+  X(players)                                                                                                         \
+  X(local_players) X(hz) X(window) X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience)          \
+      X(exclusion) X(kept) X(history) X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) \
+          X(broadcast_delay) X(seed) X(migration) X(reservation) X(token) X(seat)
+#define ISO_SESSION_FLAGS(X) X(host) X(relays) X(repair) X(asks_admission) X(votes) X(players_set_tempo)
+
+void from_session_config(const SessionConfig& from, iso_session_config& to) {
+  to = {};
+  to.size = sizeof to;
+  to.mode = static_cast<std::uint32_t>(from.mode);
+#define ISO_COPY(name) to.name = from.name;
+  ISO_SESSION_FIELDS(ISO_COPY)
+#undef ISO_COPY
+#define ISO_COPY(name) to.name = from.name ? 1 : 0;
+  ISO_SESSION_FLAGS(ISO_COPY)
+#undef ISO_COPY
+  to.input_least = to.input_cap = to.neutral_size = 1;
+}
+
+Problem problem_of_enums(const iso_session_config& config) {
+  if (config.mode > ISO_REPLAY) return {ISO_BAD_ENUM, "mode: ISO_LOCKSTEP to ISO_REPLAY"};
+  if (config.predictor > ISO_PREDICT_NEUTRAL) return {ISO_BAD_ENUM, "predictor: ISO_REPEAT_LAST, ISO_PREDICT_NEUTRAL"};
+#define ISO_CHECK(name) \
+  if (config.name > 1) return {ISO_BAD_ENUM, #name ": 0 or 1"};
+  ISO_SESSION_FLAGS(ISO_CHECK)
+#undef ISO_CHECK
+  return {};
+}
+
+const char* problem_of_input(const iso_session_config& config) {
+  if (config.input_cap < 1 || config.input_cap > ISO_INPUT_CAP) return "input_cap: 1 to 512 bytes";
+  if (config.input_least > config.input_cap) return "input_least: 0 to input_cap";
+  if (config.neutral_size < config.input_least || config.neutral_size > config.input_cap) {
+    return "neutral_size: input_least to input_cap";
+  }
+  return nullptr;
+}
+
+const char* problem_of_texts(const iso_session_config& config) {
+  ReplayHeader header;
+  if (!ends(config.name, kReplayValueCap) || !header.set("scene", config.name, true)) {
+    return "name: 1 to 128 characters of printable ASCII";
+  }
+  if (!ends(config.input_text, kReplayValueCap)) return "input_text: at most 128 characters";
+  if (!ends(config.address, kAddressCap)) return "address: at most 64 characters";
+  if (config.credential_size > kCredentialCap) return "credential_size: at most 256";
+  return nullptr;
+}
+
+}  // namespace
+
+Problem read_config(const iso_session_config* from, iso_session_config& to) {
+  from_session_config({}, to);
+  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "size: of the struct"};
+  if (const Problem problem = problem_of_enums(to); problem.text != nullptr) return problem;
+  const char* problem = problem_of_texts(to);
+  if (problem == nullptr) problem = problem_of_input(to);
+  if (problem == nullptr) problem = problem_of(to_session_config(to));
+  return problem == nullptr ? Problem{} : Problem{ISO_REFUSED, problem};
+}
+
+Problem read_game(const iso_game* from, iso_game& to) {
+  to = {};
+  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "size: of the struct"};
+  const bool has_own = to.save != nullptr;
+  if ((to.load != nullptr) != has_own || (to.hash != nullptr) != has_own)
+    return {ISO_NULL, "save, load, hash: together"};
+  if ((to.write != nullptr) != (to.read != nullptr)) return {ISO_NULL, "write, read: together"};
+  if (to.write != nullptr && !has_own) return {ISO_NULL, "write, read: of a game with save, load and hash"};
+  if ((to.block != nullptr) != (to.block_size != 0)) return {ISO_NULL, "block, block_size: together"};
+  if (to.world == nullptr && to.block == nullptr && !has_own) return {ISO_NULL, "world, block or save: at least one"};
+  return {};
+}
+
+SessionConfig to_session_config(const iso_session_config& from) {
+  SessionConfig to;
+  to.mode = static_cast<SessionMode>(from.mode);
+#define ISO_COPY(name) to.name = from.name;
+  ISO_SESSION_FIELDS(ISO_COPY)
+#undef ISO_COPY
+#define ISO_COPY(name) to.name = from.name != 0;
+  ISO_SESSION_FLAGS(ISO_COPY)
+#undef ISO_COPY
+  to.address = Address(std::string_view(from.address));
+  to.credential.assign(from.credential, from.credential + from.credential_size);
+  return to;
+}
+
+Result<ReplayHeader> identity_of_game(const iso_game& game, const SessionWorld* world, const char* name) {
+  if (world != nullptr) return world->identity(name);
+  ReplayHeader header;
+  const auto behaviour = ShortText<16>().append_hex(behaviour_version());
+  const auto block = ShortText<20>().append_number(static_cast<std::uint64_t>(game.block_size));
+  const bool ok = header.set("engine", kVersionText, false) && header.set("behaviour", behaviour.view(), true) &&
+                  header.set("hash", kHashName, true) && header.set("scene", name, true) &&
+                  header.set(kWorldKey, "none", true) && header.set("block", block.view(), true);
+  if (!ok) return Error{ErrorCode::invalid, "1 to 128 characters of printable ASCII", "name"};
+  return header;
+}
+
+}  // namespace isostep::c
+
+using namespace isostep::c;
+
+extern "C" {
+
+iso_status iso_session_config_init(iso_session_config* config) {
+  if (config == nullptr) return ISO_NULL;
+  return guarded([&] {
+    from_session_config({}, *config);
+    return ISO_OK;
+  });
+}
+
+iso_status iso_session_config_preset(iso_session_config* config, uint32_t genre, int32_t players) {
+  if (config == nullptr) return ISO_NULL;
+  if (genre > ISO_SANDBOX) return ISO_BAD_ENUM;
+  return guarded([&] {
+    from_session_config(isostep::preset(static_cast<isostep::Genre>(genre), players), *config);
+    return ISO_OK;
+  });
+}
+
+const char* iso_session_config_problem(const iso_session_config* config) {
+  if (config == nullptr) return "a configuration is there";
+  const char* text = nullptr;
+  const iso_status status = guarded([&] {
+    iso_session_config whole;
+    text = read_config(config, whole).text;
+    return ISO_OK;
+  });
+  return status == ISO_NO_MEMORY ? "memory: enough for a configuration" : text;
+}
+
+iso_status iso_game_init(iso_game* game) {
+  if (game == nullptr) return ISO_NULL;
+  *game = {};
+  game->size = sizeof *game;
+  return ISO_OK;
+}
+
+uint64_t iso_hash_bytes(const void* bytes, size_t size) {
+  return bytes == nullptr && size > 0 ? 0 : isostep::hash_bytes(bytes, size);
+}
+}

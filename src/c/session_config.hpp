@@ -1,0 +1,24 @@
+// From iso_session_config to SessionConfig, and what is wrong with one or with a game.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/config.hpp"
+#include "session_game.hpp"
+
+namespace isostep::c {
+
+/// A struct of the caller's, of any size that it may have: what it does not hold keeps its default. A status, and for
+/// ISO_REFUSED and ISO_BAD_ENUM the field and what it may be.
+struct Problem {
+  iso_status status = ISO_OK;
+  const char* text = nullptr;
+};
+Problem read_config(const iso_session_config* from, iso_session_config& to);
+Problem read_game(const iso_game* from, iso_game& to);
+
+/// Of a configuration without a problem. The identity is still to be set.
+SessionConfig to_session_config(const iso_session_config& config);
+/// `world`: null where the game has none.
+Result<ReplayHeader> identity_of_game(const iso_game& game, const SessionWorld* world, const char* name);
+
+}  // namespace isostep::c

@@ -1,0 +1,119 @@
+// iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "call.hpp"
+#include "isostep.h"
+#include "isostep/session/session.hpp"
+#include "live_handles.hpp"
+#include "session_game.hpp"
+
+namespace isostep::c {
+
+inline constexpr std::uint32_t kRecordings = 2;  // ISO_RECORD_MATCH, ISO_RECORD_WORLD
+
+/// Observes the turns for the recordings that are under way, and keeps what the caller is to be told next.
+struct SessionObserver {
+  std::unique_ptr<FrameRecording> recordings[kRecordings];
+  bool has_ended[kRecordings] = {};  // its file is whole
+  std::optional<iso_request> notice;
+
+  template <class F> void each(F&& call) {
+    for (std::uint32_t i = 0; i < kRecordings; ++i) {
+      if (recordings[i] != nullptr && !has_ended[i]) call(*recordings[i]);
+    }
+  }
+  void before_step(Frame frame) {
+    each([&](FrameRecording& one) { one.before_step(frame); });
+  }
+  void after_step(Frame frame) {
+    each([&](FrameRecording& one) { one.after_step(frame); });
+  }
+  void rolled_back(Frame frame) {
+    each([&](FrameRecording& one) { one.rolled_back(frame); });
+    tell(ISO_ROLLED_BACK, frame, 0);
+  }
+  void restarted(Frame frame) {
+    each([&](FrameRecording& one) { one.restarted(frame); });
+    tell(ISO_RESTARTED, frame, 0);
+  }
+  void confirmed(Frame frame, std::uint64_t hash) {
+    each([&](FrameRecording& one) { one.confirmed(frame, hash); });
+    tell(ISO_FRAME_CONFIRMED, frame, hash);
+  }
+  void tell(std::uint32_t kind, Frame frame, std::uint64_t hash) {
+    notice = iso_request{sizeof(iso_request), kind, frame, 0, hash};
+  }
+};
+
+/// drive(), one request at a time.
+class SessionTurn {
+ public:
+  bool is_open() const { return is_open_; }
+  /// The step that was asked for last is not over.
+  bool is_stepping() const { return is_stepping_; }
+  const iso_input* inputs() const { return inputs_.data(); }
+
+  void begin(Session<SessionGame>& session, Time now);
+  iso_request next(Session<SessionGame>& session, SessionGame& game, SessionObserver& observer);
+
+ private:
+  void show(const InputView<Bytes>& inputs);
+
+  std::span<const Request<Bytes>> requests_;
+  std::size_t at_ = 0;
+  bool is_open_ = false, is_stepping_ = false;
+  std::vector<iso_input> inputs_;  // of the step, by player
+};
+
+}  // namespace isostep::c
+
+struct iso_session {
+  isostep::c::SessionGame game;
+  std::vector<std::uint8_t> file;  // of a replay
+  isostep::Session<isostep::c::SessionGame> session;
+  isostep::c::SessionObserver observer;
+  isostep::c::SessionTurn turn;
+  char address[isostep::kAddressCap + 1] = {};  // that was polled last
+  const char* problem = "";                     // of the last call that was refused
+  char reason[192] = "";                        // made for it
+  bool is_called = false;                       // a function of ours is at work: the game's callbacks may call none
+  bool is_broken = false;                       // memory was not there in the middle of something
+  iso_session_config config;
+
+  iso_session(const iso_game& its_game, const iso_session_config& its_config, isostep::SessionConfig rest,
+              isostep::Bytes bytes);
+};
+
+namespace isostep::c {
+
+using Sessions = LiveHandles<iso_session>;
+
+/// May `session` be called now? `in_turn`: also between the requests of a turn.
+iso_status can_call(const iso_session* session, bool in_turn);
+
+/// Every function that changes a session is called by this.
+template <class F> iso_status call(iso_session* session, F&& function, bool in_turn = false) {
+  if (const iso_status status = can_call(session, in_turn); status != ISO_OK) return status;
+  session->is_called = true;
+  const iso_status status = guarded([&] { return function(*session); });
+  session->is_called = false;
+  if (status == ISO_NO_MEMORY) session->is_broken = true;
+  return status;
+}
+/// What returns whether it did something; `problem` says why it did not.
+template <class F> iso_status ask(iso_session* session, const char* problem, F&& function) {
+  return call(session, [&](iso_session& one) {
+    if (function(one.session)) return iso_status{ISO_OK};
+    one.problem = problem;
+    return iso_status{ISO_REFUSED};
+  });
+}
+inline bool is_peer(std::uint32_t peer) { return peer <= 0xffff; }
+
+}  // namespace isostep::c

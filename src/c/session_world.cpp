@@ -1,0 +1,79 @@
+// Worlds of every scalar, as sessions see them.
+// SPDX-License-Identifier: MIT
+#include "session_world.hpp"
+
+#include "isostep/state/replay_format.hpp"
+#include "isostep/world/session_recorder.hpp"
+#include "isostep/world/state.hpp"
+#include "isostep/world/world.hpp"
+#include "world_handle.hpp"
+
+namespace isostep::c {
+namespace {
+
+template <class S> class WorldRecording final : public FrameRecording {
+ public:
+  WorldRecording(World<S>& world, std::size_t kept, std::string_view scene)
+      : history_(world, {.frames = kept, .states = false}), recorder_(history_, sink_to(file_), scene) {}
+
+  void before_step(Frame frame) override {
+    history_.before_step(frame);
+    recorder_.before_step(frame);
+  }
+  void after_step(Frame frame) override { history_.after_step(frame); }
+  void rolled_back(Frame frame) override {
+    history_.rolled_back(frame);
+    recorder_.rolled_back(frame);
+  }
+  void restarted(Frame frame) override {
+    history_.restarted(frame);
+    recorder_.restarted(frame);
+  }
+  void confirmed(Frame frame, std::uint64_t hash) override {
+    history_.confirmed(frame, hash);
+    recorder_.confirmed(frame, hash);
+  }
+  Result<void> finish() override { return recorder_.finish(); }
+
+ private:
+  FrameHistory<S> history_;
+  SessionRecorder<S> recorder_;
+};
+
+template <class S> class SessionWorldOf final : public SessionWorld {
+ public:
+  struct Saved final : Slot {
+    typename World<S>::Snapshot state;
+  };
+
+  SessionWorldOf(iso_world* handle, std::shared_ptr<World<S>> world) : handle_(handle), world_(std::move(world)) {}
+
+  std::unique_ptr<Slot> make_slot() const override { return std::make_unique<Saved>(); }
+  void save(Slot& to) const override { world_->save(static_cast<Saved&>(to).state); }
+  bool load(const Slot& from) override { return world_->load(static_cast<const Saved&>(from).state); }
+  std::uint64_t hash() const override { return world_->hash(); }
+  void write_portable(Writer& writer) const override { world_->write_portable(writer); }
+  Result<void> read_portable(Reader& reader) override { return world_->read_portable(reader); }
+  Result<ReplayHeader> identity(std::string_view name) const override {
+    return make_replay_header(identity_of_world(world_->settings(), name));
+  }
+  std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) override {
+    return std::make_unique<WorldRecording<S>>(*world_, kept, scene);
+  }
+  bool is_alive() const override { return is_live(handle_); }
+
+ private:
+  iso_world* handle_;
+  std::shared_ptr<World<S>> world_;
+};
+
+}  // namespace
+
+std::unique_ptr<SessionWorld> session_world_of(iso_world* world) {
+  if (world == nullptr || !is_live(world)) return nullptr;
+  return visit_world(*world, [&]<class S>(const std::shared_ptr<World<S>>& engine) -> std::unique_ptr<SessionWorld> {
+    return std::make_unique<SessionWorldOf<S>>(world, engine);
+  });
+}
+
+}  // namespace isostep::c

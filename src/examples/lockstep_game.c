@@ -1,0 +1,138 @@
+/* A game for two over a bad line, both machines in one process, in C99; rollback here, lockstep by one word. With an
+   argument it writes the match there, for `isostep verify`.
+   SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "isostep.h"
+
+enum { FRAMES = 300 };
+
+typedef struct machine {
+  iso_world* world;
+  uint32_t touches;  /* what the game remembers beside its world */
+  iso_body pucks[2]; /* given once and for all: no state */
+  iso_session* session;
+  uint32_t endpoint;
+  uint64_t hashes[FRAMES]; /* of the final frames */
+} machine;
+
+static void must(iso_status status) {
+  if (status == ISO_OK) return;
+  fprintf(stderr, "%s\n", iso_last_error());
+  exit(1);
+}
+
+static void build(machine* m) {
+  iso_q32_settings settings;
+  iso_q32_box box;
+  iso_q32_sphere sphere;
+  iso_q32_body_definition body;
+  const int64_t one = iso_q32_from_double(1);
+  int n;
+  must(iso_q32_settings_init(&settings));
+  must(iso_q32_world_create(&settings, &m->world));
+  must(iso_q32_box_init(&box));
+  box.half_extents.x = box.half_extents.z = 20 * one;
+  box.half_extents.y = one;
+  must(iso_q32_body_definition_init(&body));
+  must(iso_q32_add_box(m->world, &box, &body.shape));
+  body.position.y = -one;
+  must(iso_q32_body_create(m->world, &body, &m->pucks[0]));
+  must(iso_q32_sphere_init(&sphere));
+  sphere.radius = one / 2;
+  must(iso_q32_add_sphere(m->world, &sphere, &body.shape));
+  body.type = ISO_BODY_TYPE_DYNAMIC;
+  body.position.y = one;
+  for (n = 0; n < 2; ++n) {
+    body.position.x = (4 * n - 2) * one;
+    must(iso_q32_body_create(m->world, &body, &m->pucks[n]));
+  }
+}
+
+/* README: begin */
+static void step(machine* m, const iso_input* inputs) {
+  const iso_q32_contact_begin* begins;
+  size_t count;
+  for (int n = 0; n < 2; ++n) {
+    const iso_q32_vec3 impulse = {(int8_t)inputs[n].bytes[0] * iso_q32_from_double(0.125), 0, 0};
+    must(iso_q32_body_apply_impulse(m->world, m->pucks[n], &impulse, NULL));
+  }
+  must(iso_world_step(m->world, NULL));
+  must(iso_q32_contact_begins(m->world, &begins, &count));
+  m->touches += (uint32_t)count;
+}
+
+static void turn(machine* m, int player, iso_network* network, uint64_t now) {
+  iso_request request = {.size = sizeof request};
+  const int8_t way = (int8_t)(iso_session_current(m->session) / (11 + 6 * player) % 3 - 1);
+  must(iso_network_deliver(network, m->endpoint, m->session, now));
+  iso_session_add_local_input(m->session, player, &way, 1); /* refused until the match begins */
+  must(iso_session_advance(m->session, now));
+  do {
+    must(iso_session_next(m->session, &request)); /* saves and loads by itself */
+    if (request.kind == ISO_STEP) step(m, iso_session_inputs(m->session, NULL));
+    if (request.kind == ISO_FRAME_CONFIRMED && request.frame < FRAMES) m->hashes[request.frame] = request.hash;
+  } while (request.kind != ISO_NOTHING);
+  must(iso_network_dispatch(network, m->endpoint, m->session, now));
+}
+/* README: end */
+
+static void open_session(machine* m, iso_session_config* config) {
+  iso_game game;
+  must(iso_game_init(&game));
+  game.world = m->world; /* world and block: saved, rolled back and hashed as one */
+  game.block = &m->touches;
+  game.block_size = sizeof m->touches;
+  must(iso_session_create(config, &game, NULL, 0, &m->session));
+}
+
+static void write_file(iso_session* session, const char* path) {
+  size_t size = 0;
+  iso_session_recorded(session, ISO_RECORD_WORLD, NULL, &size);
+  void* const bytes = malloc(size);
+  FILE* const file = fopen(path, "wb");
+  must(iso_session_recorded(session, ISO_RECORD_WORLD, bytes, &size));
+  if (file == NULL || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) exit(1);
+  free(bytes);
+}
+
+int main(int argc, char** argv) {
+  static machine machines[2]; /* the host, and a client */
+  iso_session_config config;
+  iso_session_stats stats = {.size = sizeof stats};
+  iso_network* network;
+  int n, equal = 0;
+  must(iso_session_config_init(&config));
+  config.mode = ISO_ROLLBACK; /* ISO_LOCKSTEP: nothing else changes */
+  strcpy(config.name, "two pucks");
+  strcpy(config.input_text, "way: int8");
+  must(iso_network_create(1, &network));
+  must(iso_network_add_client(network, "latency=80,jitter=20,loss=5", &machines[1].endpoint));
+  for (n = 0; n < 2; ++n) {
+    build(&machines[n]);
+    config.host = n == 0;
+    config.seed = n == 0 ? 20 : 0; /* a game draws it anew for every match */
+    open_session(&machines[n], &config);
+  }
+  must(iso_session_record(machines[0].session, ISO_RECORD_WORLD, NULL));
+  must(iso_network_connect(network, machines[1].endpoint, 0));
+  for (uint64_t now = 0; iso_session_confirmed(machines[0].session) < FRAMES ||
+                         iso_session_confirmed(machines[1].session) < FRAMES; now += 1000) {
+    if (now > 20000000) return 1;
+    must(iso_network_advance_to(network, now));
+    for (n = 0; n < 2; ++n) turn(&machines[n], n, network, now);
+  }
+  for (n = 0; n < FRAMES; ++n) equal += machines[0].hashes[n] == machines[1].hashes[n];
+  must(iso_session_get_stats(machines[0].session, &stats));
+  printf("%d of %d frames equal; %llu frames were stepped again\n", equal, FRAMES,
+         (unsigned long long)(stats.steps - FRAMES));
+  if (argc > 1) write_file(machines[0].session, argv[1]);
+  for (n = 0; n < 2; ++n) {
+    must(iso_session_destroy(machines[n].session));
+    must(iso_world_destroy(machines[n].world));
+  }
+  must(iso_network_destroy(network));
+  return equal == FRAMES && stats.steps > FRAMES + 20 ? 0 : 1;
+}
