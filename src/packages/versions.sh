@@ -21,10 +21,7 @@ refuse() {
 
 # text_of FILE EXPRESSION: what sed's EXPRESSION prints of it, its first line.
 text_of() { sed -n "$2" "$root/$1" 2>/dev/null | head -n 1; }
-json_version='s/^  "version": "\([^"]*\)".*/\1/p'
-
-# macro_of NAME: the number that isostep.h defines it as.
-macro_of() { text_of src/c/include/isostep.h "s/^#define $1 \([0-9][0-9]*\)\$/\1/p"; }
+json_version='s/^ *"version": "\([^"]*\)".*/\1/p'
 
 semantic=$(text_of CMakeLists.txt 's/^project(isostep VERSION \([0-9.]*\) .*/\1/p')
 case $semantic in
@@ -43,15 +40,14 @@ same_version include/isostep/core/version.hpp "$(text_of include/isostep/core/ve
 same_version include/isostep/core/version.hpp \
   "$(constant_of kVersionMajor).$(constant_of kVersionMinor).$(constant_of kVersionPatch)"
 same_version CHANGELOG.md "$(text_of CHANGELOG.md 's/^## \([0-9.]*\).*/\1/p')"
-if [ -d "$root/src/c" ]; then
-  same_version src/c/include/isostep.h "$(macro_of ISO_VERSION_MAJOR).$(macro_of ISO_VERSION_MINOR).$(macro_of ISO_VERSION_PATCH)"
-fi
-for json in src/packages/vcpkg/ports/isostep/vcpkg.json src/js/package.json src/csharp/package/package.json; do
+for json in src/c/interface.json src/packages/vcpkg/ports/isostep/vcpkg.json src/js/package.json src/csharp/package/package.json; do
   [ ! -d "$(dirname "$root/$json")" ] || same_version "$json" "$(text_of "$json" "$json_version")"
 done
 
-abi=$(macro_of ISO_ABI_VERSION)
-[ -n "$abi" ] || unreadable "src/c/include/isostep.h: no #define ISO_ABI_VERSION"
+abi=$(text_of src/c/layout/abi.hpp 's/.*kAbiVersion = \([0-9]*\);.*/\1/p')
+[ -n "$abi" ] || unreadable "src/c/layout/abi.hpp: no kAbiVersion"
+described=$(text_of src/c/interface.json 's/^"abi": \([0-9]*\).*/\1/p')
+[ "$described" = "$abi" ] || refuse "src/c/interface.json says $described, src/c/layout/abi.hpp $abi"
 
 work=$(mktemp -d) || exit 70
 trap 'rm -rf "$work"' EXIT

@@ -30,6 +30,18 @@ class Handle:
     def __init__(self, library, address):
         self._library, self._address = library, address
 
+    def _take(self, other):
+        """What `other` had is this object's now."""
+        self._library, self._address = other._library, other._address
+        other._address = 0
+
+    @classmethod
+    def _of(cls, library, address):
+        """The object of an address that a call hands out."""
+        made = cls.__new__(cls)
+        Handle.__init__(made, library, address)
+        return made
+
     @property
     def is_open(self):
         return self._address != 0

@@ -37,18 +37,25 @@ def _candidates(abi):
     yield name
 
 
+def _read(name):
+    with open(_HERE / name, encoding="utf-8") as file:
+        return json.load(file)
+
+
 class Library:
     """The functions of one shared library, compiled when they are used first."""
 
     handles = ("world", "snapshot", "tape", "replay", "blob", "session", "network")
 
     def __init__(self):
-        with open(_HERE / "interface.json", encoding="utf-8") as file:
-            described = json.load(file)
+        described, sessions = (_read(name) for name in ("interface.json", "sessions.json"))
+        for key, values in sessions.items():
+            known = {one["name"] for one in described[key]}
+            described[key] += [one for one in values if one["name"] not in known]
         self.interface = Interface(described)
         self._described = {one["name"]: one for one in described["functions"]}
         self._library = self._load()
-        self._calls, self._wrappers = {}, {}
+        self._calls, self._classes = {}, {}
         for family in self.interface.families.values():
             family.from_double = {"number": self.call(f"iso_{family.prefix}_from_double").function,
                                   "unit": self.call(f"iso_{family.prefix}_unit_from_double").function}
@@ -105,12 +112,12 @@ class Library:
                 return Refused(status, self.last_error(), *texts)
         return error_of(status, self.last_error())
 
-    def register(self, kind, wrapper):
-        """`wrapper(address)` makes the Python object of a handle that a call hands out."""
-        self._wrappers[kind] = wrapper
+    def register(self, *classes):
+        """The Python classes of handles that calls hand out."""
+        self._classes.update({one._kind: one for one in classes})
 
     def wrap(self, kind, address):
-        return self._wrappers[kind](address)
+        return self._classes[kind]._of(self, address)
 
     def filled(self, struct, values):
         """`struct` with its defaults, then with `values`: a mapping, items in order, or an equal struct."""

@@ -14,6 +14,8 @@ _C_TYPES = {"float": ctypes.c_float, "double": ctypes.c_double, "int32_t": ctype
             "i8": ctypes.c_int8, "i16": ctypes.c_int16, "i32": ctypes.c_int32, "i64": ctypes.c_int64,
             "f32": ctypes.c_float, "f64": ctypes.c_double, "bool": ctypes.c_uint8, "enum": ctypes.c_uint32,
             "id": ctypes.c_uint64, "pointer": ctypes.c_uint64, "char": ctypes.c_char, "reserved": ctypes.c_uint8}
+_POINTEES = {"iso_body": ctypes.c_uint64, "uint32_t": ctypes.c_uint32, "int16_t": ctypes.c_int16,
+             "uint8_t": ctypes.c_uint8, "double": ctypes.c_double}
 _NUMPY_TYPES = {ctypes.c_float: "<f4", ctypes.c_double: "<f8", ctypes.c_char: "S1"}
 
 
@@ -133,6 +135,7 @@ class _Member:
         self.name, self.kind, self.count = described["name"], described["kind"], described.get("count", 0)
         self.c_type, self.family = c_type, family
         self.enumeration = interface.enums[described["of"]] if self.kind == "enum" else None
+        self.pointee = interface.pointees.get(described.get("of"))
         self.is_shown = not self.name.startswith("reserved") and self.name != "size"
         self.is_vector = self.kind == "struct" and {"x", "y"} <= set(c_type._members_)
 
@@ -171,8 +174,21 @@ class _Member:
             return
         if self.kind == "struct":
             self._raw(value, struct.raw(self.name))
+        elif self.kind == "pointer" and not isinstance(value, int):
+            self._point_at(struct, value)
         else:
             super(Struct, struct).__setattr__("_" + self.name, self._raw(value, None))
+
+    def _point_at(self, struct, values):
+        """An array of these values, which lives as long as the struct; a count with the member's name follows them."""
+        array = (self.pointee * len(values))(*values)
+        if f"{self.name}_count" in struct._members_:
+            struct.set(**{f"{self.name}_count": len(values)})
+        super(Struct, struct).__setattr__("_" + self.name, ctypes.addressof(array))
+        root = struct
+        while root._b_base_ is not None:
+            root = root._b_base_
+        root.__dict__.setdefault("_kept", []).append(array)
 
     def _raw(self, value, place):
         """For the memory. Of a struct: `place` with these members, or with these values in order."""
@@ -215,6 +231,7 @@ class Interface:
         self.version, self.abi = described["version"], described["abi"]
         self.families = {family["prefix"]: Family(family) for family in described["families"]}
         self.enums = {one["name"]: Enumeration(one) for one in described["enums"]}
+        self.pointees = {one["name"]: _POINTEES.get(one["to"]) for one in described["pointers"]}
         self.structs = {}
         for struct in described["structs"]:
             self.structs[struct["name"]] = self._make_struct(struct)
@@ -242,7 +259,7 @@ class Interface:
             fields.append(("_" + member["name"], one * member["count"] if member.get("count") else one))
             members[member["name"]] = _Member(member, one, family, self)
         made = type(described["name"], (Struct,), {"_fields_": fields, "_members_": members, "_family_": family,
-                                                   "is_sized": described["sized"], "__slots__": ()})
+                                                   "is_sized": described["sized"]})
         offsets = {name: getattr(made, "_" + name).offset for name in members}
         expected = {member["name"]: member["offset"] for member in described["members"]}
         if offsets != expected or ctypes.sizeof(made) != described["size"]:
