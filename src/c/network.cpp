@@ -1,9 +1,7 @@
 // The simulated network in C.
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <new>
 
-#include "isostep.h"
 #include "session_handle.hpp"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"
@@ -13,26 +11,29 @@ using isostep::transport::EndpointId;
 using isostep::transport::NetworkProfile;
 using isostep::transport::SimulatedNetwork;
 
-struct iso_network {
+namespace isostep::c {
+
+struct NetworkObject {
   SimulatedNetwork network;
   std::uint32_t endpoints = 1;  // the host is there from the beginning
-  char problem[192] = "";
 
-  explicit iso_network(std::uint64_t seed) : network({.seed = seed}) {}
+  explicit NetworkObject(std::uint64_t seed) : network({.seed = seed}) {}
+};
+template <> struct HandleOf<iso_network> {
+  using Object = NetworkObject;
+  static constexpr HandleKind kKind = HandleKind::network;
+  static constexpr const char* kName = "network";
 };
 
-namespace isostep::c {
 namespace {
-
-using Networks = LiveHandles<iso_network>;
 
 /// An endpoint whose addresses are numbers of endpoints. Models Connector.
 struct Line {
-  iso_network& owner;
+  NetworkObject& owner;
   EndpointId id;
   SimulatedNetwork::Port port;
 
-  Line(iso_network& network, EndpointId endpoint)
+  Line(NetworkObject& network, EndpointId endpoint)
       : owner(network), id(endpoint), port(network.network.port(endpoint)) {}
   Result<void> send(PeerId peer, Channel channel, Bytes bytes) { return port.send(peer, channel, bytes); }
   std::optional<Arrival> receive() { return port.receive(); }
@@ -49,33 +50,28 @@ struct Line {
   }
 };
 
-template <class F> iso_status with(iso_network* network, F&& function) {
-  if (network == nullptr) return ISO_NULL;
-  if (!Networks::has(network)) return ISO_NOT_ALIVE;
-  network->problem[0] = 0;
-  return guarded([&] { return function(*network); });
+/// `work(NetworkObject&)` returns a status. The endpoints that it names are there.
+template <class Work>
+iso_status in_network(iso_network* handle, const char* call, std::initializer_list<std::uint32_t> endpoints,
+                      const Work& work) {
+  const Found<iso_network> found(handle, call);
+  if (found.status != ISO_OK) return found.status;
+  for (const std::uint32_t endpoint : endpoints) {
+    if (endpoint >= found.object->endpoints) return refuse(ISO_REFUSED, call, "endpoint", "one that was added, or 0");
+  }
+  return guarded(call, [&] { return work(*found.object); });
 }
 
-iso_status refuse(iso_network& network, std::string_view text) {
-  network.problem[text.copy(network.problem, sizeof network.problem - 1)] = 0;
-  return ISO_REFUSED;
-}
-iso_status refuse_endpoint(iso_network& network) { return refuse(network, "endpoint: there is none of this number"); }
+iso_status refuse_host(const char* call) { return refuse(ISO_REFUSED, call, "client", "one that was added, not 0"); }
 
-template <class F> iso_status with_profile(iso_network& network, const char* text, F&& function) {
-  const Result<NetworkProfile> profile = transport::parse_profile(text);
-  if (profile) return function(profile.value());
-  const Error& error = profile.error();
-  return refuse(network, ShortText<192>(error.place.view()).append(": ").append(error.message.view()).view());
-}
-
-/// `function(line, session)`, where both are there.
-template <class F> iso_status meet(iso_network* network, std::uint32_t endpoint, iso_session* session, F&& function) {
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (endpoint >= one.endpoints) return refuse_endpoint(one);
-    return call(session, [&](iso_session& other) {
+/// `work(line, session)`, where both are there.
+template <class Work>
+iso_status meet(iso_network* network, const char* call, std::uint32_t endpoint, iso_session* session,
+                const Work& work) {
+  return in_network(network, call, {endpoint}, [&](NetworkObject& one) {
+    return in_session(session, call, [&](SessionObject& other) {
       Line line(one, endpoint);
-      function(line, other.session);
+      work(line, other.session);
       return ISO_OK;
     });
   });
@@ -89,96 +85,86 @@ using namespace isostep::c;
 extern "C" {
 
 iso_status iso_network_create(uint64_t seed, iso_network** out) {
-  if (out == nullptr) return ISO_NULL;
+  ISO_C_REQUIRE(__func__, out);
   *out = nullptr;
-  return guarded([&] {
-    auto network = std::make_unique<iso_network>(seed);
-    Networks::add(network.get());
-    *out = network.release();
+  return guarded(__func__, [&] {
+    auto network = std::make_unique<NetworkObject>(seed);
+    *out = open_handle<iso_network>(network.get());
+    network.release();
     return ISO_OK;
   });
 }
 
-iso_status iso_network_destroy(iso_network* network) {
-  if (network == nullptr) return ISO_OK;
-  if (!Networks::has(network)) return ISO_NOT_ALIVE;
-  Networks::remove(network);
-  delete network;
-  return ISO_OK;
-}
-
-const char* iso_network_problem(const iso_network* network) {
-  return network != nullptr && Networks::has(network) ? network->problem : "";
-}
+iso_status iso_network_destroy(iso_network* network) { return destroy_handle(network, __func__); }
 
 iso_status iso_network_add_client(iso_network* network, const char* profile, uint32_t* endpoint) {
-  if (profile == nullptr || endpoint == nullptr) return ISO_NULL;
-  return with(network, [&](iso_network& one) {
-    return with_profile(one, profile, [&](const NetworkProfile& line) {
-      *endpoint = one.network.add_client(line);
-      ++one.endpoints;
-      return ISO_OK;
-    });
+  ISO_C_REQUIRE(__func__, profile);
+  ISO_C_REQUIRE(__func__, endpoint);
+  return in_network(network, __func__, {}, [&, call = __func__](NetworkObject& one) -> iso_status {
+    const isostep::Result<NetworkProfile> line = isostep::transport::parse_profile(profile);
+    if (!line) return refuse(ISO_REFUSED, call, line.error());
+    *endpoint = one.network.add_client(line.value());
+    ++one.endpoints;
+    return ISO_OK;
   });
 }
 
 iso_status iso_network_set_profile(iso_network* network, uint32_t client, const char* profile) {
-  if (profile == nullptr) return ISO_NULL;
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (client == 0 || client >= one.endpoints) return refuse_endpoint(one);
-    return with_profile(one, profile, [&](const NetworkProfile& line) {
-      one.network.set_profile(client, line);
-      return ISO_OK;
-    });
+  ISO_C_REQUIRE(__func__, profile);
+  if (client == 0) return refuse_host(__func__);
+  return in_network(network, __func__, {client}, [&, call = __func__](NetworkObject& one) -> iso_status {
+    const isostep::Result<NetworkProfile> line = isostep::transport::parse_profile(profile);
+    if (!line) return refuse(ISO_REFUSED, call, line.error());
+    one.network.set_profile(client, line.value());
+    return ISO_OK;
   });
 }
 
 iso_status iso_network_connect(iso_network* network, uint32_t from, uint32_t to) {
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (from >= one.endpoints || to >= one.endpoints) return refuse_endpoint(one);
+  return in_network(network, __func__, {from, to}, [&, call = __func__](NetworkObject& one) -> iso_status {
     if (one.network.connect(from, to)) return ISO_OK;
-    return refuse(one, "connection: the last one is not over, or no place is free");
+    return refuse(ISO_REFUSED, call, "", "two endpoints whose last connection is over, and a free place");
   });
 }
 
 iso_status iso_network_cut(iso_network* network, uint32_t client) {
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (client == 0 || client >= one.endpoints) return refuse_endpoint(one);
+  if (client == 0) return refuse_host(__func__);
+  return in_network(network, __func__, {client}, [&](NetworkObject& one) {
     one.network.cut(client);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_set_silent(iso_network* network, uint32_t endpoint, uint8_t silent) {
-  if (silent > 1) return ISO_BAD_ENUM;
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (endpoint >= one.endpoints) return refuse_endpoint(one);
+  if (silent > 1) return refuse(ISO_BAD_ENUM, __func__, "silent");
+  return in_network(network, __func__, {endpoint}, [&](NetworkObject& one) {
     one.network.set_silent(endpoint, silent != 0);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_set_side(iso_network* network, uint32_t endpoint, int32_t side) {
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (endpoint >= one.endpoints) return refuse_endpoint(one);
+  return in_network(network, __func__, {endpoint}, [&](NetworkObject& one) {
     one.network.set_side(endpoint, side);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_advance_to(iso_network* network, uint64_t now) {
-  return with(network, [&](iso_network& one) -> iso_status {
-    if (now < one.network.now()) return refuse(one, "now: before that of an earlier call");
+  return in_network(network, __func__, {}, [&, call = __func__](NetworkObject& one) -> iso_status {
+    if (now < one.network.now()) return refuse(ISO_REFUSED, call, "now", "no time before that of an earlier call");
     one.network.advance_to(now);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_deliver(iso_network* network, uint32_t endpoint, iso_session* session, uint64_t now) {
-  return meet(network, endpoint, session, [&](Line& line, auto& one) { isostep::transport::deliver(line, one, now); });
+  return meet(network, __func__, endpoint, session,
+              [&](Line& line, auto& one) { isostep::transport::deliver(line, one, now); });
 }
 
 iso_status iso_network_dispatch(iso_network* network, uint32_t endpoint, iso_session* session, uint64_t now) {
-  return meet(network, endpoint, session, [&](Line& line, auto& one) { isostep::transport::dispatch(line, one, now); });
+  return meet(network, __func__, endpoint, session,
+              [&](Line& line, auto& one) { isostep::transport::dispatch(line, one, now); });
 }
 }

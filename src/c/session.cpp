@@ -52,29 +52,32 @@ void SessionTurn::show(const InputView<Bytes>& inputs) {
   }
 }
 
-iso_status can_call(const iso_session* session, bool in_turn) {
-  if (session == nullptr) return ISO_NULL;
-  if (!Sessions::has(session)) return ISO_NOT_ALIVE;
-  if (session->is_called) return ISO_CALLED_BACK;
-  if (session->is_broken) return ISO_NO_MEMORY;
-  if (!session->game.is_alive()) return ISO_NOT_ALIVE;
-  if (session->turn.is_open() && !in_turn) return ISO_UNFINISHED;
-  return ISO_OK;
+SessionObject::SessionObject(const iso_game& its_game, const iso_session_config& its_config, const SessionConfig& rest,
+                             Bytes bytes)
+    : game(its_game, its_config),
+      file(bytes.begin(), bytes.end()),
+      session(rest, game.rules(), its_config.mode == ISO_REPLAY ? Bytes(file) : Bytes()),
+      config(its_config) {}
+
+iso_status enter(const iso_session* handle, const char* call, bool in_turn, SessionObject*& object) {
+  const Found<iso_session> found(handle, call);
+  if (found.status != ISO_OK) return found.status;
+  object = found.object;
+  if (object->is_called) return refuse(ISO_CALLED_BACK, call);
+  if (object->is_broken) return refuse(ISO_NO_MEMORY, call, "an earlier call");
+  if (!object->game.is_alive()) return refuse(ISO_NOT_ALIVE, call, "the game's world");
+  return object->turn.is_open() && !in_turn ? refuse(ISO_UNFINISHED, call) : ISO_OK;
 }
 
 namespace {
 
-Bytes recording_of(const iso_session_config& config, const std::vector<std::uint8_t>& file) {
-  return config.mode == ISO_REPLAY ? Bytes(file) : Bytes();
-}
-
-void step(iso_session& session, Frame frame) {
+void step(SessionObject& session, Frame frame) {
   const iso_game& game = session.game.callbacks();
   game.step(game.user, frame, session.turn.inputs(), static_cast<std::uint32_t>(session.session.config().players));
 }
 
 /// Tells the game's callbacks; true: that was a step.
-bool carry_out(iso_session& session, const iso_request& request) {
+bool carry_out(SessionObject& session, const iso_request& request) {
   const iso_game& game = session.game.callbacks();
   switch (request.kind) {
     case ISO_STEP: step(session, request.frame); return true;
@@ -97,81 +100,72 @@ bool carry_out(iso_session& session, const iso_request& request) {
 
 using namespace isostep::c;
 
-iso_session::iso_session(const iso_game& its_game, const iso_session_config& its_config, isostep::SessionConfig rest,
-                         isostep::Bytes bytes)
-    : game(its_game, its_config),
-      file(bytes.begin(), bytes.end()),
-      session(rest, game.rules(), recording_of(its_config, file)),
-      config(its_config) {}
-
 extern "C" {
 
 iso_status iso_session_create(const iso_session_config* config, const iso_game* game, const void* file,
                               size_t file_size, iso_session** out) {
-  if (out != nullptr) *out = nullptr;
-  if (config == nullptr || game == nullptr || out == nullptr || (file == nullptr && file_size > 0)) return ISO_NULL;
-  return guarded([&]() -> iso_status {
+  ISO_C_REQUIRE(__func__, out);
+  *out = nullptr;
+  if (file_size > 0) ISO_C_REQUIRE(__func__, file);
+  return guarded(__func__, [&, call = __func__]() -> iso_status {
     iso_session_config whole;
     iso_game its_game;
-    if (const Problem problem = read_game(game, its_game); problem.status != ISO_OK) return problem.status;
-    if (const Problem problem = read_config(config, whole); problem.status != ISO_OK) return problem.status;
-    isostep::SessionConfig rest = to_session_config(whole);
-    const std::unique_ptr<SessionWorld> world = session_world_of(its_game.world);
-    if (its_game.world != nullptr && world == nullptr) return ISO_NOT_ALIVE;
+    if (const Problem problem = read_game(game, its_game); problem.status != ISO_OK)
+      return refuse(problem, call, "game");
+    if (const Problem problem = read_config(config, whole); problem.status != ISO_OK) {
+      return refuse(problem, call, "config");
+    }
+    std::unique_ptr<SessionWorld> world;
+    if (its_game.world != nullptr) world = session_world_of(its_game.world);
+    if (its_game.world != nullptr && world == nullptr) return refuse(ISO_NOT_ALIVE, call, "game.world");
     const isostep::Result<isostep::ReplayHeader> identity = identity_of_game(its_game, world.get(), whole.name);
-    if (!identity) return ISO_REFUSED;
+    if (!identity) return refuse(ISO_REFUSED, call, identity.error());
+    isostep::SessionConfig rest = to_session_config(whole);
     rest.identity = identity.value();
     const isostep::Bytes bytes(static_cast<const std::uint8_t*>(file), file_size);
     if (whole.mode != ISO_REPLAY) rest.saved_match.assign(bytes.begin(), bytes.end());
-    if (isostep::problem_of(rest) != nullptr) return ISO_REFUSED;
-    auto session = std::make_unique<iso_session>(its_game, whole, rest, bytes);
-    Sessions::add(session.get());
-    *out = session.release();
+    if (const char* problem = isostep::problem_of(rest)) return refuse(ISO_REFUSED, call, "file", problem);
+    auto session = std::make_unique<SessionObject>(its_game, whole, rest, bytes);
+    *out = open_handle<iso_session>(session.get());
+    session.release();
     return ISO_OK;
   });
 }
 
 iso_status iso_session_destroy(iso_session* session) {
   if (session == nullptr) return ISO_OK;
-  if (!Sessions::has(session)) return ISO_NOT_ALIVE;
-  if (session->is_called) return ISO_CALLED_BACK;
-  Sessions::remove(session);
-  delete session;
-  return ISO_OK;
-}
-
-const char* iso_session_problem(const iso_session* session) {
-  return session != nullptr && Sessions::has(session) ? session->problem : "";
+  const Found<iso_session> found(session, __func__);
+  if (found.status == ISO_OK && found.object->is_called) return refuse(ISO_CALLED_BACK, __func__);
+  return destroy_handle(session, __func__);
 }
 
 iso_status iso_session_advance(iso_session* session, uint64_t now) {
-  return call(session, [&](iso_session& one) {
+  return in_session(session, __func__, [&](SessionObject& one) {
     one.turn.begin(one.session, now);
     return ISO_OK;
   });
 }
 
 iso_status iso_session_next(iso_session* session, iso_request* out) {
-  return call(
-      session,
-      [&](iso_session& one) -> iso_status {
-        if (const iso_status status = can_give(out); status != ISO_OK) return status;
-        give(one.turn.next(one.session, one.game, one.observer), out);
-        return ISO_OK;
-      },
-      true);
+  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
+  const auto next = [&](SessionObject& one) {
+    give(one.turn.next(one.session, one.game, one.observer), out);
+    return ISO_OK;
+  };
+  return in_session(session, __func__, next, true);
 }
 
 const iso_input* iso_session_inputs(const iso_session* session, uint32_t* players) {
-  const bool has = session != nullptr && Sessions::has(session) && session->turn.is_stepping();
-  if (players != nullptr) *players = has ? static_cast<std::uint32_t>(session->session.config().players) : 0;
-  return has ? session->turn.inputs() : nullptr;
+  const Found<iso_session> found(session, __func__);
+  const bool has = found.object != nullptr && found.object->turn.is_stepping();
+  if (players != nullptr) *players = has ? static_cast<std::uint32_t>(found.object->session.config().players) : 0;
+  return has ? found.object->turn.inputs() : nullptr;
 }
 
 iso_status iso_session_drive(iso_session* session, uint64_t now, uint32_t* steps) {
   if (steps != nullptr) *steps = 0;
-  return call(session, [&](iso_session& one) -> iso_status {
-    if (one.game.callbacks().step == nullptr) return ISO_NULL;
+  return in_session(session, __func__, [&, call = __func__](SessionObject& one) -> iso_status {
+    if (one.game.callbacks().step == nullptr) return refuse(ISO_NULL, call, "game.step");
     one.turn.begin(one.session, now);
     for (;;) {
       const iso_request request = one.turn.next(one.session, one.game, one.observer);

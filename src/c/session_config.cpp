@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "call.hpp"
+#include "flat_struct.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/session/preset.hpp"
 #include "isostep/state/hash.hpp"
@@ -17,12 +17,15 @@ template <std::size_t N> bool ends(const char (&text)[N], std::size_t most) {
   return end != nullptr && static_cast<std::size_t>(static_cast<const char*>(end) - text) <= most;
 }
 
+constexpr std::size_t kMostBlock = 256u << 20;  // [bytes] a state that is saved every frame is much smaller
+
 /// Numbers that C and C++ have alike: an entry is a field that is copied as it is.
-#define ISO_SESSION_FIELDS(X)                                                                                        \
-  X(players)                                                                                                         \
-  X(local_players) X(hz) X(window) X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience)          \
-      X(exclusion) X(kept) X(history) X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) \
-          X(broadcast_delay) X(seed) X(migration) X(reservation) X(token) X(seat)
+#define ISO_SESSION_FIELDS(X)                                                                                      \
+  X(players)                                                                                                       \
+  X(local_players)                                                                                                 \
+  X(hz) X(window) X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience) X(exclusion) X(kept)    \
+      X(history) X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) X(broadcast_delay) \
+          X(seed) X(migration) X(reservation) X(token) X(seat)
 #define ISO_SESSION_FLAGS(X) X(host) X(relays) X(repair) X(asks_admission) X(votes) X(players_set_tempo)
 
 void from_session_config(const SessionConfig& from, iso_session_config& to) {
@@ -72,8 +75,8 @@ const char* problem_of_texts(const iso_session_config& config) {
 
 Problem read_config(const iso_session_config* from, iso_session_config& to) {
   from_session_config({}, to);
-  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "size: of the struct"};
-  if (const Problem problem = problem_of_enums(to); problem.text != nullptr) return problem;
+  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "what iso_session_config_init makes"};
+  if (const Problem problem = problem_of_enums(to); problem.status != ISO_OK) return problem;
   const char* problem = problem_of_texts(to);
   if (problem == nullptr) problem = problem_of_input(to);
   if (problem == nullptr) problem = problem_of(to_session_config(to));
@@ -82,13 +85,14 @@ Problem read_config(const iso_session_config* from, iso_session_config& to) {
 
 Problem read_game(const iso_game* from, iso_game& to) {
   to = {};
-  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "size: of the struct"};
+  if (const iso_status status = take(from, to); status != ISO_OK) return {status, "what iso_game_init makes"};
   const bool has_own = to.save != nullptr;
   if ((to.load != nullptr) != has_own || (to.hash != nullptr) != has_own)
     return {ISO_NULL, "save, load, hash: together"};
   if ((to.write != nullptr) != (to.read != nullptr)) return {ISO_NULL, "write, read: together"};
   if (to.write != nullptr && !has_own) return {ISO_NULL, "write, read: of a game with save, load and hash"};
   if ((to.block != nullptr) != (to.block_size != 0)) return {ISO_NULL, "block, block_size: together"};
+  if (to.block_size > kMostBlock) return {ISO_REFUSED, "block_size: at most 256 MB"};
   if (to.world == nullptr && to.block == nullptr && !has_own) return {ISO_NULL, "world, block or save: at least one"};
   return {};
 }
@@ -126,35 +130,36 @@ using namespace isostep::c;
 extern "C" {
 
 iso_status iso_session_config_init(iso_session_config* config) {
-  if (config == nullptr) return ISO_NULL;
-  return guarded([&] {
+  ISO_C_REQUIRE(__func__, config);
+  return guarded(__func__, [&] {
     from_session_config({}, *config);
     return ISO_OK;
   });
 }
 
-iso_status iso_session_config_preset(iso_session_config* config, uint32_t genre, int32_t players) {
-  if (config == nullptr) return ISO_NULL;
-  if (genre > ISO_SANDBOX) return ISO_BAD_ENUM;
-  return guarded([&] {
+iso_status iso_session_config_preset(iso_session_config* config, iso_genre genre, int32_t players) {
+  ISO_C_REQUIRE(__func__, config);
+  if (genre > ISO_SANDBOX) return refuse(ISO_BAD_ENUM, __func__, "genre");
+  return guarded(__func__, [&] {
     from_session_config(isostep::preset(static_cast<isostep::Genre>(genre), players), *config);
     return ISO_OK;
   });
 }
 
 const char* iso_session_config_problem(const iso_session_config* config) {
-  if (config == nullptr) return "a configuration is there";
-  const char* text = nullptr;
-  const iso_status status = guarded([&] {
+  const char* text = "memory: enough for a configuration";
+  const auto read = [&] {
     iso_session_config whole;
-    text = read_config(config, whole).text;
+    const Problem problem = read_config(config, whole);
+    text = problem.status == ISO_OK ? nullptr : problem.text;
     return ISO_OK;
-  });
-  return status == ISO_NO_MEMORY ? "memory: enough for a configuration" : text;
+  };
+  static_cast<void>(guarded(__func__, read));
+  return text;
 }
 
 iso_status iso_game_init(iso_game* game) {
-  if (game == nullptr) return ISO_NULL;
+  ISO_C_REQUIRE(__func__, game);
   *game = {};
   game->size = sizeof *game;
   return ISO_OK;

@@ -4,6 +4,7 @@
 
 #include "isostep/session/config.hpp"
 #include "session_game.hpp"
+#include "status.hpp"
 
 namespace isostep::c {
 
@@ -11,8 +12,11 @@ namespace isostep::c {
 /// ISO_REFUSED and ISO_BAD_ENUM the field and what it may be.
 struct Problem {
   iso_status status = ISO_OK;
-  const char* text = nullptr;
+  const char* text = "";
 };
+inline iso_status refuse(const Problem& problem, const char* call, const char* what) {
+  return refuse(problem.status, call, what, problem.text);
+}
 Problem read_config(const iso_session_config* from, iso_session_config& to);
 Problem read_game(const iso_game* from, iso_game& to);
 

@@ -9,7 +9,7 @@
 namespace isostep::c {
 
 SessionGame::SessionGame(const iso_game& game, const iso_session_config& config)
-    : game_(game), world_(session_world_of(game.world)), config_(config) {
+    : game_(game), world_(game.world != nullptr ? session_world_of(game.world) : nullptr), config_(config) {
   if (world_ != nullptr) before_ = world_->make_slot();
 }
 

@@ -1,4 +1,4 @@
-// iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
+// What is behind an iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "call.hpp"
-#include "isostep.h"
+#include "flat_struct.hpp"
+#include "handle.hpp"
+#include "include/isostep.h"
 #include "isostep/session/session.hpp"
-#include "live_handles.hpp"
 #include "session_game.hpp"
 
 namespace isostep::c {
@@ -71,48 +71,50 @@ class SessionTurn {
   std::vector<iso_input> inputs_;  // of the step, by player
 };
 
-}  // namespace isostep::c
-
-struct iso_session {
-  isostep::c::SessionGame game;
+struct SessionObject {
+  SessionGame game;
   std::vector<std::uint8_t> file;  // of a replay
-  isostep::Session<isostep::c::SessionGame> session;
-  isostep::c::SessionObserver observer;
-  isostep::c::SessionTurn turn;
-  char address[isostep::kAddressCap + 1] = {};  // that was polled last
-  const char* problem = "";                     // of the last call that was refused
-  char reason[192] = "";                        // made for it
-  bool is_called = false;                       // a function of ours is at work: the game's callbacks may call none
-  bool is_broken = false;                       // memory was not there in the middle of something
+  Session<SessionGame> session;
+  SessionObserver observer;
+  SessionTurn turn;
+  char address[kAddressCap + 1] = {};  // that was polled last
+  bool is_called = false;              // a function of ours is at work: the game's callbacks may call none
+  bool is_broken = false;              // memory was not there in the middle of something
   iso_session_config config;
 
-  iso_session(const iso_game& its_game, const iso_session_config& its_config, isostep::SessionConfig rest,
-              isostep::Bytes bytes);
+  SessionObject(const iso_game& its_game, const iso_session_config& its_config, const SessionConfig& rest, Bytes bytes);
+};
+template <> struct HandleOf<iso_session> {
+  using Object = SessionObject;
+  static constexpr HandleKind kKind = HandleKind::session;
+  static constexpr const char* kName = "session";
 };
 
-namespace isostep::c {
+/// May it be called now? `in_turn`: also between the requests of a turn.
+iso_status enter(const iso_session* handle, const char* call, bool in_turn, SessionObject*& object);
 
-using Sessions = LiveHandles<iso_session>;
-
-/// May `session` be called now? `in_turn`: also between the requests of a turn.
-iso_status can_call(const iso_session* session, bool in_turn);
-
-/// Every function that changes a session is called by this.
-template <class F> iso_status call(iso_session* session, F&& function, bool in_turn = false) {
-  if (const iso_status status = can_call(session, in_turn); status != ISO_OK) return status;
-  session->is_called = true;
-  const iso_status status = guarded([&] { return function(*session); });
-  session->is_called = false;
-  if (status == ISO_NO_MEMORY) session->is_broken = true;
+/// Every function that changes a session is called by this; `work(SessionObject&)` returns a status.
+template <class Work>
+iso_status in_session(iso_session* handle, const char* call, const Work& work, bool in_turn = false) {
+  SessionObject* object = nullptr;
+  if (const iso_status status = enter(handle, call, in_turn, object); status != ISO_OK) return status;
+  object->is_called = true;
+  const iso_status status = guarded(call, [&] { return work(*object); });
+  object->is_called = false;
+  if (status == ISO_NO_MEMORY) object->is_broken = true;
   return status;
 }
-/// What returns whether it did something; `problem` says why it did not.
-template <class F> iso_status ask(iso_session* session, const char* problem, F&& function) {
-  return call(session, [&](iso_session& one) {
-    if (function(one.session)) return iso_status{ISO_OK};
-    one.problem = problem;
-    return iso_status{ISO_REFUSED};
+/// The same of what returns whether it was done.
+template <class Work>
+iso_status ask_session(iso_session* handle, const char* call, const char* expected, const Work& work) {
+  return in_session(handle, call, [&](SessionObject& object) {
+    return work(object.session) ? iso_status{ISO_OK} : refuse(ISO_REFUSED, call, "", expected);
   });
+}
+/// A struct that is filled, whose size the caller has set.
+template <class T> iso_status check_struct(const T* out, const char* call) {
+  const iso_status status = can_give(out);
+  return status == ISO_OK ? status : refuse(status, call, "out");
 }
 inline bool is_peer(std::uint32_t peer) { return peer <= 0xffff; }
 

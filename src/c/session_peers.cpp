@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstring>
 
-#include "isostep.h"
 #include "session_handle.hpp"
 
 using namespace isostep::c;
@@ -11,31 +10,32 @@ using isostep::Bytes;
 namespace {
 
 using CSession = isostep::Session<SessionGame>;
-constexpr const char* kNotNow = "not now, or not by this machine";
-constexpr const char* kReason = "nobody to be refused, or the reason is not 1 to 128 characters of printable ASCII";
+constexpr const char* kNow = "what this machine may do, at a time when it may";
+constexpr const char* kReason = "somebody who is there, and a reason of 1 to 128 characters of printable ASCII";
 
 }  // namespace
 
 extern "C" {
 
 iso_status iso_session_add_local_input(iso_session* session, int32_t player, const void* bytes, size_t size) {
-  if (bytes == nullptr && size > 0) return ISO_NULL;
-  return ask(session, "input: not of a player of ours, not in the match now, or not valid", [&](CSession& one) {
-    if (size > isostep::kInputCap) return false;
-    return one.add_local_input(player, Bytes(static_cast<const std::uint8_t*>(bytes), size));
-  });
+  if (size > 0) ISO_C_REQUIRE(__func__, bytes);
+  return ask_session(session, __func__, "a player of ours who is in the match, and an input of its size that is valid",
+                     [&](CSession& one) {
+                       if (size > isostep::kInputCap) return false;
+                       return one.add_local_input(player, Bytes(static_cast<const std::uint8_t*>(bytes), size));
+                     });
 }
 
 iso_status iso_session_connected(iso_session* session, uint32_t peer, uint64_t now, uint8_t incoming) {
-  if (incoming > 1) return ISO_BAD_ENUM;
-  return ask(session, "peer: 0 to 65535", [&](CSession& one) {
+  if (incoming > 1) return refuse(ISO_BAD_ENUM, __func__, "incoming");
+  return ask_session(session, __func__, "a peer of 0 to 65535", [&](CSession& one) {
     if (is_peer(peer)) one.connected(static_cast<isostep::PeerId>(peer), now, incoming != 0);
     return is_peer(peer);
   });
 }
 
 iso_status iso_session_disconnected(iso_session* session, uint32_t peer, uint64_t now) {
-  return ask(session, "peer: 0 to 65535", [&](CSession& one) {
+  return ask_session(session, __func__, "a peer of 0 to 65535", [&](CSession& one) {
     if (is_peer(peer)) one.disconnected(static_cast<isostep::PeerId>(peer), now);
     return is_peer(peer);
   });
@@ -43,9 +43,9 @@ iso_status iso_session_disconnected(iso_session* session, uint32_t peer, uint64_
 
 iso_status iso_session_receive(iso_session* session, uint32_t peer, uint32_t channel, const void* bytes, size_t size,
                                uint64_t now) {
-  if (bytes == nullptr && size > 0) return ISO_NULL;
-  if (channel > ISO_RELIABLE) return ISO_BAD_ENUM;
-  return ask(session, "peer: 0 to 65535", [&](CSession& one) {
+  if (size > 0) ISO_C_REQUIRE(__func__, bytes);
+  if (channel > ISO_RELIABLE) return refuse(ISO_BAD_ENUM, __func__, "channel");
+  return ask_session(session, __func__, "a peer of 0 to 65535", [&](CSession& one) {
     if (!is_peer(peer)) return false;
     one.receive(static_cast<isostep::PeerId>(peer), static_cast<isostep::Channel>(channel),
                 Bytes(static_cast<const std::uint8_t*>(bytes), size), now);
@@ -54,10 +54,10 @@ iso_status iso_session_receive(iso_session* session, uint32_t peer, uint32_t cha
 }
 
 iso_status iso_session_poll_send(iso_session* session, uint64_t now, iso_outgoing* out, const uint8_t** bytes) {
-  if (bytes == nullptr) return ISO_NULL;
+  ISO_C_REQUIRE(__func__, bytes);
   *bytes = nullptr;
-  return call(session, [&](iso_session& one) -> iso_status {
-    if (const iso_status status = can_give(out); status != ISO_OK) return status;
+  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
+  return in_session(session, __func__, [&](SessionObject& one) {
     static constexpr std::uint8_t kEmpty = 0;
     iso_outgoing given{};
     if (const std::optional<isostep::Outgoing> sent = one.session.poll_send(now)) {
@@ -73,9 +73,9 @@ iso_status iso_session_poll_send(iso_session* session, uint64_t now, iso_outgoin
 }
 
 iso_status iso_session_poll_connect(iso_session* session, const char** address) {
-  if (address == nullptr) return ISO_NULL;
+  ISO_C_REQUIRE(__func__, address);
   *address = nullptr;
-  return call(session, [&](iso_session& one) -> iso_status {
+  return in_session(session, __func__, [&](SessionObject& one) -> iso_status {
     const std::optional<isostep::Address> named = one.session.poll_connect();
     if (!named) return ISO_OK;
     const std::string_view text = named->view();
@@ -87,40 +87,41 @@ iso_status iso_session_poll_connect(iso_session* session, const char** address) 
 }
 
 iso_status iso_session_start(iso_session* session, uint64_t now) {
-  return call(session, [&](iso_session& one) {
+  return in_session(session, __func__, [&](SessionObject& one) {
     one.session.start(now);
     return ISO_OK;
   });
 }
 iso_status iso_session_resync(iso_session* session) {
-  return ask(session, kNotNow, [](CSession& one) { return one.resync(); });
+  return ask_session(session, __func__, kNow, [](CSession& one) { return one.resync(); });
 }
 iso_status iso_session_pause(iso_session* session) {
-  return ask(session, kNotNow, [](CSession& one) { return one.pause(); });
+  return ask_session(session, __func__, kNow, [](CSession& one) { return one.pause(); });
 }
 iso_status iso_session_unpause(iso_session* session) {
-  return ask(session, kNotNow, [](CSession& one) { return one.unpause(); });
+  return ask_session(session, __func__, kNow, [](CSession& one) { return one.unpause(); });
 }
 iso_status iso_session_set_speed(iso_session* session, int32_t eighths) {
-  return ask(session, "speed: 4 to 16 eighths, most_packets twice the rate; not now, or not by this machine",
-             [&](CSession& one) { return one.set_speed(eighths); });
+  return ask_session(session, __func__,
+                     "4 to 16 eighths, most_packets twice the rate, in a match of which this machine decides",
+                     [&](CSession& one) { return one.set_speed(eighths); });
 }
 
 iso_status iso_session_propose(iso_session* session, int32_t player, uint32_t proposal, uint32_t subject) {
-  if (proposal < ISO_VOTE_PAUSE || proposal > ISO_VOTE_OTHER) return ISO_BAD_ENUM;
-  return ask(session, kNotNow, [&](CSession& one) {
+  if (proposal < ISO_VOTE_PAUSE || proposal > ISO_VOTE_OTHER) return refuse(ISO_BAD_ENUM, __func__, "proposal");
+  return ask_session(session, __func__, kNow, [&](CSession& one) {
     return one.propose(player, {static_cast<isostep::Proposal::Kind>(proposal), subject});
   });
 }
 iso_status iso_session_vote(iso_session* session, int32_t player, uint8_t yes) {
-  if (yes > 1) return ISO_BAD_ENUM;
-  return ask(session, "vote: there is none, or the player is not ours",
-             [&](CSession& one) { return one.vote(player, yes != 0); });
+  if (yes > 1) return refuse(ISO_BAD_ENUM, __func__, "yes");
+  return ask_session(session, __func__, "a vote that is open, and a player of ours",
+                     [&](CSession& one) { return one.vote(player, yes != 0); });
 }
 
 iso_status iso_session_poll_applicant(iso_session* session, iso_applicant* out) {
-  return call(session, [&](iso_session& one) -> iso_status {
-    if (const iso_status status = can_give(out); status != ISO_OK) return status;
+  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
+  return in_session(session, __func__, [&](SessionObject& one) {
     iso_applicant given{};
     if (const std::optional<isostep::Applicant> applicant = one.session.poll_applicant()) {
       given.peer = applicant->peer;
@@ -139,19 +140,21 @@ iso_status iso_session_poll_applicant(iso_session* session, iso_applicant* out) 
   });
 }
 iso_status iso_session_admit(iso_session* session, uint64_t applicant) {
-  return ask(session, "applicant: gone, or there is no seat", [&](CSession& one) { return one.admit(applicant); });
+  return ask_session(session, __func__, "an applicant who is still there, and a seat",
+                     [&](CSession& one) { return one.admit(applicant); });
 }
 iso_status iso_session_refuse(iso_session* session, uint64_t applicant, const char* reason) {
-  if (reason == nullptr) return ISO_NULL;
-  return ask(session, kReason, [&](CSession& one) { return one.refuse(applicant, reason); });
+  ISO_C_REQUIRE(__func__, reason);
+  return ask_session(session, __func__, kReason, [&](CSession& one) { return one.refuse(applicant, reason); });
 }
 iso_status iso_session_kick(iso_session* session, int32_t player, const char* reason) {
-  if (reason == nullptr) return ISO_NULL;
-  return ask(session, kReason, [&](CSession& one) { return one.kick(player, reason); });
+  ISO_C_REQUIRE(__func__, reason);
+  return ask_session(session, __func__, kReason, [&](CSession& one) { return one.kick(player, reason); });
 }
 iso_status iso_session_kick_peer(iso_session* session, uint32_t peer, const char* reason) {
-  if (reason == nullptr) return ISO_NULL;
-  return ask(session, kReason,
-             [&](CSession& one) { return is_peer(peer) && one.kick_peer(static_cast<isostep::PeerId>(peer), reason); });
+  ISO_C_REQUIRE(__func__, reason);
+  return ask_session(session, __func__, kReason, [&](CSession& one) {
+    return is_peer(peer) && one.kick_peer(static_cast<isostep::PeerId>(peer), reason);
+  });
 }
 }

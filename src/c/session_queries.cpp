@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "isostep.h"
 #include "session_handle.hpp"
 
 using namespace isostep::c;
@@ -14,16 +13,18 @@ namespace {
 using CSession = isostep::Session<SessionGame>;
 
 /// `otherwise` of what is no session.
-template <class T, class F> T look(const iso_session* session, T otherwise, F&& function) {
-  return session != nullptr && Sessions::has(session) ? static_cast<T>(function(session->session)) : otherwise;
+template <class T, class F> T look(const iso_session* session, const char* call, T otherwise, const F& function) {
+  const Found<iso_session> found(session, call);
+  return found.object != nullptr ? static_cast<T>(function(found.object->session)) : otherwise;
 }
 /// Into a struct of the caller's.
-template <class T, class F> iso_status look_into(const iso_session* session, T* out, F&& function) {
-  if (session == nullptr) return ISO_NULL;
-  if (!Sessions::has(session)) return ISO_NOT_ALIVE;
-  if (const iso_status status = can_give(out); status != ISO_OK) return status;
+template <class T, class F>
+iso_status look_into(const iso_session* session, const char* call, T* out, const F& function) {
+  const Found<iso_session> found(session, call);
+  if (found.status != ISO_OK) return found.status;
+  if (const iso_status status = check_struct(out, call); status != ISO_OK) return status;
   T given{};
-  function(session->session, given);
+  function(found.object->session, given);
   give(given, out);
   return ISO_OK;
 }
@@ -73,8 +74,8 @@ iso_session_event event_of(const SessionEvent& from) {
 extern "C" {
 
 iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) {
-  return call(session, [&](iso_session& one) -> iso_status {
-    if (const iso_status status = can_give(out); status != ISO_OK) return status;
+  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
+  return in_session(session, __func__, [&](SessionObject& one) {
     const std::optional<SessionEvent> event = one.session.poll_event();
     give(event ? event_of(*event) : iso_session_event{}, out);
     return ISO_OK;
@@ -82,74 +83,79 @@ iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) 
 }
 
 uint8_t iso_session_wants_input(const iso_session* session, int32_t player) {
-  return look<uint8_t>(session, 0, [&](const CSession& one) { return one.wants_input(player) ? 1 : 0; });
+  return look<uint8_t>(session, __func__, 0, [&](const CSession& one) { return one.wants_input(player) ? 1 : 0; });
 }
 uint64_t iso_session_wait(const iso_session* session, uint64_t now) {
-  return look<uint64_t>(session, 0, [&](const CSession& one) { return one.wait(now); });
+  return look<uint64_t>(session, __func__, 0, [&](const CSession& one) { return one.wait(now); });
 }
-uint32_t iso_session_phase(const iso_session* session) {
-  return look<uint32_t>(session, ISO_OVER, [](const CSession& one) { return one.phase(); });
+iso_phase iso_session_phase(const iso_session* session) {
+  return look<uint32_t>(session, __func__, ISO_OVER, [](const CSession& one) { return one.phase(); });
 }
 uint64_t iso_session_token(const iso_session* session) {
-  return look<uint64_t>(session, 0, [](const CSession& one) { return one.token(); });
+  return look<uint64_t>(session, __func__, 0, [](const CSession& one) { return one.token(); });
 }
 int32_t iso_session_local_player(const iso_session* session) {
-  return look<int32_t>(session, -1, [](const CSession& one) { return one.local_player(); });
+  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.local_player(); });
 }
 uint32_t iso_session_local_players(const iso_session* session) {
-  return look<uint32_t>(session, 0, [](const CSession& one) { return one.local_players(); });
+  return look<uint32_t>(session, __func__, 0, [](const CSession& one) { return one.local_players(); });
 }
 int32_t iso_session_current(const iso_session* session) {
-  return look<int32_t>(session, -1, [](const CSession& one) { return one.current(); });
+  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.current(); });
 }
 int32_t iso_session_confirmed(const iso_session* session) {
-  return look<int32_t>(session, -1, [](const CSession& one) { return one.confirmed(); });
+  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.confirmed(); });
 }
 int32_t iso_session_peer_of(const iso_session* session, int32_t player) {
-  return look<int32_t>(session, -1, [&](const CSession& one) {
+  return look<int32_t>(session, __func__, -1, [&](const CSession& one) {
     const std::optional<isostep::PeerId> peer = one.peer_of(player);
     return peer ? int32_t{*peer} : -1;
   });
 }
 
 iso_status iso_session_input(const iso_session* session, int32_t frame, int32_t player, iso_input* out) {
-  if (session == nullptr || out == nullptr) return ISO_NULL;
-  if (!Sessions::has(session)) return ISO_NOT_ALIVE;
-  const isostep::Bytes bytes = session->session.input(frame, player);
+  ISO_C_REQUIRE(__func__, out);
+  const Found<iso_session> found(session, __func__);
+  if (found.status != ISO_OK) return found.status;
+  const CSession& one = found.object->session;
+  const isostep::Bytes bytes = one.input(frame, player);
   *out = {};
   out->size = static_cast<std::uint16_t>(bytes.size());
-  out->status = static_cast<std::uint8_t>(session->session.status(frame, player));
+  out->status = static_cast<std::uint8_t>(one.status(frame, player));
   if (!bytes.empty()) std::memcpy(out->bytes, bytes.data(), bytes.size());
   return ISO_OK;
 }
 
 iso_status iso_session_snapshot_progress(const iso_session* session, uint32_t peer, uint32_t* arrived, uint32_t* size) {
-  if (session == nullptr || arrived == nullptr || size == nullptr) return ISO_NULL;
-  if (!Sessions::has(session)) return ISO_NOT_ALIVE;
+  ISO_C_REQUIRE(__func__, arrived);
+  ISO_C_REQUIRE(__func__, size);
+  const Found<iso_session> found(session, __func__);
+  if (found.status != ISO_OK) return found.status;
   isostep::SnapshotProgress progress;
-  if (is_peer(peer)) progress = session->session.snapshot_progress(static_cast<isostep::PeerId>(peer));
+  if (is_peer(peer)) progress = found.object->session.snapshot_progress(static_cast<isostep::PeerId>(peer));
   *arrived = progress.arrived;
   *size = progress.size;
   return ISO_OK;
 }
 
 iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* out) {
-  return look_into(session, out, [](const CSession& one, iso_session_stats& to) {
+  return look_into(session, __func__, out, [](const CSession& one, iso_session_stats& to) {
     const isostep::SessionStats& from = one.stats();
     static_assert(sizeof to.rollbacks == sizeof from.rollbacks);
     std::copy(std::begin(from.rollbacks), std::end(from.rollbacks), to.rollbacks);
 #define ISO_COPY(name) to.name = from.name;
     ISO_COPY(delay)
-    ISO_COPY(steps) ISO_COPY(waits) ISO_COPY(datagrams_out) ISO_COPY(datagrams_in) ISO_COPY(bytes_out)
-        ISO_COPY(bytes_in) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost)
-            ISO_COPY(round_trip) ISO_COPY(peers) ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
+    ISO_COPY(steps)
+    ISO_COPY(waits) ISO_COPY(datagrams_out) ISO_COPY(datagrams_in) ISO_COPY(bytes_out) ISO_COPY(bytes_in)
+        ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost) ISO_COPY(round_trip) ISO_COPY(peers)
+            ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
 #undef ISO_COPY
   });
 }
 
 iso_status iso_session_get_player_stats(const iso_session* session, int32_t player, iso_player_stats* out) {
-  if (player < 0 || player >= ISO_MAX_PLAYERS) return ISO_REFUSED;
-  return look_into(session, out, [&](const CSession& one, iso_player_stats& to) {
+  if (player < 0 || player >= ISO_MAX_PLAYERS) return refuse(ISO_REFUSED, __func__, "player", "0 to 31");
+  return look_into(session, __func__, out, [&](const CSession& one, iso_player_stats& to) {
     const isostep::PlayerStats& from = one.stats().players[player];
     to.early = from.early;
     to.replaced = from.replaced;

@@ -6,7 +6,7 @@
 #include "isostep/world/session_recorder.hpp"
 #include "isostep/world/state.hpp"
 #include "isostep/world/world.hpp"
-#include "world_handle.hpp"
+#include "objects.hpp"
 
 namespace isostep::c {
 namespace {
@@ -46,34 +46,38 @@ template <class S> class SessionWorldOf final : public SessionWorld {
     typename World<S>::Snapshot state;
   };
 
-  SessionWorldOf(iso_world* handle, std::shared_ptr<World<S>> world) : handle_(handle), world_(std::move(world)) {}
+  SessionWorldOf(const iso_world* handle, World<S>& world) : handle_(handle), world_(world) {}
 
   std::unique_ptr<Slot> make_slot() const override { return std::make_unique<Saved>(); }
-  void save(Slot& to) const override { world_->save(static_cast<Saved&>(to).state); }
-  bool load(const Slot& from) override { return world_->load(static_cast<const Saved&>(from).state); }
-  std::uint64_t hash() const override { return world_->hash(); }
-  void write_portable(Writer& writer) const override { world_->write_portable(writer); }
-  Result<void> read_portable(Reader& reader) override { return world_->read_portable(reader); }
+  void save(Slot& to) const override { world_.save(static_cast<Saved&>(to).state); }
+  bool load(const Slot& from) override { return world_.load(static_cast<const Saved&>(from).state); }
+  std::uint64_t hash() const override { return world_.hash(); }
+  void write_portable(Writer& writer) const override { world_.write_portable(writer); }
+  Result<void> read_portable(Reader& reader) override { return world_.read_portable(reader); }
   Result<ReplayHeader> identity(std::string_view name) const override {
-    return make_replay_header(identity_of_world(world_->settings(), name));
+    return make_replay_header(identity_of_world(world_.settings(), name));
   }
   std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) override {
-    return std::make_unique<WorldRecording<S>>(*world_, kept, scene);
+    return std::make_unique<WorldRecording<S>>(world_, kept, scene);
   }
-  bool is_alive() const override { return is_live(handle_); }
+  bool is_alive() const override { return Found<iso_world>(handle_, "game.world").object != nullptr; }
 
  private:
-  iso_world* handle_;
-  std::shared_ptr<World<S>> world_;
+  const iso_world* handle_;
+  World<S>& world_;
 };
 
 }  // namespace
 
 std::unique_ptr<SessionWorld> session_world_of(iso_world* world) {
-  if (world == nullptr || !is_live(world)) return nullptr;
-  return visit_world(*world, [&]<class S>(const std::shared_ptr<World<S>>& engine) -> std::unique_ptr<SessionWorld> {
-    return std::make_unique<SessionWorldOf<S>>(world, engine);
-  });
+  const Found<iso_world> found(world, "game.world");
+  if (found.object == nullptr) return nullptr;
+#define ISO_CASE(S)                           \
+  if (found.object->scalar == kScalarName<S>) \
+    return std::make_unique<SessionWorldOf<S>>(world, static_cast<WorldOf<S>*>(found.object)->world);
+  ISO_FOR_EACH_SCALAR(ISO_CASE)
+#undef ISO_CASE
+  return nullptr;
 }
 
 }  // namespace isostep::c

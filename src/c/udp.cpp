@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "call.hpp"
+#include "flat_struct.hpp"
 #include "isostep_udp.h"
 #include "live_handles.hpp"
 #include "public_session.hpp"
@@ -23,6 +23,19 @@ namespace isostep::c {
 namespace {
 
 using Ports = LiveHandles<iso_udp>;
+
+/// Nothing is thrown across the interface.
+template <class Work> iso_status guarded(const Work& work) {
+#if defined(__cpp_exceptions)
+  try {
+    return work();
+  } catch (...) {
+    return ISO_NO_MEMORY;
+  }
+#else
+  return work();
+#endif
+}
 
 template <class F> iso_status call(const iso_udp* udp, F&& function) {
   if (udp == nullptr) return ISO_NULL;
@@ -167,8 +180,9 @@ iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out) {
     iso_udp_statistics to{};
 #define ISO_COPY(name) to.name = from.name;
     ISO_COPY(packets_sent)
-    ISO_COPY(bytes_sent) ISO_COPY(packets_received) ISO_COPY(bytes_received) ISO_COPY(implausible) ISO_COPY(refused)
-        ISO_COPY(flooded) ISO_COPY(socket_errors)
+    ISO_COPY(bytes_sent)
+    ISO_COPY(packets_received) ISO_COPY(bytes_received) ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded)
+        ISO_COPY(socket_errors)
 #undef ISO_COPY
             give(to, out);
     return ISO_OK;

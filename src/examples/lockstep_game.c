@@ -1,5 +1,4 @@
-/* A game for two over a bad line, both machines in one process, in C99; rollback here, lockstep by one word. With an
-   argument it writes the match there, for `isostep verify`.
+/* A game for two over a bad line, both machines in one process, in C99; rollback here, lockstep by one word.
    SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,27 +24,21 @@ static void must(iso_status status) {
 }
 
 static void build(machine* m) {
-  iso_q32_settings settings;
-  iso_q32_box box;
-  iso_q32_sphere sphere;
-  iso_q32_body_definition body;
   const int64_t one = iso_q32_from_double(1);
-  int n;
+  const iso_q32_box box = {.size = sizeof box, .half_extents = {20 * one, one, 20 * one}};
+  const iso_q32_sphere ball = {.size = sizeof ball, .radius = one / 2};
+  iso_q32_settings settings;
+  iso_q32_body_definition body;
   must(iso_q32_settings_init(&settings));
   must(iso_q32_world_create(&settings, &m->world));
-  must(iso_q32_box_init(&box));
-  box.half_extents.x = box.half_extents.z = 20 * one;
-  box.half_extents.y = one;
   must(iso_q32_body_definition_init(&body));
   must(iso_q32_add_box(m->world, &box, &body.shape));
   body.position.y = -one;
   must(iso_q32_body_create(m->world, &body, &m->pucks[0]));
-  must(iso_q32_sphere_init(&sphere));
-  sphere.radius = one / 2;
-  must(iso_q32_add_sphere(m->world, &sphere, &body.shape));
+  must(iso_q32_add_sphere(m->world, &ball, &body.shape));
   body.type = ISO_BODY_TYPE_DYNAMIC;
   body.position.y = one;
-  for (n = 0; n < 2; ++n) {
+  for (int n = 0; n < 2; ++n) {
     body.position.x = (4 * n - 2) * one;
     must(iso_q32_body_create(m->world, &body, &m->pucks[n]));
   }
@@ -63,7 +56,9 @@ static void step(machine* m, const iso_input* inputs) {
   must(iso_q32_contact_begins(m->world, &begins, &count));
   m->touches += (uint32_t)count;
 }
+/* README: end */
 
+/* README: begin */
 static void turn(machine* m, int player, iso_network* network, uint64_t now) {
   iso_request request = {.size = sizeof request};
   const int8_t way = (int8_t)(iso_session_current(m->session) / (11 + 6 * player) % 3 - 1);
@@ -88,48 +83,36 @@ static void open_session(machine* m, iso_session_config* config) {
   must(iso_session_create(config, &game, NULL, 0, &m->session));
 }
 
-static void write_file(iso_session* session, const char* path) {
-  size_t size = 0;
-  iso_session_recorded(session, ISO_RECORD_WORLD, NULL, &size);
-  void* const bytes = malloc(size);
-  FILE* const file = fopen(path, "wb");
-  must(iso_session_recorded(session, ISO_RECORD_WORLD, bytes, &size));
-  if (file == NULL || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) exit(1);
-  free(bytes);
-}
-
-int main(int argc, char** argv) {
+int main(void) {
   static machine machines[2]; /* the host, and a client */
   iso_session_config config;
   iso_session_stats stats = {.size = sizeof stats};
   iso_network* network;
-  int n, equal = 0;
+  int equal = 0;
   must(iso_session_config_init(&config));
   config.mode = ISO_ROLLBACK; /* ISO_LOCKSTEP: nothing else changes */
   strcpy(config.name, "two pucks");
   strcpy(config.input_text, "way: int8");
   must(iso_network_create(1, &network));
   must(iso_network_add_client(network, "latency=80,jitter=20,loss=5", &machines[1].endpoint));
-  for (n = 0; n < 2; ++n) {
+  for (int n = 0; n < 2; ++n) {
     build(&machines[n]);
     config.host = n == 0;
     config.seed = n == 0 ? 20 : 0; /* a game draws it anew for every match */
     open_session(&machines[n], &config);
   }
-  must(iso_session_record(machines[0].session, ISO_RECORD_WORLD, NULL));
   must(iso_network_connect(network, machines[1].endpoint, 0));
   for (uint64_t now = 0; iso_session_confirmed(machines[0].session) < FRAMES ||
                          iso_session_confirmed(machines[1].session) < FRAMES; now += 1000) {
     if (now > 20000000) return 1;
     must(iso_network_advance_to(network, now));
-    for (n = 0; n < 2; ++n) turn(&machines[n], n, network, now);
+    for (int n = 0; n < 2; ++n) turn(&machines[n], n, network, now);
   }
-  for (n = 0; n < FRAMES; ++n) equal += machines[0].hashes[n] == machines[1].hashes[n];
+  for (int n = 0; n < FRAMES; ++n) equal += machines[0].hashes[n] == machines[1].hashes[n];
   must(iso_session_get_stats(machines[0].session, &stats));
   printf("%d of %d frames equal; %llu frames were stepped again\n", equal, FRAMES,
          (unsigned long long)(stats.steps - FRAMES));
-  if (argc > 1) write_file(machines[0].session, argv[1]);
-  for (n = 0; n < 2; ++n) {
+  for (int n = 0; n < 2; ++n) {
     must(iso_session_destroy(machines[n].session));
     must(iso_world_destroy(machines[n].world));
   }

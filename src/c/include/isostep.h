@@ -2727,7 +2727,7 @@ ISO_C_SCALARS(ISO_C_LISTED_FUNCTIONS)
 typedef struct iso_session iso_session;
 
 enum {
-  ISO_REFUSED = -11, /* not now, not yours or not sound: the comment of the function and iso_session_problem say more */
+  ISO_REFUSED = -11, /* not now, not yours or not sound: iso_last_error() says more */
   ISO_UNFINISHED = -12 /* between iso_session_advance and the last request of iso_session_next */
 };
 
@@ -2875,8 +2875,6 @@ ISO_API iso_status iso_session_create(const iso_session_config* config, const is
                                       size_t file_size, iso_session** out);
 /* Refused from within a callback, and then the session stays. Null is allowed. The world and the block stay. */
 ISO_API iso_status iso_session_destroy(iso_session* session);
-/* Of the last call that returned ISO_REFUSED or ISO_CORRUPT: why; never null. */
-ISO_API const char* iso_session_problem(const iso_session* session);
 
 /* A turn of the game's loop:
 
@@ -3130,10 +3128,9 @@ ISO_API iso_status iso_network_create(uint64_t seed, iso_network** out);
 ISO_API iso_status iso_network_destroy(iso_network* network);
 /* `profile`: "wifi", "latency=80,jitter=20,loss=5", "lan,down.loss=2.5": [ms], [%]; up. and down. are to and from the
    host. Names: loopback lan wifi mobile severe burst duplicate reorder asymmetric constant blackout blackout-up
-   blackout-down. Refused: iso_network_problem says where. */
+   blackout-down. */
 ISO_API iso_status iso_network_add_client(iso_network* network, const char* profile, uint32_t* endpoint);
 ISO_API iso_status iso_network_set_profile(iso_network* network, uint32_t client, const char* profile);
-ISO_API const char* iso_network_problem(const iso_network* network);
 /* Refused while the last connection between them is not over. */
 ISO_API iso_status iso_network_connect(iso_network* network, uint32_t from, uint32_t to);
 /* both sides hear it now */

@@ -1,4 +1,4 @@
-// What every function of the C interface does with its caller's structs, and with memory that is not there.
+// Structs that C and C++ have alike: taken from a caller of another age, and given to one.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,19 +9,6 @@
 #include "isostep.h"
 
 namespace isostep::c {
-
-/// Nothing is thrown across the interface; what the library's own code throws is that memory is not there.
-template <class F> iso_status guarded(F&& f) {
-#if defined(__cpp_exceptions)
-  try {
-    return f();
-  } catch (...) {
-    return ISO_NO_MEMORY;
-  }
-#else
-  return f();
-#endif
-}
 
 /// [bytes] The smallest struct has its size and a word; a newer caller's is not longer than this library's by more.
 inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
@@ -53,15 +40,6 @@ template <class T> void give(const T& from, T* to) {
   std::memset(to, 0, size);
   std::memcpy(to, &from, size < sizeof(T) ? size : sizeof(T));
   to->size = size;
-}
-
-/// `size`, in: the room, out: the need.
-template <class Range> iso_status give_bytes(const Range& from, void* bytes, std::size_t* size) {
-  const std::size_t room = bytes == nullptr ? 0 : *size;
-  *size = from.size();
-  if (room < from.size()) return ISO_SMALL_BUFFER;
-  if (from.size() > 0) std::memcpy(bytes, from.data(), from.size());
-  return ISO_OK;
 }
 
 }  // namespace isostep::c
