@@ -19,6 +19,13 @@ foreach(extra transport sealed threads)
     install(EXPORT isostep-${extra} NAMESPACE isostep:: FILE isostep-${extra}.cmake DESTINATION ${isostep_package})
   endif()
 endforeach()
+if(TARGET isostep_c)
+  install(TARGETS isostep_c EXPORT isostep-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES src/c/include/isostep.h DESTINATION include)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/src/c/isostep.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(EXPORT isostep-c NAMESPACE isostep:: FILE isostep-c.cmake DESTINATION ${isostep_package})
+endif()
 install(EXPORT isostep NAMESPACE isostep:: FILE isostep-targets.cmake DESTINATION ${isostep_package})
 configure_package_config_file(cmake/isostep-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/isostep-config.cmake
   INSTALL_DESTINATION ${isostep_package} NO_SET_AND_CHECK_MACRO)

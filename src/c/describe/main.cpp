@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // isostep_interface header ROOT HEADER CHECKS: HEADER, a copy of isostep.h with the structs of now, and CHECKS.
-// isostep_interface json ROOT HEADER EXPANDED JSON: JSON, from those and HEADER as the preprocessor leaves it.
+// isostep_interface json ROOT HEADER EXPANDED JSON ABI CALLS: JSON, ABI and CALLS, from those and HEADER as the
+// preprocessor leaves it, EXPANDED.
 
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "abi_text.hpp"
+#include "calls_text.hpp"
 #include "comments.hpp"
 #include "header_text.hpp"
 #include "json_text.hpp"
@@ -35,22 +38,24 @@ int write_header(const Schema& schema, const std::string& root, const std::strin
   return write(to, header) && write(checks, checks_text(schema)) ? 0 : 1;
 }
 
-int write_json(const Schema& schema, const std::string& header, const std::string& expanded, const std::string& to) {
-  const std::vector<Function> functions = read_functions(read(expanded), read(header));
-  if (functions.empty()) return std::fprintf(stderr, "isostep_interface: %s has no functions\n", expanded.c_str()), 1;
-  return write(to, json_text(schema, functions)) ? 0 : 1;
+int write_json(const Schema& schema, char** paths) {
+  const std::vector<Function> functions = read_functions(read(paths[1]), read(paths[0]));
+  if (functions.empty()) return std::fprintf(stderr, "isostep_interface: %s has no functions\n", paths[1]), 1;
+  const bool written = write(paths[2], json_text(schema, functions)) && write(paths[3], abi_text(schema, functions)) &&
+                       write(paths[4], calls_text(schema, functions));
+  return written ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   const std::string mode = count > 1 ? arguments[1] : "";
-  if (!(mode == "header" && count == 5) && !(mode == "json" && count == 6)) {
-    return std::fprintf(stderr, "isostep_interface header ROOT HEADER CHECKS | json ROOT HEADER EXPANDED JSON\n"), 64;
+  if (!(mode == "header" && count == 5) && !(mode == "json" && count == 8)) {
+    return std::fprintf(stderr, "isostep_interface header ROOT HEADER CHECKS | json ROOT HEADER EXPANDED JSON ABI CALLS\n"), 64;
   }
   const std::string root = arguments[2];
   Schema schema = make_schema();
   read_comments(root, schema);
   if (mode == "header") return write_header(schema, root, arguments[3], arguments[4]);
-  return write_json(schema, arguments[3], arguments[4], arguments[5]);
+  return write_json(schema, arguments + 3);
 }

@@ -2697,8 +2697,7 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
 #define ISO_C_RECORD(P, name)                                                                                     \
   ISO_API iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* record, iso_record* out);     \
   ISO_API iso_status iso_##P##_set_##name(iso_world* world, iso_record id, const iso_##P##_##name* record);       \
-  ISO_API iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out);          \
-  ISO_C_INIT(P, name)
+  ISO_API iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out);
 /* A shape of the world; and as a primitive, for parts of compounds and for queries. */
 #define ISO_C_SHAPE(P, name)                                                                                      \
   ISO_API iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* shape, iso_shape* out);       \
