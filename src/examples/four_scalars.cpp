@@ -1,7 +1,9 @@
-// The crate of hello.cpp in every scalar: what four_scalars.c and the examples of other languages must print, too.
+// The crate of hello.cpp in every scalar: what four_scalars.c and the examples of other languages must print, too. With
+// the word "frames" it prints the hash of every frame.
 // SPDX-License-Identifier: MIT
 #include <cinttypes>
 #include <cstdio>
+#include <cstring>
 
 #include "isostep/world/world.hpp"
 
@@ -9,7 +11,7 @@ namespace iso = isostep;
 
 namespace {
 
-template <class S> bool play(const char* family) {
+template <class S> bool play(const char* family, bool frames) {
   iso::World<S> world({.hz = 60, .substeps = 8, .gravity = {S(0), S(-10), S(0)}});
   world.create({.shape = world.add_shape(iso::Box{{50, 1, 50}}), .position = {S(0), S(-1), S(0)}});
   const iso::BodyId body = world.create({.type = iso::dynamic,
@@ -22,16 +24,21 @@ template <class S> bool play(const char* family) {
   std::uint64_t hashes[2];
   for (std::uint64_t& hash : hashes) {
     world.load(frame);
-    for (int step = 0; step < 120; ++step) world.step();
+    for (int step = 0; step < 120; ++step) {
+      world.step();
+      if (frames) std::printf("%s %d %016" PRIx64 "\n", family, step, world.hash());
+    }
     hash = world.hash();
   }
-  std::printf("%s %016" PRIx64 " %s\n", family, hashes[0], hashes[0] == hashes[1] ? "equal" : "DIFFERENT");
+  if (!frames) std::printf("%s %016" PRIx64 " %s\n", family, hashes[0], hashes[0] == hashes[1] ? "equal" : "DIFFERENT");
   return hashes[0] == hashes[1];
 }
 
 }  // namespace
 
-int main() {
-  const bool equal = play<float>("f32") && play<double>("f64") && play<iso::Q16_16>("q16") && play<iso::Q32_32>("q32");
+int main(int count, char** arguments) {
+  const bool frames = count == 2 && std::strcmp(arguments[1], "frames") == 0;
+  const bool equal = play<float>("f32", frames) && play<double>("f64", frames) && play<iso::Q16_16>("q16", frames) &&
+                     play<iso::Q32_32>("q32", frames);
   return std::fflush(stdout) == 0 ? (equal ? 0 : 1) : 74;
 }
