@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "isostep.h"
+#include "include/isostep.h"
 
 namespace isostep::c {
 

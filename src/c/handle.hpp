@@ -17,7 +17,8 @@ enum class HandleKind : std::uint32_t {
   tape = 0x45504154,
   replay = 0x4c505245,
   blob = 0x424f4c42,
-  session = 0x53534553
+  session = 0x53534553,
+  network = 0x4b54454e
 };
 
 /// A cell is never freed, and used again only after hundreds of others: a handle that was destroyed points to memory

@@ -85,9 +85,9 @@ using namespace isostep::c;
 extern "C" {
 
 iso_status iso_network_create(uint64_t seed, iso_network** out) {
-  ISO_C_REQUIRE(__func__, out);
+  ISO_C_REQUIRE(ISO_C_CALL, out);
   *out = nullptr;
-  return guarded(__func__, [&] {
+  return guarded(ISO_C_CALL, [&] {
     auto network = std::make_unique<NetworkObject>(seed);
     *out = open_handle<iso_network>(network.get());
     network.release();
@@ -95,12 +95,12 @@ iso_status iso_network_create(uint64_t seed, iso_network** out) {
   });
 }
 
-iso_status iso_network_destroy(iso_network* network) { return destroy_handle(network, __func__); }
+iso_status iso_network_destroy(iso_network* network) { return destroy_handle(network, ISO_C_CALL); }
 
 iso_status iso_network_add_client(iso_network* network, const char* profile, uint32_t* endpoint) {
-  ISO_C_REQUIRE(__func__, profile);
-  ISO_C_REQUIRE(__func__, endpoint);
-  return in_network(network, __func__, {}, [&, call = __func__](NetworkObject& one) -> iso_status {
+  ISO_C_REQUIRE(ISO_C_CALL, profile);
+  ISO_C_REQUIRE(ISO_C_CALL, endpoint);
+  return in_network(network, ISO_C_CALL, {}, [&, call = ISO_C_CALL](NetworkObject& one) -> iso_status {
     const isostep::Result<NetworkProfile> line = isostep::transport::parse_profile(profile);
     if (!line) return refuse(ISO_REFUSED, call, line.error());
     *endpoint = one.network.add_client(line.value());
@@ -110,9 +110,9 @@ iso_status iso_network_add_client(iso_network* network, const char* profile, uin
 }
 
 iso_status iso_network_set_profile(iso_network* network, uint32_t client, const char* profile) {
-  ISO_C_REQUIRE(__func__, profile);
-  if (client == 0) return refuse_host(__func__);
-  return in_network(network, __func__, {client}, [&, call = __func__](NetworkObject& one) -> iso_status {
+  ISO_C_REQUIRE(ISO_C_CALL, profile);
+  if (client == 0) return refuse_host(ISO_C_CALL);
+  return in_network(network, ISO_C_CALL, {client}, [&, call = ISO_C_CALL](NetworkObject& one) -> iso_status {
     const isostep::Result<NetworkProfile> line = isostep::transport::parse_profile(profile);
     if (!line) return refuse(ISO_REFUSED, call, line.error());
     one.network.set_profile(client, line.value());
@@ -121,37 +121,37 @@ iso_status iso_network_set_profile(iso_network* network, uint32_t client, const 
 }
 
 iso_status iso_network_connect(iso_network* network, uint32_t from, uint32_t to) {
-  return in_network(network, __func__, {from, to}, [&, call = __func__](NetworkObject& one) -> iso_status {
+  return in_network(network, ISO_C_CALL, {from, to}, [&, call = ISO_C_CALL](NetworkObject& one) -> iso_status {
     if (one.network.connect(from, to)) return ISO_OK;
     return refuse(ISO_REFUSED, call, "", "two endpoints whose last connection is over, and a free place");
   });
 }
 
 iso_status iso_network_cut(iso_network* network, uint32_t client) {
-  if (client == 0) return refuse_host(__func__);
-  return in_network(network, __func__, {client}, [&](NetworkObject& one) {
+  if (client == 0) return refuse_host(ISO_C_CALL);
+  return in_network(network, ISO_C_CALL, {client}, [&](NetworkObject& one) {
     one.network.cut(client);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_set_silent(iso_network* network, uint32_t endpoint, uint8_t silent) {
-  if (silent > 1) return refuse(ISO_BAD_ENUM, __func__, "silent");
-  return in_network(network, __func__, {endpoint}, [&](NetworkObject& one) {
+  if (silent > 1) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "silent");
+  return in_network(network, ISO_C_CALL, {endpoint}, [&](NetworkObject& one) {
     one.network.set_silent(endpoint, silent != 0);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_set_side(iso_network* network, uint32_t endpoint, int32_t side) {
-  return in_network(network, __func__, {endpoint}, [&](NetworkObject& one) {
+  return in_network(network, ISO_C_CALL, {endpoint}, [&](NetworkObject& one) {
     one.network.set_side(endpoint, side);
     return ISO_OK;
   });
 }
 
 iso_status iso_network_advance_to(iso_network* network, uint64_t now) {
-  return in_network(network, __func__, {}, [&, call = __func__](NetworkObject& one) -> iso_status {
+  return in_network(network, ISO_C_CALL, {}, [&, call = ISO_C_CALL](NetworkObject& one) -> iso_status {
     if (now < one.network.now()) return refuse(ISO_REFUSED, call, "now", "no time before that of an earlier call");
     one.network.advance_to(now);
     return ISO_OK;
@@ -159,12 +159,12 @@ iso_status iso_network_advance_to(iso_network* network, uint64_t now) {
 }
 
 iso_status iso_network_deliver(iso_network* network, uint32_t endpoint, iso_session* session, uint64_t now) {
-  return meet(network, __func__, endpoint, session,
+  return meet(network, ISO_C_CALL, endpoint, session,
               [&](Line& line, auto& one) { isostep::transport::deliver(line, one, now); });
 }
 
 iso_status iso_network_dispatch(iso_network* network, uint32_t endpoint, iso_session* session, uint64_t now) {
-  return meet(network, __func__, endpoint, session,
+  return meet(network, ISO_C_CALL, endpoint, session,
               [&](Line& line, auto& one) { isostep::transport::dispatch(line, one, now); });
 }
 }

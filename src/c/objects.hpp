@@ -27,6 +27,7 @@ struct WorldObject {
   virtual ~WorldObject();
 
   const ScalarName scalar;
+  std::atomic<std::uint32_t> holders = 1;  // its handle, and the sessions that play it
   std::atomic<std::uint32_t> inside = 0;
   TapeObject* tape = nullptr;  // that records it
   bool keeps_log = false;
@@ -47,6 +48,11 @@ template <class S> struct WorldOf : WorldObject {
   }
   World<S> world;
 };
+
+/// By a holder; the last one takes the world along.
+inline void let_go_of(WorldObject* object) {
+  if (object->holders.fetch_sub(1) == 1) delete object;
+}
 
 struct SnapshotObject {
   explicit SnapshotObject(ScalarName of) : scalar(of) {}

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "isostep.h"
+#include "include/isostep.h"
 #include "isostep/session/core.hpp"
 
 namespace isostep::c {

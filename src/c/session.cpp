@@ -104,10 +104,10 @@ extern "C" {
 
 iso_status iso_session_create(const iso_session_config* config, const iso_game* game, const void* file,
                               size_t file_size, iso_session** out) {
-  ISO_C_REQUIRE(__func__, out);
+  ISO_C_REQUIRE(ISO_C_CALL, out);
   *out = nullptr;
-  if (file_size > 0) ISO_C_REQUIRE(__func__, file);
-  return guarded(__func__, [&, call = __func__]() -> iso_status {
+  if (file_size > 0) ISO_C_REQUIRE(ISO_C_CALL, file);
+  return guarded(ISO_C_CALL, [&, call = ISO_C_CALL]() -> iso_status {
     iso_session_config whole;
     iso_game its_game;
     if (const Problem problem = read_game(game, its_game); problem.status != ISO_OK)
@@ -134,29 +134,29 @@ iso_status iso_session_create(const iso_session_config* config, const iso_game* 
 
 iso_status iso_session_destroy(iso_session* session) {
   if (session == nullptr) return ISO_OK;
-  const Found<iso_session> found(session, __func__);
-  if (found.status == ISO_OK && found.object->is_called) return refuse(ISO_CALLED_BACK, __func__);
-  return destroy_handle(session, __func__);
+  const Found<iso_session> found(session, ISO_C_CALL);
+  if (found.status == ISO_OK && found.object->is_called) return refuse(ISO_CALLED_BACK, ISO_C_CALL);
+  return destroy_handle(session, ISO_C_CALL);
 }
 
 iso_status iso_session_advance(iso_session* session, uint64_t now) {
-  return in_session(session, __func__, [&](SessionObject& one) {
+  return in_session(session, ISO_C_CALL, [&](SessionObject& one) {
     one.turn.begin(one.session, now);
     return ISO_OK;
   });
 }
 
 iso_status iso_session_next(iso_session* session, iso_request* out) {
-  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
+  if (const iso_status status = check_struct(out, ISO_C_CALL); status != ISO_OK) return status;
   const auto next = [&](SessionObject& one) {
     give(one.turn.next(one.session, one.game, one.observer), out);
     return ISO_OK;
   };
-  return in_session(session, __func__, next, true);
+  return in_session(session, ISO_C_CALL, next, true);
 }
 
 const iso_input* iso_session_inputs(const iso_session* session, uint32_t* players) {
-  const Found<iso_session> found(session, __func__);
+  const Found<iso_session> found(session, ISO_C_CALL);
   const bool has = found.object != nullptr && found.object->turn.is_stepping();
   if (players != nullptr) *players = has ? static_cast<std::uint32_t>(found.object->session.config().players) : 0;
   return has ? found.object->turn.inputs() : nullptr;
@@ -164,7 +164,7 @@ const iso_input* iso_session_inputs(const iso_session* session, uint32_t* player
 
 iso_status iso_session_drive(iso_session* session, uint64_t now, uint32_t* steps) {
   if (steps != nullptr) *steps = 0;
-  return in_session(session, __func__, [&, call = __func__](SessionObject& one) -> iso_status {
+  return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
     if (one.game.callbacks().step == nullptr) return refuse(ISO_NULL, call, "game.step");
     one.turn.begin(one.session, now);
     for (;;) {

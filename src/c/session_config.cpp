@@ -4,10 +4,10 @@
 
 #include <cstring>
 
-#include "flat_struct.hpp"
 #include "isostep/core/version.hpp"
 #include "isostep/session/preset.hpp"
 #include "isostep/state/hash.hpp"
+#include "session_handle.hpp"
 
 namespace isostep::c {
 namespace {
@@ -20,12 +20,13 @@ template <std::size_t N> bool ends(const char (&text)[N], std::size_t most) {
 constexpr std::size_t kMostBlock = 256u << 20;  // [bytes] a state that is saved every frame is much smaller
 
 /// Numbers that C and C++ have alike: an entry is a field that is copied as it is.
-#define ISO_SESSION_FIELDS(X)                                                                                      \
-  X(players)                                                                                                       \
-  X(local_players)                                                                                                 \
-  X(hz) X(window) X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience) X(exclusion) X(kept)    \
-      X(history) X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) X(broadcast_delay) \
-          X(seed) X(migration) X(reservation) X(token) X(seat)
+#define ISO_SESSION_FIELDS(X)                                                                                        \
+  X(players)                                                                                                         \
+  X(local_players)                                                                                                   \
+  X(hz)                                                                                                              \
+  X(window) X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience) X(exclusion) X(kept) X(history) \
+      X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) X(broadcast_delay) X(seed)      \
+          X(migration) X(reservation) X(token) X(seat)
 #define ISO_SESSION_FLAGS(X) X(host) X(relays) X(repair) X(asks_admission) X(votes) X(players_set_tempo)
 
 void from_session_config(const SessionConfig& from, iso_session_config& to) {
@@ -130,17 +131,17 @@ using namespace isostep::c;
 extern "C" {
 
 iso_status iso_session_config_init(iso_session_config* config) {
-  ISO_C_REQUIRE(__func__, config);
-  return guarded(__func__, [&] {
+  ISO_C_REQUIRE(ISO_C_CALL, config);
+  return guarded(ISO_C_CALL, [&] {
     from_session_config({}, *config);
     return ISO_OK;
   });
 }
 
 iso_status iso_session_config_preset(iso_session_config* config, iso_genre genre, int32_t players) {
-  ISO_C_REQUIRE(__func__, config);
-  if (genre > ISO_SANDBOX) return refuse(ISO_BAD_ENUM, __func__, "genre");
-  return guarded(__func__, [&] {
+  ISO_C_REQUIRE(ISO_C_CALL, config);
+  if (genre > ISO_SANDBOX) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "genre");
+  return guarded(ISO_C_CALL, [&] {
     from_session_config(isostep::preset(static_cast<isostep::Genre>(genre), players), *config);
     return ISO_OK;
   });
@@ -154,12 +155,12 @@ const char* iso_session_config_problem(const iso_session_config* config) {
     text = problem.status == ISO_OK ? nullptr : problem.text;
     return ISO_OK;
   };
-  static_cast<void>(guarded(__func__, read));
+  static_cast<void>(guarded(ISO_C_CALL, read));
   return text;
 }
 
 iso_status iso_game_init(iso_game* game) {
-  ISO_C_REQUIRE(__func__, game);
+  ISO_C_REQUIRE(ISO_C_CALL, game);
   *game = {};
   game->size = sizeof *game;
   return ISO_OK;

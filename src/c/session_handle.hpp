@@ -90,6 +90,9 @@ template <> struct HandleOf<iso_session> {
   static constexpr const char* kName = "session";
 };
 
+/// The name of the function that this stands in, as sentences have it: without iso_.
+#define ISO_C_CALL (__func__ + 4)
+
 /// May it be called now? `in_turn`: also between the requests of a turn.
 iso_status enter(const iso_session* handle, const char* call, bool in_turn, SessionObject*& object);
 

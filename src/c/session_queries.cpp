@@ -74,8 +74,8 @@ iso_session_event event_of(const SessionEvent& from) {
 extern "C" {
 
 iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) {
-  if (const iso_status status = check_struct(out, __func__); status != ISO_OK) return status;
-  return in_session(session, __func__, [&](SessionObject& one) {
+  if (const iso_status status = check_struct(out, ISO_C_CALL); status != ISO_OK) return status;
+  return in_session(session, ISO_C_CALL, [&](SessionObject& one) {
     const std::optional<SessionEvent> event = one.session.poll_event();
     give(event ? event_of(*event) : iso_session_event{}, out);
     return ISO_OK;
@@ -83,39 +83,39 @@ iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) 
 }
 
 uint8_t iso_session_wants_input(const iso_session* session, int32_t player) {
-  return look<uint8_t>(session, __func__, 0, [&](const CSession& one) { return one.wants_input(player) ? 1 : 0; });
+  return look<uint8_t>(session, ISO_C_CALL, 0, [&](const CSession& one) { return one.wants_input(player) ? 1 : 0; });
 }
 uint64_t iso_session_wait(const iso_session* session, uint64_t now) {
-  return look<uint64_t>(session, __func__, 0, [&](const CSession& one) { return one.wait(now); });
+  return look<uint64_t>(session, ISO_C_CALL, 0, [&](const CSession& one) { return one.wait(now); });
 }
 iso_phase iso_session_phase(const iso_session* session) {
-  return look<uint32_t>(session, __func__, ISO_OVER, [](const CSession& one) { return one.phase(); });
+  return look<uint32_t>(session, ISO_C_CALL, ISO_OVER, [](const CSession& one) { return one.phase(); });
 }
 uint64_t iso_session_token(const iso_session* session) {
-  return look<uint64_t>(session, __func__, 0, [](const CSession& one) { return one.token(); });
+  return look<uint64_t>(session, ISO_C_CALL, 0, [](const CSession& one) { return one.token(); });
 }
 int32_t iso_session_local_player(const iso_session* session) {
-  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.local_player(); });
+  return look<int32_t>(session, ISO_C_CALL, -1, [](const CSession& one) { return one.local_player(); });
 }
 uint32_t iso_session_local_players(const iso_session* session) {
-  return look<uint32_t>(session, __func__, 0, [](const CSession& one) { return one.local_players(); });
+  return look<uint32_t>(session, ISO_C_CALL, 0, [](const CSession& one) { return one.local_players(); });
 }
 int32_t iso_session_current(const iso_session* session) {
-  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.current(); });
+  return look<int32_t>(session, ISO_C_CALL, -1, [](const CSession& one) { return one.current(); });
 }
 int32_t iso_session_confirmed(const iso_session* session) {
-  return look<int32_t>(session, __func__, -1, [](const CSession& one) { return one.confirmed(); });
+  return look<int32_t>(session, ISO_C_CALL, -1, [](const CSession& one) { return one.confirmed(); });
 }
 int32_t iso_session_peer_of(const iso_session* session, int32_t player) {
-  return look<int32_t>(session, __func__, -1, [&](const CSession& one) {
+  return look<int32_t>(session, ISO_C_CALL, -1, [&](const CSession& one) {
     const std::optional<isostep::PeerId> peer = one.peer_of(player);
     return peer ? int32_t{*peer} : -1;
   });
 }
 
 iso_status iso_session_input(const iso_session* session, int32_t frame, int32_t player, iso_input* out) {
-  ISO_C_REQUIRE(__func__, out);
-  const Found<iso_session> found(session, __func__);
+  ISO_C_REQUIRE(ISO_C_CALL, out);
+  const Found<iso_session> found(session, ISO_C_CALL);
   if (found.status != ISO_OK) return found.status;
   const CSession& one = found.object->session;
   const isostep::Bytes bytes = one.input(frame, player);
@@ -127,9 +127,9 @@ iso_status iso_session_input(const iso_session* session, int32_t frame, int32_t 
 }
 
 iso_status iso_session_snapshot_progress(const iso_session* session, uint32_t peer, uint32_t* arrived, uint32_t* size) {
-  ISO_C_REQUIRE(__func__, arrived);
-  ISO_C_REQUIRE(__func__, size);
-  const Found<iso_session> found(session, __func__);
+  ISO_C_REQUIRE(ISO_C_CALL, arrived);
+  ISO_C_REQUIRE(ISO_C_CALL, size);
+  const Found<iso_session> found(session, ISO_C_CALL);
   if (found.status != ISO_OK) return found.status;
   isostep::SnapshotProgress progress;
   if (is_peer(peer)) progress = found.object->session.snapshot_progress(static_cast<isostep::PeerId>(peer));
@@ -139,23 +139,24 @@ iso_status iso_session_snapshot_progress(const iso_session* session, uint32_t pe
 }
 
 iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* out) {
-  return look_into(session, __func__, out, [](const CSession& one, iso_session_stats& to) {
+  return look_into(session, ISO_C_CALL, out, [](const CSession& one, iso_session_stats& to) {
     const isostep::SessionStats& from = one.stats();
     static_assert(sizeof to.rollbacks == sizeof from.rollbacks);
     std::copy(std::begin(from.rollbacks), std::end(from.rollbacks), to.rollbacks);
 #define ISO_COPY(name) to.name = from.name;
     ISO_COPY(delay)
     ISO_COPY(steps)
-    ISO_COPY(waits) ISO_COPY(datagrams_out) ISO_COPY(datagrams_in) ISO_COPY(bytes_out) ISO_COPY(bytes_in)
-        ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost) ISO_COPY(round_trip) ISO_COPY(peers)
+    ISO_COPY(waits)
+    ISO_COPY(datagrams_out) ISO_COPY(datagrams_in) ISO_COPY(bytes_out) ISO_COPY(bytes_in) ISO_COPY(refused)
+        ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost) ISO_COPY(round_trip) ISO_COPY(peers)
             ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
 #undef ISO_COPY
   });
 }
 
 iso_status iso_session_get_player_stats(const iso_session* session, int32_t player, iso_player_stats* out) {
-  if (player < 0 || player >= ISO_MAX_PLAYERS) return refuse(ISO_REFUSED, __func__, "player", "0 to 31");
-  return look_into(session, __func__, out, [&](const CSession& one, iso_player_stats& to) {
+  if (player < 0 || player >= ISO_MAX_PLAYERS) return refuse(ISO_REFUSED, ISO_C_CALL, "player", "0 to 31");
+  return look_into(session, ISO_C_CALL, out, [&](const CSession& one, iso_player_stats& to) {
     const isostep::PlayerStats& from = one.stats().players[player];
     to.early = from.early;
     to.replaced = from.replaced;

@@ -35,8 +35,8 @@ using namespace isostep::c;
 extern "C" {
 
 iso_status iso_session_record(iso_session* session, iso_recording kind, const char* scene) {
-  if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, __func__, "kind");
-  return in_session(session, __func__, [&, call = __func__](SessionObject& one) -> iso_status {
+  if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "kind");
+  return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
     const SessionObserver& observer = one.observer;
     const bool is_free = observer.recordings[kind] == nullptr || observer.has_ended[kind];
     if (!is_free) return refuse(ISO_REFUSED, call, "kind", "one that is not being recorded");
@@ -51,9 +51,9 @@ iso_status iso_session_record(iso_session* session, iso_recording kind, const ch
 }
 
 iso_status iso_session_recorded(iso_session* session, iso_recording kind, void* bytes, size_t* size) {
-  ISO_C_REQUIRE(__func__, size);
-  if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, __func__, "kind");
-  return in_session(session, __func__, [&, call = __func__](SessionObject& one) -> iso_status {
+  ISO_C_REQUIRE(ISO_C_CALL, size);
+  if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "kind");
+  return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
     FrameRecording* const recording = one.observer.recordings[kind].get();
     if (recording == nullptr) return refuse(ISO_REFUSED, call, "kind", "one that iso_session_record began");
     one.observer.has_ended[kind] = true;
@@ -65,8 +65,8 @@ iso_status iso_session_recorded(iso_session* session, iso_recording kind, void* 
 }
 
 iso_status iso_session_save_match(iso_session* session, void* bytes, size_t* size) {
-  ISO_C_REQUIRE(__func__, size);
-  return in_session(session, __func__, [&, call = __func__](SessionObject& one) -> iso_status {
+  ISO_C_REQUIRE(ISO_C_CALL, size);
+  return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
     if (!one.game.has_portable()) return refuse(ISO_REFUSED, call, "", "a game with write and read");
     std::vector<std::uint8_t> match;
     if (const isostep::Result<void> result = one.session.save_match(one.game, match); !result) {

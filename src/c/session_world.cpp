@@ -46,25 +46,28 @@ template <class S> class SessionWorldOf final : public SessionWorld {
     typename World<S>::Snapshot state;
   };
 
-  SessionWorldOf(const iso_world* handle, World<S>& world) : handle_(handle), world_(world) {}
+  SessionWorldOf(const iso_world* handle, WorldOf<S>& object) : handle_(handle), object_(object) { ++object_.holders; }
+  ~SessionWorldOf() override { let_go_of(&object_); }
+  SessionWorldOf(const SessionWorldOf&) = delete;
+  SessionWorldOf& operator=(const SessionWorldOf&) = delete;
 
   std::unique_ptr<Slot> make_slot() const override { return std::make_unique<Saved>(); }
-  void save(Slot& to) const override { world_.save(static_cast<Saved&>(to).state); }
-  bool load(const Slot& from) override { return world_.load(static_cast<const Saved&>(from).state); }
-  std::uint64_t hash() const override { return world_.hash(); }
-  void write_portable(Writer& writer) const override { world_.write_portable(writer); }
-  Result<void> read_portable(Reader& reader) override { return world_.read_portable(reader); }
+  void save(Slot& to) const override { object_.world.save(static_cast<Saved&>(to).state); }
+  bool load(const Slot& from) override { return object_.world.load(static_cast<const Saved&>(from).state); }
+  std::uint64_t hash() const override { return object_.world.hash(); }
+  void write_portable(Writer& writer) const override { object_.world.write_portable(writer); }
+  Result<void> read_portable(Reader& reader) override { return object_.world.read_portable(reader); }
   Result<ReplayHeader> identity(std::string_view name) const override {
-    return make_replay_header(identity_of_world(world_.settings(), name));
+    return make_replay_header(identity_of_world(object_.world.settings(), name));
   }
   std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) override {
-    return std::make_unique<WorldRecording<S>>(world_, kept, scene);
+    return std::make_unique<WorldRecording<S>>(object_.world, kept, scene);
   }
   bool is_alive() const override { return Found<iso_world>(handle_, "game.world").object != nullptr; }
 
  private:
   const iso_world* handle_;
-  World<S>& world_;
+  WorldOf<S>& object_;
 };
 
 }  // namespace
@@ -74,7 +77,7 @@ std::unique_ptr<SessionWorld> session_world_of(iso_world* world) {
   if (found.object == nullptr) return nullptr;
 #define ISO_CASE(S)                           \
   if (found.object->scalar == kScalarName<S>) \
-    return std::make_unique<SessionWorldOf<S>>(world, static_cast<WorldOf<S>*>(found.object)->world);
+    return std::make_unique<SessionWorldOf<S>>(world, static_cast<WorldOf<S>&>(*found.object));
   ISO_FOR_EACH_SCALAR(ISO_CASE)
 #undef ISO_CASE
   return nullptr;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "isostep.h"
+#include "include/isostep.h"
 #include "isostep/session/frame.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/replay_header.hpp"

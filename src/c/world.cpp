@@ -62,7 +62,9 @@ iso_status iso_world_destroy(iso_world* world) {
   const iso_status status = enter(world, kCall, Access::changes, object);
   if (status != kOk) return status;
   if (object->tape != nullptr) object->tape->let_go();
-  return destroy_handle(world, kCall);
+  close_cell(reinterpret_cast<Cell*>(world));
+  let_go_of(object);
+  return kOk;
 }
 
 iso_status iso_world_get_scalar(const iso_world* world, iso_scalar* out) {

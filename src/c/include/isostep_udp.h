@@ -6,6 +6,12 @@
 
 #include "isostep.h"
 
+#if defined(_WIN32) && defined(ISO_BUILD_UDP)
+#define ISO_UDP_API __declspec(dllexport)
+#else
+#define ISO_UDP_API ISO_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -23,7 +29,7 @@ typedef struct iso_udp_settings {
   uint64_t unacknowledged_cap; /* [bytes] sent reliably to one peer; above that its connection ends */
   char bind_address[72];       /* empty: every interface */
 } iso_udp_settings;
-ISO_API iso_status iso_udp_settings_init(iso_udp_settings* settings);
+ISO_UDP_API iso_status iso_udp_settings_init(iso_udp_settings* settings);
 
 typedef struct iso_udp_statistics {
   uint32_t size;
@@ -40,27 +46,27 @@ typedef struct iso_udp_statistics {
 
 /* Accepts connections: a host, or a machine that may follow one. Port 0 lets the system choose. `settings`: null for
    the defaults. ISO_REFUSED: `problem` (or null) gets a sentence of at most `room` bytes with its zero. */
-ISO_API iso_status iso_udp_listen(uint16_t port, const iso_udp_settings* settings, iso_udp** out, char* problem,
-                                  size_t room);
+ISO_UDP_API iso_status iso_udp_listen(uint16_t port, const iso_udp_settings* settings, iso_udp** out, char* problem,
+                                      size_t room);
 /* Accepts none, and connects to one host. A name is looked up at once, which may block. */
-ISO_API iso_status iso_udp_connect(const char* address, uint16_t port, const iso_udp_settings* settings, iso_udp** out,
-                                   char* problem, size_t room);
+ISO_UDP_API iso_status iso_udp_connect(const char* address, uint16_t port, const iso_udp_settings* settings,
+                                       iso_udp** out, char* problem, size_t room);
 /* Tells connected peers so, without waiting for what is unacknowledged. Null is allowed. */
-ISO_API iso_status iso_udp_destroy(iso_udp* udp);
+ISO_UDP_API iso_status iso_udp_destroy(iso_udp* udp);
 
 /* One more connection, beside or after the first. */
-ISO_API iso_status iso_udp_connect_to(iso_udp* udp, const char* address, uint16_t port);
+ISO_UDP_API iso_status iso_udp_connect_to(iso_udp* udp, const char* address, uint16_t port);
 /* Tries the address asked for last again: after ISO_EVENT_LOST_HOST. */
-ISO_API iso_status iso_udp_connect_again(iso_udp* udp);
-ISO_API uint16_t iso_udp_port(const iso_udp* udp); /* of who listens */
+ISO_UDP_API iso_status iso_udp_connect_again(iso_udp* udp);
+ISO_UDP_API uint16_t iso_udp_port(const iso_udp* udp); /* of who listens */
 
 /* What has arrived goes into the session; what it has to say goes out, also to addresses that it names
    ("192.0.2.7:4000", iso_session_config.address). */
-ISO_API iso_status iso_udp_deliver(iso_udp* udp, iso_session* session, uint64_t now);
-ISO_API iso_status iso_udp_dispatch(iso_udp* udp, iso_session* session, uint64_t now);
+ISO_UDP_API iso_status iso_udp_deliver(iso_udp* udp, iso_session* session, uint64_t now);
+ISO_UDP_API iso_status iso_udp_dispatch(iso_udp* udp, iso_session* session, uint64_t now);
 /* Blocks until a packet arrives or this time [us] is over, rounded down to whole milliseconds. */
-ISO_API iso_status iso_udp_wait(iso_udp* udp, uint64_t longest);
-ISO_API iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out);
+ISO_UDP_API iso_status iso_udp_wait(iso_udp* udp, uint64_t longest);
+ISO_UDP_API iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out);
 
 #ifdef __cplusplus
 }

@@ -27,8 +27,8 @@ struct Alone : testing::Test {
   iso_status create(const iso_session_config& with, const iso_game& game) {
     iso_session* other = reinterpret_cast<iso_session*>(1);
     const iso_status status = iso_session_create(&with, &game, nullptr, 0, &other);
-    if (status == ISO_OK) EXPECT_EQ(iso_session_destroy(other), ISO_OK);
-    else EXPECT_EQ(other, nullptr);
+    EXPECT_EQ(other == nullptr, status != ISO_OK);
+    EXPECT_EQ(iso_session_destroy(other), ISO_OK);
     return status;
   }
 };
@@ -181,7 +181,7 @@ TEST_F(Alone, WhatIsOutOfRangeIsRefused) {
     EXPECT_EQ(input.status, ISO_DISCONNECTED);
   }
   for (const std::uint32_t peer : {64u, 65535u, 65536u, 0xffffffffu}) {
-    const iso_status status = peer > 65535 ? ISO_REFUSED : ISO_OK;
+    const iso_status status = peer > 65535 ? iso_status{ISO_REFUSED} : iso_status{ISO_OK};
     EXPECT_EQ(iso_session_connected(session, peer, 0, 1), status) << peer;
     EXPECT_EQ(iso_session_receive(session, peer, ISO_RELIABLE, bytes, 600, 0), status) << peer;
     EXPECT_EQ(iso_session_disconnected(session, peer, 0), status) << peer;
@@ -226,11 +226,11 @@ TEST_F(Alone, CallsFromACallbackAreRefusedAndHarmless) {
     statuses[4] = iso_session_add_local_input(game.session, 0, &what, 1);
     statuses[5] = iso_session_receive(game.session, 0, ISO_DATAGRAM, &what, 1, 0);
     statuses[6] = iso_session_pause(game.session);
-    statuses[7] = iso_session_current(game.session) > 0 ? ISO_OK : ISO_REFUSED;  // to look is allowed
+    statuses[7] = iso_session_current(game.session);  // to look is allowed
   };
   for (std::uint64_t now = 0; now < 1000000; now += 1000) ASSERT_EQ(iso_session_drive(session, now, nullptr), ISO_OK);
   for (int n = 0; n < 7; ++n) EXPECT_EQ(statuses[n], ISO_CALLED_BACK) << n;
-  EXPECT_EQ(statuses[7], ISO_OK);
+  EXPECT_GT(statuses[7], 30);
   EXPECT_GT(tally.hashes.size(), 30u);
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "flat_struct.hpp"
-#include "isostep_udp.h"
+#include "include/isostep_udp.h"
 #include "live_handles.hpp"
 #include "public_session.hpp"
 #include "transport/enet_transport.hpp"
@@ -181,10 +181,10 @@ iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out) {
 #define ISO_COPY(name) to.name = from.name;
     ISO_COPY(packets_sent)
     ISO_COPY(bytes_sent)
-    ISO_COPY(packets_received) ISO_COPY(bytes_received) ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded)
-        ISO_COPY(socket_errors)
+    ISO_COPY(packets_received)
+    ISO_COPY(bytes_received) ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(socket_errors)
 #undef ISO_COPY
-            give(to, out);
+        give(to, out);
     return ISO_OK;
   });
 }
