@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "isostep/state/concepts.hpp"
 #include "isostep/world/world.hpp"
 
 namespace iso = isostep;
