@@ -1,0 +1,196 @@
+// Every struct crosses to C and back with all its members, and every kind of record does in C what it does in C++.
+// SPDX-License-Identifier: MIT
+#include "c/convert.hpp"
+#include "game.hpp"
+#include "isostep/core/random.hpp"
+#include "isostep/world/world.hpp"
+
+namespace isostep::test {
+namespace {
+
+using namespace isostep::c;
+
+// ---- Structs
+
+/// Any value of every member.
+struct AnyValue {
+  Pcg32& random;
+
+  template <class T> void operator()(const char*, T& value) const {
+    if constexpr (std::is_bounded_array_v<T>) {
+      for (auto& element : value) (*this)("", element);
+    } else if constexpr (kIsOptional<T>) {
+      if (random_below(random, 2) == 0) return value.reset();
+      value.emplace();
+      (*this)("", *value);
+    } else if constexpr (kIsId<T>) {
+      value = {random.next(), random.next()};
+    } else if constexpr (kIsPointer<T>) {
+      value.at = nullptr;
+    } else if constexpr (CStruct<T>) {
+      CFields<T>::fields(*this, value);
+    } else if constexpr (std::is_enum_v<T>) {
+      value = static_cast<T>(random_below(random, Enumerators<T>::kCount));
+    } else if constexpr (std::is_same_v<T, bool>) {
+      value = random_below(random, 2) == 1;
+    } else {
+      std::uint8_t bits[sizeof(T)];
+      for (std::uint8_t& byte : bits) byte = static_cast<std::uint8_t>(random_below(random, 127));  // no NaN
+      std::memcpy(static_cast<void*>(&value), bits, sizeof value);
+    }
+  }
+};
+/// How many bytes of members differ: none of the random ones is left out.
+template <class T, bool kSized> void expect_round_trip(const char* name) {
+  constexpr std::size_t kSize = kSized ? sized_size<T>() : extent_of<T>().size;
+  Pcg32 random(7, 11);
+  for (int i = 0; i < 20; ++i) {
+    T value{};
+    CFields<T>::fields(AnyValue{random}, value);
+    std::vector<std::uint8_t> bytes(kSize), again(kSize);
+    T back{};
+    if constexpr (kSized) {
+      ASSERT_EQ(init_sized<T>("", bytes.data()), kOk);
+      ASSERT_EQ(init_sized<T>("", again.data()), kOk);
+      const std::vector<std::uint8_t> defaults = bytes;
+      ASSERT_EQ(put_sized("", bytes.data(), value), kOk);
+      ASSERT_NE(bytes, defaults) << name;
+      ASSERT_EQ(take_sized("", bytes.data(), back), kOk) << name << ": " << last_error();
+      ASSERT_EQ(put_sized("", again.data(), back), kOk);
+    } else {
+      put_plain(bytes.data(), value);
+      ASSERT_EQ(take_plain("", bytes.data(), back), kOk) << name << ": " << last_error();
+      put_plain(again.data(), back);
+    }
+    ASSERT_EQ(bytes, again) << name;
+  }
+}
+
+template <class S> void expect_all_round_trips() {
+#define ISO_PLAIN(name, Type, S) expect_round_trip<Type, false>(#name);
+#define ISO_SIZED(name, Type, S) expect_round_trip<Type, true>(#name);
+#define ISO_RECORD(name, Type, Id, S) expect_round_trip<Type, true>(#name);
+  ISO_C_PLAIN(ISO_PLAIN, S)
+  ISO_C_SIZED(ISO_SIZED, S)
+  ISO_FOR_EACH_RECORD(ISO_RECORD, S)
+#undef ISO_PLAIN
+#undef ISO_SIZED
+#undef ISO_RECORD
+}
+TEST(CStructs, CrossWithAllTheirMembers) {
+  expect_all_round_trips<float>();
+  expect_all_round_trips<double>();
+  expect_all_round_trips<Q16_16>();
+  expect_all_round_trips<Q32_32>();
+}
+
+// ---- Records
+
+/// The same world in C and in C++: two crates, a carrier without weight, a sensor, two hinges and a six-axis joint.
+template <class S> struct Twins {
+  World<S> cpp;
+  iso_world* c = nullptr;
+  BodyId a, b, carried, sensor;
+  JointId hinge_a, hinge_b, six;
+
+  Twins() {
+    const ShapeId box = cpp.add_shape(Box{{0.5, 0.5, 0.5}});
+    const auto make = [&](BodyType type, int x, bool is_sensor) {
+      return cpp.create({.type = type, .shape = box, .position = {S(x), S(1), S(0)}, .sensor = is_sensor});
+    };
+    a = make(BodyType::dynamic, 0, false);
+    b = make(BodyType::dynamic, 3, false);
+    carried = make(BodyType::kinematic, 6, false);
+    sensor = make(BodyType::kinematic, 9, true);
+    hinge_a = cpp.create(hinge<S>({.a = a}));
+    hinge_b = cpp.create(hinge<S>({.a = b}));
+    SixAxisDefinition<S> free;
+    free.a = a;
+    free.b = b;
+    six = cpp.create(six_axis<S>(free));
+  }
+  ~Twins() { iso_world_destroy(c); }
+  Twins(const Twins&) = delete;
+  Twins& operator=(const Twins&) = delete;
+
+  void copy_to(iso_world* to) {
+    c = to;
+    std::vector<std::uint8_t> state;
+    Writer writer(state);
+    cpp.write_portable(writer);
+    ASSERT_EQ(iso_world_read(c, state.data(), state.size()), ISO_OK) << iso_last_error();
+    ASSERT_EQ(iso_world_hash(c), cpp.hash());
+  }
+
+  template <class Record> Record naming() const {
+    Record record;
+    const bool is_carried = std::is_same_v<Record, MoveTarget<S>> || std::is_same_v<Record, Character<S>>;
+    if constexpr (requires { record.body; }) record.body = is_carried ? carried : a;
+    if constexpr (requires { record.a; }) record.a = a;
+    if constexpr (requires { record.b; }) record.b = b;
+    if constexpr (requires { record.sensor; }) record.sensor = sensor;
+    if constexpr (requires { record.on; }) record.on = a;
+    if constexpr (requires { record.joint; }) record.joint = six;
+    if constexpr (requires { record.joint_a; }) record.joint_a = hinge_a;
+    if constexpr (requires { record.joint_b; }) record.joint_b = hinge_b;
+    if constexpr (requires { record.kind_a; }) record.kind_a = 1;
+    if constexpr (requires { record.kind_b; }) record.kind_b = 2;
+    return record;
+  }
+};
+
+template <class S, class Record, class Id, class InC, class Add, class Set, class Get, class Remove>
+int expect_same_record(Twins<S>& twins, const char* name, Add add, Set set, Get get, Remove remove) {
+  const Record record = twins.template naming<Record>();
+  InC in_c, kept, expected;
+  for (InC* each : {&in_c, &kept, &expected}) EXPECT_EQ(init_sized<Record>("", each), kOk);
+  EXPECT_EQ(put_sized("", &in_c, record), kOk);
+  iso_record made = 0;
+  const iso_status status = add(twins.c, &in_c, &made);
+  const Id id = twins.cpp.add(record);
+  EXPECT_EQ(status, id ? iso_status{ISO_OK} : static_cast<iso_status>(twins.cpp.fault().fault)) << name;
+  if (!id) return 0;
+  EXPECT_EQ(made, id_bits(id)) << name;
+  EXPECT_EQ(get(twins.c, made, &kept), ISO_OK) << name;
+  EXPECT_EQ(put_sized("", &expected, *twins.cpp.find(id)), kOk);
+  EXPECT_EQ(std::memcmp(&kept, &expected, sizeof kept), 0) << name;
+  EXPECT_EQ(set(twins.c, made, &kept), ISO_OK) << name << ": " << iso_last_error();
+  EXPECT_TRUE(twins.cpp.set(id, *twins.cpp.find(id)));
+  EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
+  EXPECT_EQ(iso_world_step(twins.c, nullptr), ISO_OK);
+  twins.cpp.step();
+  EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
+  EXPECT_EQ(remove(twins.c, made), ISO_OK) << name << ": " << iso_last_error();
+  EXPECT_TRUE(twins.cpp.remove(id));
+  EXPECT_EQ(get(twins.c, made, &kept), ISO_FAULT_STALE_ID) << name;
+  EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
+  return 1;
+}
+
+#define ISO_SAME(P, name, Record, Id, S)                                                                      \
+  accepted += expect_same_record<S, Record, Id, iso_##P##_##name>(twins, #name, iso_##P##_add_##name,         \
+                                                                  iso_##P##_set_##name, iso_##P##_get_##name, \
+                                                                  iso_remove_##name);
+#define ISO_F32(name, Record, Id, S) ISO_SAME(f32, name, Record, Id, S)
+#define ISO_F64(name, Record, Id, S) ISO_SAME(f64, name, Record, Id, S)
+#define ISO_Q16(name, Record, Id, S) ISO_SAME(q16, name, Record, Id, S)
+#define ISO_Q32(name, Record, Id, S) ISO_SAME(q32, name, Record, Id, S)
+#define ISO_TEST(P, S, EACH)                                           \
+  TEST(CRecords, DoWhatTheyDoInCppIn_##P) {                            \
+    Twins<S> twins;                                                    \
+    iso_##P##_settings settings;                                       \
+    iso_##P##_settings_init(&settings);                                \
+    iso_world* world = nullptr;                                        \
+    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);      \
+    twins.copy_to(world);                                              \
+    int accepted = 0;                                                  \
+    ISO_FOR_EACH_RECORD(EACH, S)                                       \
+    EXPECT_GE(accepted, 20) << "kinds whose defaults a world takes";   \
+  }
+ISO_TEST(f32, float, ISO_F32)
+ISO_TEST(f64, double, ISO_F64)
+ISO_TEST(q16, Q16_16, ISO_Q16)
+ISO_TEST(q32, Q32_32, ISO_Q32)
+
+}  // namespace
+}  // namespace isostep::test
