@@ -131,8 +131,11 @@ class Refusals(unittest.TestCase):
         before = world.hash
         with self.assertRaises(isostep.Refused) as caught:
             world.create_body(type="dynamic", shape=0)
-        self.assertEqual(caught.exception.command, "create_body")
-        self.assertTrue(caught.exception.field and caught.exception.expected and str(caught.exception))
+        self.assertEqual((caught.exception.command, caught.exception.field), ("create_body", "shape"))
+        with self.assertRaises(isostep.Refused) as caught:
+            world.call("body_set_material", body, {"friction": -1})
+        self.assertEqual((caught.exception.field, caught.exception.expected), ("material.friction", "0 to 16"))
+        self.assertIn("0 to 16", str(caught.exception))
         with self.assertRaises(isostep.Refused):
             world.apply_impulse(body + (1 << 32), (0, 1, 0))  # another generation
         self.assertEqual(world.hash, before)

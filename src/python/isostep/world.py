@@ -123,8 +123,9 @@ class World(Handle):
         return _library.interface.families[self.scalar]
 
     def call(self, name, *values):
-        """iso_<scalar>_NAME, iso_world_NAME or iso_NAME of isostep.h: whichever there is, with this world first."""
-        for full in (f"iso_{self.scalar}_{name}", f"iso_world_{name}", f"iso_{name}"):
+        """iso_<scalar>_NAME, iso_<scalar>_world_NAME, iso_world_NAME or iso_NAME of isostep.h: whichever there is, with
+        this world first."""
+        for full in (f"iso_{self.scalar}_{name}", f"iso_{self.scalar}_world_{name}", f"iso_world_{name}", f"iso_{name}"):
             if _library.has(full):
                 return _library.call(full)(self, *values)
         raise AttributeError(f"isostep.h has no function '{name}' of worlds")
