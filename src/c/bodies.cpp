@@ -228,6 +228,7 @@ iso_status iso_bodies_destroy(iso_world* world, const iso_body* bodies, size_t c
     std::vector<BodyId> ids(count);
     for (std::size_t i = 0; i < count; ++i) ids[i] = id_of<BodyId>(bodies[i]);
     const std::size_t gone = of.world.destroy(ids);
+    refusal_here().happened = false;  // ids of nothing are told by the count
     if (destroyed != nullptr) *destroyed = gone;
     return kOk;
   });

@@ -1,9 +1,8 @@
 // Sessions in C: their life, and the turn.
 // SPDX-License-Identifier: MIT
 #include <cstring>
-#include <new>
+#include <memory>
 
-#include "isostep.h"
 #include "session_config.hpp"
 #include "session_handle.hpp"
 

@@ -41,8 +41,8 @@ iso_status iso_session_record(iso_session* session, iso_recording kind, const ch
     const bool is_free = observer.recordings[kind] == nullptr || observer.has_ended[kind];
     if (!is_free) return refuse(ISO_REFUSED, call, "kind", "one that is not being recorded");
     if (!one.game.has_portable()) return refuse(ISO_REFUSED, call, "", "a game with write and read");
-    if (kind == ISO_RECORD_WORLD && one.game.world() == nullptr) {
-      return refuse(ISO_REFUSED, call, "kind", "a game with a world");
+    if (kind == ISO_RECORD_WORLD && (one.game.world() == nullptr || one.game.world()->is_recorded())) {
+      return refuse(ISO_REFUSED, call, "kind", "a game with a world that nothing else records");
     }
     one.observer.recordings[kind] = make_recording(one, kind, scene);
     one.observer.has_ended[kind] = false;

@@ -60,6 +60,7 @@ template <class S> class SessionWorldOf final : public SessionWorld {
   Result<ReplayHeader> identity(std::string_view name) const override {
     return make_replay_header(identity_of_world(object_.world.settings(), name));
   }
+  bool is_recorded() const override { return object_.tape != nullptr || object_.keeps_log; }
   std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) override {
     return std::make_unique<WorldRecording<S>>(object_.world, kept, scene);
   }

@@ -45,6 +45,8 @@ class SessionWorld {
   virtual void write_portable(Writer& writer) const = 0;
   virtual Result<void> read_portable(Reader& reader) = 0;
   virtual Result<ReplayHeader> identity(std::string_view name) const = 0;
+  /// By its tape or its log: one recording at a time.
+  virtual bool is_recorded() const = 0;
   /// Of the world's commands; `kept`: frames that may be stepped before they are confirmed.
   virtual std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) = 0;
   /// False once its handle was destroyed; what the session has of the world is there until it ends itself.

@@ -75,11 +75,8 @@ static void turn(machine* m, int player, iso_network* network, uint64_t now) {
 /* README: end */
 
 static void open_session(machine* m, iso_session_config* config) {
-  iso_game game;
-  must(iso_game_init(&game));
-  game.world = m->world; /* world and block: saved, rolled back and hashed as one */
-  game.block = &m->touches;
-  game.block_size = sizeof m->touches;
+  /* World and block: saved, rolled back and hashed as one. */
+  const iso_game game = {.size = sizeof game, .world = m->world, .block = &m->touches, .block_size = sizeof m->touches};
   must(iso_session_create(config, &game, NULL, 0, &m->session));
 }
 
@@ -92,7 +89,6 @@ int main(void) {
   must(iso_session_config_init(&config));
   config.mode = ISO_ROLLBACK; /* ISO_LOCKSTEP: nothing else changes */
   strcpy(config.name, "two pucks");
-  strcpy(config.input_text, "way: int8");
   must(iso_network_create(1, &network));
   must(iso_network_add_client(network, "latency=80,jitter=20,loss=5", &machines[1].endpoint));
   for (int n = 0; n < 2; ++n) {
@@ -102,16 +98,16 @@ int main(void) {
     open_session(&machines[n], &config);
   }
   must(iso_network_connect(network, machines[1].endpoint, 0));
-  for (uint64_t now = 0; iso_session_confirmed(machines[0].session) < FRAMES ||
-                         iso_session_confirmed(machines[1].session) < FRAMES; now += 1000) {
+  for (uint64_t now = 0;
+       iso_session_confirmed(machines[0].session) < FRAMES || iso_session_confirmed(machines[1].session) < FRAMES;
+       now += 1000) {
     if (now > 20000000) return 1;
     must(iso_network_advance_to(network, now));
     for (int n = 0; n < 2; ++n) turn(&machines[n], n, network, now);
   }
   for (int n = 0; n < FRAMES; ++n) equal += machines[0].hashes[n] == machines[1].hashes[n];
   must(iso_session_get_stats(machines[0].session, &stats));
-  printf("%d of %d frames equal; %llu frames were stepped again\n", equal, FRAMES,
-         (unsigned long long)(stats.steps - FRAMES));
+  printf("%d of %d frames equal; %d were stepped again\n", equal, FRAMES, (int)stats.steps - FRAMES);
   for (int n = 0; n < 2; ++n) {
     must(iso_session_destroy(machines[n].session));
     must(iso_world_destroy(machines[n].world));

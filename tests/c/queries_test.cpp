@@ -1,5 +1,7 @@
 // Queries, events and shapes in C tell what the same world tells in C++.
 // SPDX-License-Identifier: MIT
+#include <limits>
+
 #include "c/convert.hpp"
 #include "game.hpp"
 #include "isostep/world/world.hpp"
@@ -63,8 +65,9 @@ TEST(CQueries, AreThoseOfCpp) {
   EXPECT_EQ(hits[2].body, 0u);
   rays[1].size -= 8;
   EXPECT_EQ(iso_q32_cast_rays(game.world, rays, 2, hits, 2), ISO_WRONG_SIZE);
-  ray.translation.y = 0;
-  EXPECT_GT(iso_q32_cast_ray(game.world, &ray, &hit, &found), 0) << "a ray without a length";
+  ray.origin.y = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(iso_q32_cast_ray(game.world, &ray, &hit, &found), ISO_FAULT_OUT_OF_RANGE);
+  EXPECT_EQ(iso_q32_cast_ray(game.world, &ray, &hit, &found), ISO_FAULT_OUT_OF_RANGE) << "the same fault once more";
 
   iso_q32_sphere ball;
   iso_q32_sphere_init(&ball);

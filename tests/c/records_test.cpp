@@ -160,8 +160,9 @@ int expect_same_record(Twins<S>& twins, const char* name, Add add, Set set, Get 
   EXPECT_EQ(iso_world_step(twins.c, nullptr), ISO_OK);
   twins.cpp.step();
   EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
-  EXPECT_EQ(remove(twins.c, made), ISO_OK) << name << ": " << iso_last_error();
-  EXPECT_TRUE(twins.cpp.remove(id));
+  // Some are over after a step, by themselves.
+  const iso_status removed = remove(twins.c, made);
+  EXPECT_EQ(twins.cpp.remove(id) ? iso_status{ISO_OK} : static_cast<iso_status>(twins.cpp.fault().fault), removed) << name;
   EXPECT_EQ(get(twins.c, made, &kept), ISO_FAULT_STALE_ID) << name;
   EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
   return 1;

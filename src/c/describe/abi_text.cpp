@@ -22,8 +22,7 @@ std::string abi_text(const Schema& schema, const std::vector<Function>& function
   std::string text;
   for (const Enum& described : schema.enums) {
     for (const Enumerator& value : described.values) {
-      text += "enumerator ISO_" + upper(described.name) + "_" + upper(value.name) + " " + std::to_string(value.value) +
-              "\n";
+      text += "enumerator " + name_of(value, described) + " " + std::to_string(value.value) + "\n";
     }
   }
   for (const Struct& described : schema.common) text += facts_of(described, "iso_");

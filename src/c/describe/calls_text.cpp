@@ -17,13 +17,26 @@ std::string table_of(const Struct& described, const std::string& prefix) {
   return text;
 }
 
+/// ISO_P(what it points to, whether that is const, name) or ISO_V(type, name).
+std::string drawn(const Argument& argument) {
+  const std::size_t star = argument.type.rfind('*');
+  if (star == std::string::npos) return "ISO_V(" + argument.type + ", \"" + argument.name + "\")";
+  std::string to = argument.type.substr(0, star);
+  const bool is_list = to.find('*') != std::string::npos;  // "const iso_blob* const"
+  const bool is_const = is_list ? to.size() > 6 && to.substr(to.size() - 6) == " const" : to.substr(0, 6) == "const ";
+  return "ISO_P(" + argument.type + ", \"" + (is_const && !is_list ? to.substr(6) : to) + "\", " +
+         (is_const ? "true" : "false") + ", \"" + argument.name + "\")";
+}
 std::string call_of(const Function& function) {
   const bool is_status = function.returns == "iso_status";
-  std::string text = std::string(is_status ? "ISO_CALL" : "ISO_ASK") + "(" + function.name;
-  for (const Argument& argument : function.arguments) {
-    text += ", drawer.draw<" + argument.type + ">(\"" + argument.name + "\")";
+  std::string text = std::string(is_status ? "ISO_CALL" : "ISO_ASK") + "(" + function.name + ", ";
+  for (std::size_t i = 0; i < function.arguments.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + drawn(function.arguments[i]);
   }
   return text + ")\n";
+}
+std::string init_of(const Struct& described, const std::string& prefix) {
+  return described.is_sized ? "ISO_INIT(" + prefix + described.name + ")\n" : "";
 }
 
 }  // namespace
@@ -33,6 +46,11 @@ std::string calls_text(const Schema& schema, const std::vector<Function>& functi
   for (const Struct& described : schema.common) text += table_of(described, "iso_");
   for (const Family& family : schema.families) {
     for (const Struct& described : family.structs) text += table_of(described, "iso_" + family.prefix + "_");
+  }
+  text += "#endif\n#if defined(ISO_INIT)\n";
+  for (const Struct& described : schema.common) text += init_of(described, "iso_");
+  for (const Family& family : schema.families) {
+    for (const Struct& described : family.structs) text += init_of(described, "iso_" + family.prefix + "_");
   }
   text += "#endif\n#if defined(ISO_CALL)\n";
   for (const Function& function : functions) text += call_of(function);

@@ -68,8 +68,8 @@ std::string enum_text(const Enum& described) {
   std::string row;
   for (std::size_t i = 0; i < described.values.size(); ++i) {
     const Enumerator& value = described.values[i];
-    const std::string one = "ISO_" + upper(described.name) + "_" + upper(value.name) + " = " +
-                            std::to_string(value.value) + (i + 1 < described.values.size() ? "," : "");
+    const std::string one =
+        name_of(value, described) + " = " + std::to_string(value.value) + (i + 1 < described.values.size() ? "," : "");
     if (2 + row.size() + one.size() + 1 > kColumns) {
       text += "\n " + row;
       row.clear();
@@ -159,8 +159,8 @@ std::string region_text(const Schema& schema) {
   text += "\n";
   text += list_text("ISO_C_FOR_EACH_SIZED", "What begins with its size, of a family.",
                     names_of(schema.families[0].structs, true));
-  text += list_text("ISO_C_FOR_EACH_COMMON_SIZED", "The same of structs without numbers.",
-                    names_of(schema.common, true));
+  text +=
+      list_text("ISO_C_FOR_EACH_COMMON_SIZED", "The same of structs without numbers.", names_of(schema.common, true));
   text += list_text("ISO_C_FOR_EACH_RECORD", "Records that are registered with a world.", schema.records);
   text += list_text("ISO_C_FOR_EACH_SHAPE", "Shapes that numbers describe.", schema.shapes);
   text += list_text("ISO_C_FOR_EACH_JOINT", "Joints by name.", schema.joints);

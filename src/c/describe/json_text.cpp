@@ -29,7 +29,7 @@ std::string rows(const std::vector<std::string>& all, const char* indent) {
 std::string member_text(const Member& member, const Family* family) {
   std::string text = "{" + pair("name", member.name) + ", " + pair("kind", member.kind);
   if (!member.of.empty()) {
-    const std::string prefix = member.of_family && family != nullptr ? "iso_" + family->prefix + "_"
+    const std::string prefix = member.of_family && family != nullptr              ? "iso_" + family->prefix + "_"
                                : member.kind == "struct" || member.kind == "enum" ? "iso_"
                                                                                   : "";
     text += ", " + pair("of", prefix + member.of);
@@ -45,16 +45,16 @@ std::string struct_text(const Struct& described, const Family* family) {
   std::vector<std::string> members;
   for (const Member& member : described.members) members.push_back(member_text(member, family));
   return "{" + pair("name", prefix + described.name) + ", " + pair("base", described.name) + ", " +
-         pair("family", family != nullptr ? family->prefix : "") + ", \"sized\": " +
-         (described.is_sized ? "true" : "false") + ", " + pair("size", described.size) + ", " +
+         pair("family", family != nullptr ? family->prefix : "") +
+         ", \"sized\": " + (described.is_sized ? "true" : "false") + ", " + pair("size", described.size) + ", " +
          pair("align", described.align) + ", \"members\": " + rows(members, "      ") + "}";
 }
 
 std::string enum_text(const Enum& described) {
   std::vector<std::string> values;
   for (const Enumerator& value : described.values) {
-    values.push_back("{" + pair("name", "ISO_" + upper(described.name) + "_" + upper(value.name)) + ", " +
-                     pair("base", value.name) + ", " + pair("value", value.value) + "}");
+    values.push_back("{" + pair("name", name_of(value, described)) + ", " + pair("base", value.name) + ", " +
+                     pair("value", value.value) + "}");
   }
   return "{" + pair("name", "iso_" + described.name) + ", \"flags\": " + (described.is_flags ? "true" : "false") +
          ", \"values\": " + rows(values, "      ") + "}";
@@ -93,9 +93,10 @@ std::string json_text(const Schema& schema, const std::vector<Function>& functio
     for (const Struct& described : family.structs) structs.push_back(struct_text(described, &family));
   }
   for (const Function& function : functions) declared.push_back(function_text(function));
-  return "{\n" + pair("version", kVersionText) + ",\n" + pair("abi", c::kAbiVersion) + ",\n\"families\": " +
-         rows(families, "  ") + ",\n\"enums\": " + rows(enums, "  ") + ",\n\"pointers\": " + rows(pointers, "  ") +
-         ",\n\"structs\": " + rows(structs, "  ") + ",\n\"functions\": " + rows(declared, "  ") + "\n}\n";
+  return "{\n" + pair("version", kVersionText) + ",\n" + pair("abi", c::kAbiVersion) +
+         ",\n\"families\": " + rows(families, "  ") + ",\n\"enums\": " + rows(enums, "  ") +
+         ",\n\"pointers\": " + rows(pointers, "  ") + ",\n\"structs\": " + rows(structs, "  ") +
+         ",\n\"functions\": " + rows(declared, "  ") + "\n}\n";
 }
 
 }  // namespace isostep::c_header

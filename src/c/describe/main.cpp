@@ -15,6 +15,7 @@
 #include "comments.hpp"
 #include "header_text.hpp"
 #include "json_text.hpp"
+#include "section_text.hpp"
 
 namespace {
 
@@ -38,7 +39,9 @@ int write_header(const Schema& schema, const std::string& root, const std::strin
   return write(to, header) && write(checks, checks_text(schema)) ? 0 : 1;
 }
 
-int write_json(const Schema& schema, char** paths) {
+int write_json(Schema schema, char** paths) {
+  const std::string problem = add_section(read(paths[0]), schema);
+  if (!problem.empty()) return std::fprintf(stderr, "isostep_interface: sessions: %s\n", problem.c_str()), 1;
   const std::vector<Function> functions = read_functions(read(paths[1]), read(paths[0]));
   if (functions.empty()) return std::fprintf(stderr, "isostep_interface: %s has no functions\n", paths[1]), 1;
   const bool written = write(paths[2], json_text(schema, functions)) && write(paths[3], abi_text(schema, functions)) &&

@@ -223,6 +223,10 @@ std::string upper(std::string text) {
   return text;
 }
 
+std::string name_of(const Enumerator& value, const Enum& of) {
+  return (of.stem.empty() ? "ISO_" + upper(of.name) + "_" : of.stem) + upper(value.name);
+}
+
 const std::vector<PointerType>& pointer_types() {
   static const std::vector<PointerType> types = {
       {"iso_text", "char"},           {"iso_body_list", "iso_body"},  {"iso_number_list", "uint32_t"},

@@ -39,6 +39,7 @@ struct Enum {
   std::string name;  // "body_type"
   bool is_flags;
   std::vector<Enumerator> values;
+  std::string stem = {};  // of its enumerators in C; empty: ISO_NAME_
 };
 struct Schema {
   std::vector<Family> families;
@@ -50,6 +51,8 @@ struct Schema {
 Schema make_schema();
 
 std::string upper(std::string text);
+/// In C: ISO_BODY_TYPE_DYNAMIC.
+std::string name_of(const Enumerator& value, const Enum& of);
 /// "const iso_body* at" of a pointer's union, by its name in C.
 struct PointerType {
   const char* name;

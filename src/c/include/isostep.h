@@ -2486,7 +2486,7 @@ ISO_API uint8_t iso_shape_exists(const iso_world* world, iso_shape shape);
 /* Bodies, joints and records by their ids */
 
 ISO_API iso_status iso_body_destroy(iso_world* world, iso_body body);
-/* The same as one by one, for the price of one. `destroyed`, how many there were, may be null. */
+/* All of them for the price of one. Ids of nothing are passed over: `destroyed`, how many there were, may be null. */
 ISO_API iso_status iso_bodies_destroy(iso_world* world, const iso_body* bodies, size_t count, size_t* destroyed);
 ISO_API uint8_t iso_body_exists(const iso_world* world, iso_body body);
 ISO_API iso_status iso_body_wake(iso_world* world, iso_body body);

@@ -9,8 +9,8 @@
 #include "isostep/state/composite.hpp"
 #include "isostep/world/recorder.hpp"
 #include "isostep/world/state.hpp"
-#include "puck_game.h"
 #include "public_session.hpp"
+#include "puck_game.h"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"
 
@@ -258,6 +258,51 @@ TEST(CSession, WhoWatchesSeesWhatIsPlayed) {
   stats.size = sizeof stats;
   ASSERT_EQ(iso_session_get_player_stats(host.session, 1, &stats), ISO_OK);
   EXPECT_NEAR(stats.round_trip, 80000, 40000);
+}
+
+TEST(CSession, AWorldThatIsDestroyedFirstEndsItsSessionWithoutHarm) {
+  for (const bool in_a_step : {false, true}) {
+    iso_session_config config;
+    puck_config(ISO_ROLLBACK, &config);
+    config = host_of(config);
+    const auto machine = empty_machine();
+    ASSERT_EQ(puck_machine_create(machine.get(), &config, 0), ISO_OK);
+    ASSERT_EQ(iso_session_record(machine->session, ISO_RECORD_WORLD, nullptr), ISO_OK);
+    ASSERT_EQ(iso_session_start(machine->session, 0), ISO_OK);
+    iso_request request{};
+    request.size = sizeof request;
+    for (Time now = 0; now < kSecond; now += 1000) {
+      ASSERT_EQ(iso_session_advance(machine->session, now), ISO_OK);
+      do {
+        ASSERT_EQ(iso_session_next(machine->session, &request), ISO_OK);
+        if (request.kind == ISO_STEP && request.frame == 20 && in_a_step) break;
+        if (request.kind == ISO_STEP) puck_game_step(&machine->game, iso_session_inputs(machine->session, nullptr));
+      } while (request.kind != ISO_NOTHING);
+      if (request.kind == ISO_STEP) break;
+    }
+    EXPECT_EQ(request.kind, in_a_step ? iso_request_kind{ISO_STEP} : iso_request_kind{ISO_NOTHING});
+    ASSERT_EQ(iso_world_destroy(machine->game.world), ISO_OK);
+    EXPECT_EQ(iso_session_next(machine->session, &request), ISO_NOT_ALIVE);
+    EXPECT_EQ(iso_session_drive(machine->session, 2 * kSecond, nullptr), ISO_NOT_ALIVE);
+    std::size_t size = 0;
+    EXPECT_EQ(iso_session_recorded(machine->session, ISO_RECORD_WORLD, nullptr, &size), ISO_NOT_ALIVE);
+    EXPECT_GT(iso_session_current(machine->session), 10);
+    EXPECT_EQ(iso_session_destroy(machine->session), ISO_OK);
+    EXPECT_EQ(iso_world_destroy(machine->game.world), ISO_NOT_ALIVE);
+  }
+}
+
+TEST(CSession, AWorldHasOneRecordingAtATime) {
+  iso_session_config config;
+  puck_config(ISO_ROLLBACK, &config);
+  config = host_of(config);
+  const auto machine = empty_machine();
+  ASSERT_EQ(puck_machine_create(machine.get(), &config, 0), ISO_OK);
+  ASSERT_EQ(iso_world_keep_log(machine->game.world, 1), ISO_OK);
+  EXPECT_EQ(iso_session_record(machine->session, ISO_RECORD_WORLD, nullptr), ISO_REFUSED);
+  ASSERT_EQ(iso_world_keep_log(machine->game.world, 0), ISO_OK);
+  EXPECT_EQ(iso_session_record(machine->session, ISO_RECORD_WORLD, nullptr), ISO_OK);
+  EXPECT_EQ(puck_machine_destroy(machine.get()), ISO_OK);
 }
 
 TEST(CSession, AMatchThatWasPutAwayGoesOnInAnotherProcess) {

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#define TRY(call)                                \
-  do {                                           \
-    const iso_status tried = (call);             \
-    if (tried != ISO_OK) return tried;           \
+#define TRY(call)                      \
+  do {                                 \
+    const iso_status tried = (call);   \
+    if (tried != ISO_OK) return tried; \
   } while (0)
 
 iso_status puck_game_create(puck_game* game) {

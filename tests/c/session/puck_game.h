@@ -12,9 +12,9 @@ extern "C" {
 enum { PUCK_SLOTS = 128, PUCK_FRAMES = 3600 };
 typedef struct puck_game {
   iso_world* world;
-  uint32_t touches;     /* what the game remembers beside its world */
-  iso_body pucks[2];    /* given once and for all: no state */
-  uint32_t forgotten;   /* touches - 1 of a game that forgets: shapes the future, and is no state */
+  uint32_t touches;   /* what the game remembers beside its world */
+  iso_body pucks[2];  /* given once and for all: no state */
+  uint32_t forgotten; /* touches - 1 of a game that forgets: shapes the future, and is no state */
   uint8_t forgets;
   uint32_t saved[PUCK_SLOTS]; /* by callbacks */
   uint32_t hashed;            /* [bytes] of `touches` that the hash of the callbacks sees */

@@ -14,8 +14,8 @@ struct Tally {
   static constexpr std::size_t kSize = 16;
   std::uint8_t state[kSize] = {};
   std::uint8_t saved[128][kSize] = {};
-  std::size_t blind = kSize;    // the byte that the hash of the callbacks does not see; kSize: sees all
-  bool forgets = false;         // `steps` shapes the future, and is no state
+  std::size_t blind = kSize;  // the byte that the hash of the callbacks does not see; kSize: sees all
+  bool forgets = false;       // `steps` shapes the future, and is no state
   std::uint32_t steps = 0;
   std::vector<std::uint64_t> hashes;  // of confirmed frames
   int rollbacks = 0, guesses = 0, largest_slot = -1;

@@ -16,7 +16,8 @@ TEST(CUdp, TwoPlayTheSameMatch) {
   std::strcpy(settings.bind_address, "127.0.0.1");
   ASSERT_EQ(iso_udp_listen(0, &settings, &host_port, problem, sizeof problem), ISO_OK) << problem;
   ASSERT_NE(iso_udp_port(host_port), 0);
-  ASSERT_EQ(iso_udp_connect("127.0.0.1", iso_udp_port(host_port), nullptr, &client_port, problem, sizeof problem), ISO_OK)
+  ASSERT_EQ(iso_udp_connect("127.0.0.1", iso_udp_port(host_port), nullptr, &client_port, problem, sizeof problem),
+            ISO_OK)
       << problem;
   Tally tallies[2];
   iso_session* sessions[2] = {};
