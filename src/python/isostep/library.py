@@ -37,21 +37,14 @@ def _candidates(abi):
     yield name
 
 
-def _read(name):
-    with open(_HERE / name, encoding="utf-8") as file:
-        return json.load(file)
-
-
 class Library:
     """The functions of one shared library, compiled when they are used first."""
 
     handles = ("world", "snapshot", "tape", "replay", "blob", "session", "network")
 
     def __init__(self):
-        described, sessions = (_read(name) for name in ("interface.json", "sessions.json"))
-        for key, values in sessions.items():
-            known = {one["name"] for one in described[key]}
-            described[key] += [one for one in values if one["name"] not in known]
+        with open(_HERE / "interface.json", encoding="utf-8") as file:
+            described = json.load(file)
         self.interface = Interface(described)
         self._described = {one["name"]: one for one in described["functions"]}
         self._library = self._load()

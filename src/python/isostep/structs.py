@@ -62,6 +62,9 @@ class Enumeration:
         self.name = described["name"]
         self.flags = described["flags"]
         self.by_name = {value["base"]: value["value"] for value in described["values"]}
+        shared = {name.split("_", 1)[0] + "_" for name in self.by_name}
+        if len(shared) == 1 and all("_" in name for name in self.by_name):  # event_started: started
+            self.by_name = {name.split("_", 1)[1]: number for name, number in self.by_name.items()}
         self.by_value = {number: name for name, number in self.by_name.items()}
 
     def number(self, value):
@@ -255,6 +258,8 @@ class Interface:
         family = self.families.get(described["family"])
         fields, members = [], {}
         for member in described["members"]:
+            if member["kind"] == "reserved":
+                member = {**member, "count": member["size"]}
             one = self.c_type(member, family)
             fields.append(("_" + member["name"], one * member["count"] if member.get("count") else one))
             members[member["name"]] = _Member(member, one, family, self)

@@ -236,15 +236,15 @@ class World(Handle):
         return self.call("body_get_properties", body)
 
     def states(self, bodies=None):
-        """The states of all bodies, or of these: one array of iso_<scalar>_body_state over memory of Python's own, with
+        """The states of all bodies, or of these: an array of iso_<scalar>_body_state over memory of Python's own, with
         the numbers' bits. `floats` makes numbers of them."""
         ids = self.bodies() if bodies is None else bodies
         element = _library.interface.structs[f"iso_{self.scalar}_body_state"]
-        array = (element * len(ids))()
-        given = (ctypes.c_uint64 * len(ids))(*ids) if numpy is None or not len(ids) else numpy.ascontiguousarray(ids, "<u8")
-        pointer = given if isinstance(given, ctypes.Array) else ctypes.c_void_p(given.ctypes.data)
-        function = _library.call(f"iso_{self.scalar}_bodies_get_states")
-        status = function.function(self._address, pointer, len(ids), ctypes.sizeof(element), array)
+        given = (ctypes.c_uint64 * len(ids))(*ids)
+        one = element()
+        one.set(size=ctypes.sizeof(element))
+        array = (element * len(ids)).from_buffer(bytearray(bytes(one) * len(ids)))
+        status = _library.call(f"iso_{self.scalar}_bodies_get_states").function(self._address, given, len(ids), array)
         if status:
             raise _library.error(status, self)
         return owned(array, len(ids), _library.interface.dtype(element) if numpy is not None else None)
