@@ -30,3 +30,18 @@ commands_of() { awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "
 # The system's Python where there is one, for that one has numpy and sees installed packages.
 python=/usr/bin/python3
 [ -x "$python" ] || python=python3
+
+# csharp_example SOURCES PROGRAM: the C# files below SOURCES and the example over four scalars, compiled by mcs.
+csharp_example() {
+  mkdir -p "$work/csharp" || exit 70
+  while read -r space number from; do
+    sed "s/@NS@/$space/g; s/@S@/$number/g; s/@FROM@/$from/g" "$packages/unity/Crate.cs.in" >"$work/csharp/$space.cs" || exit 70
+  done <<LIST
+F32 float (float)
+F64 double (double)
+Fixed16 Q16 Q16.FromDouble
+Fixed32 Q32 Q32.FromDouble
+LIST
+  # shellcheck disable=SC2046
+  mcs -unsafe -out:"$2" $(find "$1" -name '*.cs') "$work"/csharp/*.cs "$packages/unity/FourScalars.cs"
+}

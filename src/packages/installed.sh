@@ -25,7 +25,7 @@ fi
 
 # C and C++ by CMake.
 cmake -S "$packages/consumer" -B "$at/consumer" "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_PROJECT_INCLUDE= "-DEXAMPLES=$examples" >"$at/consumer.log" 2>&1 &&
+  "-DEXAMPLES=$examples" >"$at/consumer.log" 2>&1 &&
   cmake --build "$at/consumer" >>"$at/consumer.log" 2>&1 || { cat "$at/consumer.log"; red "find_package(isostep) does not serve"; }
 prints_goldens "$at/consumer/four_scalars_c"
 prints_goldens "$at/consumer/four_scalars_cpp"
@@ -41,9 +41,8 @@ fi
 if [ -d "$root/src/csharp" ]; then
   sources=$prefix/share/isostep/csharp
   [ -d "$sources" ] || red "the C# sources are not installed"
-  if have mcs && have mono && [ -f "$root/src/csharp/examples/FourScalars.cs" ]; then
-    mcs -unsafe -langversion:7.2 -out:"$at/four_scalars.exe" $(find "$sources" -name '*.cs') \
-      "$root/src/csharp/examples/FourScalars.cs" || red "the installed C# sources do not compile"
+  if have mcs && have mono; then
+    csharp_example "$sources" "$at/four_scalars.exe" || red "the installed C# sources do not compile"
     prints_goldens env "LD_LIBRARY_PATH=$lib" mono "$at/four_scalars.exe"
   fi
 fi

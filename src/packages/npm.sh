@@ -1,5 +1,5 @@
 #!/bin/sh
-# The npm package: built by src/js/build.sh, installed into an empty project, its example run by node.
+# The npm package: built by src/js/build.sh, installed into an empty project, an example run by node.
 # SPDX-License-Identifier: MIT
 . "$ISOSTEP_ROOT/src/packages/common.sh"
 [ -f "$root/src/js/build.sh" ] || not_here "src/js is not in this copy"
@@ -17,7 +17,6 @@ cp "$file" "$out/" || exit 70
 rm -rf "$at/project" && mkdir "$at/project" && cd "$at/project" || exit 70
 echo '{"name": "consumer", "private": true, "type": "module"}' >package.json
 npm install --silent --no-audit --no-fund --offline "$file" || red "npm install fails"
-example=node_modules/isostep/example/four_scalars.js
-[ -f "$example" ] || red "the package has no $example"
-prints_goldens node "$example"
-green "$(basename "$file"), $(du -h "$file" | cut -f 1); its example run by node $(node --version)"
+cp "$packages/npm/four_scalars.mjs" . || exit 70
+prints_goldens node four_scalars.mjs
+green "$(basename "$file"), $(du -h "$file" | cut -f 1); an example run by node $(node --version)"
