@@ -34,7 +34,8 @@ isostep ($version) unstable; urgency=medium
  -- isostep authors <isostep@packages.invalid>  $(date -R -d "@$(stat -c %Y CHANGELOG.md)")
 LOG
 
-dpkg-buildpackage --build=binary --no-sign --no-check-builddeps || red "dpkg-buildpackage fails"
+# What tarball.sh compiled is not thrown away.
+dpkg-buildpackage --build=binary --no-sign --no-check-builddeps --no-pre-clean || red "dpkg-buildpackage fails"
 cd .. || exit 70
 names="libisostep${abi}_${version}_$(dpkg --print-architecture) libisostep-dev_${version}_$(dpkg --print-architecture)"
 names="$names python3-isostep_${version}_all"

@@ -30,8 +30,8 @@ def energy(world):
 
 
 def energies(replay):
-    """After the start and after each frame."""
-    return numpy.array([energy(replay.start())] + [energy(frame.world) for frame in replay])
+    """After each frame; what the tool records begins with an empty world."""
+    return numpy.array([energy(frame.world) for frame in replay])
 
 
 def draw(a, b, rows, out):
@@ -43,7 +43,7 @@ def draw(a, b, rows, out):
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    seconds = numpy.arange(len(rows) + 1) / a.info.hz
+    seconds = (rows["frame"] + 1) / a.info.hz
     figure, (above, below) = pyplot.subplots(2, 1, sharex=True, figsize=(8, 6), constrained_layout=True)
     above.set_title(f"{a.info.scene}: {a.info.scalar} and {b.info.scalar}")
     for replay, style in ((a, "-"), (b, "--")):
@@ -51,7 +51,7 @@ def draw(a, b, rows, out):
     above.set_ylabel("energy [J]")
     above.legend()
     apart = numpy.where(rows["distance"] > 0, rows["distance"], numpy.nan)
-    below.semilogy(seconds[1:], apart, color="tab:red")
+    below.semilogy(seconds, apart, color="tab:red")
     below.set_ylabel("largest distance [m]")
     below.set_xlabel("time [s]")
     for axes in (above, below):
