@@ -2,7 +2,7 @@
 // with random members and sizes, damaged bytes. Each call has a known status; one that is refused changes nothing.
 // SPDX-License-Identifier: MIT
 //
-// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first that is wrong.
+// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first wrong one.
 
 #include <cstdio>
 #include <cstdlib>
@@ -202,9 +202,9 @@ class Drawer {
   double real() {
     switch (dice_.below(12)) {
       case 0: return 0;
-      case 1: return -1;
-      case 2: return 1e30;
-      case 3: return dice_.one_in(4) ? 0.0 / zero_ : 1;
+      case 1: return dice_.one_in(3) ? -1 : 0.5;
+      case 2: return dice_.one_in(6) ? 1e30 : 0.25;
+      case 3: return dice_.one_in(10) ? 0.0 / zero_ : 1;
       default: return static_cast<double>(dice_.below(4000)) / 1000;
     }
   }
@@ -226,14 +226,17 @@ class Drawer {
     const bool is_joint = name == "joint" || function_.find("coupling") != std::string::npos;
     return id(kind[0] != '\0' ? kind : is_joint ? "iso_joint" : "iso_body");
   }
-  /// Ids are kept by the family of the world that the call is given.
-  std::uint32_t family_of_ids() const {
-    iso_scalar scalar = family_;
-    if (world() != nullptr) iso_world_get_scalar(world(), &scalar);
-    return scalar;
+  /// Ids are kept by the world that gave them, and those of records by their kind.
+  std::string key(const std::string& kind) const {
+    std::string of = kind;
+    for (const char* verb : {"_add_", "_set_", "_get_", "_remove_"}) {
+      const std::size_t at = function_.find(verb);
+      if (kind == "iso_record" && at != std::string::npos) of += function_.substr(at + std::strlen(verb));
+    }
+    return of + std::to_string(reinterpret_cast<std::uintptr_t>(world_));
   }
   std::uint64_t id(const std::string& kind) {
-    const std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    const std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.empty() || dice_.one_in(30)) return dice_.one_in(2) ? 0 : dice_.next();
     return known[dice_.below(known.size())];
   }
@@ -245,7 +248,7 @@ class Drawer {
                        : has("create")    ? "iso_joint"
                        : shape            ? "iso_shape"
                                           : "iso_record";
-    std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.size() < 60) known.push_back(made);
     else known[dice_.below(60)] = made;
   }
@@ -307,9 +310,13 @@ class Drawer {
   /// Defaults with some members changed.
   void fill(std::uint8_t* at, const Fact& fact, bool same_size) {
     std::memcpy(at, fact.image.data(), fact.size);
+    bool is_solid = false;  // its defaults are no shape
+    for (const char* solid : {"_sphere", "_box", "_capsule", "_cylinder", "_cone", "_half_space"}) {
+      is_solid = is_solid || fact.name.substr(7) == solid;
+    }
     for (const Member& member : fact.members) {
       if (fact.sized && member.offset < 8) continue;
-      const bool names = member.kind == id_ || member.kind == pointer_;
+      const bool names = member.kind == id_ || member.kind == pointer_ || (is_solid && member.kind != struct_);
       if (member.kind == struct_ || names || dice_.one_in(6)) change(at + member.offset, member, fact);
     }
     if (fact.sized && !same_size && dice_.one_in(4)) {
@@ -321,14 +328,15 @@ class Drawer {
     switch (member.kind) {
       case struct_: {
         const Fact* inner = facts_.named(member.of);
-        if (inner != nullptr && !dice_.one_in(2)) {
+        const bool is_size = fact.name.substr(7) == "_box";
+        if (inner != nullptr && (is_size || dice_.one_in(3))) {
           for (const Member& deeper : inner->members) {
-            if (deeper.kind == struct_ || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
+            if (deeper.kind == struct_ || is_size || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
           }
         }
         return;
       }
-      case id_: return put(at, dice_.one_in(3) ? 0 : id(member.of), 8);
+      case id_: return put(at, dice_.one_in(5) ? 0 : id(member.of), 8);
       case pointer_: return put(at, dice_.one_in(3) ? 0 : reinterpret_cast<std::uintptr_t>(lists_), 8);
       case bool_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(2), 1);
       case enum_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(4), 4);
@@ -565,7 +573,7 @@ int main() {
     if (std::strcmp(iso_status_text(status), "unknown status") == 0) {
       return std::printf("call %llu, %s: status %d\n", static_cast<unsigned long long>(i), call.name, status), 1;
     }
-    // Of commands as bytes, what comes before the damage was done; of a ragdoll that is taken back, its ids are used up.
+    // Of commands as bytes, what comes before the damage was done; a ragdoll that is taken back has used up ids.
     const bool leaves_traces = name == "iso_world_apply" || name.find("add_ragdoll") != std::string::npos;
     if (status != ISO_OK && looks && !leaves_traces && iso_world_hash(drawer.world()) != before) {
       return std::printf("call %llu, %s: refused, and the world is another: %s\n", static_cast<unsigned long long>(i),
