@@ -49,8 +49,7 @@ iso_status take_materials(const char* call, const void* from, Materials& materia
   return kOk;
 }
 
-template <class S>
-iso_status create_hull(const void* points, std::size_t count, iso_blob_home home, iso_blob** out) {
+template <class S> iso_status create_hull(const void* points, std::size_t count, iso_blob_home home, iso_blob** out) {
   constexpr const char* kCall = "blob_create_hull";
   return guarded(kCall, [&] {
     const iso_status status = check(kCall, home, out);
@@ -147,9 +146,9 @@ iso_status iso_blob_get_type(const iso_blob* blob, iso_shape_type* out) {
 }
 iso_status iso_blob_destroy(iso_blob* blob) { return destroy_handle(blob, "blob_destroy"); }
 
-#define ISO_HULL(P, S)                                                                                         \
-  iso_status iso_##P##_blob_create_hull(const iso_##P##_vec3* points, size_t count, iso_blob_home home,        \
-                                        iso_blob** out) {                                                      \
-    return create_hull<S>(points, count, home, out);                                                           \
+#define ISO_HULL(P, S)                                                                                  \
+  iso_status iso_##P##_blob_create_hull(const iso_##P##_vec3* points, size_t count, iso_blob_home home, \
+                                        iso_blob** out) {                                               \
+    return create_hull<S>(points, count, home, out);                                                    \
   }
 ISO_C_FAMILIES(ISO_HULL)

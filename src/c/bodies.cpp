@@ -8,8 +8,7 @@ using namespace isostep::c;
 namespace {
 
 /// A call that changes a body: work(WorldOf<S>&, BodyId).
-template <class Work>
-iso_status change_body(iso_world* world, const char* call, iso_body body, const Work& work) {
+template <class Work> iso_status change_body(iso_world* world, const char* call, iso_body body, const Work& work) {
   return in_any_world(world, call, Access::changes, [&](auto& of) {
     work(of.world, id_of<BodyId>(body));
     return kOk;
@@ -22,8 +21,7 @@ template <class S> Vec3<S> vec3_at(const void* from) {
   return v;
 }
 
-template <class S>
-iso_status body_create(iso_world* world, const void* from, iso_body* out) {
+template <class S> iso_status body_create(iso_world* world, const void* from, iso_body* out) {
   constexpr const char* kCall = "body_create";
   return in_world<S>(world, kCall, Access::changes, [&](auto& of) {
     ISO_C_REQUIRE(kCall, out);
@@ -86,8 +84,7 @@ iso_status get_children(const iso_world* world, iso_body body, void* out, std::s
   });
 }
 
-template <class S>
-iso_status get_velocity_at(const iso_world* world, iso_body body, const void* point, void* out) {
+template <class S> iso_status get_velocity_at(const iso_world* world, iso_body body, const void* point, void* out) {
   constexpr const char* kCall = "body_get_velocity_at";
   return in_world<S>(world, kCall, Access::reads, [&](auto& of) {
     ISO_C_REQUIRE(kCall, point);
@@ -212,64 +209,64 @@ uint8_t iso_joint_exists(const iso_world* world, iso_joint joint) {
   return exists<JointId>(world, "joint_exists", joint);
 }
 
-#define ISO_BODY_VECTORS(P, S, name, first, second, may_be_null, method)                                    \
-  iso_status iso_##P##_body_##name(iso_world* world, iso_body body, const iso_##P##_vec3* first,            \
-                                   const iso_##P##_vec3* second) {                                          \
-    return set_vectors<S>(world, "body_" #name, body, first, second, may_be_null,                           \
-                          [](auto& w, BodyId id, auto a, auto b) { w.method(id, a, b); });                  \
+#define ISO_BODY_VECTORS(P, S, name, first, second, may_be_null, method)                         \
+  iso_status iso_##P##_body_##name(iso_world* world, iso_body body, const iso_##P##_vec3* first, \
+                                   const iso_##P##_vec3* second) {                               \
+    return set_vectors<S>(world, "body_" #name, body, first, second, may_be_null,                \
+                          [](auto& w, BodyId id, auto a, auto b) { w.method(id, a, b); });       \
   }
-#define ISO_BODIES(P, S)                                                                                          \
-  iso_status iso_##P##_body_create(iso_world* world, const iso_##P##_body_definition* definition, iso_body* out) { \
-    return body_create<S>(world, definition, out);                                                                \
-  }                                                                                                               \
-  iso_status iso_##P##_body_get_state(const iso_world* world, iso_body body, iso_##P##_body_state* out) {         \
-    return get_state<S>(world, body, out);                                                                        \
-  }                                                                                                               \
+#define ISO_BODIES(P, S)                                                                                            \
+  iso_status iso_##P##_body_create(iso_world* world, const iso_##P##_body_definition* definition, iso_body* out) {  \
+    return body_create<S>(world, definition, out);                                                                  \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_get_state(const iso_world* world, iso_body body, iso_##P##_body_state* out) {           \
+    return get_state<S>(world, body, out);                                                                          \
+  }                                                                                                                 \
   iso_status iso_##P##_body_get_properties(const iso_world* world, iso_body body, iso_##P##_body_properties* out) { \
-    return get_properties<S>(world, body, out);                                                                   \
-  }                                                                                                               \
-  iso_status iso_##P##_body_get_children(const iso_world* world, iso_body body, iso_##P##_child* out, size_t room, \
-                                         size_t* count) {                                                         \
-    return get_children<S>(world, body, out, room, count);                                                        \
-  }                                                                                                               \
-  iso_status iso_##P##_body_get_velocity_at(const iso_world* world, iso_body body, const iso_##P##_vec3* point,   \
-                                            iso_##P##_vec3* out) {                                                \
-    return get_velocity_at<S>(world, body, point, out);                                                           \
-  }                                                                                                               \
-  iso_status iso_##P##_body_set_pose(iso_world* world, iso_body body, const iso_##P##_pose* pose) {               \
-    return set_plain<S, Pose<S>>(world, "body_set_pose", body, pose,                                              \
-                                 [](auto& w, BodyId id, const auto& to) { w.set_pose(id, to); });                 \
-  }                                                                                                               \
-  iso_status iso_##P##_body_move_to(iso_world* world, iso_body body, const iso_##P##_pose* pose) {                \
-    return set_plain<S, Pose<S>>(world, "body_move_to", body, pose,                                               \
-                                 [](auto& w, BodyId id, const auto& to) { w.move_to(id, to); });                  \
-  }                                                                                                               \
-  iso_status iso_##P##_body_set_material(iso_world* world, iso_body body, const iso_##P##_material* material) {   \
-    return set_plain<S, Material<S>>(world, "body_set_material", body, material,                                  \
-                                     [](auto& w, BodyId id, const auto& to) { w.set_material(id, to); });         \
-  }                                                                                                               \
-  iso_status iso_##P##_body_set_type(iso_world* world, iso_body body, iso_body_type type,                         \
-                                     const iso_##P##_body_mass* mass) {                                           \
-    return set_type<S>(world, body, type, mass);                                                                  \
-  }                                                                                                               \
-  iso_status iso_##P##_body_set_mass(iso_world* world, iso_body body, const iso_##P##_body_mass* mass) {          \
-    return set_mass<S>(world, body, mass);                                                                        \
-  }                                                                                                               \
-  ISO_BODY_VECTORS(P, S, set_velocity, linear, angular, false, set_velocity)                                      \
-  ISO_BODY_VECTORS(P, S, apply_force, force, torque, true, apply_force)                                           \
-  ISO_BODY_VECTORS(P, S, apply_force_at, force, point, false, apply_force_at)                                     \
-  ISO_BODY_VECTORS(P, S, apply_impulse, impulse, angular_impulse, true, apply_impulse)                            \
+    return get_properties<S>(world, body, out);                                                                     \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_get_children(const iso_world* world, iso_body body, iso_##P##_child* out, size_t room,  \
+                                         size_t* count) {                                                           \
+    return get_children<S>(world, body, out, room, count);                                                          \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_get_velocity_at(const iso_world* world, iso_body body, const iso_##P##_vec3* point,     \
+                                            iso_##P##_vec3* out) {                                                  \
+    return get_velocity_at<S>(world, body, point, out);                                                             \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_set_pose(iso_world* world, iso_body body, const iso_##P##_pose* pose) {                 \
+    return set_plain<S, Pose<S>>(world, "body_set_pose", body, pose,                                                \
+                                 [](auto& w, BodyId id, const auto& to) { w.set_pose(id, to); });                   \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_move_to(iso_world* world, iso_body body, const iso_##P##_pose* pose) {                  \
+    return set_plain<S, Pose<S>>(world, "body_move_to", body, pose,                                                 \
+                                 [](auto& w, BodyId id, const auto& to) { w.move_to(id, to); });                    \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_set_material(iso_world* world, iso_body body, const iso_##P##_material* material) {     \
+    return set_plain<S, Material<S>>(world, "body_set_material", body, material,                                    \
+                                     [](auto& w, BodyId id, const auto& to) { w.set_material(id, to); });           \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_set_type(iso_world* world, iso_body body, iso_body_type type,                           \
+                                     const iso_##P##_body_mass* mass) {                                             \
+    return set_type<S>(world, body, type, mass);                                                                    \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_set_mass(iso_world* world, iso_body body, const iso_##P##_body_mass* mass) {            \
+    return set_mass<S>(world, body, mass);                                                                          \
+  }                                                                                                                 \
+  ISO_BODY_VECTORS(P, S, set_velocity, linear, angular, false, set_velocity)                                        \
+  ISO_BODY_VECTORS(P, S, apply_force, force, torque, true, apply_force)                                             \
+  ISO_BODY_VECTORS(P, S, apply_force_at, force, point, false, apply_force_at)                                       \
+  ISO_BODY_VECTORS(P, S, apply_impulse, impulse, angular_impulse, true, apply_impulse)                              \
   ISO_BODY_VECTORS(P, S, apply_impulse_at, impulse, point, false, apply_impulse_at)
 ISO_C_FAMILIES(ISO_BODIES)
 
-#define ISO_NUMBERED(P, S, N)                                                                                  \
+#define ISO_NUMBERED(P, S, N)                                                                                   \
   iso_status iso_##P##_body_get_inertia(const iso_world* world, iso_body body, const iso_##P##_unit_vec3* axis, \
-                                        N* out) {                                                              \
-    return get_inertia<S>(world, body, axis, out);                                                             \
-  }                                                                                                            \
-  iso_status iso_##P##_body_set_motion(iso_world* world, iso_body body, N gravity_scale, N linear_damping,     \
-                                       N angular_damping, uint32_t locks) {                                    \
-    return set_motion<S, N>(world, body, {gravity_scale, linear_damping, angular_damping}, locks);             \
+                                        N* out) {                                                               \
+    return get_inertia<S>(world, body, axis, out);                                                              \
+  }                                                                                                             \
+  iso_status iso_##P##_body_set_motion(iso_world* world, iso_body body, N gravity_scale, N linear_damping,      \
+                                       N angular_damping, uint32_t locks) {                                     \
+    return set_motion<S, N>(world, body, {gravity_scale, linear_damping, angular_damping}, locks);              \
   }
 ISO_NUMBERED(f32, float, float)
 ISO_NUMBERED(f64, double, double)

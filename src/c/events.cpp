@@ -55,10 +55,10 @@ iso_status put_events_of(iso_world* world, const char* call, EventKind kind, con
 
 }  // namespace
 
-#define ISO_COMMON_EVENTS(name, Out, member)                                                                   \
-  iso_status iso_##name(iso_world* world, const Out** out, size_t* count) {                                    \
-    return put_events(world, #name, EventKind::member, out, count,                                             \
-                      [](const auto& events) -> const auto& { return events.member; });                        \
+#define ISO_COMMON_EVENTS(name, Out, member)                                                                           \
+  iso_status iso_##name(iso_world* world, const Out** out, size_t* count) {                                            \
+    return put_events(                                                                                                 \
+        world, #name, EventKind::member, out, count, [](const auto& events) -> const auto& { return events.member; }); \
   }
 ISO_COMMON_EVENTS(contact_ends, iso_body_pair, contact_end)
 ISO_COMMON_EVENTS(sensor_begins, iso_sensor_event, sensor_begin)
@@ -66,16 +66,16 @@ ISO_COMMON_EVENTS(sensor_ends, iso_sensor_event, sensor_end)
 ISO_COMMON_EVENTS(fell_asleep, iso_body, fell_asleep)
 ISO_COMMON_EVENTS(woke, iso_body, woke)
 
-#define ISO_EVENTS_OF(P, S, name, Out, member)                                                                 \
-  iso_status iso_##P##_##name(iso_world* world, const iso_##P##_##Out** out, size_t* count) {                  \
-    return put_events_of<S>(world, #name, EventKind::member, out, count,                                       \
-                            [](const auto& events) -> const auto& { return events.member; });                  \
+#define ISO_EVENTS_OF(P, S, name, Out, member)                                                                         \
+  iso_status iso_##P##_##name(iso_world* world, const iso_##P##_##Out** out, size_t* count) {                          \
+    return put_events_of<S>(                                                                                           \
+        world, #name, EventKind::member, out, count, [](const auto& events) -> const auto& { return events.member; }); \
   }
-#define ISO_EVENTS(P, S)                                              \
-  ISO_EVENTS_OF(P, S, contact_begins, contact_begin, contact_begin)   \
-  ISO_EVENTS_OF(P, S, broke_events, broke, broke)                     \
-  ISO_EVENTS_OF(P, S, joint_broke_events, joint_broke, joint_broke)   \
-  ISO_EVENTS_OF(P, S, contact_hits, contact_hit, hits)                \
+#define ISO_EVENTS(P, S)                                            \
+  ISO_EVENTS_OF(P, S, contact_begins, contact_begin, contact_begin) \
+  ISO_EVENTS_OF(P, S, broke_events, broke, broke)                   \
+  ISO_EVENTS_OF(P, S, joint_broke_events, joint_broke, joint_broke) \
+  ISO_EVENTS_OF(P, S, contact_hits, contact_hit, hits)              \
   ISO_EVENTS_OF(P, S, contact_points, contact_point, contacts)
 ISO_C_FAMILIES(ISO_EVENTS)
 

@@ -10,8 +10,9 @@
 namespace isostep::c {
 namespace {
 
-constexpr std::size_t kBlock = 256;        // cells that are allocated at once
-constexpr std::size_t kQuarantine = 1024;  // closed cells that wait, so that a stale handle is not another object's soon
+constexpr std::size_t kBlock = 256;  // cells that are allocated at once
+constexpr std::size_t kQuarantine =
+    1024;  // closed cells that wait, so that a stale handle is not another object's soon
 
 struct Cells {
   std::mutex mutex;

@@ -42,15 +42,15 @@ ISO_FOR_EACH_RECORD(ISO_F64_RECORD, double)
 ISO_FOR_EACH_RECORD(ISO_Q16_RECORD, Q16_16)
 ISO_FOR_EACH_RECORD(ISO_Q32_RECORD, Q32_32)
 
-#define ISO_FAMILY(P, S)                            \
-  ISO_PLAIN_INIT(P, material, Material<S>)          \
+#define ISO_FAMILY(P, S)                   \
+  ISO_PLAIN_INIT(P, material, Material<S>) \
   ISO_PLAIN_INIT(P, ragdoll_bone, RagdollBone<S>)
 ISO_C_FAMILIES(ISO_FAMILY)
 
-#define ISO_NUMBERS(P, S, N)                                                                                   \
-  N iso_##P##_from_double(double value) { return same_bits<N>(from_double<S>(value)); }                           \
-  double iso_##P##_to_double(N value) { return to_double(same_bits<S>(value)); }                                  \
-  N iso_##P##_unit_from_double(double value) { return same_bits<N>(from_double<Unit<S>>(value)); }                \
+#define ISO_NUMBERS(P, S, N)                                                                       \
+  N iso_##P##_from_double(double value) { return same_bits<N>(from_double<S>(value)); }            \
+  double iso_##P##_to_double(N value) { return to_double(same_bits<S>(value)); }                   \
+  N iso_##P##_unit_from_double(double value) { return same_bits<N>(from_double<Unit<S>>(value)); } \
   double iso_##P##_unit_to_double(N value) { return to_double(same_bits<Unit<S>>(value)); }
 ISO_NUMBERS(f32, float, float)
 ISO_NUMBERS(f64, double, double)

@@ -133,97 +133,93 @@ iso_status iso_joint_destroy(iso_world* world, iso_joint joint) {
   });
 }
 
-#define ISO_PRESET(P, S, name, builder)                                                                      \
-  iso_status iso_##P##_create_##name(iso_world* world, const iso_##P##_##name* joint, iso_joint* out) {      \
-    return create<S, twin::name<S>>(world, "create_" #name, joint, out,                                      \
-                                    [](const auto& preset) { return isostep::builder<S>(preset); });         \
+#define ISO_PRESET(P, S, name, builder)                                                                 \
+  iso_status iso_##P##_create_##name(iso_world* world, const iso_##P##_##name* joint, iso_joint* out) { \
+    return create<S, twin::name<S>>(world, "create_" #name, joint, out,                                 \
+                                    [](const auto& preset) { return isostep::builder<S>(preset); });    \
   }
-#define ISO_JOINTS(P, S)                                                                                       \
-  ISO_PRESET(P, S, ball, ball)                                                                                 \
-  ISO_PRESET(P, S, constant_velocity, constant_velocity)                                                       \
-  ISO_PRESET(P, S, fixed, fixed)                                                                               \
-  ISO_PRESET(P, S, universal, universal)                                                                       \
-  ISO_PRESET(P, S, angular, angular)                                                                           \
-  ISO_PRESET(P, S, hinge, hinge)                                                                               \
-  ISO_PRESET(P, S, slider, slider)                                                                             \
-  ISO_PRESET(P, S, cylindrical, cylindrical)                                                                   \
-  ISO_PRESET(P, S, planar, planar)                                                                             \
-  ISO_PRESET(P, S, rod, rod)                                                                                   \
-  ISO_PRESET(P, S, rope, rope)                                                                                 \
-  ISO_PRESET(P, S, wheel_joint, wheel)                                                                         \
-  ISO_PRESET(P, S, motor_joint, motor)                                                                         \
-  ISO_PRESET(P, S, six_axis, six_axis)                                                                         \
-  iso_status iso_##P##_joint_at(const iso_world* world, iso_joint_type type, iso_body a, iso_body b,           \
-                                const iso_##P##_pose* frame, iso_##P##_joint_properties* out) {                \
-    return joint_between<S>(world, "joint_at", type, a, frame, b, frame, out);                                 \
-  }                                                                                                            \
-  iso_status iso_##P##_joint_between(const iso_world* world, iso_joint_type type, iso_body a,                  \
-                                     const iso_##P##_pose* frame_a, iso_body b, const iso_##P##_pose* frame_b, \
-                                     iso_##P##_joint_properties* out) {                                        \
-    return joint_between<S>(world, "joint_between", type, a, frame_a, b, frame_b, out);                        \
-  }                                                                                                            \
-  iso_status iso_##P##_joint_create(iso_world* world, const iso_##P##_joint_properties* joint,                 \
-                                    iso_joint* out) {                                                          \
-    return joint_create<S>(world, joint, out);                                                                 \
-  }                                                                                                            \
-  iso_status iso_##P##_joint_set(iso_world* world, iso_joint joint,                                            \
-                                 const iso_##P##_joint_properties* properties) {                               \
-    return joint_set<S>(world, joint, properties);                                                             \
-  }                                                                                                            \
-  iso_status iso_##P##_joint_get(const iso_world* world, iso_joint joint, iso_##P##_joint_properties* out) {   \
-    return joint_get<S>(world, joint, out);                                                                    \
-  }                                                                                                            \
-  iso_status iso_##P##_add_ragdoll(iso_world* world, const iso_##P##_ragdoll_bone* bones, size_t count,        \
-                                   const iso_##P##_ragdoll_settings* settings, iso_body* bodies,               \
-                                   iso_joint* joints) {                                                        \
-    return add_ragdoll<S>(world, bones, count, settings, bodies, joints);                                      \
-  }                                                                                                            \
-  iso_status iso_##P##_coupling_gears(iso_joint a, int32_t teeth_a, iso_joint b, int32_t teeth_b,              \
-                                      iso_##P##_coupling* out) {                                               \
-    constexpr const char* kCall = "coupling_gears";                                                            \
-    const bool has_teeth = 1 <= teeth_a && teeth_a <= kMostTeeth && 1 <= teeth_b && teeth_b <= kMostTeeth;     \
-    if (!has_teeth) return refuse(kMisused, kCall, "teeth", "1 to 1024");                                      \
-    return put_coupling<S>(kCall, out, gears<S>(id_of<JointId>(a), teeth_a, id_of<JointId>(b), teeth_b));      \
-  }                                                                                                            \
-  iso_status iso_##P##_coupling_differential(iso_joint shaft, iso_joint left, iso_joint right,                 \
-                                             iso_##P##_coupling* out) {                                        \
-    return put_coupling<S>("coupling_differential", out,                                                       \
-                           differential<S>(id_of<JointId>(shaft), id_of<JointId>(left), id_of<JointId>(right))); \
-  }                                                                                                            \
-  iso_status iso_##P##_coupling_mimic(iso_joint a, iso_joint b, iso_##P##_coupling* out) {                     \
-    return put_coupling<S>("coupling_mimic", out, mimic<S>(id_of<JointId>(a), id_of<JointId>(b)));             \
+#define ISO_JOINTS(P, S)                                                                                              \
+  ISO_PRESET(P, S, ball, ball)                                                                                        \
+  ISO_PRESET(P, S, constant_velocity, constant_velocity)                                                              \
+  ISO_PRESET(P, S, fixed, fixed)                                                                                      \
+  ISO_PRESET(P, S, universal, universal)                                                                              \
+  ISO_PRESET(P, S, angular, angular)                                                                                  \
+  ISO_PRESET(P, S, hinge, hinge)                                                                                      \
+  ISO_PRESET(P, S, slider, slider)                                                                                    \
+  ISO_PRESET(P, S, cylindrical, cylindrical)                                                                          \
+  ISO_PRESET(P, S, planar, planar)                                                                                    \
+  ISO_PRESET(P, S, rod, rod)                                                                                          \
+  ISO_PRESET(P, S, rope, rope)                                                                                        \
+  ISO_PRESET(P, S, wheel_joint, wheel)                                                                                \
+  ISO_PRESET(P, S, motor_joint, motor)                                                                                \
+  ISO_PRESET(P, S, six_axis, six_axis)                                                                                \
+  iso_status iso_##P##_joint_at(const iso_world* world, iso_joint_type type, iso_body a, iso_body b,                  \
+                                const iso_##P##_pose* frame, iso_##P##_joint_properties* out) {                       \
+    return joint_between<S>(world, "joint_at", type, a, frame, b, frame, out);                                        \
+  }                                                                                                                   \
+  iso_status iso_##P##_joint_between(const iso_world* world, iso_joint_type type, iso_body a,                         \
+                                     const iso_##P##_pose* frame_a, iso_body b, const iso_##P##_pose* frame_b,        \
+                                     iso_##P##_joint_properties* out) {                                               \
+    return joint_between<S>(world, "joint_between", type, a, frame_a, b, frame_b, out);                               \
+  }                                                                                                                   \
+  iso_status iso_##P##_joint_create(iso_world* world, const iso_##P##_joint_properties* joint, iso_joint* out) {      \
+    return joint_create<S>(world, joint, out);                                                                        \
+  }                                                                                                                   \
+  iso_status iso_##P##_joint_set(iso_world* world, iso_joint joint, const iso_##P##_joint_properties* properties) {   \
+    return joint_set<S>(world, joint, properties);                                                                    \
+  }                                                                                                                   \
+  iso_status iso_##P##_joint_get(const iso_world* world, iso_joint joint, iso_##P##_joint_properties* out) {          \
+    return joint_get<S>(world, joint, out);                                                                           \
+  }                                                                                                                   \
+  iso_status iso_##P##_add_ragdoll(iso_world* world, const iso_##P##_ragdoll_bone* bones, size_t count,               \
+                                   const iso_##P##_ragdoll_settings* settings, iso_body* bodies, iso_joint* joints) { \
+    return add_ragdoll<S>(world, bones, count, settings, bodies, joints);                                             \
+  }                                                                                                                   \
+  iso_status iso_##P##_coupling_gears(iso_joint a, int32_t teeth_a, iso_joint b, int32_t teeth_b,                     \
+                                      iso_##P##_coupling* out) {                                                      \
+    constexpr const char* kCall = "coupling_gears";                                                                   \
+    const bool has_teeth = 1 <= teeth_a && teeth_a <= kMostTeeth && 1 <= teeth_b && teeth_b <= kMostTeeth;            \
+    if (!has_teeth) return refuse(kMisused, kCall, "teeth", "1 to 1024");                                             \
+    return put_coupling<S>(kCall, out, gears<S>(id_of<JointId>(a), teeth_a, id_of<JointId>(b), teeth_b));             \
+  }                                                                                                                   \
+  iso_status iso_##P##_coupling_differential(iso_joint shaft, iso_joint left, iso_joint right,                        \
+                                             iso_##P##_coupling* out) {                                               \
+    return put_coupling<S>("coupling_differential", out,                                                              \
+                           differential<S>(id_of<JointId>(shaft), id_of<JointId>(left), id_of<JointId>(right)));      \
+  }                                                                                                                   \
+  iso_status iso_##P##_coupling_mimic(iso_joint a, iso_joint b, iso_##P##_coupling* out) {                            \
+    return put_coupling<S>("coupling_mimic", out, mimic<S>(id_of<JointId>(a), id_of<JointId>(b)));                    \
   }
 ISO_C_FAMILIES(ISO_JOINTS)
 
-#define ISO_NUMBERED(P, S, N)                                                                                    \
-  iso_status iso_##P##_joint_get_error(const iso_world* world, iso_joint joint, N* out) {                        \
-    return get_error<S>(world, joint, out);                                                                      \
-  }                                                                                                              \
-  iso_status iso_##P##_joint_get_position(const iso_world* world, iso_joint joint, N* out) {                     \
-    return get_position<S>(world, joint, out);                                                                   \
-  }                                                                                                              \
-  iso_status iso_##P##_joint_get_axis_position(const iso_world* world, iso_joint joint, iso_joint_axis axis,     \
-                                               N* out) {                                                         \
-    return get_axis_position<S>(world, joint, axis, out);                                                        \
-  }                                                                                                              \
-  iso_status iso_##P##_coupling_rack_and_pinion(iso_joint hinge, N radius, iso_joint slider,                     \
-                                                iso_##P##_coupling* out) {                                       \
-    constexpr const char* kCall = "coupling_rack_and_pinion";                                                    \
-    const S r = same_bits<S>(radius);                                                                            \
-    const iso_status status = not_zero(kCall, "radius", r);                                                      \
-    if (status != kOk) return status;                                                                            \
-    return put_coupling<S>(kCall, out, rack_and_pinion<S>(id_of<JointId>(hinge), r, id_of<JointId>(slider)));    \
-  }                                                                                                              \
-  iso_status iso_##P##_coupling_screw(iso_joint hinge, N pitch, iso_joint slider, iso_##P##_coupling* out) {     \
-    constexpr const char* kCall = "coupling_screw";                                                              \
-    const S p = same_bits<S>(pitch);                                                                             \
-    const iso_status status = not_zero(kCall, "pitch", p);                                                       \
-    if (status != kOk) return status;                                                                            \
-    return put_coupling<S>(kCall, out, screw<S>(id_of<JointId>(hinge), p, id_of<JointId>(slider)));              \
-  }                                                                                                              \
-  iso_status iso_##P##_coupling_pulley(iso_joint a, iso_joint b, N ratio, N rope, iso_##P##_coupling* out) {     \
-    return put_coupling<S>("coupling_pulley", out, pulley<S>(id_of<JointId>(a), id_of<JointId>(b),               \
-                                                             same_bits<S>(ratio), same_bits<S>(rope)));          \
+#define ISO_NUMBERED(P, S, N)                                                                                          \
+  iso_status iso_##P##_joint_get_error(const iso_world* world, iso_joint joint, N* out) {                              \
+    return get_error<S>(world, joint, out);                                                                            \
+  }                                                                                                                    \
+  iso_status iso_##P##_joint_get_position(const iso_world* world, iso_joint joint, N* out) {                           \
+    return get_position<S>(world, joint, out);                                                                         \
+  }                                                                                                                    \
+  iso_status iso_##P##_joint_get_axis_position(const iso_world* world, iso_joint joint, iso_joint_axis axis, N* out) { \
+    return get_axis_position<S>(world, joint, axis, out);                                                              \
+  }                                                                                                                    \
+  iso_status iso_##P##_coupling_rack_and_pinion(iso_joint hinge, N radius, iso_joint slider,                           \
+                                                iso_##P##_coupling* out) {                                             \
+    constexpr const char* kCall = "coupling_rack_and_pinion";                                                          \
+    const S r = same_bits<S>(radius);                                                                                  \
+    const iso_status status = not_zero(kCall, "radius", r);                                                            \
+    if (status != kOk) return status;                                                                                  \
+    return put_coupling<S>(kCall, out, rack_and_pinion<S>(id_of<JointId>(hinge), r, id_of<JointId>(slider)));          \
+  }                                                                                                                    \
+  iso_status iso_##P##_coupling_screw(iso_joint hinge, N pitch, iso_joint slider, iso_##P##_coupling* out) {           \
+    constexpr const char* kCall = "coupling_screw";                                                                    \
+    const S p = same_bits<S>(pitch);                                                                                   \
+    const iso_status status = not_zero(kCall, "pitch", p);                                                             \
+    if (status != kOk) return status;                                                                                  \
+    return put_coupling<S>(kCall, out, screw<S>(id_of<JointId>(hinge), p, id_of<JointId>(slider)));                    \
+  }                                                                                                                    \
+  iso_status iso_##P##_coupling_pulley(iso_joint a, iso_joint b, N ratio, N rope, iso_##P##_coupling* out) {           \
+    return put_coupling<S>("coupling_pulley", out,                                                                     \
+                           pulley<S>(id_of<JointId>(a), id_of<JointId>(b), same_bits<S>(ratio), same_bits<S>(rope)));  \
   }
 ISO_NUMBERED(f32, float, float)
 ISO_NUMBERED(f64, double, double)

@@ -25,11 +25,13 @@ template <class T, bool kSized> constexpr std::size_t size_here() {
 }
 
 #define O(member) offsetof(InC, member)
-#define ISO_CHECK(InCType, Type, kSized, ...)                                                          \
-  static_assert([] {                                                                                   \
-    using InC = InCType;                                                                               \
-    return sizeof(InC) == size_here<Type, kSized>() && same_offsets(offsets_of<Type, kSized>(), __VA_ARGS__); \
-  }(), #InCType " is not what the library takes it for: build isostep_interface_write");
+#define ISO_CHECK(InCType, Type, kSized, ...)                                                                     \
+  static_assert(                                                                                                  \
+      [] {                                                                                                        \
+        using InC = InCType;                                                                                      \
+        return sizeof(InC) == size_here<Type, kSized>() && same_offsets(offsets_of<Type, kSized>(), __VA_ARGS__); \
+      }(),                                                                                                        \
+      #InCType " is not what the library takes it for: build isostep_interface_write");
 
 #define ISO_COMMON(name, Type, kSized, ...) ISO_CHECK(iso_##name, Type, kSized, __VA_ARGS__)
 ISO_C_COMMON_CHECKS(ISO_COMMON)

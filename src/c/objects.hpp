@@ -64,7 +64,9 @@ template <class S> struct SnapshotOf : SnapshotObject {
   typename World<S>::Snapshot snapshot;
 };
 
-struct BlobObject { BlobRef blob; };
+struct BlobObject {
+  BlobRef blob;
+};
 
 /// The file and what is read from it.
 struct ReplayObject {

@@ -17,8 +17,9 @@ struct Filtered {
     if (from.ignore_kinds_count != 0) ISO_C_REQUIRE(call, from.ignore_kinds.at);
     bodies.resize(from.ignore_all_count);
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = id_of<BodyId>(from.ignore_all.at[i]);
-    filter = {from.mask,       from.sensors,    from.ignore,       from.group, from.back_faces, from.start_inside,
-              from.per, bodies, {from.ignore_kinds.at, from.ignore_kinds_count}};
+    filter = {from.mask,  from.sensors,    from.ignore,
+              from.group, from.back_faces, from.start_inside,
+              from.per,   bodies,          {from.ignore_kinds.at, from.ignore_kinds_count}};
     return kOk;
   }
 };
@@ -63,8 +64,7 @@ iso_status find_all(const iso_world* world, const char* call, const void* from, 
 }
 
 /// Hits of a batch, `each` of them for every query.
-template <class Hit>
-void put_hits(const std::vector<Hit>& hits, void* out) {
+template <class Hit> void put_hits(const std::vector<Hit>& hits, void* out) {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     put_plain(static_cast<std::uint8_t*>(out) + i * extent_of<Hit>().size, hits[i]);
   }
@@ -142,71 +142,66 @@ iso_status body_contacts(const iso_world* world, iso_body body, void* out, std::
 
 }  // namespace
 
-#define ISO_QUERIES(P, S)                                                                                          \
-  iso_status iso_##P##_cast_ray(const iso_world* world, const iso_##P##_ray_cast* ray, iso_##P##_ray_hit* out,     \
-                                uint8_t* found) {                                                                  \
-    return find_one<S, CRayCast<S>>(world, "cast_ray", ray, out, found, [](auto& w, const auto& q, const auto& f) { \
-      return w.cast_ray(q.origin, q.translation, f);                                                               \
-    });                                                                                                            \
-  }                                                                                                                \
-  iso_status iso_##P##_cast_ray_all(const iso_world* world, const iso_##P##_ray_cast* ray, iso_##P##_ray_hit* out, \
-                                    size_t room, size_t* count) {                                                  \
-    return find_all<S, CRayCast<S>, RayCastHit<S>>(                                                                \
-        world, "cast_ray_all", ray, out, room, count, [](auto& w, const auto& q, const auto& f, auto& hits) {      \
-          w.cast_ray_all(q.origin, q.translation, hits, f);                                                        \
-        });                                                                                                        \
-  }                                                                                                                \
-  iso_status iso_##P##_cast_shape(const iso_world* world, const iso_##P##_shape_cast* cast, iso_##P##_shape_hit* out, \
-                                  uint8_t* found) {                                                                \
-    return find_one<S, CShapeCast<S>>(world, "cast_shape", cast, out, found,                                       \
-                                      [](auto& w, const auto& q, const auto& f) {                                  \
-                                        return w.cast_shape(shape_of<S>(q), q.pose, q.translation, f);             \
-                                      });                                                                          \
-  }                                                                                                                \
-  iso_status iso_##P##_cast_shape_all(const iso_world* world, const iso_##P##_shape_cast* cast,                    \
-                                      iso_##P##_shape_hit* out, size_t room, size_t* count) {                      \
-    return find_all<S, CShapeCast<S>, ShapeCastHit<S>>(                                                            \
-        world, "cast_shape_all", cast, out, room, count, [](auto& w, const auto& q, const auto& f, auto& hits) {   \
-          w.cast_shape_all(shape_of<S>(q), q.pose, q.translation, hits, f);                                        \
-        });                                                                                                        \
-  }                                                                                                                \
-  iso_status iso_##P##_cast_rays(const iso_world* world, const iso_##P##_ray_cast* rays, size_t count,             \
-                                 iso_##P##_ray_hit* out, size_t each) {                                            \
-    return cast_rays<S>(world, rays, count, out, each);                                                            \
-  }                                                                                                                \
-  iso_status iso_##P##_cast_shapes(const iso_world* world, const iso_##P##_shape_cast* casts, size_t count,        \
-                                   iso_##P##_shape_hit* out, size_t each) {                                        \
-    return cast_shapes<S>(world, casts, count, out, each);                                                         \
-  }                                                                                                                \
-  iso_status iso_##P##_closest_point(const iso_world* world, const iso_##P##_point_query* query,                   \
-                                     iso_##P##_closest_body* out, uint8_t* found) {                                \
-    return find_one<S, CPointQuery<S>>(world, "closest_point", query, out, found,                                  \
-                                       [](auto& w, const auto& q, const auto& f) {                                 \
-                                         return w.closest_point(q.point, q.max_distance, f);                       \
-                                       });                                                                         \
-  }                                                                                                                \
-  iso_status iso_##P##_overlap_first(const iso_world* world, const iso_##P##_overlap_query* query,                 \
-                                     iso_overlap_hit* out, uint8_t* found) {                                       \
-    return find_one<S, COverlapQuery<S>>(world, "overlap_first", query, out, found,                                \
-                                         [](auto& w, const auto& q, const auto& f) {                               \
-                                           return w.overlap_first(shape_of<S>(q), q.pose, f);                      \
-                                         });                                                                       \
-  }                                                                                                                \
-  iso_status iso_##P##_overlap_shape(const iso_world* world, const iso_##P##_overlap_query* query,                 \
-                                     iso_overlap_hit* out, size_t room, size_t* count) {                           \
-    return find_all<S, COverlapQuery<S>, OverlapHit>(                                                              \
-        world, "overlap_shape", query, out, room, count, [](auto& w, const auto& q, const auto& f, auto& hits) {   \
-          w.overlap_shape(shape_of<S>(q), q.pose, hits, f);                                                        \
-        });                                                                                                        \
-  }                                                                                                                \
-  iso_status iso_##P##_overlap_box(const iso_world* world, const iso_##P##_box_query* query, iso_body* out,        \
-                                   size_t room, size_t* count) {                                                   \
-    return find_all<S, CBoxQuery<S>, BodyId>(                                                                      \
-        world, "overlap_box", query, out, room, count,                                                             \
-        [](auto& w, const auto& q, const auto& f, auto& bodies) { w.overlap_aabb(q.box, bodies, f); });            \
-  }                                                                                                                \
-  iso_status iso_##P##_body_get_contacts(const iso_world* world, iso_body body, iso_##P##_contact_point* out,      \
-                                         size_t room, size_t* count) {                                             \
-    return body_contacts<S>(world, body, out, room, count);                                                        \
+#define ISO_QUERIES(P, S)                                                                                              \
+  iso_status iso_##P##_cast_ray(const iso_world* world, const iso_##P##_ray_cast* ray, iso_##P##_ray_hit* out,         \
+                                uint8_t* found) {                                                                      \
+    return find_one<S, CRayCast<S>>(world, "cast_ray", ray, out, found, [](auto& w, const auto& q, const auto& f) {    \
+      return w.cast_ray(q.origin, q.translation, f);                                                                   \
+    });                                                                                                                \
+  }                                                                                                                    \
+  iso_status iso_##P##_cast_ray_all(const iso_world* world, const iso_##P##_ray_cast* ray, iso_##P##_ray_hit* out,     \
+                                    size_t room, size_t* count) {                                                      \
+    return find_all<S, CRayCast<S>, RayCastHit<S>>(                                                                    \
+        world, "cast_ray_all", ray, out, room, count,                                                                  \
+        [](auto& w, const auto& q, const auto& f, auto& hits) { w.cast_ray_all(q.origin, q.translation, hits, f); });  \
+  }                                                                                                                    \
+  iso_status iso_##P##_cast_shape(const iso_world* world, const iso_##P##_shape_cast* cast, iso_##P##_shape_hit* out,  \
+                                  uint8_t* found) {                                                                    \
+    return find_one<S, CShapeCast<S>>(                                                                                 \
+        world, "cast_shape", cast, out, found,                                                                         \
+        [](auto& w, const auto& q, const auto& f) { return w.cast_shape(shape_of<S>(q), q.pose, q.translation, f); }); \
+  }                                                                                                                    \
+  iso_status iso_##P##_cast_shape_all(const iso_world* world, const iso_##P##_shape_cast* cast,                        \
+                                      iso_##P##_shape_hit* out, size_t room, size_t* count) {                          \
+    return find_all<S, CShapeCast<S>, ShapeCastHit<S>>(                                                                \
+        world, "cast_shape_all", cast, out, room, count, [](auto& w, const auto& q, const auto& f, auto& hits) {       \
+          w.cast_shape_all(shape_of<S>(q), q.pose, q.translation, hits, f);                                            \
+        });                                                                                                            \
+  }                                                                                                                    \
+  iso_status iso_##P##_cast_rays(const iso_world* world, const iso_##P##_ray_cast* rays, size_t count,                 \
+                                 iso_##P##_ray_hit* out, size_t each) {                                                \
+    return cast_rays<S>(world, rays, count, out, each);                                                                \
+  }                                                                                                                    \
+  iso_status iso_##P##_cast_shapes(const iso_world* world, const iso_##P##_shape_cast* casts, size_t count,            \
+                                   iso_##P##_shape_hit* out, size_t each) {                                            \
+    return cast_shapes<S>(world, casts, count, out, each);                                                             \
+  }                                                                                                                    \
+  iso_status iso_##P##_closest_point(const iso_world* world, const iso_##P##_point_query* query,                       \
+                                     iso_##P##_closest_body* out, uint8_t* found) {                                    \
+    return find_one<S, CPointQuery<S>>(                                                                                \
+        world, "closest_point", query, out, found,                                                                     \
+        [](auto& w, const auto& q, const auto& f) { return w.closest_point(q.point, q.max_distance, f); });            \
+  }                                                                                                                    \
+  iso_status iso_##P##_overlap_first(const iso_world* world, const iso_##P##_overlap_query* query,                     \
+                                     iso_overlap_hit* out, uint8_t* found) {                                           \
+    return find_one<S, COverlapQuery<S>>(                                                                              \
+        world, "overlap_first", query, out, found,                                                                     \
+        [](auto& w, const auto& q, const auto& f) { return w.overlap_first(shape_of<S>(q), q.pose, f); });             \
+  }                                                                                                                    \
+  iso_status iso_##P##_overlap_shape(const iso_world* world, const iso_##P##_overlap_query* query,                     \
+                                     iso_overlap_hit* out, size_t room, size_t* count) {                               \
+    return find_all<S, COverlapQuery<S>, OverlapHit>(                                                                  \
+        world, "overlap_shape", query, out, room, count,                                                               \
+        [](auto& w, const auto& q, const auto& f, auto& hits) { w.overlap_shape(shape_of<S>(q), q.pose, hits, f); });  \
+  }                                                                                                                    \
+  iso_status iso_##P##_overlap_box(const iso_world* world, const iso_##P##_box_query* query, iso_body* out,            \
+                                   size_t room, size_t* count) {                                                       \
+    return find_all<S, CBoxQuery<S>, BodyId>(                                                                          \
+        world, "overlap_box", query, out, room, count,                                                                 \
+        [](auto& w, const auto& q, const auto& f, auto& bodies) { w.overlap_aabb(q.box, bodies, f); });                \
+  }                                                                                                                    \
+  iso_status iso_##P##_body_get_contacts(const iso_world* world, iso_body body, iso_##P##_contact_point* out,          \
+                                         size_t room, size_t* count) {                                                 \
+    return body_contacts<S>(world, body, out, room, count);                                                            \
   }
 ISO_C_FAMILIES(ISO_QUERIES)

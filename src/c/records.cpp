@@ -26,8 +26,7 @@ iso_status set_record(iso_world* world, const char* call, iso_record id, const v
     return taken;
   });
 }
-template <class S, class Id>
-iso_status get_record(const iso_world* world, const char* call, iso_record id, void* out) {
+template <class S, class Id> iso_status get_record(const iso_world* world, const char* call, iso_record id, void* out) {
   return in_world<S>(world, call, Access::reads, [&](auto& of) {
     const auto* const record = of.world.find(id_of<Id>(id));
     if (record == nullptr) return refuse({Fault::stale_id, call, "id", "a record of this world and kind"});
@@ -43,21 +42,21 @@ template <class Id> iso_status remove_record(iso_world* world, const char* call,
 
 }  // namespace
 
-#define ISO_REMOVE(name, Record, Id, S)                                  \
-  iso_status iso_remove_##name(iso_world* world, iso_record id) {        \
-    return remove_record<Id>(world, "remove_" #name, id);                \
+#define ISO_REMOVE(name, Record, Id, S)                           \
+  iso_status iso_remove_##name(iso_world* world, iso_record id) { \
+    return remove_record<Id>(world, "remove_" #name, id);         \
   }
 ISO_FOR_EACH_RECORD(ISO_REMOVE, unused)
 
-#define ISO_RECORD(P, name, Record, Id, S)                                                                \
-  iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* record, iso_record* out) {    \
-    return add_record<S, Record, Id>(world, "add_" #name, record, out);                                   \
-  }                                                                                                       \
-  iso_status iso_##P##_set_##name(iso_world* world, iso_record id, const iso_##P##_##name* record) {      \
-    return set_record<S, Record, Id>(world, "set_" #name, id, record);                                    \
-  }                                                                                                       \
-  iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out) {         \
-    return get_record<S, Id>(world, "get_" #name, id, out);                                               \
+#define ISO_RECORD(P, name, Record, Id, S)                                                             \
+  iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* record, iso_record* out) { \
+    return add_record<S, Record, Id>(world, "add_" #name, record, out);                                \
+  }                                                                                                    \
+  iso_status iso_##P##_set_##name(iso_world* world, iso_record id, const iso_##P##_##name* record) {   \
+    return set_record<S, Record, Id>(world, "set_" #name, id, record);                                 \
+  }                                                                                                    \
+  iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out) {      \
+    return get_record<S, Id>(world, "get_" #name, id, out);                                            \
   }
 #define ISO_F32(name, Record, Id, S) ISO_RECORD(f32, name, Record, Id, S)
 #define ISO_F64(name, Record, Id, S) ISO_RECORD(f64, name, Record, Id, S)

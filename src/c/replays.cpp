@@ -141,9 +141,8 @@ iso_status iso_replay_create_world(const iso_replay* replay, iso_world** out) {
     if (!reader.has_state()) return refuse(ISO_CORRUPT, kCall, "replay", "a start");
     if (info.world[0] != '\0') return refuse(ISO_CORRUPT, kCall, "replay", "a world of rigid bodies");
     iso_status status = ISO_NO_SCALAR;
-    const bool known = with_scalar(info.scalar, [&](auto tag) {
-      status = create_world<typename decltype(tag)::Type>(reader, kCall, out);
-    });
+    const bool known = with_scalar(
+        info.scalar, [&](auto tag) { status = create_world<typename decltype(tag)::Type>(reader, kCall, out); });
     return known ? status : refuse(ISO_NO_SCALAR, kCall, "replay");
   });
 }

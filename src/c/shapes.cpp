@@ -25,8 +25,7 @@ iso_status put_primitive(const char* call, const void* from, void* out) {
   return taken;
 }
 
-template <class S>
-iso_status add_hull(iso_world* world, const void* from, const iso_blob* blob, iso_shape* out) {
+template <class S> iso_status add_hull(iso_world* world, const void* from, const iso_blob* blob, iso_shape* out) {
   constexpr const char* kCall = "add_hull";
   return in_world<S>(world, kCall, Access::changes, [&](auto& of) {
     ISO_C_REQUIRE(kCall, out);
@@ -101,8 +100,8 @@ iso_status iso_set_heights(iso_world* world, iso_shape shape, uint32_t child, co
     ISO_C_REQUIRE(kCall, from.heights.at);
     const std::uint64_t places = std::uint64_t{from.columns} * from.rows;
     if (places > SetHeights::kMost) return refuse(kMisused, kCall, "columns, rows", "a part of the field");
-    HeightPatch heights = {from.column, from.row, from.columns, from.rows,
-                           {from.heights.at, static_cast<std::size_t>(places)}, {}};
+    HeightPatch heights = {
+        from.column, from.row, from.columns, from.rows, {from.heights.at, static_cast<std::size_t>(places)}, {}};
     const std::uint64_t cells = std::uint64_t{from.columns - 1} * (from.rows - 1);
     if (from.materials.at != nullptr) heights.materials = {from.materials.at, static_cast<std::size_t>(cells)};
     of.world.set_heights(id_of<ShapeId>(shape), child, heights);
@@ -131,26 +130,25 @@ iso_status iso_remove_shape(iso_world* world, iso_shape shape) {
   });
 }
 
-#define ISO_SHAPE(P, S, name)                                                                              \
-  iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* shape, iso_shape* out) {       \
-    return add_shape<S, twin::name>(world, "add_" #name, shape, out);                                      \
-  }                                                                                                        \
-  iso_status iso_##P##_##name##_primitive(const iso_##P##_##name* shape, iso_##P##_primitive* out) {       \
-    return put_primitive<S, twin::name>(#name "_primitive", shape, out);                                   \
+#define ISO_SHAPE(P, S, name)                                                                        \
+  iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* shape, iso_shape* out) { \
+    return add_shape<S, twin::name>(world, "add_" #name, shape, out);                                \
+  }                                                                                                  \
+  iso_status iso_##P##_##name##_primitive(const iso_##P##_##name* shape, iso_##P##_primitive* out) { \
+    return put_primitive<S, twin::name>(#name "_primitive", shape, out);                             \
   }
-#define ISO_SHAPES(P, S)                                                                                   \
-  ISO_SHAPE(P, S, sphere)                                                                                  \
-  ISO_SHAPE(P, S, box)                                                                                     \
-  ISO_SHAPE(P, S, capsule)                                                                                 \
-  ISO_SHAPE(P, S, half_space)                                                                              \
-  ISO_SHAPE(P, S, cylinder)                                                                                \
-  ISO_SHAPE(P, S, cone)                                                                                    \
-  iso_status iso_##P##_add_hull(iso_world* world, const iso_##P##_hull* hull, const iso_blob* blob,        \
-                                iso_shape* out) {                                                          \
-    return add_hull<S>(world, hull, blob, out);                                                            \
-  }                                                                                                        \
-  iso_status iso_##P##_add_compound(iso_world* world, const iso_##P##_child* children, size_t count,       \
-                                    const iso_blob* const* blobs, size_t blob_count, iso_shape* out) {     \
-    return add_compound<S>(world, children, count, blobs, blob_count, out);                                \
+#define ISO_SHAPES(P, S)                                                                                              \
+  ISO_SHAPE(P, S, sphere)                                                                                             \
+  ISO_SHAPE(P, S, box)                                                                                                \
+  ISO_SHAPE(P, S, capsule)                                                                                            \
+  ISO_SHAPE(P, S, half_space)                                                                                         \
+  ISO_SHAPE(P, S, cylinder)                                                                                           \
+  ISO_SHAPE(P, S, cone)                                                                                               \
+  iso_status iso_##P##_add_hull(iso_world* world, const iso_##P##_hull* hull, const iso_blob* blob, iso_shape* out) { \
+    return add_hull<S>(world, hull, blob, out);                                                                       \
+  }                                                                                                                   \
+  iso_status iso_##P##_add_compound(iso_world* world, const iso_##P##_child* children, size_t count,                  \
+                                    const iso_blob* const* blobs, size_t blob_count, iso_shape* out) {                \
+    return add_compound<S>(world, children, count, blobs, blob_count, out);                                           \
   }
 ISO_C_FAMILIES(ISO_SHAPES)

@@ -20,8 +20,8 @@ iso_status refuse(const FaultReport& report);
 iso_status refuse(iso_status status, const char* call, const Error& error);
 const char* last_error();
 
-/// The first refusal of a world on this thread since `happened` was set to false: worlds tell it by their fault handler,
-/// for queries that are accepted leave World::fault as it was.
+/// The first refusal of a world on this thread since `happened` was set to false. Worlds tell it by their fault
+/// handler: queries that are accepted leave World::fault as it was.
 struct Refusal {
   bool happened = false;
   FaultReport report;

@@ -179,14 +179,14 @@ iso_status iso_world_fault_text(const iso_world* world, char* text, size_t* size
   });
 }
 
-#define ISO_WORLDS(P, S)                                                                                  \
-  iso_status iso_##P##_world_create(const iso_##P##_settings* settings, iso_world** out) {                \
-    return world_create<S>(settings, out);                                                                \
-  }                                                                                                       \
-  iso_status iso_##P##_world_get_settings(const iso_world* world, iso_##P##_settings* out) {              \
-    return get_settings<S>(world, out);                                                                   \
-  }                                                                                                       \
-  iso_status iso_##P##_world_set_gravity(iso_world* world, const iso_##P##_vec3* gravity) {               \
-    return set_gravity<S>(world, gravity);                                                                \
+#define ISO_WORLDS(P, S)                                                                     \
+  iso_status iso_##P##_world_create(const iso_##P##_settings* settings, iso_world** out) {   \
+    return world_create<S>(settings, out);                                                   \
+  }                                                                                          \
+  iso_status iso_##P##_world_get_settings(const iso_world* world, iso_##P##_settings* out) { \
+    return get_settings<S>(world, out);                                                      \
+  }                                                                                          \
+  iso_status iso_##P##_world_set_gravity(iso_world* world, const iso_##P##_vec3* gravity) {  \
+    return set_gravity<S>(world, gravity);                                                   \
   }
 ISO_C_FAMILIES(ISO_WORLDS)

@@ -3,6 +3,7 @@
 # usage: abi_gate.sh RELEASED.TXT NOW.TXT
 # Functions and enumerators stay as they are. Structs that stand within others stay as they are. Structs that begin with
 # their size keep their members and may grow: what is new lies behind the end that they had.
+# SPDX-License-Identifier: MIT
 set -u
 awk '
   NR == FNR { # the release

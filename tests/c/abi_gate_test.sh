@@ -1,18 +1,23 @@
 #!/bin/sh
 # The gate lets through what is the same or only more, and finds each change that breaks a program.
 # usage: abi_gate_test.sh ABI.TXT
+# SPDX-License-Identifier: MIT
 set -u
 . "$(dirname "$0")/../scratch.sh"
 gate=$(dirname "$0")/abi_gate.sh
 abi=$1
 failures=0
 let_through() { # name, file
-  sh "$gate" "$abi" "$2" >"$dir/out" || { echo "abi gate: refuses $1: $(cat "$dir/out")" >&2; failures=$((failures + 1)); }
+  sh "$gate" "$abi" "$2" >"$dir/out" && return
+  echo "abi gate: refuses $1: $(cat "$dir/out")" >&2
+  failures=$((failures + 1))
 }
 found() { # name, what it says
-  cmp -s "$abi" "$dir/now" && { echo "abi gate: $1 changes nothing" >&2; failures=$((failures + 1)); }
-  if sh "$gate" "$abi" "$dir/now" >"$dir/out"; then echo "abi gate: lets $1 through" >&2; failures=$((failures + 1))
-  elif ! grep -q "$2" "$dir/out"; then echo "abi gate: says of $1: $(cat "$dir/out")" >&2; failures=$((failures + 1)); fi
+  if cmp -s "$abi" "$dir/now"; then echo "abi gate: $1 changes nothing" >&2
+  elif sh "$gate" "$abi" "$dir/now" >"$dir/out"; then echo "abi gate: lets $1 through" >&2
+  elif ! grep -q "$2" "$dir/out"; then echo "abi gate: says of $1: $(cat "$dir/out")" >&2
+  else return; fi
+  failures=$((failures + 1))
 }
 size_of() { awk -v name="$1" '$2 == name && ($1 == "sized" || $1 == "plain") {print $3}' "$abi"; }
 settings=iso_q32_settings
@@ -21,7 +26,8 @@ end=$(size_of $settings)
 let_through "the same" "$abi"
 { cat "$abi"; echo "function iso_new iso_status(iso_world*)"; echo "enumerator ISO_SOLVER_NEW 4"; } >"$dir/now"
 let_through "a new function and a new enumerator" "$dir/now"
-{ sed "s/^sized $settings .*/sized $settings $((end + 8))/" "$abi"; echo "member $settings.new $end 8 number"; } >"$dir/now"
+sed "s/^sized $settings .*/sized $settings $((end + 8))/" "$abi" >"$dir/now"
+echo "member $settings.new $end 8 number" >>"$dir/now"
 let_through "a struct that grows at its end" "$dir/now"
 
 # A member in the middle moves those behind it.

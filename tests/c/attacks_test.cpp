@@ -9,12 +9,12 @@ namespace isostep::test {
 namespace {
 
 /// The call has that status, says why, and leaves the world as it was.
-#define EXPECT_REFUSED(game, call, expected)                       \
-  do {                                                             \
+#define EXPECT_REFUSED(game, call, expected)                        \
+  do {                                                              \
     const std::uint64_t hash_before = iso_world_hash((game).world); \
-    EXPECT_EQ((call), expected) << iso_last_error();               \
-    EXPECT_STRNE(iso_last_error(), "");                            \
-    EXPECT_EQ(iso_world_hash((game).world), hash_before);          \
+    EXPECT_EQ((call), expected) << iso_last_error();                \
+    EXPECT_STRNE(iso_last_error(), "");                             \
+    EXPECT_EQ(iso_world_hash((game).world), hash_before);           \
   } while (false)
 
 TEST(CAttacks, NullPointersAreRefused) {

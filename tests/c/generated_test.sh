@@ -1,6 +1,7 @@
 #!/bin/sh
 # What is generated is what is committed.
 # usage: generated_test.sh GENERATED SOURCE
+# SPDX-License-Identifier: MIT
 set -u
 failures=0
 for file in include/isostep.h:isostep.h layout/layout_checks.hpp:layout_checks.hpp interface.json:interface.json; do

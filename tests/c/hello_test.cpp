@@ -17,8 +17,7 @@ template <class S> std::vector<std::uint64_t> frames_in_cpp() {
   World<S> world;
   const ShapeId ground = world.add_shape(Box{{50, 1, 50}}), crate = world.add_shape(Box{{0.5, 0.5, 0.5}});
   world.create({.shape = ground, .position = {S(0), S(-1), S(0)}});
-  const BodyId body = world.create(
-      {.type = dynamic, .shape = crate, .position = {S(0), S(2), S(0)}, .user_data = 42});
+  const BodyId body = world.create({.type = dynamic, .shape = crate, .position = {S(0), S(2), S(0)}, .user_data = 42});
   world.apply_impulse(body, {S(0), S(3), S(0)});
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < kFrames; ++i) {

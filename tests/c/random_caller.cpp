@@ -2,7 +2,7 @@
 // with random members and sizes, damaged bytes. Each call has a known status; one that is refused changes nothing.
 // SPDX-License-Identifier: MIT
 //
-// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first that is wrong.
+// c_random_caller: ISOSTEP_RANDOM_CALLS calls (100000), seed ISOSTEP_RANDOM_SEED (1). Exits 1 on the first wrong one.
 
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +17,24 @@
 
 namespace {
 
-enum Kind { number_, unit_, bool_, enum_, id_, pointer_, struct_, char_, i16_, i32_, u8_, u16_, u32_, u64_, f32_, f64_ };
+enum Kind {
+  number_,
+  unit_,
+  bool_,
+  enum_,
+  id_,
+  pointer_,
+  struct_,
+  char_,
+  i16_,
+  i32_,
+  u8_,
+  u16_,
+  u32_,
+  u64_,
+  f32_,
+  f64_
+};
 struct Member {
   std::size_t offset, size;
   Kind kind;
@@ -40,10 +57,10 @@ class Facts {
 #include "calls.inl"
 #undef ISO_STRUCT
 #undef ISO_MEMBER
-#define ISO_INIT(name)                                                     \
-  {                                                                        \
-    name made;                                                             \
-    if (name##_init(&made) == ISO_OK) keep(#name, &made, sizeof made);     \
+#define ISO_INIT(name)                                                 \
+  {                                                                    \
+    name made;                                                         \
+    if (name##_init(&made) == ISO_OK) keep(#name, &made, sizeof made); \
   }
 #include "calls.inl"
 #undef ISO_INIT
@@ -96,6 +113,8 @@ struct Handles {
   std::vector<void*> alive, dead;
 };
 
+constexpr const char* kKinds[] = {"world", "snapshot", "tape", "replay", "blob", "session", "network"};
+
 class Drawer {
  public:
   Drawer(const Facts& facts, std::uint64_t seed) : facts_(facts), dice_(seed) {
@@ -103,6 +122,8 @@ class Drawer {
     for (auto& region : regions_) region = std::make_unique<std::uint64_t[]>(kRegion / 8);
   }
   ~Drawer() {
+    for (void* session : handles_["session"].alive) iso_session_destroy(static_cast<iso_session*>(session));
+    for (void* network : handles_["network"].alive) iso_network_destroy(static_cast<iso_network*>(network));
     for (void* world : handles_["world"].alive) iso_world_destroy(static_cast<iso_world*>(world));
     for (void* snapshot : handles_["snapshot"].alive) iso_snapshot_destroy(static_cast<iso_snapshot*>(snapshot));
     for (void* tape : handles_["tape"].alive) iso_tape_destroy(static_cast<iso_tape*>(tape));
@@ -162,10 +183,11 @@ class Drawer {
   /// To what an argument points: `to` as in "iso_world", "const iso_blob*" or "void".
   void* pointer(const std::string& to, bool is_const, const std::string& name) {
     if (dice_.one_in(60)) return nullptr;
-    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+    for (const char* kind : kKinds) {
       if (to == std::string("iso_") + kind) return handle(kind);
     }
-    if (to == "char") return is_const ? static_cast<void*>(scene_) : region();
+    if (to == "char") return is_const ? static_cast<void*>(name == "profile" ? line_ : scene_) : region();
+    if (name == "file" && !has_file_) return nullptr;
     if (to == "void") return is_const ? static_cast<void*>(damaged_) : name == "user" ? nullptr : region();
     if (to.find('*') != std::string::npos) return slots(to, is_const);
     return numbers(to, is_const);
@@ -180,36 +202,41 @@ class Drawer {
   double real() {
     switch (dice_.below(12)) {
       case 0: return 0;
-      case 1: return -1;
-      case 2: return 1e30;
-      case 3: return dice_.one_in(4) ? 0.0 / zero_ : 1;
+      case 1: return dice_.one_in(3) ? -1 : 0.5;
+      case 2: return dice_.one_in(6) ? 1e30 : 0.25;
+      case 3: return dice_.one_in(10) ? 0.0 / zero_ : 1;
       default: return static_cast<double>(dice_.below(4000)) / 1000;
     }
   }
   std::uint64_t integer(std::size_t bytes, const std::string& name) {
     if (bytes == 1) return dice_.one_in(20) ? dice_.next() : dice_.below(2);
     if (bytes == 4) return dice_.one_in(30) ? dice_.next() : dice_.below(13);
+    if (name == "now") return now_ += dice_.one_in(100) ? dice_.below(20000000) : dice_.below(20000);
+    if (name == "file_size") return has_file_ ? size_ : 0;
     if (name == "size") return dice_.one_in(10) && size_ > 0 ? dice_.below(size_) : size_;
     if (name == "count" || name == "room" || name == "blob_count") return dice_.below(kElements);
     if (name == "each") return dice_.below(4);
     if (name == "frame" || name == "most_frames") return dice_.below(60);
     if (name == "user_data") return dice_.next();
-    if (family_ == 3 && (name == "value" || name == "radius" || name == "pitch" || name == "ratio" ||
-                         name == "rope" || name == "gravity_scale" || name.find("damping") != std::string::npos)) {
+    if (family_ == 3 && (name == "value" || name == "radius" || name == "pitch" || name == "ratio" || name == "rope" ||
+                         name == "gravity_scale" || name.find("damping") != std::string::npos)) {
       return static_cast<std::uint64_t>(iso_q32_from_double(real()));
     }
     const char* kind = name == "shape" ? "iso_shape" : name == "id" ? "iso_record" : name == "body" ? "iso_body" : "";
     const bool is_joint = name == "joint" || function_.find("coupling") != std::string::npos;
     return id(kind[0] != '\0' ? kind : is_joint ? "iso_joint" : "iso_body");
   }
-  /// Ids are kept by the family of the world that the call is given.
-  std::uint32_t family_of_ids() const {
-    iso_scalar scalar = family_;
-    if (world() != nullptr) iso_world_get_scalar(world(), &scalar);
-    return scalar;
+  /// Ids are kept by the world that gave them, and those of records by their kind.
+  std::string key(const std::string& kind) const {
+    std::string of = kind;
+    for (const char* verb : {"_add_", "_set_", "_get_", "_remove_"}) {
+      const std::size_t at = function_.find(verb);
+      if (kind == "iso_record" && at != std::string::npos) of += function_.substr(at + std::strlen(verb));
+    }
+    return of + std::to_string(reinterpret_cast<std::uintptr_t>(world_));
   }
   std::uint64_t id(const std::string& kind) {
-    const std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    const std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.empty() || dice_.one_in(30)) return dice_.one_in(2) ? 0 : dice_.next();
     return known[dice_.below(known.size())];
   }
@@ -217,8 +244,11 @@ class Drawer {
     const auto has = [&](const char* part) { return function_.find(part) != std::string::npos; };
     const bool shape = has("_blob") || has("_sphere") || has("_box") || has("_capsule") || has("_half_space") ||
                        has("_cylinder") || has("_cone") || has("_hull") || has("_compound");
-    const char* kind = has("body_create") ? "iso_body" : has("create") ? "iso_joint" : shape ? "iso_shape" : "iso_record";
-    std::vector<std::uint64_t>& known = ids_[kind + std::to_string(family_of_ids())];
+    const char* kind = has("body_create") ? "iso_body"
+                       : has("create")    ? "iso_joint"
+                       : shape            ? "iso_shape"
+                                          : "iso_record";
+    std::vector<std::uint64_t>& known = ids_[key(kind)];
     if (known.size() < 60) known.push_back(made);
     else known[dice_.below(60)] = made;
   }
@@ -229,16 +259,37 @@ class Drawer {
   void* slots(const std::string& to, bool is_const) {
     auto** const all = reinterpret_cast<void**>(region());
     for (std::size_t i = 0; i < kElements; ++i) all[i] = is_const ? handle("blob") : nullptr;
-    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+    for (const char* kind : kKinds) {
       if (!is_const && to == std::string("iso_") + kind + "*") out_handles_.push_back({kind, all});
     }
     return all;
   }
+  /// A world, a block or both, with a step or without.
+  iso_game* game() {
+    auto* const game = reinterpret_cast<iso_game*>(region());
+    iso_game_init(game);
+    if (!dice_.one_in(3)) game->world = static_cast<iso_world*>(handle("world"));
+    if (!dice_.one_in(3)) game->block = block_, game->block_size = 1 + dice_.below(sizeof block_);
+    if (!dice_.one_in(3)) game->step = [](void*, std::int32_t, const iso_input*, std::uint32_t) {};
+    if (dice_.one_in(20)) game->size = static_cast<std::uint32_t>(dice_.below(300));
+    return game;
+  }
+  /// Mostly of a session that can be: a host, or a client whom nobody ever answers.
+  iso_session_config* config(iso_session_config* config) {
+    if (!dice_.one_in(20)) std::strcpy(config->name, "random");
+    config->host = dice_.one_in(3) ? 0 : 1;
+    config->seed = config->host;
+    config->asks_admission = config->votes = dice_.one_in(2) ? 1 : 0;
+    if (!dice_.one_in(10)) config->snapshot_cap = 1u << 20, config->most_packets = 480;
+    return config;
+  }
   void* numbers(const std::string& to, bool is_const) {
+    if (to == "iso_game") return game();
     std::uint8_t* const at = region();
     if (const Fact* fact = facts_.named(to)) {
       const bool same_size = !dice_.one_in(25);
       for (std::size_t i = 0; i < kElements; ++i) fill(at + i * fact->size, *fact, same_size);
+      if (to == "iso_session_config" && is_const) return config(reinterpret_cast<iso_session_config*>(at));
       return at;
     }
     auto* const words = reinterpret_cast<std::uint64_t*>(at);
@@ -252,15 +303,20 @@ class Drawer {
     damaged_ = region();
     std::memcpy(damaged_, whole.data(), whole.size());
     size_ = whole.size();
+    has_file_ = dice_.one_in(4);
     if (dice_.one_in(3)) damaged_[dice_.below(size_)] ^= static_cast<std::uint8_t>(1u << dice_.below(8));
   }
 
   /// Defaults with some members changed.
   void fill(std::uint8_t* at, const Fact& fact, bool same_size) {
     std::memcpy(at, fact.image.data(), fact.size);
+    bool is_solid = false;  // its defaults are no shape
+    for (const char* solid : {"_sphere", "_box", "_capsule", "_cylinder", "_cone", "_half_space"}) {
+      is_solid = is_solid || fact.name.substr(7) == solid;
+    }
     for (const Member& member : fact.members) {
       if (fact.sized && member.offset < 8) continue;
-      const bool names = member.kind == id_ || member.kind == pointer_;
+      const bool names = member.kind == id_ || member.kind == pointer_ || (is_solid && member.kind != struct_);
       if (member.kind == struct_ || names || dice_.one_in(6)) change(at + member.offset, member, fact);
     }
     if (fact.sized && !same_size && dice_.one_in(4)) {
@@ -272,21 +328,23 @@ class Drawer {
     switch (member.kind) {
       case struct_: {
         const Fact* inner = facts_.named(member.of);
-        if (inner != nullptr && !dice_.one_in(2)) {
+        const bool is_size = fact.name.substr(7) == "_box";
+        if (inner != nullptr && (is_size || dice_.one_in(3))) {
           for (const Member& deeper : inner->members) {
-            if (deeper.kind == struct_ || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
+            if (deeper.kind == struct_ || is_size || dice_.one_in(8)) change(at + deeper.offset, deeper, *inner);
           }
         }
         return;
       }
-      case id_: return put(at, dice_.one_in(3) ? 0 : id(member.of), 8);
+      case id_: return put(at, dice_.one_in(5) ? 0 : id(member.of), 8);
       case pointer_: return put(at, dice_.one_in(3) ? 0 : reinterpret_cast<std::uintptr_t>(lists_), 8);
       case bool_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(2), 1);
       case enum_: return put(at, dice_.one_in(30) ? dice_.next() : dice_.below(4), 4);
       case u32_: return put(at, dice_.below(kElements), 4);
       case number_:
       case unit_: {
-        for (std::size_t i = 0, width = width_of(fact); i + width <= member.size; i += width) number(at + i, member, fact);
+        for (std::size_t i = 0, width = width_of(fact); i + width <= member.size; i += width)
+          number(at + i, member, fact);
         return;
       }
       case f64_: {
@@ -362,7 +420,10 @@ class Drawer {
     if (kind == "tape") status = iso_tape_destroy(static_cast<iso_tape*>(handle));
     if (kind == "replay") status = iso_replay_destroy(static_cast<iso_replay*>(handle));
     if (kind == "blob") status = iso_blob_destroy(static_cast<iso_blob*>(handle));
-    if (status != ISO_OK) std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
+    if (kind == "session") status = iso_session_destroy(static_cast<iso_session*>(handle));
+    if (kind == "network") status = iso_network_destroy(static_cast<iso_network*>(handle));
+    if (status != ISO_OK)
+      std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
     bury(kind, handle);
   }
 
@@ -379,9 +440,13 @@ class Drawer {
   void* world_ = nullptr;
   std::uint32_t family_ = 4;
   double zero_ = 0;
-  char scene_[8] = "random";
+  char scene_[8] = "random", line_[8] = "wifi";
+  std::uint8_t block_[200] = {};  // of all sessions' games
+  std::uint64_t now_ = 0;         // [us] of sessions and networks
+  bool has_file_ = false;
   alignas(16) std::uint64_t lists_[512] = {};  // what pointers within structs point to: 400 places and more
-  std::map<std::string, Handles> handles_ = {{"world", {}}, {"snapshot", {}}, {"tape", {}}, {"replay", {}}, {"blob", {}}};
+  std::map<std::string, Handles> handles_ = {{"world", {}}, {"snapshot", {}}, {"tape", {}},   {"replay", {}},
+                                             {"blob", {}},  {"session", {}},  {"network", {}}};
   std::map<std::string, std::vector<std::uint64_t>> ids_;
   std::vector<std::vector<std::uint8_t>> bytes_;
 };
@@ -397,7 +462,8 @@ const std::vector<Call>& all_calls() {
 #define ISO_P(type, to, is_const, name) static_cast<type>(drawer.pointer(to, is_const, name))
 #define ISO_V(type, name) drawer.value<type>(name)
 #define ISO_CALL(f, ...) {#f, true, []([[maybe_unused]] Drawer& drawer) { return f(__VA_ARGS__); }},
-#define ISO_ASK(f, ...) {#f, false, []([[maybe_unused]] Drawer& drawer) { return (void)f(__VA_ARGS__), iso_status{0}; }},
+#define ISO_ASK(f, ...) \
+  {#f, false, []([[maybe_unused]] Drawer& drawer) { return (void)f(__VA_ARGS__), iso_status{0}; }},
 #include "calls.inl"
   };
   return calls;
@@ -411,7 +477,8 @@ struct Often {
     for (const Call& call : all_calls()) {
       const std::string name = call.name;
       const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
-      if (has("_body_create") || has("_add_box") || has("_add_sphere") || has("_create_six_axis")) bodies.push_back(&call);
+      if (has("_body_create") || has("_add_box") || has("_add_sphere") || has("_create_six_axis"))
+        bodies.push_back(&call);
       const bool makes = has("_body_create") || has("_add_") || (has("_create_") && !has("blob_") && !has("replay_"));
       if (makes) all.push_back(&call);
     }
@@ -506,11 +573,12 @@ int main() {
     if (std::strcmp(iso_status_text(status), "unknown status") == 0) {
       return std::printf("call %llu, %s: status %d\n", static_cast<unsigned long long>(i), call.name, status), 1;
     }
-    // Of commands as bytes, what comes before the damage was done; of a ragdoll that is taken back, its ids are used up.
+    // Of commands as bytes, what comes before the damage was done; a ragdoll that is taken back has used up ids.
     const bool leaves_traces = name == "iso_world_apply" || name.find("add_ragdoll") != std::string::npos;
     if (status != ISO_OK && looks && !leaves_traces && iso_world_hash(drawer.world()) != before) {
       return std::printf("call %llu, %s: refused, and the world is another: %s\n", static_cast<unsigned long long>(i),
-                         call.name, iso_last_error()), 1;
+                         call.name, iso_last_error()),
+             1;
     }
     if (status == ISO_OK) ++succeeded[name];
     drawer.end(status);

@@ -162,31 +162,31 @@ int expect_same_record(Twins<S>& twins, const char* name, Add add, Set set, Get 
   EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
   // Some are over after a step, by themselves.
   const iso_status removed = remove(twins.c, made);
-  EXPECT_EQ(twins.cpp.remove(id) ? iso_status{ISO_OK} : static_cast<iso_status>(twins.cpp.fault().fault), removed) << name;
+  EXPECT_EQ(twins.cpp.remove(id) ? iso_status{ISO_OK} : static_cast<iso_status>(twins.cpp.fault().fault), removed)
+      << name;
   EXPECT_EQ(get(twins.c, made, &kept), ISO_FAULT_STALE_ID) << name;
   EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << name;
   return 1;
 }
 
-#define ISO_SAME(P, name, Record, Id, S)                                                                      \
-  accepted += expect_same_record<S, Record, Id, iso_##P##_##name>(twins, #name, iso_##P##_add_##name,         \
-                                                                  iso_##P##_set_##name, iso_##P##_get_##name, \
-                                                                  iso_remove_##name);
+#define ISO_SAME(P, name, Record, Id, S)                           \
+  accepted += expect_same_record<S, Record, Id, iso_##P##_##name>( \
+      twins, #name, iso_##P##_add_##name, iso_##P##_set_##name, iso_##P##_get_##name, iso_remove_##name);
 #define ISO_F32(name, Record, Id, S) ISO_SAME(f32, name, Record, Id, S)
 #define ISO_F64(name, Record, Id, S) ISO_SAME(f64, name, Record, Id, S)
 #define ISO_Q16(name, Record, Id, S) ISO_SAME(q16, name, Record, Id, S)
 #define ISO_Q32(name, Record, Id, S) ISO_SAME(q32, name, Record, Id, S)
-#define ISO_TEST(P, S, EACH)                                           \
-  TEST(CRecords, DoWhatTheyDoInCppIn_##P) {                            \
-    Twins<S> twins;                                                    \
-    iso_##P##_settings settings;                                       \
-    iso_##P##_settings_init(&settings);                                \
-    iso_world* world = nullptr;                                        \
-    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);      \
-    twins.copy_to(world);                                              \
-    int accepted = 0;                                                  \
-    ISO_FOR_EACH_RECORD(EACH, S)                                       \
-    EXPECT_GE(accepted, 20) << "kinds whose defaults a world takes";   \
+#define ISO_TEST(P, S, EACH)                                         \
+  TEST(CRecords, DoWhatTheyDoInCppIn_##P) {                          \
+    Twins<S> twins;                                                  \
+    iso_##P##_settings settings;                                     \
+    iso_##P##_settings_init(&settings);                              \
+    iso_world* world = nullptr;                                      \
+    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);    \
+    twins.copy_to(world);                                            \
+    int accepted = 0;                                                \
+    ISO_FOR_EACH_RECORD(EACH, S)                                     \
+    EXPECT_GE(accepted, 20) << "kinds whose defaults a world takes"; \
   }
 ISO_TEST(f32, float, ISO_F32)
 ISO_TEST(f64, double, ISO_F64)

@@ -1,6 +1,7 @@
 #!/bin/sh
 # The shared library exports what isostep.h declares, and nothing else; it needs the C library alone.
 # usage: symbols_test.sh LIBRARY ABI.TXT NM OBJDUMP
+# SPDX-License-Identifier: MIT
 set -u
 . "$(dirname "$0")/../scratch.sh"
 library=$1 abi=$2 nm=$3 objdump=$4

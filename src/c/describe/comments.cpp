@@ -74,9 +74,8 @@ std::string comment_of(const std::vector<std::string>& lines, const std::string&
 
 void fill(const Bodies& bodies, std::vector<Struct>& structs) {
   for (Struct& described : structs) {
-    const std::string name = described.cpp_name == "RayCastHit" || described.cpp_name == "ShapeCastHit"
-                                 ? "QueryHit"
-                                 : described.cpp_name;
+    const std::string name =
+        described.cpp_name == "RayCastHit" || described.cpp_name == "ShapeCastHit" ? "QueryHit" : described.cpp_name;
     const auto found = bodies.find(name);
     if (found == bodies.end()) continue;
     for (Member& member : described.members) {

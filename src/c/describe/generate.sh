@@ -1,6 +1,7 @@
 #!/bin/sh
 # The generated files of the C interface, into a folder: isostep.h, layout_checks.hpp, interface.json, abi.txt; calls.inl for tests/c.
 # usage: generate.sh ISOSTEP_INTERFACE CC ROOT OUT
+# SPDX-License-Identifier: MIT
 set -eu
 tool=$1 cc=$2 root=$3 out=$4
 mkdir -p "$out"

@@ -54,7 +54,9 @@ int write_json(Schema schema, char** paths) {
 int main(int count, char** arguments) {
   const std::string mode = count > 1 ? arguments[1] : "";
   if (!(mode == "header" && count == 5) && !(mode == "json" && count == 8)) {
-    return std::fprintf(stderr, "isostep_interface header ROOT HEADER CHECKS | json ROOT HEADER EXPANDED JSON ABI CALLS\n"), 64;
+    return std::fprintf(stderr,
+                        "isostep_interface header ROOT HEADER CHECKS | json ROOT HEADER EXPANDED JSON ABI CALLS\n"),
+           64;
   }
   const std::string root = arguments[2];
   Schema schema = make_schema();

@@ -165,8 +165,10 @@ template <class S> Family describe_family(const char* prefix) {
   }
   family.unit = family.number;
   auto& structs = family.structs;
-#define ISO_PLAIN(name, Type, X) structs.push_back(describe_struct<twin::name<S>, twin::name<Typed>, false>(#name, #Type));
-#define ISO_SIZED(name, Type, X) structs.push_back(describe_struct<twin::name<S>, twin::name<Typed>, true>(#name, #Type));
+#define ISO_PLAIN(name, Type, X) \
+  structs.push_back(describe_struct<twin::name<S>, twin::name<Typed>, false>(#name, #Type));
+#define ISO_SIZED(name, Type, X) \
+  structs.push_back(describe_struct<twin::name<S>, twin::name<Typed>, true>(#name, #Type));
 #define ISO_RECORD(name, Type, Id, X) ISO_SIZED(name, Type, X)
   ISO_C_PLAIN(ISO_PLAIN, S)
   ISO_C_SIZED(ISO_SIZED, S)
@@ -229,8 +231,8 @@ std::string name_of(const Enumerator& value, const Enum& of) {
 
 const std::vector<PointerType>& pointer_types() {
   static const std::vector<PointerType> types = {
-      {"iso_text", "char"},           {"iso_body_list", "iso_body"},  {"iso_number_list", "uint32_t"},
-      {"iso_height_list", "int16_t"}, {"iso_byte_list", "uint8_t"},   {"iso_double_list", "double"}};
+      {"iso_text", "char"},           {"iso_body_list", "iso_body"}, {"iso_number_list", "uint32_t"},
+      {"iso_height_list", "int16_t"}, {"iso_byte_list", "uint8_t"},  {"iso_double_list", "double"}};
   return types;
 }
 

@@ -12,8 +12,8 @@ namespace isostep::c_header {
 /// number and unit are the family's S and Unit<S>; i32 and the like what they say; pointer eight bytes.
 struct Member {
   std::string name;
-  std::string kind;  // number unit bool enum id pointer struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved
-  std::string of;    // of enum, id, pointer and struct: its name in C; of struct without the family's prefix
+  std::string kind;        // number unit bool enum id pointer struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved
+  std::string of;          // of enum, id, pointer and struct: its name in C; of struct without the family's prefix
   bool of_family = false;  // of struct: the family's
   std::size_t count = 0;   // elements of an array; 0: no array
   std::size_t offset = 0, size = 0;
@@ -27,7 +27,7 @@ struct Struct {
   std::vector<Member> members;  // head and padding included
 };
 struct Family {
-  std::string prefix, scalar, number, unit;  // "q32", "q32.32", "int64_t", "int64_t"
+  std::string prefix, scalar, number, unit;     // "q32", "q32.32", "int64_t", "int64_t"
   int bits, fraction_bits, unit_fraction_bits;  // of float and double: no fraction
   std::vector<Struct> structs;
 };

@@ -21,7 +21,9 @@ template <HasFields T> struct CFields<T> {
   }
 };
 template <class T>
-concept CStruct = requires(T& value) { CFields<T>::fields(isostep::detail::AnyVisitor{}, value); };
+concept CStruct = requires(T& value) {
+  CFields<T>::fields(isostep::detail::AnyVisitor{}, value);
+};
 
 /// A pointer as a member: eight bytes on every target.
 template <class T> struct Pointer { const T* at; };

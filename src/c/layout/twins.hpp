@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
+#include "family.hpp"
 #include "isostep/effects/fracture/breaking.hpp"
 #include "isostep/effects/ragdoll.hpp"
 #include "isostep/world/world.hpp"
 #include "layout.hpp"
-#include "family.hpp"
 
 namespace isostep::c {
 
@@ -22,12 +22,12 @@ struct CQueryFilter {
   BodyId ignore = {};                // is not seen
   std::uint32_t group = 0;           // bodies of this filter.group are not seen; 0: none
   StartInside start_inside = StartInside::report;
-  HitPer per = HitPer::body;                         // what a list of hits has one of
-  std::uint32_t ignore_all_count = 0;                // ids of ignore_all
-  Pointer<std::uint64_t> ignore_all = {};            // iso_body: are not seen either
-  std::uint32_t ignore_kinds_count = 0;              // numbers of ignore_kinds
-  std::uint32_t reserved = 0;                        // 0
-  Pointer<std::uint32_t> ignore_kinds = {};          // nor are bodies of these material.kind
+  HitPer per = HitPer::body;                 // what a list of hits has one of
+  std::uint32_t ignore_all_count = 0;        // ids of ignore_all
+  Pointer<std::uint64_t> ignore_all = {};    // iso_body: are not seen either
+  std::uint32_t ignore_kinds_count = 0;      // numbers of ignore_kinds
+  std::uint32_t reserved = 0;                // 0
+  Pointer<std::uint32_t> ignore_kinds = {};  // nor are bodies of these material.kind
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("mask", self.mask);
     visit("sensors", self.sensors);
@@ -55,8 +55,8 @@ template <class S> struct CRayCast {
   }
 };
 template <class S> struct CShapeCast {
-  ShapeId shape = {};           // of the world, of a single convex part; null: `primitive`
-  Primitive<S> primitive = {};  // without a blob
+  ShapeId shape = {};                     // of the world, of a single convex part; null: `primitive`
+  Primitive<S> primitive = {};            // without a blob
   Pose<S> pose = Pose<S>::identity();     // [m] of the shape's frame at the start, world
   Vec3<S> translation = Vec3<S>::zero();  // [m]
   CQueryFilter filter = {};
@@ -69,8 +69,8 @@ template <class S> struct CShapeCast {
   }
 };
 template <class S> struct COverlapQuery {
-  ShapeId shape = {};           // of the world, of a single convex part; null: `primitive`
-  Primitive<S> primitive = {};  // without a blob
+  ShapeId shape = {};                  // of the world, of a single convex part; null: `primitive`
+  Primitive<S> primitive = {};         // without a blob
   Pose<S> pose = Pose<S>::identity();  // [m] of the shape's frame, world
   CQueryFilter filter = {};
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
@@ -126,12 +126,12 @@ template <class S> struct CBodyProperties {
   std::uint32_t flags = 0;  // ISO_BODY_FLAG_...
   Filter filter = {};
   std::uint64_t user_data = 0;
-  S mass = S(0);                             // [kg]
-  Vec3<S> local_centre = Vec3<S>::zero();    // [m] centre of mass, body frame
+  S mass = S(0);                           // [kg]
+  Vec3<S> local_centre = Vec3<S>::zero();  // [m] centre of mass, body frame
   Material<S> material = {};
-  S gravity_scale = S(1);                    // [1]
-  S linear_damping = S(0);                   // [1/s]
-  S angular_damping = S(0);                  // [1/s]
+  S gravity_scale = S(1);    // [1]
+  S linear_damping = S(0);   // [1/s]
+  S angular_damping = S(0);  // [1/s]
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);
     visit("flags", self.flags);
@@ -170,9 +170,9 @@ struct CFaultReport {
 };
 
 struct CHeightPatch {
-  std::uint32_t column = 0, row = 0;    // of its first place
-  std::uint32_t columns = 0, rows = 0;  // places along each side
-  Pointer<std::int16_t> heights = {};   // columns times rows, by rows, in units of the field's height
+  std::uint32_t column = 0, row = 0;     // of its first place
+  std::uint32_t columns = 0, rows = 0;   // places along each side
+  Pointer<std::int16_t> heights = {};    // columns times rows, by rows, in units of the field's height
   Pointer<std::uint8_t> materials = {};  // of the (columns - 1) times (rows - 1) cells between; null: they stay
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("column", self.column);
@@ -185,8 +185,8 @@ struct CHeightPatch {
 };
 struct CHeightSheet {
   std::uint32_t columns = 0, rows = 0;
-  double pitch = 1;                   // [m] between columns, and between rows
-  Pointer<double> heights = {};       // [m] columns times rows, by rows
+  double pitch = 1;              // [m] between columns, and between rows
+  Pointer<double> heights = {};  // [m] columns times rows, by rows
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("columns", self.columns);
     visit("rows", self.rows);
@@ -196,8 +196,8 @@ struct CHeightSheet {
 };
 struct CTriangles {
   std::uint32_t point_count = 0, triangle_count = 0;
-  Pointer<double> points = {};            // [m] x, y, z of each
-  Pointer<std::uint32_t> vertices = {};   // three a triangle, counter-clockwise seen from its outward side
+  Pointer<double> points = {};           // [m] x, y, z of each
+  Pointer<std::uint32_t> vertices = {};  // three a triangle, counter-clockwise seen from its outward side
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("point_count", self.point_count);
     visit("triangle_count", self.triangle_count);
@@ -207,10 +207,10 @@ struct CTriangles {
 };
 /// Materials of a mesh's triangles or of a height field's cells.
 struct CSurfaceMaterials {
-  std::uint32_t count = 0;                 // of numbers: one a triangle or cell; 0: all have number 0
-  std::uint32_t table_count = 0;           // of table: what number 0 stands for, then 1 ...; beyond: the body's own
-  Pointer<std::uint8_t> numbers = {};      // 254: a ghost, 255: a hole of a height field
-  Pointer<double> table = {};              // friction and restitution of each
+  std::uint32_t count = 0;             // of numbers: one a triangle or cell; 0: all have number 0
+  std::uint32_t table_count = 0;       // of table: what number 0 stands for, then 1 ...; beyond: the body's own
+  Pointer<std::uint8_t> numbers = {};  // 254: a ghost, 255: a hole of a height field
+  Pointer<double> table = {};          // friction and restitution of each
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("count", self.count);
     visit("table_count", self.table_count);
@@ -220,19 +220,19 @@ struct CSurfaceMaterials {
 };
 
 struct CReplayInfo {
-  std::uint64_t behaviour = 0;           // behaviour version that it was recorded with
-  std::uint64_t frames = 0;              // in whole blocks
-  std::uint64_t start_hash = 0;          // of the state before the first
-  std::uint64_t first_frame = 0;         // the number that the game gives to its first
+  std::uint64_t behaviour = 0;    // behaviour version that it was recorded with
+  std::uint64_t frames = 0;       // in whole blocks
+  std::uint64_t start_hash = 0;   // of the state before the first
+  std::uint64_t first_frame = 0;  // the number that the game gives to its first
   std::uint64_t keyframes = 0;
   VerifyOutcome file = VerifyOutcome::verified;  // what the file alone says: verified, incompatible, truncated, corrupt
-  std::uint32_t hz = 0;                  // [1/s] steps
+  std::uint32_t hz = 0;                          // [1/s] steps
   std::uint32_t substeps = 0;
-  bool has_state = false;                // the start is there
-  char scalar[32] = {};                  // "q32.32"; empty where the file does not tell
+  bool has_state = false;  // the start is there
+  char scalar[32] = {};    // "q32.32"; empty where the file does not tell
   char scene[136] = {};
-  char world[32] = {};                   // its kind; empty: rigid bodies
-  char engine[32] = {};                  // the version that recorded it
+  char world[32] = {};   // its kind; empty: rigid bodies
+  char engine[32] = {};  // the version that recorded it
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("behaviour", self.behaviour);
     visit("frames", self.frames);
@@ -250,7 +250,7 @@ struct CReplayInfo {
   }
 };
 struct CReplayResult {
-  VerifyOutcome outcome = VerifyOutcome::verified;      // its number is the exit status of `isostep verify`
+  VerifyOutcome outcome = VerifyOutcome::verified;         // its number is the exit status of `isostep verify`
   VerifyResult::Where where = VerifyResult::Where::start;  // of what diverged
   std::uint64_t frames = 0;    // compared; else the frame that diverged, or the first that is missing or not played
   std::uint64_t expected = 0;  // diverged: the replay's hash
@@ -258,8 +258,8 @@ struct CReplayResult {
   std::uint64_t offset = 0;    // [bytes] truncated, corrupt: the place in the file
   char scalar[32] = {};
   char scene[136] = {};
-  char lanes[16] = {};         // that stepped it; empty: nothing did
-  char text[512] = {};         // the outcome as a sentence
+  char lanes[16] = {};  // that stepped it; empty: nothing did
+  char text[512] = {};  // the outcome as a sentence
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("outcome", self.outcome);
     visit("where", self.where);
@@ -292,7 +292,7 @@ struct CSelfcheckResult {
 
 // ---- Fields of what has none in C++
 
-#define ISO_C_FIELDS_OF(Type)                                                                                        \
+#define ISO_C_FIELDS_OF(Type) \
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self)
 #define ISO_MEMBER(name) visit(#name, self.name);
 
@@ -315,8 +315,8 @@ template <class S> struct CFields<PlainJoint<S>> {
 };
 template <class S> struct CFields<OneAxisJoint<S>> {
   ISO_C_FIELDS_OF(OneAxisJoint) {
-    ISO_MEMBER(a) ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(limit) ISO_MEMBER(motor) ISO_MEMBER(spring)
-    ISO_MEMBER(collide)
+    ISO_MEMBER(a)
+    ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(limit) ISO_MEMBER(motor) ISO_MEMBER(spring) ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<SwingJoint<S>> {
@@ -326,38 +326,40 @@ template <class S> struct CFields<SwingJoint<S>> {
 };
 template <class S> struct CFields<TwoPointJoint<S>> {
   ISO_C_FIELDS_OF(TwoPointJoint) {
-    ISO_MEMBER(a) ISO_MEMBER(b) ISO_MEMBER(anchor_a) ISO_MEMBER(anchor_b) ISO_MEMBER(length) ISO_MEMBER(spring)
-    ISO_MEMBER(collide)
+    ISO_MEMBER(a)
+    ISO_MEMBER(b) ISO_MEMBER(anchor_a) ISO_MEMBER(anchor_b) ISO_MEMBER(length) ISO_MEMBER(spring) ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<WheelJoint<S>> {
   ISO_C_FIELDS_OF(WheelJoint) {
-    ISO_MEMBER(a) ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(suspension) ISO_MEMBER(travel) ISO_MEMBER(steer)
-    ISO_MEMBER(drive) ISO_MEMBER(collide)
+    ISO_MEMBER(a)
+    ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(suspension) ISO_MEMBER(travel) ISO_MEMBER(steer) ISO_MEMBER(drive)
+        ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<MotorJoint<S>> {
   ISO_C_FIELDS_OF(MotorJoint) {
-    ISO_MEMBER(a) ISO_MEMBER(b) ISO_MEMBER(frame_a) ISO_MEMBER(frame_b) ISO_MEMBER(place) ISO_MEMBER(turn)
-    ISO_MEMBER(collide)
+    ISO_MEMBER(a)
+    ISO_MEMBER(b) ISO_MEMBER(frame_a) ISO_MEMBER(frame_b) ISO_MEMBER(place) ISO_MEMBER(turn) ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<SixAxisDefinition<S>> {
   ISO_C_FIELDS_OF(SixAxisDefinition) {
-    ISO_MEMBER(a) ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(locks) ISO_MEMBER(drives) ISO_MEMBER(drive_count)
-    ISO_MEMBER(collide)
+    ISO_MEMBER(a)
+    ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(locks) ISO_MEMBER(drives) ISO_MEMBER(drive_count) ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<RagdollBone<S>> {
   ISO_C_FIELDS_OF(RagdollBone) {
-    ISO_MEMBER(parent) ISO_MEMBER(shape) ISO_MEMBER(pose) ISO_MEMBER(mass) ISO_MEMBER(joint) ISO_MEMBER(hinge)
-    ISO_MEMBER(swing_x) ISO_MEMBER(swing_y) ISO_MEMBER(lower) ISO_MEMBER(upper)
+    ISO_MEMBER(parent)
+    ISO_MEMBER(shape) ISO_MEMBER(pose) ISO_MEMBER(mass) ISO_MEMBER(joint) ISO_MEMBER(hinge) ISO_MEMBER(swing_x)
+        ISO_MEMBER(swing_y) ISO_MEMBER(lower) ISO_MEMBER(upper)
   }
 };
 template <class S> struct CFields<RagdollSettings<S>> {
   ISO_C_FIELDS_OF(RagdollSettings) {
-    ISO_MEMBER(friction) ISO_MEMBER(pose) ISO_MEMBER(limit_frequency) ISO_MEMBER(limit_damping) ISO_MEMBER(filter)
-    ISO_MEMBER(material)
+    ISO_MEMBER(friction)
+    ISO_MEMBER(pose) ISO_MEMBER(limit_frequency) ISO_MEMBER(limit_damping) ISO_MEMBER(filter) ISO_MEMBER(material)
   }
 };
 template <class S> struct CFields<Sphere<S>> {
@@ -380,8 +382,9 @@ template <class S> struct CFields<HalfSpace<S>> {
 };
 template <class S, class Fraction> struct CFields<QueryHit<S, Fraction>> {
   ISO_C_FIELDS_OF(QueryHit) {
-    ISO_MEMBER(body) ISO_MEMBER(child) ISO_MEMBER(triangle) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction)
-    ISO_MEMBER(material) ISO_MEMBER(inside)
+    ISO_MEMBER(body)
+    ISO_MEMBER(child) ISO_MEMBER(triangle) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction)
+        ISO_MEMBER(material) ISO_MEMBER(inside)
   }
 };
 template <> struct CFields<OverlapHit> {
@@ -395,8 +398,9 @@ template <> struct CFields<RenderPose> {
 };
 template <> struct CFields<WorldCounts> {
   ISO_C_FIELDS_OF(WorldCounts) {
-    ISO_MEMBER(bodies) ISO_MEMBER(static_bodies) ISO_MEMBER(awake) ISO_MEMBER(asleep) ISO_MEMBER(contacts)
-    ISO_MEMBER(points) ISO_MEMBER(joints) ISO_MEMBER(shapes)
+    ISO_MEMBER(bodies)
+    ISO_MEMBER(static_bodies) ISO_MEMBER(awake) ISO_MEMBER(asleep) ISO_MEMBER(contacts) ISO_MEMBER(points)
+        ISO_MEMBER(joints) ISO_MEMBER(shapes)
   }
 };
 template <> struct CFields<BreakReport> {
