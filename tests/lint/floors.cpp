@@ -41,6 +41,7 @@ const std::map<std::string, int> kFloors = {
     {"sealed", 9},
     {"prover", 9},
     {"examples", 10},
+    {"csharp", 10},
     // The tool, see its page: what commands share, then commands that know nothing of each other.
     {"tool/common", 9},
     {"tool/page", 10},

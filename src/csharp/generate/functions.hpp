@@ -1,0 +1,18 @@
+// The C# declarations of all functions, and the methods of the classes over them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "output.hpp"
+#include "schema.hpp"
+
+namespace isostep::csharp {
+
+/// Native: every function as C has it.
+void add_functions(const Schema& schema, Files& files);
+/// World, Session ...: a method for each function whose arguments say by themselves what they mean.
+void add_methods(const Schema& schema, Files& files);
+
+/// A C type as its declaration in C# has it.
+std::string native_type(const std::string& c_type, const std::string& family, const Schema& schema, bool qualified);
+
+}  // namespace isostep::csharp

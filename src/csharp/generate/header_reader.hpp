@@ -1,0 +1,12 @@
+// Reads those parts of the C headers that interface.json does not describe: statuses, constants, sessions.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "schema.hpp"
+
+namespace isostep::csharp {
+
+/// Enumerations, structs and functions of `text`, which is written as isostep.h is, appended to `schema`.
+void read_header(const std::string& text, Schema& schema);
+
+}  // namespace isostep::csharp

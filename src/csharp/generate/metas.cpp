@@ -1,0 +1,131 @@
+// What kind of asset a file is decides which importer its .meta names.
+// SPDX-License-Identifier: MIT
+#include "metas.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <vector>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace isostep::csharp {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string guid_of(const std::string& path) {
+  const std::string text = "com.isostep.physics/" + path;
+  const XXH128_hash_t digest = XXH3_128bits(text.data(), text.size());
+  char guid[33];
+  std::snprintf(guid, sizeof guid, "%016" PRIx64 "%016" PRIx64, static_cast<std::uint64_t>(digest.high64),
+                static_cast<std::uint64_t>(digest.low64));
+  return guid;
+}
+
+/// The end that all importers share, as Unity writes it.
+const char* const kEnd = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n";
+
+std::string importer(const std::string& name, const std::string& between = "") {
+  return name + ":\n  externalObjects: {}\n" + between + kEnd;
+}
+
+/// A folder of Runtime/Plugins, what Unity calls its platform, and the processor there.
+struct Platform {
+  std::string name, cpu;
+  bool in_editor;
+};
+const std::map<std::string, Platform>& platforms() {
+  static const std::map<std::string, Platform> all = {{"linux-x86_64", {"Standalone: Linux64", "x86_64", true}},
+                                                      {"windows-x86_64", {"Standalone: Win64", "x86_64", true}},
+                                                      {"macos", {"Standalone: OSXUniversal", "AnyCPU", true}},
+                                                      {"android-arm64", {"Android: Android", "ARM64", false}},
+                                                      {"ios", {"iPhone: iOS", "AnyCPU", false}},
+                                                      {"web", {"WebGL: WebGL", "AnyCPU", false}}};
+  return all;
+}
+std::string enabled(const std::string& platform, bool on, const std::string& settings) {
+  return "  - first:\n      " + platform + "\n    second:\n      enabled: " + (on ? "1" : "0") +
+         "\n      settings:" + (settings.empty() ? " {}\n" : "\n        " + settings + "\n");
+}
+std::string plugin_importer(const fs::path& path) {
+  const std::string folder = path.parent_path().filename().string();
+  const auto found = platforms().find(folder);
+  std::string text =
+      "  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
+      "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n"
+      "  platformData:\n" +
+      enabled("Any: ", false, "");
+  if (found != platforms().end()) {
+    text += enabled("Editor: Editor", found->second.in_editor, "CPU: " + found->second.cpu);
+    text += enabled(found->second.name, true, "CPU: " + found->second.cpu);
+  }
+  return importer("PluginImporter", text);
+}
+
+std::string importer_of(const fs::path& path, bool is_folder) {
+  static const std::set<std::string> plugins = {".so", ".dll", ".dylib", ".a"}, texts = {".md", ".txt", ".json"};
+  const std::string kind = path.extension().string();
+  if (is_folder) return "folderAsset: yes\n" + importer("DefaultImporter");
+  if (path == "package.json") return importer("PackageManifestImporter");
+  if (kind == ".cs") {
+    return importer("MonoImporter",
+                    "  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
+                    "  icon: {instanceID: 0}\n");
+  }
+  if (kind == ".asmdef") return importer("AssemblyDefinitionImporter");
+  if (plugins.count(kind) != 0) return plugin_importer(path);
+  if (texts.count(kind) != 0) return importer("TextScriptImporter");
+  return importer("DefaultImporter");
+}
+
+/// Unity does not look into folders whose names end in ~; samples are copied out of theirs, with their metas.
+bool has_meta(const fs::path& path) {
+  for (const fs::path& part : path) {
+    const std::string name = part.string();
+    if (name.front() == '.') return false;
+    if (name.back() == '~' && (name != "Samples~" || path == part)) return false;
+  }
+  return path.extension() != ".meta";
+}
+
+/// Files and folders by their paths in the package; true: a folder.
+std::map<std::string, bool> assets_of(const fs::path& package, const Files& files) {
+  std::map<std::string, bool> assets;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(package)) {
+    const fs::path path = fs::relative(entry.path(), package);
+    if (has_meta(path)) assets[path.generic_string()] = entry.is_directory();
+  }
+  for (const auto& [name, text] : files) {
+    if (!has_meta(name)) continue;
+    assets[name] = false;
+    for (fs::path at = fs::path(name).parent_path(); !at.empty(); at = at.parent_path()) {
+      if (has_meta(at)) assets[at.generic_string()] = true;
+    }
+  }
+  return assets;
+}
+
+}  // namespace
+
+void add_metas(const fs::path& package, Files& files) {
+  for (const auto& [name, is_folder] : assets_of(package, files)) {
+    files[name + ".meta"] = "fileFormatVersion: 2\nguid: " + guid_of(name) + "\n" + importer_of(name, is_folder);
+  }
+}
+
+std::vector<fs::path> orphans_of(const fs::path& package, const Files& files) {
+  const std::string made = "// Generated by isostep_csharp";
+  std::vector<fs::path> orphans;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(package)) {
+    const fs::path& path = entry.path();
+    if (files.count(fs::relative(path, package).generic_string()) != 0) continue;
+    const bool was_made = path.extension() == ".cs" && read_file(path).compare(0, made.size(), made) == 0;
+    if (path.extension() == ".meta" || was_made) orphans.push_back(path);
+  }
+  return orphans;
+}
+
+}  // namespace isostep::csharp

@@ -1,0 +1,51 @@
+// What went wrong, as numbers and words.
+// SPDX-License-Identifier: MIT
+using System;
+
+namespace Isostep
+{
+    /// <summary>A call that did not succeed. It has changed nothing.</summary>
+    public sealed class IsostepException : Exception
+    {
+        /// <summary>Below 0: what is wrong with the call. Above 0: why the world refused, see Fault.</summary>
+        public readonly Status Status;
+
+        /// <summary>Where the world refused: the command, its field and what it may be. Else null.</summary>
+        public readonly string Command;
+        public readonly string Field;
+        public readonly string Expected;
+
+        /// <summary>Status as the world's fault; None where it is none.</summary>
+        public Fault Fault => Status > 0 ? (Fault)Status : Fault.None;
+
+        internal IsostepException(Status status, string message, string command, string field, string expected)
+            : base(message)
+        {
+            Status = status;
+            Command = command;
+            Field = field;
+            Expected = expected;
+        }
+
+        internal static void Check(Status status)
+        {
+            if (status != Status.Ok) throw Of(status, null);
+        }
+
+        /// <summary>The library's own words for its last error on this thread.</summary>
+        internal static unsafe IsostepException Of(Status status, string words)
+        {
+            string last = words ?? NativeText.Read(Native.iso_last_error());
+            if (string.IsNullOrEmpty(last)) last = NativeText.Read(Native.iso_status_text(status));
+            return new IsostepException(status, last, null, null, null);
+        }
+
+        internal static unsafe IsostepException OfWorld(Status status, IntPtr world)
+        {
+            FaultReport report = FaultReport.Sized();
+            if (status < 0 || Native.iso_world_fault(world, &report) != Status.Ok) return Of(status, null);
+            return new IsostepException(status, NativeText.Read(Native.iso_last_error()),
+                NativeText.Read(report.Command), NativeText.Read(report.Field), NativeText.Read(report.Expected));
+        }
+    }
+}

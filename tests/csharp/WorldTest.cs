@@ -1,0 +1,33 @@
+// Worlds of all four scalars through the C# classes: first what hello_hashes.cpp prints too, then what must hold.
+// SPDX-License-Identifier: MIT
+using System;
+
+internal static class WorldTest
+{
+    private static void Main(string[] arguments)
+    {
+        if (arguments[0] == "hello")
+        {
+            HelloF32.Play();
+            HelloF64.Play();
+            HelloFixed16.Play();
+            HelloFixed32.Play();
+            return;
+        }
+        Each("layout", Layout.Check);
+        Each("what is wrong is said", HelloF32.WhatIsWrongIsSaid, HelloF64.WhatIsWrongIsSaid,
+            HelloFixed16.WhatIsWrongIsSaid, HelloFixed32.WhatIsWrongIsSaid);
+        Each("records come and go", HelloF32.RecordsComeAndGo, HelloF64.RecordsComeAndGo, HelloFixed16.RecordsComeAndGo,
+            HelloFixed32.RecordsComeAndGo);
+        Each("a recording is proved", HelloF32.ARecordingIsProved, HelloF64.ARecordingIsProved,
+            HelloFixed16.ARecordingIsProved, HelloFixed32.ARecordingIsProved);
+        Each("nothing is allocated a frame", HelloF32.NothingIsAllocatedAFrame, HelloF64.NothingIsAllocatedAFrame,
+            HelloFixed16.NothingIsAllocatedAFrame, HelloFixed32.NothingIsAllocatedAFrame);
+    }
+
+    private static void Each(string what, params Action[] tests)
+    {
+        foreach (Action test in tests) test();
+        Console.WriteLine(what);
+    }
+}
