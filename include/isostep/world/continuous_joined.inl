@@ -60,7 +60,7 @@ template <class S> void ContinuousCollision<S>::keep_ends(std::span<const std::u
   }
 }
 
-/// As far as the first that was stopped, and it from there on; if none was, the heaviest keeps its place. Ties go to the
+/// As far as the first that was stopped, and it from there on; if none was, the heaviest keeps its place. Ties: the
 /// lowest slot.
 template <class S>
 typename ContinuousCollision<S>::Course ContinuousCollision<S>::course_of(
