@@ -74,6 +74,22 @@ TEST(CAttacks, NumbersBeyondTheLimitsNameTheirField) {
   EXPECT_EQ(made, nullptr);
 }
 
+/// Found by the random caller: a grid divided by the number of cells of a box without any.
+TEST(CAttacks, ABoxWhoseCornersAreSwappedIsRefused) {
+  Q32Game game;
+  ASSERT_EQ(iso_world_use_broad_phase(game.world, ISO_BROAD_PHASE_GRID), ISO_OK);
+  iso_q32_box_query query;
+  iso_q32_box_query_init(&query);
+  iso_body bodies[4];
+  std::size_t count = 0;
+  ASSERT_EQ(iso_q32_overlap_box(game.world, &query, bodies, 4, &count), ISO_OK) << iso_last_error();
+  for (int wide = 1; wide < 40; ++wide) {
+    query.box.low.x = Q32Game::whole(wide);
+    query.box.high.y = Q32Game::whole(1);
+    EXPECT_REFUSED(game, iso_q32_overlap_box(game.world, &query, bodies, 4, &count), ISO_FAULT_BAD_ARGUMENT);
+  }
+}
+
 TEST(CAttacks, AnotherFamilyIsRefused) {
   Q32Game game;
   iso_f32_body_definition definition;

@@ -189,6 +189,61 @@ TEST(CShapes, AreBakedAddedAndChanged) {
   EXPECT_EQ(iso_blob_destroy(hull), ISO_OK);
 }
 
+TEST(CShapes, AMeshHasMaterialsOfItsOwn) {
+  Q32Game game;
+  const double points[] = {-4, 0, -4, 4, 0, -4, 4, 0, 4, -4, 0, 4};
+  const std::uint32_t vertices[] = {0, 2, 1, 0, 3, 2};
+  iso_triangles quad;
+  iso_triangles_init(&quad);
+  quad.point_count = 4;
+  quad.triangle_count = 2;
+  quad.points.at = points;
+  quad.vertices.at = vertices;
+  const std::uint8_t numbers[] = {1, 0};
+  const double table[] = {0.5, 0, 0.25, 1};
+  iso_surface_materials materials;
+  iso_surface_materials_init(&materials);
+  materials.count = materials.table_count = 2;
+  materials.numbers.at = numbers;
+  materials.table.at = table;
+  iso_blob* mesh = nullptr;
+  ASSERT_EQ(iso_blob_create_mesh(&quad, &materials, ISO_BLOB_HOME_ASSET, &mesh), ISO_OK) << iso_last_error();
+  iso_shape_type type = 0;
+  ASSERT_EQ(iso_blob_get_type(mesh, &type), ISO_OK);
+  EXPECT_EQ(type, std::uint32_t{ISO_SHAPE_TYPE_MESH});
+  ASSERT_EQ(iso_add_blob(game.world, mesh, &game.box), ISO_OK) << iso_last_error();
+  const iso_body ground = game.create(-6, ISO_BODY_TYPE_STATIC);
+  iso_q32_ray_cast ray;
+  iso_q32_ray_cast_init(&ray);
+  ray.origin = {Q32Game::whole(2), 0, Q32Game::whole(-1)};
+  ray.translation.y = Q32Game::whole(-20);
+  iso_q32_ray_hit hit;
+  std::uint8_t found = 0;
+  ASSERT_EQ(iso_q32_cast_ray(game.world, &ray, &hit, &found), ISO_OK);
+  ASSERT_EQ(found, 1);
+  EXPECT_EQ(hit.body, ground);
+  EXPECT_EQ(hit.material, numbers[hit.triangle]);
+  // A state names an asset and does not carry it: who reads it must have been given it.
+  const std::vector<std::uint8_t> state =
+      bytes_of([&](void* to, std::size_t* size) { return iso_world_write(game.world, to, size); });
+  Q32Game other;
+  EXPECT_EQ(iso_world_read(other.world, state.data(), state.size()), ISO_CORRUPT);
+  ASSERT_EQ(iso_world_add_asset(other.world, mesh), ISO_OK);
+  EXPECT_EQ(iso_world_read(other.world, state.data(), state.size()), ISO_OK) << iso_last_error();
+  EXPECT_EQ(iso_world_hash(other.world), iso_world_hash(game.world));
+  // Bad geometry and bad materials.
+  const std::uint32_t beyond[] = {0, 2, 9, 0, 3, 2};
+  quad.vertices.at = beyond;
+  iso_blob* none = nullptr;
+  EXPECT_EQ(iso_blob_create_mesh(&quad, nullptr, ISO_BLOB_HOME_CARRIED, &none), ISO_FAULT_BAD_SHAPE);
+  quad.vertices.at = vertices;
+  const double slippery[] = {-1, 0, 0, 0};
+  materials.table.at = slippery;
+  EXPECT_EQ(iso_blob_create_mesh(&quad, &materials, ISO_BLOB_HOME_CARRIED, &none), ISO_FAULT_BAD_SHAPE);
+  EXPECT_EQ(none, nullptr);
+  EXPECT_EQ(iso_blob_destroy(mesh), ISO_OK);
+}
+
 TEST(CJoints, AreAskedAndSet) {
   Q32Game game;
   iso_q32_joint_properties properties;

@@ -6,11 +6,47 @@
 #include "isostep/world/world.hpp"
 
 namespace isostep::test {
+
+/// A struct whose first two members the last release had, in sixteen bytes.
+struct Grown {
+  std::uint32_t number = 1;
+  bool is_old = true;
+  bool is_new = true;
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("number", self.number);
+    visit("is_old", self.is_old);
+    visit("is_new", self.is_new);
+  }
+};
+
+}  // namespace isostep::test
+template <> inline constexpr int isostep::c::kMembersReleased<isostep::test::Grown> = 2;
+
+namespace isostep::test {
 namespace {
 
 using namespace isostep::c;
 
 // ---- Structs
+
+TEST(CStructs, GrowBehindThePaddingThatTheyHad) {
+  EXPECT_EQ((offsets_of<Grown, true>()), (std::array<std::size_t, 3>{8, 12, 16}));
+  EXPECT_EQ(sized_size<Grown>(), 24u);
+  std::uint8_t bytes[24] = {};
+  ASSERT_EQ(init_sized<Grown>("", bytes), kOk);
+  EXPECT_EQ(bytes[16], 1);
+  // A caller of the last release: rubbish behind its end is none of its members.
+  bytes[0] = 16;
+  bytes[12] = 0;
+  bytes[16] = 77;
+  Grown taken;
+  ASSERT_EQ(take_sized("", bytes, taken), kOk) << last_error();
+  EXPECT_FALSE(taken.is_old);
+  EXPECT_TRUE(taken.is_new);
+  bytes[0] = 24;
+  EXPECT_EQ(take_sized("", bytes, taken), ISO_BAD_ENUM);
+}
 
 /// Any value of every member.
 struct AnyValue {

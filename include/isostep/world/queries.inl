@@ -68,6 +68,7 @@ template <class S> bool Queries<S>::accept_box(const Aabb<S>& box) const {
           .finite(box.high, "box.high")
           .in_range(detail::within(box.low, edge), "box.low", "coordinates up to 2 Limits::position()")
           .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")
+          .proper(min(box.low, box.high) == box.low, "box.low", "no coordinate above one of box.high")
           .report());
 }
 

@@ -156,6 +156,8 @@ TYPED_TEST(WorldFaults, queries_say_why_they_found_nothing) {
   w.forget_faults();
   EXPECT_TRUE(w.cast_ray(vec<S>(0, 8, 0), vec<S>(0, -16, 0)));
   EXPECT_EQ(w.fault(), Fault::none);
+  w.overlap_aabb({vec<S>(1, 0, 0), vec<S>(0, 1, 1)}, found);
+  this->expect_fault(Fault::bad_argument, "overlap_aabb", "box.low");
   if constexpr (!kIsFixed<S>) {
     const S nan = std::numeric_limits<S>::quiet_NaN();
     EXPECT_FALSE(w.cast_ray({S(0), nan, S(0)}, vec<S>(0, -1, 0)));
