@@ -15,6 +15,14 @@
 
 namespace isostep {
 
+/// What is near to a character.
+template <class S> struct NearContact {
+  BodyId body;
+  Vec3<Unit<S>> normal;  // [1] of the surface, towards the character
+  S separation;          // [m] of the deepest point; below 0: overlap
+  Vec3<S> point;         // [m] that one, midway between the two, world
+};
+
 /// What a character meets on its way.
 template <class S> struct ObstacleHit {
   BodyId body;
