@@ -15,4 +15,5 @@
   template class WheelForces<S>;          \
   template class CouplingForces<S>;       \
   template class BodyForces<S>;           \
+  template class Surroundings<S>;         \
   template class Characters<S>;

@@ -11,24 +11,6 @@ namespace detail::obstacle {
 inline constexpr std::uint8_t kFixed = 0, kWalks = 1, kDynamic = 2;
 }
 
-template <class S> QueryFilter CharacterWalk<S>::filter() const {
-  QueryFilter filter;
-  filter.mask = character_.mask;
-  filter.ignore = character_.body;
-  filter.ignore_all = place_.passed;
-  filter.ignore_kinds = place_.passed_kinds;
-  return filter;
-}
-
-/// What it overlaps from the start is in its way only where it goes further in.
-template <class S> auto CharacterWalk<S>::cast(Vec3<S> way) const -> std::optional<Hit> {
-  ShapeCast<S> asked = {place_.shape, {at_, place_.pose.orientation}, way, filter()};
-  std::optional<Hit> hit = queries_.cast_shape(asked, &memory_.bodies);
-  if (!hit || !hit->inside || dot(way, hit->normal) < S(0)) return hit;
-  asked.filter.start_inside = StartInside::ignore;
-  return queries_.cast_shape(asked, &memory_.bodies);
-}
-
 /// [m] up to a skin before what it met.
 template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>& along) const {
   const S cosine = -dot(convert<S>(detail::unit_of<S>(along)), hit.normal);
@@ -86,8 +68,9 @@ template <class S> Vec3<S> CharacterWalk<S>::along_floor(Vec3<S> way, Vec3<Unit<
 
 /// The way on from a plane, which joins those met before.
 template <class S>
-Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const {
+Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<S> point, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const {
   const bool steep = is_steep(normal);
+  planes.points[planes.count] = point;
   planes.normals[planes.count++] = steep && gait != Gait::falls ? upright(normal) : normal;
   return clipped(steep || gait != Gait::walks ? way : along_floor(way, normal), planes);
 }
@@ -110,7 +93,7 @@ Vec3<S> CharacterWalk<S>::turned_by(std::span<const NearContact<S>> touching, Ve
     }
     if (first == nullptr) return way;
     touch(first->body, first->point, first->normal);
-    way = turned(way, first->normal, gait, planes);
+    way = turned(way, first->point, first->normal, gait, planes);
     if (!(S(0) < dot(way, asked))) return Vec3<S>::zero();
   }
   return Vec3<S>::zero();
@@ -131,22 +114,22 @@ auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait, std::span<const NearContact
     at_ += detail::along<S>(along, gone);
     if (!(gone < along.length)) break;
     touch(hit->body, hit->point, hit->normal);
-    way = turned(detail::along<S>(along, along.length - gone), hit->normal, gait, planes);
+    way = turned(detail::along<S>(along, along.length - gone), hit->point, hit->normal, gait, planes);
     if (!(S(0) < dot(way, asked))) break;  // it would come back: corners do not shiver
   }
   return planes;
 }
 
 /// The edge of a step looks steep to what is round: then its face counts, a little further in.
-template <class S> bool CharacterWalk<S>::is_walkable(const Hit& hit) const {
-  if (character_.least_up <= dot(convert<S>(hit.normal), up_)) return true;
+template <class S> bool CharacterWalk<S>::is_walkable(const Hit& hit) {
+  if (!is_steep(hit.normal)) return true;
   const Vec3<S> across = flat(convert<S>(hit.normal));
   const Direction<S> out = detail::heading<S>(across);
   const S in = S(2) * character_.skin;
   const Vec3<S> lift = convert<S>(up_) * in;
   const Vec3<S> above = hit.point - detail::along<S>(out, in) + lift;
-  const auto face = queries_.cast_ray(above, lift * S(-2), filter(), &memory_.bodies);
-  return face && !face->inside && character_.least_up <= dot(convert<S>(face->normal), up_);
+  const std::optional<Vec3<Unit<S>>> face = around_.cast_ray(above, lift * S(-2));
+  return face && !is_steep(*face);
 }
 
 }  // namespace isostep

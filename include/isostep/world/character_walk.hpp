@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "isostep/dynamics/character.hpp"
-#include "isostep/world/queries.hpp"
+#include "isostep/world/surroundings.hpp"
 
 namespace isostep {
 
@@ -45,26 +45,22 @@ template <class S> struct CharacterTouch {
 
 /// What walks use again, one after the other.
 template <class S> struct WalkMemory {
-  NearContacts<S> contacts;
-  BodiesNear<S> bodies;
+  std::vector<NearContact<S>> contacts, first;  // as they are now, and as they were at the first look
 };
 
-/// Input:   a record, its body's shape and pose, the queries. Output: the record as the step leaves it, way(), what it
+/// Input:   a record, its body's pose, what is around it. Output: the record as the step leaves it, way(), what it
 ///          touched on its way.
 template <class S> class CharacterWalk {
  public:
   struct Place {
-    QueryShape<S> shape;
-    Pose<S> pose;  // of the body's origin
-    S below;       // [m] from there down to the lowest point of the shape
+    Vec3<S> at;  // [m] of the body's origin
+    S below;     // [m] from there down to the lowest point of the shape
     Vec3<Unit<S>> up;
     Vec3<S> gravity;
     std::int32_t hz;
-    std::span<const BodyId> passed = {};               // it goes through these
-    std::span<const std::uint32_t> passed_kinds = {};  // and through bodies of these kinds
   };
-  CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
-                WalkMemory<S>& memory, Character<S>& character);
+  CharacterWalk(Surroundings<S>& around, const Place& place, std::span<const std::uint8_t> walks, WalkMemory<S>& memory,
+                Character<S>& character);
 
   /// `carried` [m]: how far the ground under its foot has moved.
   void run(Vec3<S> carried);
@@ -75,10 +71,11 @@ template <class S> class CharacterWalk {
   ISO_INLINE Vec3<S> foot() const { return foot_; }
 
  private:
-  using Hit = ShapeCastHit<S>;
+  using Hit = ObstacleHit<S>;
   /// Planes that a move has met.
   struct Planes {
     Vec3<Unit<S>> normals[detail::kMostPlanes];
+    Vec3<S> points[detail::kMostPlanes];  // [m] of what was met, world
     int count = 0;
   };
   // character_walk.inl
@@ -94,29 +91,30 @@ template <class S> class CharacterWalk {
   void fall();
   void fly();
   void walk();
+  S rise_of(Vec3<S> from) const;
+  bool is_blocked_by_steps(const Planes& planes, Vec3<S> from) const;
   bool step_up(Vec3<S> from, Vec3<S> way);
   void find_ground(bool walks, Vec3<S> carried);
   void stand_on(const Hit& hit, S gap);
 
   // character_slide.inl
-  QueryFilter filter() const;
-  std::optional<Hit> cast(Vec3<S> way) const;
+  std::optional<Hit> cast(Vec3<S> way) { return around_.cast(at_, way); }
   S travel(const Hit& hit, const Direction<S>& along) const;
   /// Moves along `way` as far as it goes. Who does not fall finds slopes upright that are too steep; who walks goes up
   /// the others as fast as on the level.
   enum class Gait { falls, rises, walks };
   Planes slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching);
   Vec3<S> turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes);
-  Vec3<S> turned(Vec3<S> way, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const;
+  Vec3<S> turned(Vec3<S> way, Vec3<S> point, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const;
   bool is_steep(Vec3<Unit<S>> normal) const { return dot(convert<S>(normal), up_) < character_.least_up; }
   Vec3<S> along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const;
   void touch(BodyId body, Vec3<S> point, Vec3<Unit<S>> normal);
-  bool is_walkable(const Hit& hit) const;
+  bool is_walkable(const Hit& hit);
   Vec3<S> flat(Vec3<S> v) const { return v - convert<S>(up_) * dot(v, up_); }
   Vec3<Unit<S>> upright(Vec3<Unit<S>> normal) const;
   static Vec3<S> clipped(Vec3<S> way, const Planes& planes);
 
-  const Queries<S>& queries_;
+  Surroundings<S>& around_;
   Place place_;
   std::span<const std::uint8_t> walks_;  // by body slot: of obstacle
   WalkMemory<S>& memory_;

@@ -7,17 +7,17 @@
 namespace isostep {
 
 template <class S>
-CharacterWalk<S>::CharacterWalk(const Queries<S>& queries, const Place& place, std::span<const std::uint8_t> walks,
+CharacterWalk<S>::CharacterWalk(Surroundings<S>& around, const Place& place, std::span<const std::uint8_t> walks,
                                 WalkMemory<S>& memory, Character<S>& character)
-    : queries_(queries),
+    : around_(around),
       place_(place),
       walks_(walks),
       memory_(memory),
       character_(character),
-      start_(place.pose.position),
-      at_(place.pose.position),
-      contacts_at_(place.pose.position),
-      foot_(place.pose.position),
+      start_(place.at),
+      at_(place.at),
+      contacts_at_(place.at),
+      foot_(place.at),
       up_(place.up),
       h_(divide_to<Step<S>>(S(1), S(place.hz))) {}
 
@@ -38,20 +38,18 @@ template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   find_ground(walks, carried);
 }
 
-/// Finds the bodies around its way once for all casts of the step. Too little costs time alone: a cast that leaves the
-/// region goes to the broad phase.
+/// For all casts of the step, as a rule.
 template <class S> void CharacterWalk<S>::look_around(Vec3<S> carried) {
-  const S out = detail::kMostWayOut<S> + max_abs(carried) + S(4) * character_.skin;
+  const S out = detail::kMostWayOut<S> + S(4) * character_.skin;
   const bool stood = character_.footing == Footing::floor;
   const S over = stood ? character_.step_height + character_.skin : S(0);
   const Vec3<S> way = abs(stood ? character_.move : character_.velocity) * h_;
   const Vec3<S> reach = way + abs(carried) + convert<S>(abs(up_)) * over + Vec3<S>{out, out, out};
-  queries_.find_bodies_near(place_.shape, place_.pose, reach, filter(), memory_.bodies);
+  around_.gather(reach);
 }
 
 template <class S> void CharacterWalk<S>::look_for_contacts() {
-  queries_.near_contacts(place_.shape, {at_, place_.pose.orientation}, character_.skin * detail::kTouchingSkins<S>,
-                         memory_.contacts, filter(), &memory_.bodies);
+  around_.find_contacts(at_, character_.skin * detail::kTouchingSkins<S>, memory_.contacts);
   contacts_at_ = at_;
 }
 
@@ -60,7 +58,7 @@ template <class S> void CharacterWalk<S>::look_for_contacts() {
 template <class S> bool CharacterWalk<S>::push_out(std::uint8_t least_firm) {
   for (int way = 0; way < detail::kMostWaysOut; ++way) {
     const NearContact<S>* deepest = nullptr;
-    for (const NearContact<S>& contact : memory_.contacts.all) {
+    for (const NearContact<S>& contact : memory_.contacts) {
       if (least_firm < walks_[contact.body.slot]) continue;
       if (deepest == nullptr || separation_of(contact) < separation_of(*deepest)) deepest = &contact;
     }
@@ -94,13 +92,14 @@ template <class S> bool CharacterWalk<S>::move_out(std::uint8_t least_firm, S mo
 template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   const Vec3<S> begin = at_;
   look_for_contacts();
+  memory_.first = memory_.contacts;
   if (move_out(detail::obstacle::kDynamic, most)) {
     character_.stuck = 0;
     return;
   }
   ++character_.stuck;
-  at_ = begin;
-  look_for_contacts();
+  at_ = contacts_at_ = begin;
+  memory_.contacts = memory_.first;
   if (move_out(detail::obstacle::kWalks, most)) return;
   look_for_contacts();
   move_out(detail::obstacle::kFixed, most);
@@ -126,18 +125,33 @@ template <class S> void CharacterWalk<S>::fall() {
 
 template <class S> void CharacterWalk<S>::fly() {
   const Planes planes = slide(character_.velocity * h_,
-                              dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises, memory_.contacts.all);
+                              dot(character_.velocity, up_) < S(0) ? Gait::falls : Gait::rises, memory_.contacts);
   character_.velocity = clipped(character_.velocity, planes);
 }
 
 /// Along the ground: over the horizontal as fast as is asked for.
 template <class S> void CharacterWalk<S>::walk() {
   const Vec3<S> ahead = flat(character_.move) * h_, from = at_;
-  const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks, memory_.contacts.all);
-  bool blocked = false;
-  for (int i = 0; i < planes.count; ++i)
-    blocked = blocked || dot(convert<S>(planes.normals[i]), up_) < character_.least_up;
-  if (blocked && S(0) < character_.step_height) step_up(from, ahead);
+  const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks, memory_.contacts);
+  if (S(0) < character_.step_height && is_blocked_by_steps(planes, from)) step_up(from, ahead);
+}
+
+/// [m] that a step up lifts it by. What is round stands on an edge with its lowest point below it.
+template <class S> S CharacterWalk<S>::rise_of(Vec3<S> from) const {
+  const S sunk = max(floor_ - dot(from, up_) + place_.below, S(0));
+  return character_.step_height + sunk + character_.skin;
+}
+
+/// Whether something steep was met that would be farther away from a step higher up: not so a wall, or somebody else,
+/// of which the point that was met is in the way there too. Both being convex, it then is so in between.
+template <class S> bool CharacterWalk<S>::is_blocked_by_steps(const Planes& planes, Vec3<S> from) const {
+  const Vec3<S> lift = convert<S>(up_) * rise_of(from);
+  for (int i = 0; i < planes.count; ++i) {
+    if (!is_steep(planes.normals[i])) continue;
+    const S here = around_.distance(at_, planes.points[i]), higher = around_.distance(at_ + lift, planes.points[i]);
+    if (here + detail::kWorthAStep<S> < higher) return true;
+  }
+  return false;
 }
 
 /// Up, on, and down again: taken where that ends on a floor, no higher than a step, and farther on.
@@ -157,10 +171,7 @@ template <class S> bool CharacterWalk<S>::step_up(Vec3<S> from, Vec3<S> way) {
     return hit;
   };
   at_ = from;
-  // What is round stands on an edge with its lowest point below it.
-  const S sunk = max(floor_ - dot(from, up_) + place_.below, S(0));
-  const S rise = character_.step_height + sunk + character_.skin;
-  move_along_up(rise);
+  move_along_up(rise_of(from));
   const S risen = dot(at_ - from, up_);
   // A skin away from the riser, a short step would end before its edge.
   const Direction<S> ahead = detail::heading<S>(way);

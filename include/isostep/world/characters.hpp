@@ -20,7 +20,13 @@ template <class S> class Characters {
  public:
   ISO_INLINE Characters(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
                         const Queries<S>& queries, CommandExecutor<S>& commands)
-      : state_(state), map_(map), proxies_(proxies), wake_(wake), queries_(queries), commands_(commands) {}
+      : state_(state),
+        map_(map),
+        proxies_(proxies),
+        wake_(wake),
+        queries_(queries),
+        commands_(commands),
+        around_(state, map, proxies, queries) {}
 
   void update();
 
@@ -37,8 +43,14 @@ template <class S> class Characters {
   };
   using Place = typename CharacterWalk<S>::Place;
   void walk(std::uint32_t slot);
-  void find_passed(const Character<S>& character, const Place& place);
-  bool is_above(const Character<S>& character, const Place& place, const OneWay<S>& way);
+  /// Who is asked for its surroundings.
+  struct Asking {
+    ShapeId shape;
+    Pose<S> pose;  // of the body's origin
+  };
+  static QueryFilter seen_by(const Character<S>& character);
+  void find_passed(const Character<S>& character, const Asking& asking);
+  bool is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way);
   S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
   Vec3<S> local_to(BodyId body, Vec3<S> point) const;
   void push_touched(const CharacterWalk<S>& walk, const Character<S>& character);
@@ -55,7 +67,9 @@ template <class S> class Characters {
   std::vector<std::uint8_t> walks_;  // by body slot: detail::obstacle
   std::vector<Move> moves_;
   std::vector<Push> pushes_;
+  Surroundings<S> around_;  // of one character
   WalkMemory<S> memory_;
+  bool knows_contacts_ = false;              // memory_ has what is near where one begins
   std::vector<BodyId> passed_;               // that one character goes through
   std::vector<std::uint32_t> passed_kinds_;  // likewise
 };

@@ -9,6 +9,7 @@
 #include "isostep/world/characters.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/fat_box.hpp"
+#include "isostep/world/surroundings.inl"
 
 namespace isostep {
 
@@ -82,6 +83,7 @@ template <class S> void Characters<S>::update() {
   }
   moves_.clear();
   pushes_.clear();
+  around_.begin_step();
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
     if (records.is_taken(slot) && map_.is_enabled(records.all()[slot].body.slot)) walk(slot);
   }
@@ -97,18 +99,19 @@ template <class S> void Characters<S>::update() {
 template <class S> void Characters<S>::walk(std::uint32_t slot) {
   Character<S> character = state_.force_records->characters.all()[slot];
   const Settings<S>& settings = state_.settings;
-  const Pose<S> pose = map_.origin_pose_at(character.body.slot);
-  const ShapeId shape =
-      state_.shape_slots.template id_of<ShapeId>(map_.properties_at(map_.location(character.body.slot)).shape);
+  const Asking asking = {state_.shape_slots.template id_of<ShapeId>(map_.properties_of(character.body)->shape),
+                         map_.origin_pose_at(character.body.slot)};
   const Direction<S> against = detail::heading<S>(-settings.gravity);
   const Vec3<Unit<S>> up =
       against.length > S(0) ? detail::unit_of<S>(against) : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
-  const S below = queries_.reach_of(shape, pose.orientation, -up);
-  Place place = {shape, pose, below, up, settings.gravity, settings.hz};
-  find_passed(character, place);
-  place.passed = passed_;
-  place.passed_kinds = passed_kinds_;
-  CharacterWalk<S> walk(queries_, place, walks_, memory_, character);
+  const S below = queries_.reach_of(asking.shape, asking.pose.orientation, -up);
+  find_passed(character, asking);
+  QueryFilter filter = seen_by(character);
+  filter.ignore_all = passed_;
+  filter.ignore_kinds = passed_kinds_;
+  around_.begin(asking.shape, asking.pose, filter);
+  const Place place = {asking.pose.position, below, up, settings.gravity, settings.hz};
+  CharacterWalk<S> walk(around_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
   character.foot = local_to(character.ground, walk.foot());
@@ -117,8 +120,16 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   moves_.push_back({slot, character, walk.way()});
 }
 
+/// All that it does not pass.
+template <class S> QueryFilter Characters<S>::seen_by(const Character<S>& character) {
+  QueryFilter filter;
+  filter.mask = character.mask;
+  filter.ignore = character.body;
+  return filter;
+}
+
 /// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
-template <class S> void Characters<S>::find_passed(const Character<S>& character, const Place& place) {
+template <class S> void Characters<S>::find_passed(const Character<S>& character, const Asking& asking) {
   passed_.clear();
   passed_kinds_.clear();
   const std::uint32_t kind = map_.properties_of(character.body)->material.kind;
@@ -130,31 +141,34 @@ template <class S> void Characters<S>::find_passed(const Character<S>& character
     if (ghost.a && ghost.a == character.body) passed_.push_back(ghost.b);
     if (ghost.b && ghost.b == character.body) passed_.push_back(ghost.a);
   }
+  knows_contacts_ = false;
   for (const OneWay<S>& way : state_.force_records->one_ways.all()) {
-    if (way.body && way.body != character.body && !is_above(character, place, way)) passed_.push_back(way.body);
+    if (way.body && way.body != character.body && !is_above(character, asking, way)) passed_.push_back(way.body);
   }
 }
 
 /// By the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that rises
 /// may have overtaken the character's lowest point in this step.
 template <class S>
-bool Characters<S>::is_above(const Character<S>& character, const Place& place, const OneWay<S>& way) {
+bool Characters<S>::is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way) {
   if (character.footing == Footing::floor && character.ground == way.body) return true;
+  const S hz = S(state_.settings.hz);
   const Pose<S> pose = map_.origin_pose_at(way.body.slot);
   const Vec3<Unit<S>> axis = to_matrix(pose.orientation) * way.axis;
   const BodyState<S>& state = map_.state_at(map_.location(way.body.slot));
-  const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / S(place.hz);
+  const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / hz;
   const S slack = character.skin * S(0.5) + rises;
   const S lowest =
-      dot(place.pose.position - pose.position, axis) - queries_.reach_of(place.shape.id, place.pose.orientation, -axis);
+      dot(asking.pose.position - pose.position, axis) - queries_.reach_of(asking.shape, asking.pose.orientation, -axis);
   if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
-  const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / S(place.hz);
-  QueryFilter filter;
-  filter.mask = character.mask;
-  filter.ignore = character.body;
-  queries_.near_contacts(place.shape, place.pose, character.skin * S(2) + way_of_step, memory_.contacts, filter);
+  if (!knows_contacts_) {
+    const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / hz;
+    around_.begin(asking.shape, asking.pose, seen_by(character));
+    around_.find_contacts(asking.pose.position, character.skin * S(2) + way_of_step, memory_.contacts);
+    knows_contacts_ = true;
+  }
   bool in_front = false;
-  for (const NearContact<S>& contact : memory_.contacts.all) {
+  for (const NearContact<S>& contact : memory_.contacts) {
     if (contact.body != way.body) continue;
     if (contact.separation < -slack) return false;
     in_front = in_front || !(convert<S>(dot(contact.normal, axis)) < way.least_cosine);
@@ -205,20 +219,22 @@ template <class S> void Characters<S>::bear(const Character<S>& character) {
   pushes_.push_back({character.ground, detail::along<S>(down, weight), character.foot_at});
 }
 
-/// As a command that sets its pose, but drawn on its way: it goes there, it does not appear.
+/// As a command that sets its pose, but drawn on its way: it goes there, it does not appear. So its fat box stays where
+/// it is for as long as it holds the body.
 template <class S> void Characters<S>::put(const Move& move) {
   if (move.way == Vec3<S>::zero()) return;
   const std::uint32_t slot = move.character.body.slot;
   wake_.wake_touching(slot);
   wake_.wake_held_by(slot);
-  wake_.wake_for_change(slot);
-  const Location at = map_.location(slot);
-  BodyState<S>& state = state_.awake.states[at.index];
+  BodyState<S>& state = wake_.wake_for_change(slot);
+  const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
   const S edge = Limits<S>::position();
   const Vec3<S> to = state.centre + move.way;
   state.centre = {clamp(to.x, -edge, edge), clamp(to.y, -edge, edge), clamp(to.z, -edge, edge)};
-  detail::renew_fat_box(map_, state, state_.awake.properties[at.index], true);
-  proxies_.place(state, state_.awake.properties[at.index], true);
+  const Aabb<S> before = state.fat;
+  detail::renew_fat_box(map_, state, body, false);
+  if (state.fat == before) return;
+  proxies_.place(state, body, true);
   wake_.wake_touching(slot);
 }
 

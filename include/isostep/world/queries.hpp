@@ -10,7 +10,6 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/task_runner.hpp"
 #include "isostep/state/command_journal.hpp"
-#include "isostep/world/bodies_near.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 #include "isostep/world/query_types.hpp"
@@ -28,14 +27,12 @@ template <class S> class Queries {
                      CommandJournal& journal)
       : state_(state), map_(map), proxies_(proxies), journal_(journal) {}
 
-  /// `near`: bodies that this filter sees, as find_bodies_near has found them; the answer is the same, sooner.
-  std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& filter,
-                                        const BodiesNear<S>* near = nullptr) const;
+  std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& filter) const;
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                     const QueryFilter& filter) const;
   std::size_t cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::span<RayCastHit<S>> out,
                            const QueryFilter& filter) const;
-  std::optional<ShapeCastHit<S>> cast_shape(const ShapeCast<S>& cast, const BodiesNear<S>* near = nullptr) const;
+  std::optional<ShapeCastHit<S>> cast_shape(const ShapeCast<S>& cast) const;
   void cast_shape_all(const ShapeCast<S>& cast, std::vector<ShapeCastHit<S>>& out) const;
   std::size_t cast_shape_all(const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const;
   bool cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits, const TaskRunner& runner) const;
@@ -49,12 +46,7 @@ template <class S> class Queries {
                      const QueryFilter& filter) const;
   std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
                                           const QueryFilter& filter) const;
-  /// Of every body, child and triangle within `margin` of a shape, in order of these; `out` is filled anew.
-  void near_contacts(const QueryShape<S>& shape, const Pose<S>& pose, S margin, NearContacts<S>& out,
-                     const QueryFilter& filter, const BodiesNear<S>* near = nullptr) const;
-  /// `out` is filled anew, in order of slots, with what the filter sees within `reach` of a shape's box.
-  void find_bodies_near(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> reach, const QueryFilter& filter,
-                        BodiesNear<S>& out) const;
+  bool sees(const QueryFilter& filter, std::uint32_t slot) const;
   /// [m] how far a shape of the world reaches from its frame's origin along a direction.
   S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
@@ -76,32 +68,21 @@ template <class S> class Queries {
   // query_casts.inl
   static FaultReport fault_of_ray(Vec3<S> origin, Vec3<S> translation);
   FaultReport fault_of_cast(const ShapeCast<S>& cast) const;
+  template <class Probe, class List> void gather(const Probe& probe, const QueryFilter& filter, List& list) const;
   template <class Probe, class List>
-  void gather(const Probe& probe, const QueryFilter& filter, List& list, const BodiesNear<S>* near = nullptr) const;
-  template <class Probe, class List>
-  void meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, const Transform<S>& placed,
-            List& list) const;
-  template <class List>
-  void gather_cast(const ShapeCast<S>& cast, List& list, const BodiesNear<S>* near = nullptr) const;
+  void meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const;
+  template <class List> void gather_cast(const ShapeCast<S>& cast, List& list) const;
   // query_batches.inl
   template <class Work> bool run_batch(const char* name, const Work& work, const TaskRunner& runner) const;
   // query_overlaps.inl
   FaultReport fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const;
   Asked asked_of(const QueryShape<S>& shape, const Pose<S>& pose) const;
-  template <class Visit>
-  void visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
-                        Visit&& visit) const;
-  void near_contacts_of(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
-                        std::vector<NearContact<S>>& out) const;
-  void find_slots_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& slots,
-                       std::vector<std::uint32_t>& scratch) const;
+  template <class Visit> void visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&& visit) const;
   template <class Visit>
   void visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot, const Visit& visit) const;
   // queries.inl
   bool accept_box(const Aabb<S>& box) const;
-  bool sees(const QueryFilter& filter, std::uint32_t slot) const;
   BodyId id_of(std::uint32_t slot) const;
-  ISO_INLINE Transform<S> placed_at(std::uint32_t slot) const { return Transform<S>::of(map_.origin_pose_at(slot)); }
 
   const WorldState<S>& state_;
   const BodyMap<S>& map_;

@@ -15,20 +15,10 @@ namespace isostep {
 /// All that a probe meets, body by body, those in its way first.
 template <class S>
 template <class Probe, class List>
-void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& list, const BodiesNear<S>* near) const {
-  const Sweep<S> sweep = probe.sweep();
-  if (near != nullptr && near->holds(sweep)) {
-    Probe parted = probe;
-    near->sweep(sweep, [&](const typename BodiesNear<S>::Body& body, Unit<S> most) ISO_INLINE_LAMBDA {
-      if (parted.is_parted_from(body)) return most;
-      meet(parted, filter, body.slot, body.placed, list);
-      return min(most, probe.beyond(list.latest()));
-    });
-    return;
-  }
-  proxies_.boxes().sweep(sweep, [&](std::uint32_t slot, Unit<S> most) {
+void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& list) const {
+  proxies_.boxes().sweep(probe.sweep(), [&](std::uint32_t slot, Unit<S> most) {
     if (!sees(filter, slot)) return most;
-    meet(probe, filter, slot, placed_at(slot), list);
+    meet(probe, filter, slot, list);
     return min(most, probe.beyond(list.latest()));
   });
 }
@@ -36,8 +26,8 @@ void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& lis
 /// A body's hits: of each triangle, of each child, or the first of all of them.
 template <class S>
 template <class Probe, class List>
-void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, const Transform<S>& placed,
-                      List& list) const {
+void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const {
+  const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
   const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);
@@ -77,12 +67,12 @@ template <class S> FaultReport Queries<S>::fault_of_ray(Vec3<S> origin, Vec3<S> 
       .report();
 }
 template <class S>
-std::optional<RayCastHit<S>> Queries<S>::cast_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& filter,
-                                                  const BodiesNear<S>* near) const {
+std::optional<RayCastHit<S>> Queries<S>::cast_ray(Vec3<S> origin, Vec3<S> translation,
+                                                  const QueryFilter& filter) const {
   RayCastHit<S> hit;
   if (!journal_.accept_call("cast_ray", fault_of_ray(origin, translation))) return {};
   detail::NearestHits<S, S> list({&hit, 1});
-  gather(detail::RayProbe<S>(origin, translation, filter), filter, list, near);
+  gather(detail::RayProbe<S>(origin, translation, filter), filter, list);
   return list.count() == 0 ? std::optional<RayCastHit<S>>{} : hit;
 }
 template <class S>
@@ -114,9 +104,7 @@ template <class S> FaultReport Queries<S>::fault_of_cast(const ShapeCast<S>& cas
       .report();
 }
 /// Of an accepted cast. Bodies that rest on each other overlap by up to kDeepOverlap: that is touch.
-template <class S>
-template <class List>
-void Queries<S>::gather_cast(const ShapeCast<S>& cast, List& list, const BodiesNear<S>* near) const {
+template <class S> template <class List> void Queries<S>::gather_cast(const ShapeCast<S>& cast, List& list) const {
   const Asked asked = asked_of(cast.shape, cast.pose);
   const Transform<S> start = Transform<S>::of(asked.pose);
   const QueryFilter& filter = cast.filter;
@@ -129,16 +117,15 @@ void Queries<S>::gather_cast(const ShapeCast<S>& cast, List& list, const BodiesN
                                   {cast.translation, Unit<S>(1), touch},
                                   filter.back_faces,
                                   filter.start_inside == StartInside::ignore};
-      gather(detail::CastProbe<S>(solid, shape.bounds(start)), filter, list, near);
+      gather(detail::CastProbe<S>(solid, shape.bounds(start)), filter, list);
     }
   });
 }
-template <class S>
-std::optional<ShapeCastHit<S>> Queries<S>::cast_shape(const ShapeCast<S>& cast, const BodiesNear<S>* near) const {
+template <class S> std::optional<ShapeCastHit<S>> Queries<S>::cast_shape(const ShapeCast<S>& cast) const {
   ShapeCastHit<S> hit;
   if (!journal_.accept_call("cast_shape", fault_of_cast(cast))) return {};
   detail::NearestHits<S, Unit<S>> list({&hit, 1});
-  gather_cast(cast, list, near);
+  gather_cast(cast, list);
   return list.count() == 0 ? std::optional<ShapeCastHit<S>>{} : hit;
 }
 template <class S> void Queries<S>::cast_shape_all(const ShapeCast<S>& cast, std::vector<ShapeCastHit<S>>& out) const {

@@ -58,14 +58,15 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 }  // namespace detail
 
 /// visit(i, part, at, here) -> bool for the children of a body's shape, ascending, until it returns false. Of those of
-/// a tree the ones whose boxes meet the shape's, grown by `margin`. `at` and `here` are the places of the part and of
-/// the shape asked with, both relative to the latter's position, as the narrow phase wants them.
+/// a tree the ones whose boxes meet the shape's. `at` and `here` are the places of the part and of the shape asked with,
+/// both relative to the latter's position, as the narrow phase wants them.
 template <class S>
 template <class Visit>
-void Queries<S>::visit_parts_near(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
-                                  Visit&& visit) const {
+void Queries<S>::visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&& visit) const {
+  Pose<S> placed = map_.origin_pose_at(slot);
+  placed.position -= asked.pose.position;
   const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
-                     there = {placed.position - asked.pose.position, placed.rotation};
+                     there = Transform<S>::of(placed);
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
   const std::span<const Child<S>> children = map_.children_of(shape);
   const auto visit_child = [&](std::uint32_t i) {
@@ -74,7 +75,7 @@ void Queries<S>::visit_parts_near(const Asked& asked, S margin, std::uint32_t sl
     return visit(i, map_.contents().view(children[i].primitive), at, here);
   };
   if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
-    for (const std::uint32_t i : detail::children_near(*tree, there, grow(bounds(asked.view(), here), margin))) {
+    for (const std::uint32_t i : detail::children_near(*tree, there, bounds(asked.view(), here))) {
       if (!visit_child(i)) return;
     }
     return;
@@ -114,7 +115,7 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
     const std::uint8_t material = is_whole ? std::uint8_t{0} : detail::material_of(part, lowest);
     return (told || visit(OverlapHit{body, i, lowest, material})) && filter.per != HitPer::body;
   };
-  visit_parts_near(asked, S(0), slot, placed_at(slot), visit_child);
+  visit_parts_near(asked, slot, visit_child);
 }
 
 namespace detail {
@@ -189,85 +190,6 @@ std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, 
     return true;
   });
   return first;
-}
-
-template <class S>
-void Queries<S>::near_contacts_of(const Asked& asked, S margin, std::uint32_t slot, const Transform<S>& placed,
-                                  std::vector<NearContact<S>>& out) const {
-  Manifold<S> manifold;
-  const auto tell = [&] {
-    if (manifold.count == 0) return true;
-    const ManifoldPoint<S>* deepest = &manifold.points[0];
-    for (int i = 1; i < manifold.count; ++i) {
-      if (manifold.points[i].separation < deepest->separation) deepest = &manifold.points[i];
-    }
-    out.push_back({id_of(slot), -manifold.normal, deepest->separation, asked.pose.position + deepest->position});
-    return true;
-  };
-  const auto visit_child = [&](std::uint32_t, const ShapeView<S>& part, const Transform<S>& at,
-                               const Transform<S>& here) {
-    if (!is_surface(part.primitive.type)) {
-      collide(asked.view(), here, part, at, margin, manifold);
-      return tell();
-    }
-    return visit_triangles_near(asked.view(), here, part, at, margin, [&](std::uint32_t triangle) {
-      collide_with_triangle(asked.view(), here, part, triangle, at, margin, manifold);
-      return tell();
-    });
-  };
-  visit_parts_near(asked, margin, slot, placed, visit_child);
-}
-
-template <class S>
-void Queries<S>::near_contacts(const QueryShape<S>& shape, const Pose<S>& pose, S margin, NearContacts<S>& out,
-                               const QueryFilter& filter, const BodiesNear<S>* near) const {
-  out.all.clear();
-  out.slots.clear();
-  if (!journal_.accept_call("near_contacts", fault_of_shape(shape, pose))) return;
-  const Asked asked = asked_of(shape, pose);
-  const Aabb<S> box = grow(bounds(asked.view(), Transform<S>::of(asked.pose)), margin);
-  if (near != nullptr && near->holds(box)) {
-    near->query(box, [&](const typename BodiesNear<S>::Body& body) ISO_INLINE_LAMBDA {
-      const bool parted = body.parting.holds(asked.pose.position, Vec3<S>::zero(), margin + detail::kClearlyParted<S>);
-      if (parted) return;
-      near_contacts_of(asked, margin, body.slot, body.placed, out.all);
-    });
-    return;
-  }
-  find_slots_near(box, filter, out.slots, out.scratch);
-  for (const std::uint32_t slot : out.slots) near_contacts_of(asked, margin, slot, placed_at(slot), out.all);
-}
-
-/// Ascending.
-template <class S>
-void Queries<S>::find_slots_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& slots,
-                                 std::vector<std::uint32_t>& scratch) const {
-  slots.clear();
-  proxies_.boxes().query(box, [&](std::uint32_t slot) {
-    if (sees(filter, slot)) slots.push_back(slot);
-    return true;
-  });
-  scratch.resize(slots.size());
-  stable_sort(slots.data(), scratch.data(), static_cast<std::uint32_t>(slots.size()), OwnKey{});
-}
-
-/// Of bodies of one part with the box around that: their fat ones hold more.
-template <class S>
-void Queries<S>::find_bodies_near(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> reach,
-                                  const QueryFilter& filter, BodiesNear<S>& out) const {
-  const Asked asked = asked_of(shape, pose);
-  const Aabb<S> box = bounds(asked.view(), Transform<S>::of(asked.pose));
-  const S edge = Limits<S>::position() * S(2);
-  out.begin(
-      {held_within(saturating_subtract(box.low, reach), edge), held_within(saturating_add(box.high, reach), edge)});
-  find_slots_near(out.region(), filter, out.slots, out.scratch);
-  for (const std::uint32_t slot : out.slots) {
-    const Transform<S> placed = placed_at(slot);
-    const std::span<const Child<S>> children = map_.children_of(map_.properties_at(map_.location(slot)).shape);
-    const bool is_one = children.size() == 1;
-    const Aabb<S> tight = is_one ? bounds(children, placed, map_.contents()) : proxies_.boxes().box(slot);
-    out.add({slot, tight, placed, is_one && !is_surface(children[0].primitive.type), {}});
-  }
 }
 
 /// By the box of the shape in a frame whose y is that direction.

@@ -5,7 +5,6 @@
 #include "isostep/collision/broadphase/tree.hpp"
 #include "isostep/collision/query/ray_cast.hpp"
 #include "isostep/collision/query/solid_cast.hpp"
-#include "isostep/world/bodies_near.hpp"
 #include "isostep/world/query_types.hpp"
 
 namespace isostep::detail {
@@ -37,7 +36,6 @@ template <class S> class RayProbe {
         skip_inside_(filter.start_inside == StartInside::ignore) {}
 
   ISO_INLINE Sweep<S> sweep() const { return {origin_, translation_, Vec3<S>::zero(), Unit<S>(1)}; }
-  ISO_INLINE bool is_parted_from(const typename BodiesNear<S>::Body&) { return false; }
   /// What begins after it cannot be at this fraction or before: fractions are rounded.
   ISO_INLINE Unit<S> beyond(S fraction) const { return convert<Unit<S>>(min(fraction + resolution<S>(), S(1))); }
   ISO_INLINE bool first(const ShapeView<S>& part, const Transform<S>& at, S latest, PartHit& hit) const {
@@ -79,11 +77,6 @@ template <class S> class CastProbe {
     const Vec3<S> half = (box_.high - box_.low) * S(0.5), centre = box_.low + half;
     const S margin = cast_margin(max_abs(half) + length(cast_.motion.translation)) + S(0.015625);
     return {centre, cast_.motion.translation, half + Vec3<S>{margin, margin, margin}, Unit<S>(1)};
-  }
-  /// Of bodies that it meets one after the other. Else the next cast that misses leaves its plane there.
-  ISO_INLINE bool is_parted_from(const typename BodiesNear<S>::Body& body) {
-    cast_.motion.parting = body.is_whole ? &body.parting : nullptr;
-    return body.is_whole && body.parting.holds(cast_.start.position, cast_.motion.translation, kClearlyParted<S>);
   }
   ISO_INLINE Unit<S> beyond(Unit<S> fraction) const { return min(fraction + Unit<S>(0x1p-16), Unit<S>(1)); }
   ISO_INLINE bool first(const ShapeView<S>& part, const Transform<S>& at, Unit<S> latest, PartHit& hit) const {

@@ -67,20 +67,6 @@ struct OverlapHit {
   }
 };
 
-/// What is near to a shape.
-template <class S> struct NearContact {
-  BodyId body;
-  Vec3<Unit<S>> normal;  // [1] of the surface, towards the shape
-  S separation;          // [m] of the deepest point; below 0: overlap
-  Vec3<S> point;         // [m] that one, midway between the two, world
-};
-
-/// A list of them, with memory that is used again.
-template <class S> struct NearContacts {
-  std::vector<NearContact<S>> all;
-  std::vector<std::uint32_t> slots, scratch;
-};
-
 /// What is nearest to a point.
 template <class S> struct ClosestBody {
   BodyId body;

@@ -44,25 +44,6 @@ TYPED_TEST(QueriesOf, a_ray_meets_the_nearest_body_that_it_may_see) {
   EXPECT_EQ(all[2].body, this->balls[2]);
 }
 
-TYPED_TEST(QueriesOf, casts_among_the_bodies_of_a_place_meet_what_casts_among_all_meet) {
-  using S = TypeParam;
-  const Pose<S> at = {vec<S>(-2, 0.75, 0), Quat<Unit<S>>::identity()};
-  const QueryShape<S> probe = primitive_of(Capsule<S>{num<S>(0.25), num<S>(0.5)});
-  BodiesNear<S> near;
-  this->queries.find_bodies_near(probe, at, vec<S>(3, 1, 1), {}, near);
-  for (const double x : {0.5, 1.5, 2.5, 9.0}) {  // the last leaves the place
-    for (const double y : {-1.0, -0.25, 0.0, 0.5}) {
-      const ShapeCast<S> cast = {probe, at, vec<S>(x, y, 0.1), {}};
-      const auto here = this->queries.cast_shape(cast, &near), anywhere = this->queries.cast_shape(cast);
-      ASSERT_EQ(here.has_value(), anywhere.has_value()) << x << " " << y;
-      if (!here) continue;
-      EXPECT_EQ(here->body, anywhere->body) << x << " " << y;
-      EXPECT_EQ(here->fraction, anywhere->fraction) << x << " " << y;
-      EXPECT_EQ(here->normal, anywhere->normal) << x << " " << y;
-    }
-  }
-}
-
 TYPED_TEST(QueriesOf, bodies_in_a_box_come_ascending_by_slot) {
   using S = TypeParam;
   std::vector<BodyId> found;

@@ -26,6 +26,11 @@ template <class F> struct CoreWayOut {
   Vec3<F> on_b;
 };
 
+/// What a cast has to know of a core beside its search.
+template <class F> struct CoreSize {
+  F radius, extent;  // [m] as FineCore has them
+};
+
 /// The frame of a cast has a's position at the start for its origin, and any rotation. In it a stands still and b moves
 /// the other way.
 template <class S> struct CoreCast {
@@ -40,7 +45,7 @@ template <class S> struct CoreCast {
   F touch, resolution;  // [m]
   Parting<S>* parting;
 
-  ISO_INLINE CoreCast(const FineCore<S>& a, Vec3<S> at_a, const FineCore<S>& b, Vec3<S> at_b, const Mat3<U>& frame,
+  ISO_INLINE CoreCast(CoreSize<F> a, Vec3<S> at_a, CoreSize<F> b, Vec3<S> at_b, const Mat3<U>& frame,
                       const CastMotion<S>& motion)
       : turn(frame),
         origin(at_a),

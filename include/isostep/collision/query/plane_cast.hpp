@@ -6,7 +6,8 @@
 
 namespace isostep::detail {
 
-/// cast_convex() against the points p with normal . p <= offset of the frame at `t`: one division for the search.
+/// cast_convex() against the points p with normal . p <= offset of the frame at `t`: one division for the search. The
+/// plane is left as the one that parts the two, whatever the result.
 template <class S>
 ISO_INLINE bool cast_plane(const ConvexCore<S>& core, const Transform<S>& start, Vec3<Unit<S>> normal, S offset,
                            const Transform<S>& t, const CastMotion<S>& motion, CastHit<S>& hit) {
@@ -24,6 +25,7 @@ ISO_INLINE bool cast_plane(const ConvexCore<S>& core, const Transform<S>& start,
   const F noise = gap_noise(fine.extent + max_abs(apart)), near = noise * F(2) + finer<F>(resolution<S>());
   const F gap = above - noise, fall = -dot(up, way), end = fall * finer<U>(motion.max_fraction);
   hit.inside = false;
+  if (motion.parting != nullptr) *motion.parting = {coarser_of<Unit<S>>(up), start.position, coarser<S>(gap)};
   U fraction = U(0);
   if (gap <= near) {
     const F touch = finer<F>(motion.touch), long_way = length(way) * finer<U>(motion.max_fraction);

@@ -13,11 +13,13 @@ template <class S> struct Parting {
   Vec3<S> at = Vec3<S>::zero();                  // [m] its position when the plane was found
   S gap = S(0);                                  // [m] between the two then
 
-  /// Whether more than `clear` [m] is left between the two all along a way.
-  ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const {
-    const S gap_there = gap + dot(from - at, normal) + min(dot(way, normal), S(0));
-    return clear < gap_there;
+  ISO_INLINE bool is_known() const { return !(normal == Vec3<Unit<S>>::zero()); }
+  /// [m] left between the two all along a way; 0 of no plane.
+  ISO_INLINE S least_gap(Vec3<S> from, Vec3<S> way) const {
+    return gap + dot(from - at, normal) + min(dot(way, normal), S(0));
   }
+  /// Whether that is more than `clear` [m].
+  ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const { return clear < least_gap(from, way); }
 };
 
 /// The way of a core that is cast.

@@ -41,7 +41,8 @@ bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCor
   using F = Finer<S>;
   const FineCore<S> fine_a(a), fine_b(b);
   const Mat3<Unit<F>> turn = finer_of(ta).rotation;
-  const CoreCast<S> cast(fine_a, ta.position, fine_b, tb.position, turn, motion);
+  const CoreCast<S> cast({fine_a.radius, fine_a.extent}, ta.position, {fine_b.radius, fine_b.extent}, tb.position, turn,
+                         motion);
   GjkSearch<F> search(fine_a.vertices, fine_b.vertices, fine_relative(ta, tb).rotation);
   return cast.tell(cast.run(search), hit);
 }

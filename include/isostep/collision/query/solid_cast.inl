@@ -16,6 +16,24 @@ template <class S> ISO_INLINE SolidHit<S> of_whole_shape(const CastHit<S>& hit) 
   return {hit.fraction, hit.normal, hit.point, hit.inside, 0, 0};
 }
 
+/// Against a box, by what knows its nearest points in closed form; undecided: by neither.
+template <class S>
+ISO_INLINE RoundCast cast_at_box(const SolidCast<S>& cast, const Box<S>& box, const Transform<S>& t, CastHit<S>& hit) {
+  if (cast.core.vertices.size() > 2) return RoundCast::undecided;
+  if (cast.core.vertices.size() == 1) {
+    const FaceCast by_face = cast_ball(cast.core, cast.start, box.half_extents, t, cast.motion, hit);
+    if (by_face != FaceCast::undecided) return by_face == FaceCast::hit ? RoundCast::hit : RoundCast::miss;
+  }
+  return cast_round(cast.core, cast.start, box.half_extents, t, cast.motion, hit);
+}
+/// Likewise against any core.
+template <class S>
+ISO_INLINE RoundCast cast_at_core(const SolidCast<S>& cast, const ConvexCore<S>& core, const Transform<S>& t,
+                                  CastHit<S>& hit) {
+  if (cast.core.vertices.size() > 2 || core.vertices.size() > 2) return RoundCast::undecided;
+  return cast_round(cast.core, cast.start, core, t, cast.motion, hit);
+}
+
 /// Against what is no surface: a solid, or a half-space.
 template <class S>
 bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Transform<S>& t, CastHit<S>& hit) {
@@ -24,19 +42,14 @@ bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Trans
     if constexpr (std::same_as<Shape, HalfSpace<S>>) {
       return cast_plane(cast.core, cast.start, visited.normal, visited.offset, t, cast.motion, hit);
     } else if constexpr (kIsSolid<Shape>) {
+      RoundCast by_segments = RoundCast::undecided;
       if constexpr (std::same_as<Shape, Box<S>>) {
-        if (cast.core.vertices.size() == 1) {
-          const FaceCast by_face = cast_ball(cast.core, cast.start, visited.half_extents, t, cast.motion, hit);
-          if (by_face != FaceCast::undecided) return by_face == FaceCast::hit;
-        }
-      }
-      const ShapeCore<S> other(visited, S(0));
-      const Vec3<S>* half = nullptr;
-      if constexpr (std::same_as<Shape, Box<S>>) half = &visited.half_extents;
-      if (cast.core.vertices.size() <= 2 && (half != nullptr || other.core().vertices.size() <= 2)) {
-        const RoundCast by_segments = cast_round(cast.core, cast.start, other.core(), t, half, cast.motion, hit);
+        by_segments = cast_at_box(cast, visited, t, hit);
         if (by_segments != RoundCast::undecided) return by_segments == RoundCast::hit;
       }
+      const ShapeCore<S> other(visited, S(0));
+      if constexpr (!std::same_as<Shape, Box<S>>) by_segments = cast_at_core(cast, other.core(), t, hit);
+      if (by_segments != RoundCast::undecided) return by_segments == RoundCast::hit;
       return cast_convex(cast.core, cast.start, other.core(), t, cast.motion, hit);
     } else {
       return false;
