@@ -7,6 +7,7 @@
 #include "laws/joint_trees.hpp"
 
 #include <cstdio>
+#include <span>
 #include <sstream>
 
 #include "random/asked.hpp"
@@ -34,16 +35,22 @@ template <class S> constexpr JointTreeBars bars_of(const JointTreeTrial& trial) 
   return sweeps ? kSwept : kHeld;
 }
 
+/// Seeds that soft_step lost once: springs that followed the mass which they felt, twists that came back beyond their
+/// limit from half a turn of swing; and trees with more than eight blocks at a body.
+constexpr int kOnceLostJoints[] = {784, 790, 841, 1312, 1598, 1950, 2774, 2877, 3615, 4458};
+constexpr int kOnceLostTrees[] = {15, 42, 52, 80, 124, 137};
+
 template <class S> class JointTreeLaws : public ::testing::Test {
  protected:
   static void try_all(const JointTreeTrial& trial) {
     const int all = static_cast<int>(asked(trial.single ? "ISOSTEP_RANDOM_JOINTS" : "ISOSTEP_RANDOM_TREES", 0));
-    const int count = all > 0 ? all : trial.single ? kSingles : kTrees;
+    const std::vector<int> seeds = seeds_of(trial, all);
+    const int count = static_cast<int>(seeds.size());
     const JointTreeBars bars = bars_of<S>(trial);
     JointTreeFindings most;
     std::ostringstream lost;
     int found = 0, tried = 0;
-    for (int seed = 0; seed < count; ++seed) {
+    for (const int seed : seeds) {
       const JointTreeFindings f = try_joint_tree<S>(static_cast<std::uint64_t>(seed), trial);
       tried += f.made ? 1 : 0;
       most += f;
@@ -64,6 +71,14 @@ template <class S> class JointTreeLaws : public ::testing::Test {
  private:
   static constexpr int kSingles = 48, kTrees = 12;
 
+  static std::vector<int> seeds_of(const JointTreeTrial& trial, int all) {
+    std::vector<int> seeds;
+    for (int seed = 0; seed < (all > 0 ? all : trial.single ? kSingles : kTrees); ++seed) seeds.push_back(seed);
+    if (all > 0 || trial.solver != SolverName::soft_step) return seeds;
+    const std::span<const int> lost = trial.single ? std::span<const int>(kOnceLostJoints) : kOnceLostTrees;
+    seeds.insert(seeds.end(), lost.begin(), lost.end());
+    return seeds;
+  }
   static bool is_within(const JointTreeFindings& f, const JointTreeBars& bars) {
     return f.energy <= bars.energy && f.place <= bars.place && f.angle <= bars.angle && f.past <= bars.past &&
            f.drift <= bars.drift && f.faults == 0;
