@@ -7,7 +7,8 @@
 
 namespace isostep {
 
-/// Origins coincide. kLimit: lower..upper of the twist about z; kCone: of the angle between the z axes.
+/// Origins coincide. kLimit: lower..upper of the twist about z, and the z axes are at most 149 degrees apart: farther,
+/// a twist means nothing. kCone: of the angle between the z axes.
 template <class S> struct BallJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::ball;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kCone;
@@ -22,7 +23,7 @@ template <class S> struct BallJoint : detail::PointJoint<S> {
     joint.block_count = cone || limit ? 2 : 1;
     joint.drive_count = cone || limit ? 2 : 0;
     joint.drives[0].bounded_below = joint.drives[0].bounded_above = limit;
-    joint.drives[1].bounded_above = cone;
+    joint.drives[1].bounded_above = cone || limit;
   }
   static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
     detail::point_block(f, h, joint.blocks[0]);
@@ -31,7 +32,7 @@ template <class S> struct BallJoint : detail::PointJoint<S> {
     const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
     const bool limit = (joint.properties.flags & joint_flag::kLimit) != 0;
     detail::set_twist(f, za, zb, limit, joint.properties, joint.drives[0]);
-    detail::linearise_swing(za, zb, joint);
+    detail::linearise_swing(za, zb, detail::most_swing(joint.properties, limit), joint.drives[1]);
   }
 };
 

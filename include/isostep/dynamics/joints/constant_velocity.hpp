@@ -8,7 +8,7 @@
 namespace isostep {
 
 /// Origins coincide, and b does not twist about z against a: two shafts turn at one speed whatever the bend. kCone: of
-/// the angle between the z axes. Bends of 165 degrees and more hold the twist less and less.
+/// the angle between the z axes; it is 149 degrees at most.
 template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::constant_velocity;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kCone;
@@ -16,20 +16,17 @@ template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static constexpr JointMeasure kMeasure = JointMeasure::angle;
 
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
-    const bool cone = (joint.properties.flags & joint_flag::kCone) != 0;
-    joint.block_count = 2;
-    joint.drive_count = cone ? 2 : 0;
+    joint.block_count = joint.drive_count = 2;
     joint.drives[0].place = 1;  // nothing drives it: the twist is an equality
-    joint.drives[1].bounded_above = cone;
+    joint.drives[1].bounded_above = true;
   }
   static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
     detail::point_block(f, h, joint.blocks[0]);
     const Vec3<Unit<S>> za = to_matrix(f.a).column(2), zb = to_matrix(f.b).column(2);
     detail::empty_block(joint.blocks[1]);
     detail::lock_twist(f, za, zb, h, joint);
-    if (joint.drive_count == 0) return;
     joint.drives[0].row = JointRow<S>::zero();
-    detail::linearise_swing(za, zb, joint);
+    detail::linearise_swing(za, zb, detail::most_swing(joint.properties, true), joint.drives[1]);
   }
 };
 

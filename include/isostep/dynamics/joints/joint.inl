@@ -82,12 +82,14 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
     JointDrive<S>& drive = joint.drives[i];
     if (drive.soft) detail::yield_limit(drive);
     drive.piece = detail::valid_piece(drive, drive.piece);
+    drive.spring = S(0);  // of a soft limit that the last sub-step left, too
     if (!drive.sprung) continue;
     const S angle = S(6.283185307179586) * (drive.frequency * step.h);
     const S a1 = S(2) * drive.damping + angle;
     drive.spring_came = drive.yields ? Velocity<S>(0) : detail::lagging_way(drive.row, angle, joint, step);
     drive.spring_root = sqrt(angle) * sqrt(a1);
     drive.spring_rate = a1 > S(0) ? step.rate * (angle / a1) : S(0);
+    detail::weigh_spring(drive);
   }
 }
 
@@ -96,15 +98,6 @@ template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& ka
     for (JointRow<S>& row : joint.blocks[i].rows) detail::set_turns(row, kappa_a, kappa_b);
   }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) detail::set_turns(joint.drives[i].row, kappa_a, kappa_b);
-  bool weighed[2] = {false, false};
-  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
-    JointDrive<S>& drive = joint.drives[i];
-    if (!drive.sprung) continue;
-    const std::uint32_t other = 1 - drive.block;
-    if (joint.block_count > 1 && !weighed[other]) detail::weigh_block(joint.blocks[other], joint.share);
-    weighed[other] = true;
-    detail::weigh_spring(joint, drive);
-  }
 }
 
 template <class S> void couple_blocks(JointConstraint<S>& joint) {

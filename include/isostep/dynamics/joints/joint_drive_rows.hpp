@@ -22,24 +22,12 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
   }
 }
 
-/// [1] Inverse of the effective mass of a drive while the joint's other block holds and the rest of the world is still.
-template <class S> ISO_INLINE S felt_inverse(const JointConstraint<S>& joint, const JointDrive<S>& drive) {
-  const S k = self_coupling(drive.row, drive.row, joint.share);
-  if (joint.block_count == 1) return k;
-  const JointBlock<S>& other = joint.blocks[1 - drive.block];
-  const Mat3<S> inverse = invert_symmetric(other.coupling, kBlockCompliance<S>);
-  const auto with = [&](int r) { return self_coupling(drive.row, other.rows[r], joint.share); };
-  const Vec3<S> c = {with(0), with(1), with(2)};
-  return max(k - dot(c, inverse * c), k * kLeastCompliance<S>);
-}
-
 /// Strength of a spring that has its frequency with the effective mass e that it is made for.
 /// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with angle = 2 pi frequency h; roots are taken apart, for where a
 ///          spring is weak their product keeps digits that w^2 loses.
-template <class S> ISO_INLINE void weigh_spring(const JointConstraint<S>& joint, JointDrive<S>& drive) {
+template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive) {
   using V = Velocity<S>;
-  const S k = drive.spring_inverse > S(0) ? drive.spring_inverse : felt_inverse(joint, drive);
-  drive.spring = k > S(0) ? drive.spring_root / sqrt(k) : S(0);
+  drive.spring = drive.spring_inverse > S(0) ? drive.spring_root / sqrt(drive.spring_inverse) : S(0);
   if (drive.spring < S(8) * resolution<S>()) drive.spring = S(0);
   drive.spring_row = direction_of(S(1), drive.spring, S(0));
   const V error = saturate_to<V>(product(drive.position - drive.target, V(1)) - product(S(1), drive.spring_came));

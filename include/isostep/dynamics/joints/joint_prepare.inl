@@ -4,6 +4,7 @@
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/joints/soft_limit.hpp"
+#include "isostep/dynamics/joints/spring_mass.hpp"
 
 namespace isostep {
 
@@ -134,7 +135,7 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
 /// [1] A spring acts as if made for no more than a million times the mass between its bodies, of which Q16.16 resolves
 /// 16384.
 template <class S> inline constexpr S kLeastSpringInverse = max(S(0x1p-20), S(4) * resolution<S>());
-/// Of a spring whose mass is given: along a row of unit length, or at the radius of a turn.
+/// Of a spring whose mass is named: along a row of unit length, or at the radius of a turn.
 template <class S>
 ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
                                 JointDrive<S>& drive) {
@@ -175,7 +176,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
   joint.blocks[1].turns = true;
   detail::count_rows(joint);
   for (const JointAxisDrive<S>& axis : axes) detail::add_drive(*axis.drive, joint);
-  detail::load_impulses(state, joint);
+  detail::add_swings(joint);
   detail::set_radii(a, mass_a, mass_b, joint);
   joint.reach = detail::reach_of(joint, mass_a);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
@@ -184,6 +185,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
     if (joint.holds && (drive.driven || drive.servo)) detail::set_force(mass_a, mass_b, joint, drive);
     if (joint.holds) detail::set_spring_mass(mass_a, mass_b, joint, drive);
   }
+  if (joint.holds) detail::feel_springs(mass_a, mass_b, joint);
+  detail::load_impulses(state, joint);
 }
 
 }  // namespace isostep

@@ -14,8 +14,8 @@
 
 namespace isostep {
 
-/// Which joints are solved at once.
-enum class JointOrder : std::uint32_t { trees, one_by_one };
+/// Which joints are solved at once: all that form trees, or those trees alone in which a drive is.
+enum class JointOrder : std::uint32_t { trees, driven_trees };
 
 /// Source:  Baraff 1996, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH: a sparse factorisation ordered from
 ///          the leaves of a tree inwards fills nothing. Differs: joints are the unknowns, bodies the couplings.
@@ -26,7 +26,7 @@ enum class JointOrder : std::uint32_t { trees, one_by_one };
 /// Error:   S6 of the scenes (50 links, a weight of 100) at 4 sub-steps: worst separation 3.4 mm swinging, 3 um
 ///          hanging, where one after another leaves 91 mm (two sweeps) and 35 mm. tests/unit/dynamics/joints_test.cpp.
 /// Limits:  solved one after another, before the trees: a joint that closes a loop of bodies, one that would be the
-///          ninth block at one body, and all of a tree whose mass over the least reduced mass of its joints is more
+///          25th block at one body, and all of a tree whose mass over the least reduced mass of its joints is more
 ///          than the format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may
 ///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
@@ -53,7 +53,9 @@ template <class S> class JointTrees {
   void store(std::uint32_t batch, std::span<JointConstraint<S>> joints);
 
  private:
-  static constexpr std::uint32_t kMaxBlocksAtBody = 8;
+  /// Twelve joints of two blocks. Elimination links all blocks of a body with each other, and costs the third power of
+  /// their number: what hangs on a body by itself takes 20 times as long with 24 as with 8.
+  static constexpr std::uint32_t kMaxBlocksAtBody = 24;
   /// Of the joints solved one by one: a second sweep takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
   static constexpr int kLooseSweeps = 2;
 
@@ -97,7 +99,7 @@ template <class S> class JointTrees {
 
   // joint_tree_plan.inl
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
-  void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);
   void eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some);
@@ -147,6 +149,7 @@ template <class S> class JointTrees {
   std::vector<std::uint8_t> anchored_;  // of each set of bodies: hangs on the world already
   std::vector<S> set_mass_;             // [kg] of each set of bodies, up to the limit
   std::vector<S> set_lightest_;         // [kg] least reduced mass of its joints
+  std::vector<std::uint8_t> asked_;     // of each set of bodies: its joints are to be a tree
   std::vector<std::uint32_t> degree_;   // of each row: tree joints not yet eliminated
   std::vector<std::uint32_t> blocks_;   // of each row
   std::vector<std::uint32_t> first_;    // of each row, in at_body_

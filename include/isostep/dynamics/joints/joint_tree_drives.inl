@@ -25,7 +25,6 @@ template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
-  const SolverBodies<S>& bodies = *step.bodies;
   for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
     const TreeJoint& of = run.shape.joints[j];
     if (of.stops != TreeJoint::kNoStops || (!of.turns && run.shape.nodes[of.node].is_point())) continue;
@@ -33,9 +32,6 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
       if ((run.lanes >> lane & 1u) == 0) continue;
       JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
       linearise_joint(joint, step);
-      bool sprung = false;
-      for (std::uint32_t i = 0; i < joint.drive_count; ++i) sprung = sprung || joint.drives[i].sprung;
-      if (sprung) weigh_joint(joint, bodies.mass[joint.row_a].kappa, bodies.mass[joint.row_b].kappa);
     }
   }
 }

@@ -40,7 +40,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
     const JointConstraint<S>& joint = joints[j];
     if (!joint.holds) continue;
     const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
-    bool fits = order == JointOrder::trees;
+    bool fits = true;
     for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
       if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
     }
@@ -51,7 +51,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
     if (a_moves) blocks_[joint.row_a] += joint.block_count;
     if (b_moves) blocks_[joint.row_b] += joint.block_count;
   }
-  weigh_sets(joints, bodies);
+  weigh_sets(joints, bodies, order);
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     if (role_[j] == detail::kTree) place_in_tree(joints, bodies, j);
     if (role_[j] == detail::kLoose) loose_.push_back(j);
@@ -60,7 +60,9 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
 
 /// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
 template <class S>
-void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
+                               JointOrder order) {
+  asked_.assign(blocks_.size(), order == JointOrder::trees ? 1 : 0);
   set_mass_.assign(blocks_.size(), S(0));
   set_lightest_.assign(blocks_.size(), Limits<S>::mass());
   for (std::uint32_t row = 0; row < blocks_.size(); ++row) {
@@ -72,7 +74,9 @@ void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const
     if (role_[j] != detail::kTree) continue;
     const bool a_moves = bodies.moves(joints[j].row_a);
     const std::uint32_t row = a_moves ? joints[j].row_a : joints[j].row_b;
-    S& lightest = set_lightest_[sets_.find(row)];
+    const std::uint32_t set = sets_.find(row);
+    if (joints[j].drive_count > 0) asked_[set] = 1;
+    S& lightest = set_lightest_[set];
     lightest = min(lightest, bodies.mass[row].mass * (a_moves ? joints[j].share.a : joints[j].share.b));
   }
 }
@@ -82,7 +86,7 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
                                   std::uint32_t j) {
   const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
   const std::uint32_t set = sets_.find(a_moves ? joints[j].row_a : joints[j].row_b);
-  if (set_mass_[set] * detail::kLeastCompliance < S >> set_lightest_[set]) {
+  if (asked_[set] == 0 || set_mass_[set] * detail::kLeastCompliance < S >> set_lightest_[set]) {
     role_[j] = detail::kLoose;
     return;
   }

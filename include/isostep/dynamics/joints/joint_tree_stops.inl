@@ -29,19 +29,20 @@ template <class S> ISO_INLINE TreeStopLimits<S> stop_limits(const JointConstrain
   limits.middle = middle == S(0) ? SinCos<Unit<S>>{Unit<S>(0), Unit<S>(1)} : sin_cos_to<Unit<S>>(middle);
   limits.twist = limits.swing = kNoCosine<S>;
   limits.twist_slope = limits.swing_slope = S(1);
-  if ((p.flags & joint_flag::kLimit) != 0) {
+  const bool twists = (p.flags & joint_flag::kLimit) != 0;
+  if (twists) {
     const SinCos<Unit<S>> range = sin_cos_to<Unit<S>>((p.upper - p.lower) * S(0.25));
     limits.twist = convert<S>(range.cos);
     limits.twist_slope = slope_to<S>(range);
   }
-  if ((p.flags & joint_flag::kCone) != 0) {
-    const SinCos<Unit<S>> cone = sin_cos_to<Unit<S>>(p.cone);
+  limits.cone = most_swing(p, twists);
+  if (joint.drive_count > 1 && joint.drives[1].bounded_above) {
+    const SinCos<Unit<S>> cone = sin_cos_to<Unit<S>>(limits.cone);
     limits.swing = convert<S>(cone.cos);
     limits.swing_slope = slope_to<S>(cone);
   }
   limits.lower = p.lower;
   limits.upper = p.upper;
-  limits.cone = p.cone;
   limits.radius = joint.radius;
   limits.twist_radius = joint.drives[0].radius;
   limits.swing_radius = joint.drives[1].radius;

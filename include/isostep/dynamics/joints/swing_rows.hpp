@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/slide_rows.hpp"
+#include "isostep/dynamics/joints/soft_limit.hpp"
 #include "isostep/dynamics/joints/turn_rows.hpp"
 
 namespace isostep::detail {
@@ -75,6 +76,27 @@ template <class S> ISO_INLINE JointDrive<S>* drive_of(JointConstraint<S>& joint,
   return nullptr;
 }
 
+/// Whether a twist beside a swing is locked, limited or sprung: one that only has a motor may be any.
+template <class S> ISO_INLINE bool holds_twist(JointConstraint<S>& joint) {
+  const std::uint32_t flags = joint.properties.flags;
+  if ((flags & joint_flag::kLockTurns) == joint_flag::kLockTurns || only_free_turn(flags) >= 0) return false;
+  if ((flags & joint_flag::kLockTwist) != 0) return true;
+  const JointDrive<S>* const twist = drive_of(joint, 2);
+  return twist != nullptr && (twist->asked->limited || S(0) < twist->asked->spring_frequency);
+}
+/// Drives that nothing asks for, of swings that are to stop where the twist ends.
+template <class S> ISO_INLINE void add_swings(JointConstraint<S>& joint) {
+  if (joint.properties.type != JointType::six_axis || !holds_twist(joint)) return;
+  for (const std::uint32_t place : {0u, 1u}) {
+    if ((joint.properties.flags & joint_flag::kLockSwingX << place) != 0 || drive_of(joint, place) != nullptr) continue;
+    JointDrive<S>& drive = joint.drives[joint.drive_count++];
+    drive = {};
+    drive.block = 1;
+    drive.place = place;
+    drive.push_speed = kAnglePushSpeed<S>;
+  }
+}
+
 /// b's axis of that number coincides with a's, and the turn about it may be driven.
 template <class S>
 ISO_INLINE void linearise_turn_about(int free, const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h,
@@ -106,14 +128,17 @@ ISO_INLINE void lock_swing(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.error[place] = bounded_error(about_x ? -off : off, h);
 }
 
+template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) {
+  return drive.asked != nullptr && drive.asked->limited;
+}
 /// The drives of both swings, each about its axis.
 template <class S>
 ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
   const auto set = [&](JointDrive<S>* drive, Vec3<S> rate, S angle) ISO_INLINE_LAMBDA {
     if (drive == nullptr) return;
-    drive->bounded_below = drive->bounded_above = drive->asked->limited && swing.is_clear;
+    drive->bounded_below = drive->bounded_above = is_limited(*drive) && swing.is_clear;
     drive->row = turning_row<S>(a * rate, drive->radius);
-    set_angle(*drive, *drive->asked, angle);
+    if (drive->asked != nullptr) set_angle(*drive, *drive->asked, angle);
   };
   set(x, swing.rate_about_x(), swing.angle_about_x());
   set(y, swing.rate_about_y(), swing.angle_about_y());
@@ -121,6 +146,38 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
 
 /// [1] of the ellipse, beyond which rows turn with the direction of the swing: nearer its middle no limit is near.
 template <class S> inline constexpr S kConeBasis = S(0.5);
+
+/// The rows of swings along one axis, in a, and across it: `x` is the drive along it if both are there. Nothing limits
+/// them.
+template <class S>
+ISO_INLINE void set_along(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Vec3<Unit<S>> axis, JointDrive<S>* x,
+                          JointDrive<S>* y) {
+  const auto asked = [](const JointDrive<S>* drive, S AxisDrive<S>::*what)
+                         ISO_INLINE_LAMBDA { return drive != nullptr && drive->asked ? drive->asked->*what : S(0); };
+  const S off_x = swing.angle_about_x() - asked(x, &AxisDrive<S>::spring_target);
+  const S off_y = swing.angle_about_y() - asked(y, &AxisDrive<S>::spring_target);
+  const S speed_x = asked(x, &AxisDrive<S>::motor_speed), speed_y = asked(y, &AxisDrive<S>::motor_speed);
+  const auto set = [&](JointDrive<S>* drive, Vec3<S> about, S x_part, S y_part) ISO_INLINE_LAMBDA {
+    if (drive == nullptr) return;
+    const auto part = [&](S of_x, S of_y) ISO_INLINE_LAMBDA { return x_part * of_x + y_part * of_y; };
+    drive->row = turning_row<S>(a * about, drive->radius);
+    drive->bounded_below = drive->bounded_above = false;
+    drive->position = S(0);
+    drive->target = -(part(off_x, off_y) * drive->radius);
+    drive->speed = round_to<Velocity<S>>(product(part(speed_x, speed_y), drive->radius));
+  };
+  const Vec3<S> along = convert<S>(axis);
+  if (x == nullptr) return set(y, along, along.x, along.y);
+  set(x, along, along.x, along.y);
+  set(y, cross(swing.d, along), -along.y, along.x);
+}
+/// Stops such a drive at `most`, where it is at `angle` along its axis. Its spring stays as far from its target.
+template <class S> ISO_INLINE void stop_along(JointDrive<S>& drive, S angle, S most) {
+  drive.position = angle * drive.radius;
+  drive.target = drive.position + drive.target;
+  drive.upper = most * drive.radius;
+  drive.bounded_above = true;
+}
 
 /// Both swings within an ellipse: a row along the swing, on which the limit acts, and one across it.
 /// Symbols: e = sqrt((s_x / t_x)^2 + (s_y / t_y)^2), t = tan(half axis / 2). d x gradient of e points along the row's
@@ -134,26 +191,21 @@ ISO_INLINE bool set_cone(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Joi
   const Vec3<S> gradient = Vec3<S>{gx, gy, -(gx * swing.x + gy * swing.y)} * swing.per;
   const Vec3<S> turned = cross(swing.d, gradient);
   const Direction<S> n = direction_of(turned.x, turned.y, turned.z);
-  const Vec3<Unit<S>> along = {n.x, n.y, n.z};
-  const Vec3<S> across = cross(swing.d, convert<S>(along));
-  const auto part = [&](S of_x, S of_y)
-                        ISO_INLINE_LAMBDA { return convert<S>(along.x) * of_x + convert<S>(along.y) * of_y; };
-  const auto over = [&](S of_x, S of_y) ISO_INLINE_LAMBDA { return across.x * of_x + across.y * of_y; };
-  const AxisDrive<S>&of_x = *x.asked, &of_y = *y.asked;
-  const S off_x = swing.angle_about_x() - of_x.spring_target, off_y = swing.angle_about_y() - of_y.spring_target;
-  x.row = turning_row<S>(a * convert<S>(along), x.radius);
-  x.position = (e - S(1)) / n.length * x.radius;
-  x.bounded_below = false;
-  x.bounded_above = true;
-  x.upper = S(0);
-  x.target = x.position - part(off_x, off_y) * x.radius;
-  x.speed = round_to<Velocity<S>>(product(part(of_x.motor_speed, of_y.motor_speed), x.radius));
-  y.row = turning_row<S>(a * across, y.radius);
-  y.position = S(0);
-  y.bounded_below = y.bounded_above = false;
-  y.target = -(over(off_x, off_y) * y.radius);
-  y.speed = round_to<Velocity<S>>(product(over(of_x.motor_speed, of_y.motor_speed), y.radius));
+  set_along(swing, a, {n.x, n.y, n.z}, &x, &y);
+  stop_along(x, (e - S(1)) / n.length, S(0));
   return true;
+}
+
+/// Beyond 120 degrees a joint whose twist is held has a stop along its swing, wherever that leads. It does not yield.
+template <class S>
+ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
+  const Direction<S> n = direction_of(-swing.d.y, swing.d.x, S(0));
+  set_along(swing, a, {n.x, n.y, Unit<S>(0)}, x, y);
+  JointDrive<S>& along = x != nullptr ? *x : *y;
+  stop_along(along, atan2(n.length, swing.d.z), kTwistEnds<S>);
+  if (!along.soft) return;
+  along.soft = along.yields = false;
+  set_spring(*along.asked, along);
 }
 
 template <class S>
@@ -161,9 +213,13 @@ ISO_INLINE void linearise_swings(const JointFrames<S>& f, const Mat3<Unit<S>>& a
   JointDrive<S>* const x = drive_of(joint, 0);
   JointDrive<S>* const y = drive_of(joint, 1);
   if (x == nullptr && y == nullptr) return;
+  for (JointDrive<S>* const drive : {x, y}) {
+    if (drive != nullptr) drive->soft = drive->asked != nullptr && is_soft(*drive->asked);
+  }
   const SwingTwist<S> swing = SwingTwist<S>::of(f, a);
+  if (!swing.is_clear && holds_twist(joint)) return end_swing(swing, a, x, y);
   const bool cone = (joint.properties.flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr &&
-                    x->asked->limited && y->asked->limited;
+                    is_limited(*x) && is_limited(*y);
   if (cone && set_cone(swing, a, *x, *y)) return;
   set_swings(swing, a, x, y);
   if (cone) x->bounded_below = x->bounded_above = y->bounded_below = y->bounded_above = false;

@@ -43,6 +43,16 @@ ISO_INLINE void linearise_turn(const JointFrames<S>& f, const Mat3<Unit<S>>& a, 
 /// sub-step follows, and at half a turn it means nothing.
 template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
 
+/// [rad] Swing at which a joint stops whose twist is limited, locked or sprung: 149 degrees. There a twist changes four
+/// times as fast as bodies turn. Beyond half a turn b comes back with another twist, and what acts on it then would
+/// turn b with energy that it never took.
+template <class S> inline constexpr S kTwistEnds = S(2.6);
+/// [rad] Where the swing stops, of a joint with a cone or a twist that is held.
+template <class S> ISO_INLINE S most_swing(const JointProperties<S>& p, bool holds_twist) {
+  const bool cone = (p.flags & joint_flag::kCone) != 0;
+  return !cone ? kTwistEnds<S> : holds_twist ? min(p.cone, kTwistEnds<S>) : p.cone;
+}
+
 /// Twist, about z, of a rotation that also swings: its rate is the relative angular velocity about the mean of the two
 /// z axes, divided by cos(swing / 2).
 template <class S> struct Twist {
@@ -77,14 +87,14 @@ ISO_INLINE void lock_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<
 }
 
 /// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
-template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, JointConstraint<S>& joint) {
+template <class S>
+ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, S most, JointDrive<S>& drive) {
   using U = Unit<S>;
   const Vec3<U> n = cross(za, zb);
   const Direction<U> axis = direction_of(n.x, n.y, n.z);
-  JointDrive<S>& drive = joint.drives[1];
   drive.row = angular_row<S>({axis.x, axis.y, axis.z}, drive.radius);
   drive.position = atan2_to<S>(axis.length, dot(za, zb)) * drive.radius;
-  drive.upper = joint.properties.cone * drive.radius;
+  drive.upper = most * drive.radius;
 }
 
 }  // namespace isostep::detail
