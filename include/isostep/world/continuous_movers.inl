@@ -139,7 +139,7 @@ template <class S> void ContinuousCollision<S>::find_way(Mover& mover) const {
   const S turn = spin.length / S(state_.settings.hz);
   mover.pieces = 1;
   mover.poses[0] = from;
-  mover.poses[1] = to;
+  mover.poses[1] = mover.stopped = to;
   if (turn < S(2)) return;
   Quat<U> turned[kPieces + 1];
   for (std::uint32_t i = 1; i <= kPieces; ++i) {
