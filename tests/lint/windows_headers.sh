@@ -53,7 +53,9 @@ ours >clang.cpp
 { standard
   undefine __GNUC__ __GNUC_MINOR__ __clang__ _MSC_VER __x86_64__ __SSE2__ __SSE4_1__ __AVX__ __SIZEOF_INT128__
   printf '#define _MSC_VER 1940\n#define _M_X64 100\n'; ours; } >msvc.cpp
-{ echo '#include "isostep/world/instantiate.inl"'
+# As isostep_add_scalar() compiles it.
+{ echo '#define ISOSTEP_OWN_SCALARS'
+  echo '#include "isostep/world/instantiate.inl"'
   echo 'ISO_INSTANTIATE_ENGINE(isostep::Fixed<std::int64_t, 40>)'; } >engine.cpp
 echo 'static_assert(sizeof(long) == 8);' >control.cpp
 

@@ -50,7 +50,7 @@ class RelayCore : public ClientCore {
   Leaf* leaf_of(PeerId peer);
   void clear(Leaf& leaf);
   void greet(Leaf& leaf, Bytes message);
-  void refuse(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours);
+  void refuse_leaf(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours);
   void ask_for_state(Leaf& leaf);
   /// Our newest final state may be shown.
   bool may_show() const;

@@ -32,7 +32,7 @@ class ReplayCore : public SessionCore {
   /// What is wrong with the file, as an event; false: something is.
   bool open_file();
   bool read_frame(Frame frame);
-  void refuse(std::string_view key, std::string_view in_file, std::string_view here);
+  void refuse_file(std::string_view key, std::string_view in_file, std::string_view here);
 
   FrameClock clock_;
   ReplayReader file_;

@@ -113,7 +113,7 @@ void RelayCore::take_message(Leaf& leaf, Bytes bytes, Time now) {
   ++stats_.refused;
 }
 
-void RelayCore::refuse(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours) {
+void RelayCore::refuse_leaf(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours) {
   leaf.refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(theirs), ShortText<kReplayValueCap>(ours)};
   leaf.stage = Leaf::Stage::refused;
   ++stats_.refused;
@@ -121,17 +121,17 @@ void RelayCore::refuse(Leaf& leaf, std::string_view key, std::string_view theirs
 
 void RelayCore::greet(Leaf& leaf, Bytes message) {
   const Result<Hello> hello = read_hello(message);
-  if (!hello) return refuse(leaf, hello.error().place.view(), "unreadable", hello.error().message.view());
+  if (!hello) return refuse_leaf(leaf, hello.error().place.view(), "unreadable", hello.error().message.view());
   const HeaderMismatch mismatch = compare_headers(hello.value().identity, config_.identity);
   if (!mismatch.key.empty()) {
-    return refuse(leaf, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
+    return refuse_leaf(leaf, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
   }
-  if (!hello.value().spectator) return refuse(leaf, "relay", "a player", "spectators only");
+  if (!hello.value().spectator) return refuse_leaf(leaf, "relay", "a player", "spectators only");
   int served = 0;
   for (const Leaf& other : leaves_) {
     served += other.stage != Leaf::Stage::connected && other.stage != Leaf::Stage::refused ? 1 : 0;
   }
-  if (served >= config_.max_peers) return refuse(leaf, "spectators", "one more", "no room");
+  if (served >= config_.max_peers) return refuse_leaf(leaf, "spectators", "one more", "no room");
   leaf.have = hello.value().have;
   leaf.stage = Leaf::Stage::applies;
 }

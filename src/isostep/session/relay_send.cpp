@@ -121,7 +121,7 @@ std::optional<Outgoing> RelayCore::next_message(Leaf& leaf, Time now) {
   }
   const bool receives = leaf.stage == Stage::receives_snapshot;
   if (receives && snapshot_bytes_.empty()) {  // the game has no portable form
-    refuse(leaf, "snapshot", "needed", "none");
+    refuse_leaf(leaf, "snapshot", "needed", "none");
     return next_message(leaf, now);
   }
   if (leaf.must_welcome && (receives || leaf.stage == Stage::live)) {

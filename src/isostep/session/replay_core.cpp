@@ -38,7 +38,7 @@ ReplayCore::ReplayCore(const SessionConfig& config, const InputRules& rules, Byt
       file_(file),
       streams_(static_cast<std::size_t>(config.players), InputStream(config.kept, rules.cap)) {}
 
-void ReplayCore::refuse(std::string_view key, std::string_view in_file, std::string_view here) {
+void ReplayCore::refuse_file(std::string_view key, std::string_view in_file, std::string_view here) {
   phase_ = SessionPhase::over;
   SessionEvent event{.kind = SessionEvent::Kind::refused};
   event.frame = current();
@@ -48,12 +48,12 @@ void ReplayCore::refuse(std::string_view key, std::string_view in_file, std::str
 
 bool ReplayCore::open_file() {
   if (!file_.has_header() || !file_.has_state()) {
-    refuse("file", file_.error().message.view(), "a match recording");
+    refuse_file("file", file_.error().message.view(), "a match recording");
     return false;
   }
   const HeaderMismatch mismatch = compare_headers(file_.header(), config_.identity);
   if (!mismatch.key.empty()) {
-    refuse(mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
+    refuse_file(mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
     return false;
   }
   const ReplayField* first = file_.header().find(kFirstFrameKey);
@@ -61,7 +61,7 @@ bool ReplayCore::open_file() {
   const Result<std::uint64_t> number = file_.header().number(kFirstFrameKey);
   constexpr std::uint64_t kLast = kLastFrame;
   if (!number || number.value() > kLast || file_.frame_count() > kLast - number.value()) {
-    refuse(kFirstFrameKey, first->value.view(), "a number by which all frames are below 2^30");
+    refuse_file(kFirstFrameKey, first->value.view(), "a number by which all frames are below 2^30");
     return false;
   }
   first_ = static_cast<Frame>(number.value());
@@ -87,12 +87,12 @@ void ReplayCore::plan(Time now) {
     if (file_.status() == ReplayStatus::complete) {
       phase_ = SessionPhase::over;
     } else {
-      refuse("file", file_.error().message.view(), "a whole recording");
+      refuse_file("file", file_.error().message.view(), "a whole recording");
     }
     return;
   }
   if (!read_frame(current())) {
-    refuse("file", "a frame that is none of this match", "inputs of every player");
+    refuse_file("file", "a frame that is none of this match", "inputs of every player");
     return;
   }
   timeline_.step(streams_);
@@ -113,7 +113,7 @@ bool ReplayCore::read_frame(Frame frame) {
 }
 
 void ReplayCore::restored(bool ok) {
-  if (!ok) refuse("file", "a first state that is none of this game", "its portable form");
+  if (!ok) refuse_file("file", "a first state that is none of this game", "its portable form");
 }
 
 void ReplayCore::hash_known(Frame state, std::uint64_t hash) {
