@@ -7,7 +7,7 @@ using Isostep;
 
 internal static class Bench
 {
-    private const int Bodies = 1000, Frames = 200, Calls = 1000000;
+    private const int Bodies = 1000, Frames = 200, Calls = 1000000, Reads = 20000;
 
     private static void Main()
     {
@@ -29,10 +29,20 @@ internal static class Bench
         for (int i = 0; i < Frames; ++i)
         {
             world.Step();
-            RenderPoseView poses = world.Poses(0.5f);
-            for (int k = 0; k < poses.Count; ++k) sum += poses[k].Position.Y;
+            sum += Heights(world);
         }
         Console.WriteLine("{0} {1:F4} ms a frame, sum {2:G6}", name, (Now() - begin) / Frames, sum);
+        begin = Now();
+        for (int i = 0; i < Reads; ++i) sum += Heights(world);
+        Console.WriteLine("{0} {1:F4} us for its poses, sum {2:G6}", name, (Now() - begin) / Reads * 1000, sum);
+    }
+
+    private static double Heights(WorldBase world)
+    {
+        double sum = 0;
+        RenderPoseView poses = world.Poses(0.5f);
+        for (int k = 0; k < poses.Count; ++k) sum += poses[k].Position.Y;
+        return sum;
     }
 
     private static void MeasureCalls()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# C# beside C++: five runs of each in turn, of every figure the least.
+# C# beside C++: three runs of each in turn, of every figure the least.
 # usage: csharp_bench.sh REPOSITORY LIBISOSTEP NATIVE
 set -u
 . "$1/tests/scratch.sh"
@@ -8,7 +8,7 @@ assembly "$1" "$2"
 each_family "$1/tests/csharp/Hello.cs.in" Hello
 mcs -unsafe -optimize+ -r:"$dir/Isostep.dll" -out:"$dir/bench.exe" "$dir"/Hello*.cs "$1/bench/csharp_bench/Bench.cs" \
   >"$dir/out" 2>&1 || fail "the benchmark does not compile"
-for _ in 1 2 3 4 5; do
+for _ in 1 2 3; do
   "$3" >"$dir/out" 2>&1 || fail "the C++ side fails"
   sed 's/^/C++ /' "$dir/out" >>"$dir/runs"
   mono "$dir/bench.exe" >"$dir/out" 2>&1 || fail "the C# side fails"
