@@ -39,7 +39,10 @@ function(isostep_library target export_name include_dir)
     $<INSTALL_INTERFACE:include>)
   target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_speed} ${isostep_library_warnings}
     ${isostep_roomy_flags})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")  # there it goes into no shared library, and costs size and time
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   if(ISOSTEP_NO_INT128)
     target_compile_definitions(${target} PUBLIC ISOSTEP_NO_INT128)
   endif()

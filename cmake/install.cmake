@@ -20,9 +20,18 @@ foreach(extra transport sealed threads)
   endif()
 endforeach()
 if(TARGET isostep_c)
-  install(TARGETS isostep_c EXPORT isostep-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  foreach(library c c_udp)
+    if(TARGET isostep_${library})
+      install(TARGETS isostep_${library} EXPORT isostep-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
+  endforeach()
   install(FILES src/c/include/isostep.h DESTINATION include)
+  if(TARGET isostep_c_udp)
+    install(FILES src/c/include/isostep_udp.h DESTINATION include)
+  endif()
+  install(DIRECTORY src/csharp/package/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
+    FILES_MATCHING PATTERN "*.cs")
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/src/c/isostep.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
   install(EXPORT isostep-c NAMESPACE isostep:: FILE isostep-c.cmake DESTINATION ${isostep_package})
 endif()
@@ -41,3 +50,12 @@ install(FILES
 if(ISOSTEP_TOOL AND TARGET isostep_tool)
   install(TARGETS isostep_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+
+# All that is installed, and the examples that packages are tried with: what `./isostep package` needs of this build.
+add_custom_target(isostep_packaged)
+foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_python isostep_transport isostep_sealed isostep_threads
+    isostep_tool example_four_scalars example_four_scalars_c)
+  if(TARGET ${target})
+    add_dependencies(isostep_packaged ${target})
+  endif()
+endforeach()

@@ -34,21 +34,51 @@ template <class S> iso_status body_create(iso_world* world, const void* from, is
 /// A stale id is told as the world tells it.
 iso_status stale(const char* call) { return refuse({Fault::stale_id, call, "body", "a body of this world"}); }
 
+template <class S> CBodyState<S> state_of(const World<S>& world, BodyId id) {
+  CBodyState<S> state;
+  state.pose = world.pose(id);
+  state.centre = world.center_of_mass(id);
+  state.velocity = world.velocity(id);
+  state.angular_velocity = world.angular_velocity(id);
+  state.user_data = world.user_data(id);
+  state.type = world.type(id);
+  state.awake = world.is_awake(id);
+  state.enabled = world.is_enabled(id);
+  return state;
+}
+
 template <class S> iso_status get_state(const iso_world* world, iso_body body, void* out) {
   constexpr const char* kCall = "body_get_state";
   return in_world<S>(world, kCall, Access::reads, [&](auto& of) {
     const BodyId id = id_of<BodyId>(body);
-    if (!of.world.contains(id)) return stale(kCall);
-    CBodyState<S> state;
-    state.pose = of.world.pose(id);
-    state.centre = of.world.center_of_mass(id);
-    state.velocity = of.world.velocity(id);
-    state.angular_velocity = of.world.angular_velocity(id);
-    state.user_data = of.world.user_data(id);
-    state.type = of.world.type(id);
-    state.awake = of.world.is_awake(id);
-    state.enabled = of.world.is_enabled(id);
-    return put_sized(kCall, out, state);
+    return of.world.contains(id) ? put_sized(kCall, out, state_of(of.world, id)) : stale(kCall);
+  });
+}
+
+std::uint32_t size_at(const std::uint8_t* sized) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, sized, sizeof size);
+  return size;
+}
+
+template <class S>
+iso_status get_states(const iso_world* world, const iso_body* bodies, std::size_t count, void* out) {
+  constexpr const char* kCall = "bodies_get_states";
+  return in_world<S>(world, kCall, Access::reads, [&](auto& of) {
+    if (count == 0) return kOk;
+    ISO_C_REQUIRE(kCall, bodies);
+    ISO_C_REQUIRE(kCall, out);
+    auto* const bytes = static_cast<std::uint8_t*>(out);
+    const std::uint32_t size = size_at(bytes);
+    for (std::size_t i = 0; i < count; ++i) {  // before anything is written
+      if (!of.world.contains(id_of<BodyId>(bodies[i]))) return stale(kCall);
+      if (size < kHeadSize || size_at(bytes + i * size) != size) return refuse(ISO_WRONG_SIZE, kCall, "out");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const iso_status put = put_sized(kCall, bytes + i * size, state_of(of.world, id_of<BodyId>(bodies[i])));
+      if (put != kOk) return put;
+    }
+    return kOk;
   });
 }
 
@@ -221,6 +251,10 @@ uint8_t iso_joint_exists(const iso_world* world, iso_joint joint) {
   }                                                                                                                 \
   iso_status iso_##P##_body_get_state(const iso_world* world, iso_body body, iso_##P##_body_state* out) {           \
     return get_state<S>(world, body, out);                                                                          \
+  }                                                                                                                 \
+  iso_status iso_##P##_bodies_get_states(const iso_world* world, const iso_body* bodies, size_t count,              \
+                                         iso_##P##_body_state* out) {                                               \
+    return get_states<S>(world, bodies, count, out);                                                                \
   }                                                                                                                 \
   iso_status iso_##P##_body_get_properties(const iso_world* world, iso_body body, iso_##P##_body_properties* out) { \
     return get_properties<S>(world, body, out);                                                                     \

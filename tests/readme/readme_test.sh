@@ -6,19 +6,21 @@ set -u
 repository=$1
 tool=$2
 cd "$repository" || exit 1  # commands name files from here
-pages=$(find README.md CHANGELOG.md bench cmake include replays scalar src tests -name '*.md' ! -name '*-part.md' | sort)
+# Pages that packages bring are theirs: `isostep package` follows them.
+pages=$(find README.md CHANGELOG.md bench cmake include replays scalar src tests -name '*.md' ! -name '*-part.md' \
+  ! -path 'src/packages/*/*' | sort)
 failures=0
 complain() {
   echo "readme: $1" >&2
   failures=$((failures + 1))
 }
 
-# Commands of sh blocks. demo, test and matrix build everything and are CI's own words; bench and lab --all measure for
+# Commands of sh blocks. demo, test, matrix and package build everything and are CI's own words; bench and lab --all measure for
 # minutes.
 # shellcheck disable=SC2086
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' $pages | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix' \
-    -e '^\./isostep lab --all')
+    -e '^\./isostep package' -e '^\./isostep lab --all')
 # What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
 # Peers are patient: on a machine that stalls nobody has left.
 commands=$(printf '%s\n' "$commands" |
@@ -47,10 +49,10 @@ for pid in $background; do
   wait "$pid" || complain "a command in the background exits $?"
 done
 
-# A block of C++ or C after the line <!-- from FILE --> is quoted: all blocks of a page from one file are the parts of that file
-# between its marks, each less its first line's indentation.
+# A C++, C or TypeScript block after the line <!-- from FILE --> is quoted: all blocks of a page from one file are the
+# parts of that file between its marks, each less its first line's indentation.
 quoted() { # page, file
-  awk -v mark="<!-- from $2 -->" '/^```$/ {inside = 0} inside; /^```(c|cpp)$/ {inside = last == mark} {last = $0}' "$1"
+  awk -v mark="<!-- from $2 -->" '/^```$/ {inside = 0} inside; /^```(cpp|c|ts)$/ {inside = last == mark} {last = $0}' "$1"
 }
 marked() { # file
   awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}

@@ -2575,6 +2575,9 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_API iso_status iso_##P##_body_create(iso_world* world, const iso_##P##_body_definition* definition,              \
                                            iso_body* out);                                                             \
   ISO_API iso_status iso_##P##_body_get_state(const iso_world* world, iso_body body, iso_##P##_body_state* out);       \
+  /* Of many at once. `out` has one for each of `bodies`, every one with its size set. */                              \
+  ISO_API iso_status iso_##P##_bodies_get_states(const iso_world* world, const iso_body* bodies, size_t count,         \
+                                                 iso_##P##_body_state* out);                                           \
   ISO_API iso_status iso_##P##_body_get_properties(const iso_world* world, iso_body body,                              \
                                                    iso_##P##_body_properties* out);                                    \
   /* The parts of its shape, in the body's frame. */                                                                   \

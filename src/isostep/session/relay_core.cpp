@@ -5,7 +5,7 @@
 namespace isostep {
 namespace {
 
-constexpr Time kTellFigures = kSecond;        // [us] as the host
+constexpr Time kTellLeaves = kSecond;         // [us] as the host
 constexpr Time kBetweenStates = 5 * kSecond;  // [us] a snapshot costs us more than it costs to ask for one
 
 }  // namespace
@@ -177,7 +177,7 @@ void RelayCore::before_steps(Time now) {
   collect_snapshot();
   ClientCore::before_steps(now);
   const bool tells = now >= figures_at_;
-  if (tells) figures_at_ = now + kTellFigures;
+  if (tells) figures_at_ = now + kTellLeaves;
   for (Leaf& leaf : leaves_) {
     if (!leaf.is_connected) continue;
     ++stats_.peers;

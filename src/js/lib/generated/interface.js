@@ -1,0 +1,1016 @@
+// The structs and enumerations of the C interface, as layout.js reads them.
+// Written by generate.mjs from src/c: change nothing here.
+// SPDX-License-Identifier: MIT
+
+export const interfaceSchema = {
+  abi: 0,
+  shapes: ["sphere", "box", "capsule", "half_space", "cylinder", "cone"],
+  joints: ["ball", "constant_velocity", "fixed", "universal", "angular", "hinge", "slider", "cylindrical", "planar", "rod", "rope", "wheel_joint", "motor_joint", "six_axis"],
+  records: ["force_zone", "attractor", "body_spring", "thruster", "buoyancy", "explosion", "water", "drag", "aero_surface", "material_pair", "breakable", "character", "vehicle", "wheel", "surface_velocity", "ghost", "one_way", "hit_report", "joint_load", "coupling", "axis_drive", "move_target", "kind_ghost", "ranked_zone", "contact_report", "kind_response", "damping_zone", "ranked_water", "sensor_mount"],
+  flags: {
+    bodyFlags: {sensor: 1, allowSleep: 2, collide: 4, bullet: 16, disabled: 32, lockX: 256, lockY: 512, lockZ: 1024, lockAngularX: 2048, lockAngularY: 4096, lockAngularZ: 8192, allLocks: 16128},
+    jointFlags: {collideConnected: 1, limit: 2, motor: 4, spring: 8, cone: 16, lockX: 256, lockY: 512, lockZ: 1024, lockSwingX: 2048, lockSwingY: 4096, lockTwist: 8192, lockPoint: 1792, lockSwing: 6144, lockTurns: 14336},
+    zoneEffects: {acceleration: 1, wind: 2, gravity: 4, water: 8}
+  },
+  enums: {
+    scalar: {f32: 0, f64: 1, q16: 2, q32: 3},
+    body_type: {static: 0, kinematic: 1, dynamic: 2},
+    shape_type: {sphere: 0, box: 1, capsule: 2, half_space: 3, hull: 4, mesh: 5, height_field: 6, cylinder: 7, cone: 8},
+    joint_type: {ball: 0, hinge: 1, fixed: 2, distance: 3, slider: 4, cylindrical: 5, planar: 6, universal: 7, constant_velocity: 8, angular: 9, six_axis: 10},
+    joint_axis: {x: 0, y: 1, z: 2, swing_x: 3, swing_y: 4, twist: 5},
+    solver: {soft_step: 0, pgs: 1, worst_first: 2, direct: 3},
+    projection: {nonlinear: 0, linear: 1, relaxed: 2, velocity_based: 3},
+    broad_phase: {box_tree: 0, sphere_tree: 1, bsp_tree: 2, quad_tree: 3, oct_tree: 4, grid: 5, multi_grid: 6, sweep_and_prune: 7},
+    simd: {best: 0, scalar: 1, sse2: 2, avx2: 3, avx512: 4, neon: 5, wasm: 6},
+    zone_shape: {everywhere: 0, sphere: 1, box: 2},
+    break_pattern: {eight_boxes: 0, grain: 1, radial: 2, voronoi: 3},
+    footing: {airborne: 0, floor: 1, steep: 2},
+    start_inside: {report: 0, ignore: 1},
+    hit_per: {body: 0, child: 1, triangle: 2},
+    blob_home: {carried: 0, asset: 1},
+    fault: {none: 0, stale_id: 1, not_finite: 2, out_of_range: 3, bad_shape: 4, bad_mass: 5, bad_argument: 6, shape_in_use: 7, not_dynamic: 8, null_id: 9, foreign_id: 10, bad_snapshot: 11, called_in_step: 12},
+    verify_outcome: {verified: 0, diverged: 1, incompatible: 2, truncated: 3, corrupt: 4, stopped: 5},
+    verify_where: {start: 0, frame: 1, keyframe: 2},
+    stage: {find_pairs: 0, apply_forces: 1, update_manifolds: 2, colour_constraints: 3, prepare: 4, solve_substeps: 5, restitution: 6, store_impulses: 7, finalise_bodies: 8, continuous: 9, update_sensors: 10, emit_events: 11, update_sleep: 12, move_characters: 13},
+    session_mode: {lockstep: 0, rollback: 1, spectator: 2, sync_test: 3, replay: 4},
+    predictor: {repeat_last: 0, predict_neutral: 1},
+    genre: {fighting: 0, brawler: 1, racing: 2, strategy: 3, sandbox: 4},
+    input_status: {confirmed: 0, predicted: 1, disconnected: 2},
+    request_kind: {nothing: 0, step: 1, rolled_back: 2, restarted: 3, confirmed: 4},
+    channel: {datagram: 0, reliable: 1},
+    proposal: {pause: 1, unpause: 2, speed: 3, kick: 4, other: 5},
+    event_kind: {none: 0, started: 1, joined: 2, left: 3, waiting_for: 4, resumed: 5, paused: 6, unpaused: 7, speed_changed: 8, asks_pause: 9, asks_unpause: 10, asks_speed: 11, vote: 12, vote_passed: 13, vote_failed: 14, slowed_by: 15, full_speed: 16, refused: 17, lost_host: 18, seeks_host: 19, new_host: 20, deposed: 21, desync: 22, outvoted: 23, undecided: 24, repaired: 25, bad_snapshot: 26, misuse: 27, unhashed: 28},
+    phase: {waiting: 0, joining: 1, playing: 2, watching: 3, seeking: 4, lost: 5, refused: 6, over: 7},
+    recording: {match: 0, world: 1}
+  },
+  structs: {
+    filter: {size: 12, sized: false, init: "filter_init", fields: [
+      ["category", "u32", 0],
+      ["mask", "u32", 4],
+      ["group", "u32", 8]
+    ]},
+    query_filter: {size: 56, sized: false, init: "query_filter_init", fields: [
+      ["mask", "u32", 0],
+      ["sensors", "bool", 4],
+      ["backFaces", "bool", 5],
+      ["ignore", "id", 8],
+      ["group", "u32", 16],
+      ["startInside", "start_inside", 20],
+      ["per", "hit_per", 24],
+      ["ignoreAll", "list", 32, undefined, 28],
+      ["ignoreKinds", "list", 48, undefined, 40]
+    ]},
+    overlap_hit: {size: 24, sized: false, fields: [
+      ["body", "id", 0],
+      ["child", "u32", 8],
+      ["triangle", "u32", 12],
+      ["material", "u8", 16]
+    ]},
+    body_pair: {size: 16, sized: false, fields: [
+      ["a", "id", 0],
+      ["b", "id", 8]
+    ]},
+    sensor_event: {size: 16, sized: false, fields: [
+      ["sensor", "id", 0],
+      ["other", "id", 8]
+    ]},
+    render_pose: {size: 40, sized: false, fields: [
+      ["body", "id", 0],
+      ["position", "f32", 8, 3],
+      ["orientation", "f32", 20, 4]
+    ]},
+    step_report: {size: 40, sized: true, init: "step_report_init", fields: [
+      ["clampedSpeed", "u32", 8],
+      ["clampedForce", "u32", 12],
+      ["clampedPosition", "u32", 16],
+      ["stopped", "u32", 20],
+      ["crowded", "u32", 24],
+      ["cutCompounds", "u32", 28],
+      ["unsolved", "u32", 32]
+    ]},
+    world_counts: {size: 40, sized: true, init: "world_counts_init", fields: [
+      ["bodies", "u32", 8],
+      ["staticBodies", "u32", 12],
+      ["awake", "u32", 16],
+      ["asleep", "u32", 20],
+      ["contacts", "u32", 24],
+      ["points", "u32", 28],
+      ["joints", "u32", 32],
+      ["shapes", "u32", 36]
+    ]},
+    break_report: {size: 24, sized: true, init: "break_report_init", fields: [
+      ["broken", "u32", 8],
+      ["pieces", "u32", 12],
+      ["whole", "u32", 16],
+      ["expired", "u32", 20]
+    ]},
+    fault_report: {size: 40, sized: true, init: "fault_report_init", fields: [
+      ["status", "i32", 8],
+      ["command", "pointer", 16],
+      ["field", "pointer", 24],
+      ["expected", "pointer", 32]
+    ]},
+    height_patch: {size: 40, sized: true, init: "height_patch_init", fields: [
+      ["column", "u32", 8],
+      ["row", "u32", 12],
+      ["columns", "u32", 16],
+      ["rows", "u32", 20],
+      ["heights", "pointer", 24],
+      ["materials", "pointer", 32]
+    ]},
+    height_grid: {size: 32, sized: true, init: "height_grid_init", fields: [
+      ["exponent", "u32", 8],
+      ["heightShift", "u32", 12],
+      ["columns", "u32", 16],
+      ["rows", "u32", 20],
+      ["pitch", "u32", 24]
+    ]},
+    height_sheet: {size: 32, sized: true, init: "height_sheet_init", fields: [
+      ["columns", "u32", 8],
+      ["rows", "u32", 12],
+      ["pitch", "f64", 16],
+      ["heights", "pointer", 24]
+    ]},
+    triangles: {size: 32, sized: true, init: "triangles_init", fields: [
+      ["pointCount", "u32", 8],
+      ["triangleCount", "u32", 12],
+      ["points", "pointer", 16],
+      ["vertices", "pointer", 24]
+    ]},
+    surface_materials: {size: 32, sized: true, init: "surface_materials_init", fields: [
+      ["count", "u32", 8],
+      ["tableCount", "u32", 12],
+      ["numbers", "pointer", 16],
+      ["table", "pointer", 24]
+    ]},
+    replay_info: {size: 296, sized: true, init: "replay_info_init", fields: [
+      ["behaviour", "u64", 8],
+      ["frames", "u64", 16],
+      ["startHash", "u64", 24],
+      ["firstFrame", "u64", 32],
+      ["keyframes", "u64", 40],
+      ["file", "verify_outcome", 48],
+      ["hz", "u32", 52],
+      ["substeps", "u32", 56],
+      ["hasState", "bool", 60],
+      ["scalar", "text", 61, 32],
+      ["scene", "text", 93, 136],
+      ["world", "text", 229, 32],
+      ["engine", "text", 261, 32]
+    ]},
+    replay_result: {size: 744, sized: true, init: "replay_result_init", fields: [
+      ["outcome", "verify_outcome", 8],
+      ["where", "verify_where", 12],
+      ["frames", "u64", 16],
+      ["expected", "u64", 24],
+      ["actual", "u64", 32],
+      ["offset", "u64", 40],
+      ["scalar", "text", 48, 32],
+      ["scene", "text", 80, 136],
+      ["lanes", "text", 216, 16],
+      ["text", "text", 232, 512]
+    ]},
+    selfcheck_result: {size: 544, sized: true, init: "selfcheck_result_init", fields: [
+      ["sound", "bool", 8],
+      ["engine", "u32", 12],
+      ["recordings", "u32", 16],
+      ["failed", "u32", 20],
+      ["frames", "u64", 24],
+      ["text", "text", 32, 512]
+    ]},
+    session_config: {size: 1280, sized: true, init: "session_config_init", fields: [
+      ["mode", "session_mode", 4],
+      ["host", "bool", 8],
+      ["relays", "bool", 9],
+      ["repair", "bool", 10],
+      ["asksAdmission", "bool", 11],
+      ["votes", "bool", 12],
+      ["playersSetTempo", "bool", 13],
+      ["players", "i32", 16],
+      ["localPlayers", "i32", 20],
+      ["hz", "i32", 24],
+      ["window", "i32", 28],
+      ["delay", "i32", 32],
+      ["leastDelay", "i32", 36],
+      ["mostDelay", "i32", 40],
+      ["deadline", "i32", 44],
+      ["silence", "u64", 48],
+      ["patience", "u64", 56],
+      ["exclusion", "u64", 64],
+      ["kept", "i32", 72],
+      ["history", "i32", 76],
+      ["mostReplayed", "i32", 80],
+      ["maxPeers", "i32", 84],
+      ["maxStrangers", "i32", 88],
+      ["snapshotCap", "u32", 92],
+      ["mostPackets", "u32", 96],
+      ["broadcastDelay", "i32", 100],
+      ["seed", "u64", 104],
+      ["migration", "u64", 112],
+      ["reservation", "u64", 120],
+      ["token", "u64", 128],
+      ["seat", "i32", 136],
+      ["credential", "bytes", 144, 256, 140],
+      ["address", "text", 400, 72],
+      ["name", "text", 472, 136],
+      ["inputText", "text", 608, 136],
+      ["inputSchema", "u64", 744],
+      ["inputLeast", "u32", 752],
+      ["inputCap", "u32", 756],
+      ["predictor", "predictor", 760],
+      ["neutral", "bytes", 768, 512, 764]
+    ]},
+    input: {size: 516, sized: false, fields: [
+      ["size", "u16", 0],
+      ["status", "u8", 2],
+      ["bytes", "u8", 4, 512]
+    ]},
+    request: {size: 24, sized: true, init: "request_init", fields: [
+      ["kind", "request_kind", 4],
+      ["frame", "i32", 8],
+      ["hash", "u64", 16]
+    ]},
+    outgoing: {size: 24, sized: true, init: "outgoing_init", fields: [
+      ["peer", "u32", 4],
+      ["channel", "channel", 8],
+      ["length", "u32", 12],
+      ["close", "bool", 16]
+    ]},
+    session_event: {size: 384, sized: true, init: "session_event_init", fields: [
+      ["kind", "event_kind", 4],
+      ["player", "u32", 8],
+      ["frame", "i32", 12],
+      ["agreed", "i32", 16],
+      ["players", "u32", 20],
+      ["speed", "u32", 24],
+      ["vote", "u32", 28],
+      ["proposal", "proposal", 32],
+      ["subject", "u32", 36],
+      ["proposer", "u32", 40],
+      ["voters", "u32", 44],
+      ["yes", "u32", 48],
+      ["no", "u32", 52],
+      ["ours", "u64", 56],
+      ["theirs", "u64", 64],
+      ["key", "text", 72, 40],
+      ["theirsText", "text", 112, 136],
+      ["oursText", "text", 248, 136]
+    ]},
+    session_stats: {size: 640, sized: true, init: "session_stats_init", fields: [
+      ["delay", "i32", 4],
+      ["steps", "u64", 8],
+      ["rollbacks", "u64", 16, 65],
+      ["waits", "u64", 536],
+      ["datagramsOut", "u64", 544],
+      ["datagramsIn", "u64", 552],
+      ["bytesOut", "u64", 560],
+      ["bytesIn", "u64", 568],
+      ["refused", "u64", 576],
+      ["flooded", "u64", 584],
+      ["putOut", "u64", 592],
+      ["eventsLost", "u64", 600],
+      ["roundTrip", "u64", 608],
+      ["peers", "i32", 616],
+      ["machines", "i32", 620],
+      ["jitter", "u32", 624],
+      ["loss", "u32", 628],
+      ["stretch", "i32", 632]
+    ]},
+    player_stats: {size: 32, sized: true, init: "player_stats_init", fields: [
+      ["early", "i32", 4],
+      ["replaced", "u32", 8],
+      ["waited", "u32", 12],
+      ["roundTrip", "u32", 16],
+      ["jitter", "u32", 20],
+      ["loss", "u32", 24]
+    ]},
+    applicant: {size: 296, sized: true, init: "applicant_init", fields: [
+      ["peer", "u32", 4],
+      ["id", "u64", 8],
+      ["spectator", "bool", 16],
+      ["seat", "i32", 20],
+      ["seats", "i32", 24],
+      ["player", "i32", 28],
+      ["credential", "bytes", 40, 256, 32]
+    ]},
+    vec3: {size: [12, 24], sized: false, fields: [
+      ["x", "number", 0],
+      ["y", "number", [4, 8]],
+      ["z", "number", [8, 16]]
+    ]},
+    unit_vec3: {size: [12, 24], sized: false, fields: [
+      ["x", "unit", 0],
+      ["y", "unit", [4, 8]],
+      ["z", "unit", [8, 16]]
+    ]},
+    quat: {size: [16, 32], sized: false, fields: [
+      ["x", "unit", 0],
+      ["y", "unit", [4, 8]],
+      ["z", "unit", [8, 16]],
+      ["w", "unit", [12, 24]]
+    ]},
+    pose: {size: [28, 56], sized: false, fields: [
+      ["position", "vec3", 0],
+      ["orientation", "quat", [12, 24]]
+    ]},
+    mat3: {size: [36, 72], sized: false, fields: [
+      ["rows", "vec3", 0, 3]
+    ]},
+    aabb: {size: [24, 48], sized: false, fields: [
+      ["low", "vec3", 0],
+      ["high", "vec3", [12, 24]]
+    ]},
+    material: {size: [48, 88], sized: false, init: "P_material_init", fields: [
+      ["friction", "number", 0],
+      ["restitution", "number", [4, 8]],
+      ["rollingResistance", "number", [8, 16]],
+      ["surfaceVelocity", "vec3", [12, 24]],
+      ["staticFriction", "number", [24, 48]],
+      ["anisotropy", "vec3", [28, 56]],
+      ["kind", "u32", [40, 80]]
+    ]},
+    primitive: {size: [40, 72], sized: false, fields: [
+      ["type", "shape_type", 0],
+      ["blob", "u32", 4],
+      ["half", "vec3", 8],
+      ["radius", "number", [20, 32]],
+      ["normal", "unit_vec3", [24, 40]],
+      ["offset", "number", [36, 64]]
+    ]},
+    child: {size: [68, 128], sized: false, fields: [
+      ["primitive", "primitive", 0],
+      ["pose", "pose", [40, 72]]
+    ]},
+    joint_range: {size: [8, 16], sized: false, fields: [
+      ["lower", "number", 0],
+      ["upper", "number", [4, 8]]
+    ]},
+    joint_motor: {size: [8, 16], sized: false, fields: [
+      ["speed", "number", 0],
+      ["force", "number", [4, 8]]
+    ]},
+    joint_spring: {size: [12, 24], sized: false, fields: [
+      ["frequency", "number", 0],
+      ["damping", "number", [4, 8]],
+      ["target", "number", [8, 16]]
+    ]},
+    joint_servo: {size: [20, 40], sized: false, fields: [
+      ["frequency", "number", 0],
+      ["damping", "number", [4, 8]],
+      ["target", "number", [8, 16]],
+      ["force", "number", [12, 24]],
+      ["mass", "number", [16, 32]]
+    ]},
+    drive: {size: [56, 96], sized: false, fields: [
+      ["joint", "id", 0],
+      ["axis", "joint_axis", 8],
+      ["limited", "bool", 12],
+      ["motor", "bool", 13],
+      ["lower", "number", 16],
+      ["upper", "number", [20, 24]],
+      ["motorSpeed", "number", [24, 32]],
+      ["springTarget", "number", [28, 40]],
+      ["springFrequency", "number", [32, 48]],
+      ["springDamping", "number", [36, 56]],
+      ["force", "number", [40, 64]],
+      ["springMass", "number", [44, 72]],
+      ["limitFrequency", "number", [48, 80]],
+      ["limitDamping", "number", [52, 88]]
+    ]},
+    ragdoll_bone: {size: [96, 176], sized: false, init: "P_ragdoll_bone_init", fields: [
+      ["parent", "i32", 0],
+      ["shape", "id", 8],
+      ["pose", "pose", 16],
+      ["mass", "number", [44, 72]],
+      ["joint", "pose", [48, 80]],
+      ["hinge", "bool", [76, 136]],
+      ["swingX", "number", [80, 144]],
+      ["swingY", "number", [84, 152]],
+      ["lower", "number", [88, 160]],
+      ["upper", "number", [92, 168]]
+    ]},
+    ray_hit: {size: [48, 80], sized: false, fields: [
+      ["body", "id", 0],
+      ["child", "u32", 8],
+      ["triangle", "u32", 12],
+      ["point", "vec3", 16],
+      ["normal", "unit_vec3", [28, 40]],
+      ["fraction", "number", [40, 64]],
+      ["material", "u8", [44, 72]],
+      ["inside", "bool", [45, 73]]
+    ]},
+    shape_hit: {size: [48, 80], sized: false, fields: [
+      ["body", "id", 0],
+      ["child", "u32", 8],
+      ["triangle", "u32", 12],
+      ["point", "vec3", 16],
+      ["normal", "unit_vec3", [28, 40]],
+      ["fraction", "unit", [40, 64]],
+      ["material", "u8", [44, 72]],
+      ["inside", "bool", [45, 73]]
+    ]},
+    closest_body: {size: [40, 64], sized: false, fields: [
+      ["body", "id", 0],
+      ["point", "vec3", 8],
+      ["normal", "unit_vec3", [20, 32]],
+      ["distance", "number", [32, 56]]
+    ]},
+    contact_begin: {size: [32, 48], sized: false, fields: [
+      ["a", "id", 0],
+      ["b", "id", 8],
+      ["impulse", "number", 16],
+      ["normal", "unit_vec3", [20, 24]]
+    ]},
+    broke: {size: [40, 64], sized: false, fields: [
+      ["body", "id", 0],
+      ["impulse", "number", 8],
+      ["point", "vec3", [12, 16]],
+      ["direction", "unit_vec3", [24, 40]]
+    ]},
+    joint_broke: {size: [40, 48], sized: false, fields: [
+      ["joint", "id", 0],
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["userData", "u64", 24],
+      ["force", "number", 32],
+      ["torque", "number", [36, 40]]
+    ]},
+    contact_hit: {size: [48, 72], sized: false, fields: [
+      ["a", "id", 0],
+      ["b", "id", 8],
+      ["point", "vec3", 16],
+      ["normal", "unit_vec3", [28, 40]],
+      ["speed", "number", [40, 64]]
+    ]},
+    contact_point: {size: [56, 88], sized: false, fields: [
+      ["a", "id", 0],
+      ["b", "id", 8],
+      ["childA", "u32", 16],
+      ["childB", "u32", 20],
+      ["point", "vec3", 24],
+      ["normal", "unit_vec3", [36, 48]],
+      ["separation", "number", [48, 72]],
+      ["impulse", "number", [52, 80]]
+    ]},
+    settings: {size: [56, 72], sized: true, init: "P_settings_init", fields: [
+      ["hz", "i32", 8],
+      ["substeps", "i32", 12],
+      ["gravity", "vec3", 16],
+      ["allowSleep", "bool", [28, 40]],
+      ["solver", "solver", [32, 44]],
+      ["idSpace", "u32", [36, 48]],
+      ["mostPairs", "i32", [40, 52]],
+      ["projection", "projection", [44, 56]],
+      ["restitutionThreshold", "number", [48, 64]]
+    ]},
+    body_definition: {size: [192, 312], sized: true, init: "P_body_definition_init", fields: [
+      ["type", "body_type", 8],
+      ["shape", "id", 16],
+      ["position", "vec3", 24],
+      ["orientation", "quat", [36, 48]],
+      ["velocity", "vec3", [52, 80]],
+      ["angularVelocity", "vec3", [64, 104]],
+      ["density", "number", [76, 128]],
+      ["mass", "number", [80, 136]],
+      ["inertia", "vec3", [84, 144]],
+      ["material", "material", [96, 168]],
+      ["filter", "filter", [144, 256]],
+      ["userData", "u64", [160, 272]],
+      ["gravityScale", "number", [168, 280]],
+      ["linearDamping", "number", [172, 288]],
+      ["angularDamping", "number", [176, 296]],
+      ["locks", "u32", [180, 304]],
+      ["sensor", "bool", [184, 308]],
+      ["allowSleep", "bool", [185, 309]],
+      ["collide", "bool", [186, 310]],
+      ["bullet", "bool", [187, 311]]
+    ]},
+    body_mass: {size: [32, 48], sized: true, init: "P_body_mass_init", fields: [
+      ["density", "number", 8],
+      ["mass", "number", [12, 16]],
+      ["inertia", "vec3", [16, 24]]
+    ]},
+    body_state: {size: [88, 152], sized: true, init: "P_body_state_init", fields: [
+      ["pose", "pose", 8],
+      ["centre", "vec3", [36, 64]],
+      ["velocity", "vec3", [48, 88]],
+      ["angularVelocity", "vec3", [60, 112]],
+      ["userData", "u64", [72, 136]],
+      ["type", "body_type", [80, 144]],
+      ["awake", "bool", [84, 148]],
+      ["enabled", "bool", [85, 149]]
+    ]},
+    body_properties: {size: [120, 184], sized: true, init: "P_body_properties_init", fields: [
+      ["type", "body_type", 8],
+      ["flags", "u32", 12],
+      ["filter", "filter", 16],
+      ["userData", "u64", 32],
+      ["mass", "number", 40],
+      ["localCentre", "vec3", [44, 48]],
+      ["material", "material", [56, 72]],
+      ["gravityScale", "number", [104, 160]],
+      ["linearDamping", "number", [108, 168]],
+      ["angularDamping", "number", [112, 176]]
+    ]},
+    sphere: {size: 16, sized: true, init: "P_sphere_init", fields: [
+      ["radius", "number", 8]
+    ]},
+    box: {size: [24, 32], sized: true, init: "P_box_init", fields: [
+      ["halfExtents", "vec3", 8]
+    ]},
+    capsule: {size: [16, 24], sized: true, init: "P_capsule_init", fields: [
+      ["radius", "number", 8],
+      ["halfHeight", "number", [12, 16]]
+    ]},
+    half_space: {size: [24, 40], sized: true, init: "P_half_space_init", fields: [
+      ["normal", "unit_vec3", 8],
+      ["offset", "number", [20, 32]]
+    ]},
+    cylinder: {size: [16, 24], sized: true, init: "P_cylinder_init", fields: [
+      ["radius", "number", 8],
+      ["halfHeight", "number", [12, 16]]
+    ]},
+    cone: {size: [16, 24], sized: true, init: "P_cone_init", fields: [
+      ["radius", "number", 8],
+      ["halfHeight", "number", [12, 16]]
+    ]},
+    hull: {size: 16, sized: true, init: "P_hull_init", fields: [
+      ["radius", "number", 8]
+    ]},
+    joint_properties: {size: [128, 216], sized: true, init: "P_joint_properties_init", fields: [
+      ["type", "joint_type", 8],
+      ["flags", "u32", 12],
+      ["bodyA", "u32", 16],
+      ["bodyB", "u32", 20],
+      ["generationA", "u32", 24],
+      ["generationB", "u32", 28],
+      ["userData", "u64", 32],
+      ["frameA", "pose", 40],
+      ["frameB", "pose", [68, 96]],
+      ["lower", "number", [96, 152]],
+      ["upper", "number", [100, 160]],
+      ["cone", "number", [104, 168]],
+      ["motorSpeed", "number", [108, 176]],
+      ["motorTorque", "number", [112, 184]],
+      ["springTarget", "number", [116, 192]],
+      ["springFrequency", "number", [120, 200]],
+      ["springDamping", "number", [124, 208]]
+    ]},
+    ball: {size: [80, 128], sized: true, init: "P_ball_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["cone", "optional number", [56, 88], undefined, [52, 80]],
+      ["twist", "optional joint_range", [64, 104], undefined, [60, 96]],
+      ["collide", "bool", [72, 120]]
+    ]},
+    constant_velocity: {size: [80, 128], sized: true, init: "P_constant_velocity_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["cone", "optional number", [56, 88], undefined, [52, 80]],
+      ["twist", "optional joint_range", [64, 104], undefined, [60, 96]],
+      ["collide", "bool", [72, 120]]
+    ]},
+    fixed: {size: [56, 88], sized: true, init: "P_fixed_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["collide", "bool", [52, 80]]
+    ]},
+    universal: {size: [56, 88], sized: true, init: "P_universal_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["collide", "bool", [52, 80]]
+    ]},
+    angular: {size: [56, 88], sized: true, init: "P_angular_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["collide", "bool", [52, 80]]
+    ]},
+    hinge: {size: [96, 168], sized: true, init: "P_hinge_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["limit", "optional joint_range", [56, 88], undefined, [52, 80]],
+      ["motor", "optional joint_motor", [68, 112], undefined, [64, 104]],
+      ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
+      ["collide", "bool", [92, 160]]
+    ]},
+    slider: {size: [96, 168], sized: true, init: "P_slider_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["limit", "optional joint_range", [56, 88], undefined, [52, 80]],
+      ["motor", "optional joint_motor", [68, 112], undefined, [64, 104]],
+      ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
+      ["collide", "bool", [92, 160]]
+    ]},
+    cylindrical: {size: [96, 168], sized: true, init: "P_cylindrical_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["limit", "optional joint_range", [56, 88], undefined, [52, 80]],
+      ["motor", "optional joint_motor", [68, 112], undefined, [64, 104]],
+      ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
+      ["collide", "bool", [92, 160]]
+    ]},
+    planar: {size: [96, 168], sized: true, init: "P_planar_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["limit", "optional joint_range", [56, 88], undefined, [52, 80]],
+      ["motor", "optional joint_motor", [68, 112], undefined, [64, 104]],
+      ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
+      ["collide", "bool", [92, 160]]
+    ]},
+    rod: {size: [72, 120], sized: true, init: "P_rod_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["anchorA", "vec3", 24],
+      ["anchorB", "vec3", [36, 48]],
+      ["length", "number", [48, 72]],
+      ["spring", "optional joint_spring", [56, 88], undefined, [52, 80]],
+      ["collide", "bool", [68, 112]]
+    ]},
+    rope: {size: [72, 120], sized: true, init: "P_rope_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["anchorA", "vec3", 24],
+      ["anchorB", "vec3", [36, 48]],
+      ["length", "number", [48, 72]],
+      ["spring", "optional joint_spring", [56, 88], undefined, [52, 80]],
+      ["collide", "bool", [68, 112]]
+    ]},
+    wheel_joint: {size: [112, 200], sized: true, init: "P_wheel_joint_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["suspension", "joint_spring", [52, 80]],
+      ["travel", "joint_range", [64, 104]],
+      ["steer", "optional joint_servo", [76, 128], undefined, [72, 120]],
+      ["drive", "optional joint_motor", [100, 176], undefined, [96, 168]],
+      ["collide", "bool", [108, 192]]
+    ]},
+    motor_joint: {size: [128, 224], sized: true, init: "P_motor_joint_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frameA", "pose", 24],
+      ["frameB", "pose", [52, 80]],
+      ["place", "joint_servo", [80, 136]],
+      ["turn", "joint_servo", [100, 176]],
+      ["collide", "bool", [120, 216]]
+    ]},
+    six_axis: {size: [400, 672], sized: true, init: "P_six_axis_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["frame", "pose", 24],
+      ["locks", "u32", [52, 80]],
+      ["drives", "drive", [56, 88], 6],
+      ["driveCount", "u32", [392, 664]],
+      ["collide", "bool", [396, 668]]
+    ]},
+    ragdoll_settings: {size: [104, 176], sized: true, init: "P_ragdoll_settings_init", fields: [
+      ["friction", "number", 8],
+      ["pose", "joint_servo", [12, 16]],
+      ["limitFrequency", "number", [32, 56]],
+      ["limitDamping", "number", [36, 64]],
+      ["filter", "filter", [40, 72]],
+      ["material", "material", [52, 88]]
+    ]},
+    ray_cast: {size: [88, 112], sized: true, init: "P_ray_cast_init", fields: [
+      ["origin", "vec3", 8],
+      ["translation", "vec3", [20, 32]],
+      ["filter", "query_filter", [32, 56]]
+    ]},
+    shape_cast: {size: [152, 224], sized: true, init: "P_shape_cast_init", fields: [
+      ["shape", "id", 8],
+      ["primitive", "primitive", 16],
+      ["pose", "pose", [56, 88]],
+      ["translation", "vec3", [84, 144]],
+      ["filter", "query_filter", [96, 168]]
+    ]},
+    overlap_query: {size: [144, 200], sized: true, init: "P_overlap_query_init", fields: [
+      ["shape", "id", 8],
+      ["primitive", "primitive", 16],
+      ["pose", "pose", [56, 88]],
+      ["filter", "query_filter", [88, 144]]
+    ]},
+    point_query: {size: [80, 96], sized: true, init: "P_point_query_init", fields: [
+      ["point", "vec3", 8],
+      ["maxDistance", "number", [20, 32]],
+      ["filter", "query_filter", [24, 40]]
+    ]},
+    box_query: {size: [88, 112], sized: true, init: "P_box_query_init", fields: [
+      ["box", "aabb", 8],
+      ["filter", "query_filter", [32, 56]]
+    ]},
+    force_zone: {size: [80, 152], sized: true, init: "P_force_zone_init", fields: [
+      ["shape", "zone_shape", 8],
+      ["pose", "pose", [12, 16]],
+      ["half", "vec3", [40, 72]],
+      ["acceleration", "vec3", [52, 96]],
+      ["wind", "vec3", [64, 120]],
+      ["mask", "u32", [76, 144]]
+    ]},
+    attractor: {size: [48, 72], sized: true, init: "P_attractor_init", fields: [
+      ["body", "id", 8],
+      ["point", "vec3", 16],
+      ["strength", "number", [28, 40]],
+      ["leastDistance", "number", [32, 48]],
+      ["range", "number", [36, 56]],
+      ["mask", "u32", [40, 64]]
+    ]},
+    body_spring: {size: [64, 104], sized: true, init: "P_body_spring_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16],
+      ["anchorA", "vec3", 24],
+      ["anchorB", "vec3", [36, 48]],
+      ["restLength", "number", [48, 72]],
+      ["stiffness", "number", [52, 80]],
+      ["damping", "number", [56, 88]],
+      ["onlyPulls", "bool", [60, 96]]
+    ]},
+    thruster: {size: [40, 64], sized: true, init: "P_thruster_init", fields: [
+      ["body", "id", 8],
+      ["point", "vec3", 16],
+      ["force", "vec3", [28, 40]]
+    ]},
+    buoyancy: {size: [48, 72], sized: true, init: "P_buoyancy_init", fields: [
+      ["body", "id", 8],
+      ["point", "vec3", 16],
+      ["maxDepth", "number", [28, 40]],
+      ["volume", "number", [32, 48]],
+      ["surfaceHeight", "number", [36, 56]],
+      ["density", "number", [40, 64]]
+    ]},
+    explosion: {size: [96, 152], sized: true, init: "P_explosion_init", fields: [
+      ["centre", "vec3", 8],
+      ["begin", "u64", [24, 32]],
+      ["implosionForce", "number", [32, 40]],
+      ["implosionLeast", "number", [36, 48]],
+      ["implosionMost", "number", [40, 56]],
+      ["implosionDuration", "number", [44, 64]],
+      ["waveForce", "number", [48, 72]],
+      ["waveSpeed", "number", [52, 80]],
+      ["waveWidth", "number", [56, 88]],
+      ["waveRamp", "number", [60, 96]],
+      ["waveDuration", "number", [64, 104]],
+      ["chimneyForce", "number", [68, 112]],
+      ["chimneyRadius", "number", [72, 120]],
+      ["chimneyHeight", "number", [76, 128]],
+      ["chimneyDuration", "number", [80, 136]],
+      ["isShielded", "bool", [84, 144]],
+      ["mask", "u32", [88, 148]]
+    ]},
+    water: {size: [96, 176], sized: true, init: "P_water_init", fields: [
+      ["surfaceHeight", "number", 8],
+      ["density", "number", [12, 16]],
+      ["middle", "vec3", [16, 24]],
+      ["half", "vec3", [28, 48]],
+      ["current", "vec3", [40, 72]],
+      ["linearDrag", "number", [52, 96]],
+      ["quadraticDrag", "number", [56, 104]],
+      ["angularDrag", "number", [60, 112]],
+      ["waveHeight", "number", [64, 120]],
+      ["waveLength", "number", [68, 128]],
+      ["wavePeriod", "number", [72, 136]],
+      ["waveDirection", "unit_vec3", [76, 144]],
+      ["mask", "u32", [88, 168]]
+    ]},
+    drag: {size: [32, 40], sized: true, init: "P_drag_init", fields: [
+      ["body", "id", 8],
+      ["linear", "number", 16],
+      ["quadratic", "number", [20, 24]],
+      ["angular", "number", [24, 32]]
+    ]},
+    aero_surface: {size: [160, 304], sized: true, init: "P_aero_surface_init", fields: [
+      ["body", "id", 8],
+      ["point", "vec3", 16],
+      ["orientation", "quat", [28, 40]],
+      ["tensor", "mat3", [44, 72]],
+      ["low", "mat3", [80, 144]],
+      ["high", "mat3", [116, 216]],
+      ["control", "number", [152, 288]],
+      ["isQuadratic", "bool", [156, 296]],
+      ["isUnderWater", "bool", [157, 297]]
+    ]},
+    material_pair: {size: [32, 48], sized: true, init: "P_material_pair_init", fields: [
+      ["kindA", "u32", 8],
+      ["kindB", "u32", 12],
+      ["friction", "number", 16],
+      ["staticFriction", "number", [20, 24]],
+      ["restitution", "number", [24, 32]],
+      ["rollingResistance", "number", [28, 40]]
+    ]},
+    breakable: {size: [104, 160], sized: true, init: "P_breakable_init", fields: [
+      ["body", "id", 8],
+      ["impulse", "number", 16],
+      ["pattern", "break_pattern", [20, 24]],
+      ["mostPieces", "u32", [24, 28]],
+      ["depth", "u32", [28, 32]],
+      ["grain", "unit_vec3", [32, 40]],
+      ["seed", "u64", [48, 64]],
+      ["smallMass", "number", [56, 72]],
+      ["lifetime", "u32", [60, 80]],
+      ["expires", "u64", [64, 88]],
+      ["ownsShape", "bool", [72, 96]],
+      ["brokenBy", "number", [76, 104]],
+      ["hitPoint", "vec3", [80, 112]],
+      ["hitDirection", "unit_vec3", [92, 136]]
+    ]},
+    character: {size: [136, 232], sized: true, init: "P_character_init", fields: [
+      ["body", "id", 8],
+      ["stepHeight", "number", 16],
+      ["leastUp", "number", [20, 24]],
+      ["skin", "number", [24, 32]],
+      ["mass", "number", [28, 40]],
+      ["pushForce", "number", [32, 48]],
+      ["airAcceleration", "number", [36, 56]],
+      ["gravityScale", "number", [40, 64]],
+      ["mask", "u32", [44, 72]],
+      ["move", "vec3", [48, 80]],
+      ["jump", "number", [60, 104]],
+      ["footing", "footing", [64, 112]],
+      ["ground", "id", [72, 120]],
+      ["foot", "vec3", [80, 128]],
+      ["footAt", "vec3", [92, 152]],
+      ["velocity", "vec3", [104, 176]],
+      ["normal", "unit_vec3", [116, 200]],
+      ["stuck", "u32", [128, 224]]
+    ]},
+    vehicle: {size: [120, 224], sized: true, init: "P_vehicle_init", fields: [
+      ["body", "id", 8],
+      ["engineTorque", "number", 16],
+      ["engineSpeed", "number", [20, 24]],
+      ["gears", "number", [24, 32], 8],
+      ["gear", "u32", [56, 96]],
+      ["finalDrive", "number", [60, 104]],
+      ["engineInertia", "number", [64, 112]],
+      ["clutchTorque", "number", [68, 120]],
+      ["differentialLock", "number", [72, 128]],
+      ["brakeTorque", "number", [76, 136]],
+      ["handbrakeTorque", "number", [80, 144]],
+      ["ackermann", "number", [84, 152]],
+      ["trackSteer", "number", [88, 160]],
+      ["throttle", "number", [92, 168]],
+      ["clutch", "number", [96, 176]],
+      ["brake", "number", [100, 184]],
+      ["handbrake", "number", [104, 192]],
+      ["steer", "number", [108, 200]],
+      ["engineSpin", "number", [112, 208]],
+      ["clutchLoad", "number", [116, 216]]
+    ]},
+    wheel: {size: [200, 360], sized: true, init: "P_wheel_init", fields: [
+      ["body", "id", 8],
+      ["hardPoint", "vec3", 16],
+      ["suspension", "unit_vec3", [28, 40]],
+      ["axleDirection", "unit_vec3", [40, 64]],
+      ["freeLength", "number", [52, 88]],
+      ["travel", "number", [56, 96]],
+      ["stiffness", "number", [60, 104]],
+      ["damping", "number", [64, 112]],
+      ["radius", "number", [68, 120]],
+      ["inertia", "number", [72, 128]],
+      ["gripAlong", "number", [76, 136]],
+      ["gripAcross", "number", [80, 144]],
+      ["peakSlip", "number", [84, 152]],
+      ["peakGrip", "number", [88, 160]],
+      ["slideSlip", "number", [92, 168]],
+      ["slideGrip", "number", [96, 176]],
+      ["steerAngle", "number", [100, 184]],
+      ["driveShare", "number", [104, 192]],
+      ["brakeShare", "number", [108, 200]],
+      ["handbrakeShare", "number", [112, 208]],
+      ["axle", "u32", [116, 216]],
+      ["antiRoll", "number", [120, 224]],
+      ["track", "u32", [124, 232]],
+      ["spin", "number", [128, 240]],
+      ["angle", "number", [132, 248]],
+      ["steered", "number", [136, 256]],
+      ["length", "number", [140, 264]],
+      ["slip", "number", [144, 272]],
+      ["contactBody", "id", [152, 280]],
+      ["contactPoint", "vec3", [160, 288]],
+      ["contactNormal", "unit_vec3", [172, 312]],
+      ["load", "number", [184, 336]],
+      ["along", "number", [188, 344]],
+      ["across", "number", [192, 352]]
+    ]},
+    surface_velocity: {size: [48, 72], sized: true, init: "P_surface_velocity_init", fields: [
+      ["body", "id", 8],
+      ["linear", "vec3", 16],
+      ["angular", "vec3", [28, 40]],
+      ["part", "u32", [40, 64]]
+    ]},
+    ghost: {size: 24, sized: true, init: "P_ghost_init", fields: [
+      ["a", "id", 8],
+      ["b", "id", 16]
+    ]},
+    one_way: {size: [32, 48], sized: true, init: "P_one_way_init", fields: [
+      ["body", "id", 8],
+      ["axis", "unit_vec3", 16],
+      ["leastCosine", "number", [28, 40]]
+    ]},
+    hit_report: {size: 24, sized: true, init: "P_hit_report_init", fields: [
+      ["body", "id", 8],
+      ["speed", "number", 16]
+    ]},
+    joint_load: {size: [32, 48], sized: true, init: "P_joint_load_init", fields: [
+      ["joint", "id", 8],
+      ["breakForce", "number", 16],
+      ["breakTorque", "number", [20, 24]],
+      ["force", "number", [24, 32]],
+      ["torque", "number", [28, 40]]
+    ]},
+    coupling: {size: [56, 72], sized: true, init: "P_coupling_init", fields: [
+      ["jointA", "id", 8],
+      ["jointB", "id", 16],
+      ["jointC", "id", 24],
+      ["ratioA", "number", 32],
+      ["ratioB", "number", [36, 40]],
+      ["ratioC", "number", [40, 48]],
+      ["lower", "number", [44, 56]],
+      ["upper", "number", [48, 64]]
+    ]},
+    axis_drive: {size: [64, 104], sized: true, init: "P_axis_drive_init", fields: [
+      ["joint", "id", 8],
+      ["axis", "joint_axis", 16],
+      ["limited", "bool", 20],
+      ["motor", "bool", 21],
+      ["lower", "number", 24],
+      ["upper", "number", [28, 32]],
+      ["motorSpeed", "number", [32, 40]],
+      ["springTarget", "number", [36, 48]],
+      ["springFrequency", "number", [40, 56]],
+      ["springDamping", "number", [44, 64]],
+      ["force", "number", [48, 72]],
+      ["springMass", "number", [52, 80]],
+      ["limitFrequency", "number", [56, 88]],
+      ["limitDamping", "number", [60, 96]]
+    ]},
+    move_target: {size: [48, 72], sized: true, init: "P_move_target_init", fields: [
+      ["body", "id", 8],
+      ["pose", "pose", 16]
+    ]},
+    kind_ghost: {size: 16, sized: true, init: "P_kind_ghost_init", fields: [
+      ["kindA", "u32", 8],
+      ["kindB", "u32", 12]
+    ]},
+    ranked_zone: {size: [88, 160], sized: true, init: "P_ranked_zone_init", fields: [
+      ["shape", "zone_shape", 8],
+      ["pose", "pose", [12, 16]],
+      ["half", "vec3", [40, 72]],
+      ["acceleration", "vec3", [52, 96]],
+      ["wind", "vec3", [64, 120]],
+      ["mask", "u32", [76, 144]],
+      ["priority", "i32", [80, 148]],
+      ["replaces", "u32", [84, 152]]
+    ]},
+    contact_report: {size: 16, sized: true, init: "P_contact_report_init", fields: [
+      ["body", "id", 8]
+    ]},
+    kind_response: {size: [40, 56], sized: true, init: "P_kind_response_init", fields: [
+      ["kindA", "u32", 8],
+      ["kindB", "u32", 12],
+      ["inverseMassScaleA", "number", 16],
+      ["inverseMassScaleB", "number", [20, 24]],
+      ["inverseInertiaScaleA", "number", [24, 32]],
+      ["inverseInertiaScaleB", "number", [28, 40]],
+      ["maxForce", "number", [32, 48]]
+    ]},
+    damping_zone: {size: [72, 128], sized: true, init: "P_damping_zone_init", fields: [
+      ["shape", "zone_shape", 8],
+      ["pose", "pose", [12, 16]],
+      ["half", "vec3", [40, 72]],
+      ["linear", "number", [52, 96]],
+      ["angular", "number", [56, 104]],
+      ["mask", "u32", [60, 112]],
+      ["priority", "i32", [64, 116]],
+      ["replaces", "bool", [68, 120]]
+    ]},
+    ranked_water: {size: [96, 176], sized: true, init: "P_ranked_water_init", fields: [
+      ["surfaceHeight", "number", 8],
+      ["density", "number", [12, 16]],
+      ["middle", "vec3", [16, 24]],
+      ["half", "vec3", [28, 48]],
+      ["current", "vec3", [40, 72]],
+      ["linearDrag", "number", [52, 96]],
+      ["quadraticDrag", "number", [56, 104]],
+      ["angularDrag", "number", [60, 112]],
+      ["waveHeight", "number", [64, 120]],
+      ["waveLength", "number", [68, 128]],
+      ["wavePeriod", "number", [72, 136]],
+      ["waveDirection", "unit_vec3", [76, 144]],
+      ["mask", "u32", [88, 168]],
+      ["priority", "i32", [92, 172]]
+    ]},
+    sensor_mount: {size: [56, 80], sized: true, init: "P_sensor_mount_init", fields: [
+      ["sensor", "id", 8],
+      ["on", "id", 16],
+      ["frame", "pose", 24]
+    ]}
+  }
+};

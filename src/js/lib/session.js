@@ -1,0 +1,237 @@
+// A session: which frames a game steps, with whose inputs, and when. No sockets and no clock: times [us] are given.
+// SPDX-License-Identifier: MIT
+
+import {badValue} from './errors.js';
+import {Handle} from './handle.js';
+import {unsigned} from './module.js';
+
+const kStatuses = ['confirmed', 'predicted', 'disconnected'];     // iso_input_status
+const kInputSize = 516, kInputBytes = 4;                          // iso_input: the size, the status, then the bytes
+const kGameWorld = 8, kGameBlock = 12, kGameBlockSize = 16, kGameSize = 68;  // iso_game, with pointers of 4 bytes
+const kRefused = -11;
+
+/** Microseconds as the C interface has them. */
+function time(now) {
+  if (!(now >= 0 && now <= Number.MAX_SAFE_INTEGER)) throw badValue('now', 'microseconds since the start', now);
+  return BigInt(Math.floor(now));
+}
+
+export class Session extends Handle {
+  #calls;
+  #game;
+
+  /**
+   * `config`: {mode: 'rollback', host, players, name, inputCap, seed, ...}, or with `preset: 'fighting'` what suits a
+   * genre. `game`: {world, state, step(inputs, frame)} and, if it likes, rolledBack, restarted, confirmed.
+   */
+  static create(calls, {preset, ...config}, game, file) {
+    if (typeof game?.step !== 'function') throw badValue('game', 'an object with step(inputs, frame)', game);
+    if (game.world === undefined && game.state === undefined) throw badValue('game', 'a world, a state, or both', 'none');
+    calls.begin();
+    const settings = calls.sized('session_config');
+    if (preset !== undefined) {
+      calls.call('iso_session_config_preset', settings, calls.number('genre', preset), config.players ?? 2);
+    }
+    calls.layout('session_config').write(calls.module.view, settings, config, 'config');
+    const bytes = file === undefined ? 0 : calls.placeBytes(file, 'file'), out = calls.take(4);
+    calls.call('iso_session_create', settings, placeGame(calls, game), bytes, file?.byteLength ?? 0, out);
+    return new Session(calls, calls.module.view.getUint32(out, true), game);
+  }
+  constructor(calls, at, game) {
+    super(calls.module, at, 'iso_session_destroy', 'session', [game.world, game.state]);
+    this.#calls = calls;
+    this.#game = game;
+  }
+
+  #call(name, ...words) { this.#calls.call(name, this.at, ...words); }
+  /** True, or false where the session refuses: not now, not yours, or not sound. */
+  #try(name, ...words) {
+    const status = this.module.call(name, this.at, ...words);
+    if (status === kRefused) return false;
+    if (status !== 0) this.#calls.fail(name, status);
+    return true;
+  }
+  /** Why the last call was refused. */
+  get problem() { return this.module.text(this.module.call('iso_last_error')); }
+
+  // ---- a turn
+
+  /**
+   * Plays what is due with `game.step`, and tells `rolledBack`, `restarted` and `confirmed` of it. Returns how many
+   * frames were stepped, those again included. Without inputs of its own since the last turn a player repeats the last.
+   */
+  drive(now) {
+    const {world, state} = this.#game;
+    if (world !== undefined) world.at;  // disposed of: an error, before the engine is told
+    if (state !== undefined) state.at;
+    this.#call('iso_session_advance', time(now));
+    const layout = this.#calls.layout('request');
+    for (let steps = 0;;) {
+      this.#calls.begin();
+      const at = this.#calls.sized('request');
+      this.#call('iso_session_next', at);
+      const {kind, frame, hash} = layout.read(this.module.view, at);
+      if (kind === 'nothing') return steps;
+      if (kind === 'step') {
+        this.#game.step(this.#inputs(), frame);
+        ++steps;
+      } else if (kind === 'rolled_back') {
+        this.#game.rolledBack?.(frame);
+      } else if (kind === 'restarted') {
+        this.#game.restarted?.(frame);
+      } else {
+        this.#game.confirmed?.(frame, hash);
+      }
+    }
+  }
+  #inputs() {
+    const room = this.#calls.take(4);
+    const first = this.module.call('iso_session_inputs', this.at, room);
+    const players = this.module.view.getUint32(room, true);
+    return Array.from({length: players}, (_, player) => this.#input(first + player * kInputSize));
+  }
+  /** A copy: the memory may grow in the step. */
+  #input(at) {
+    const size = this.module.view.getUint16(at, true);
+    return {bytes: this.module.bytes(at + kInputBytes, size).slice(),
+            status: kStatuses[this.module.view.getUint8(at + 2)]};
+  }
+
+  /** For the next frame; until that is stepped a later one replaces it. False: not a player of ours, or not now. */
+  addLocalInput(player, bytes) {
+    this.#calls.begin();
+    return this.#try('iso_session_add_local_input', player, this.#calls.placeBytes(bytes, 'bytes'), bytes.byteLength);
+  }
+  /** The last input has been taken: a game of orders hands over the next only then. */
+  wantsInput(player) { return this.module.call('iso_session_wants_input', this.at, player) !== 0; }
+  /** [us] until the next frame is due. */
+  wait(now) { return Number(unsigned(this.module.call('iso_session_wait', this.at, time(now)))); }
+
+  // ---- the transport's side
+
+  connected(peer, now, incoming = false) {
+    this.#call('iso_session_connected', peer, time(now), incoming ? 1 : 0);
+  }
+  disconnected(peer, now) { this.#call('iso_session_disconnected', peer, time(now)); }
+  /** `channel`: 0 a datagram, 1 a reliable message. */
+  receive(peer, channel, bytes, now) {
+    this.#calls.begin();
+    this.#call('iso_session_receive', peer, channel, this.#calls.placeBytes(bytes, 'bytes'), bytes.byteLength, time(now));
+  }
+  /** What is to be sent: {peer, channel, bytes, close}, or null. `bytes` is a view until the next call. */
+  pollSend(now) {
+    this.#calls.begin();
+    const at = this.#calls.sized('outgoing'), pointer = this.#calls.take(4);
+    this.#call('iso_session_poll_send', time(now), at, pointer);
+    const bytes = this.module.view.getUint32(pointer, true);
+    if (bytes === 0) return null;
+    const {peer, channel, length, close} = this.#calls.layout('outgoing').read(this.module.view, at);
+    return {peer, channel: this.#calls.number('channel', channel), bytes: this.module.bytes(bytes, length), close};
+  }
+  /** Where the transport is to connect to, or null. */
+  pollConnect() {
+    this.#calls.begin();
+    const room = this.#calls.take(4);
+    this.#call('iso_session_poll_connect', room);
+    const at = this.module.view.getUint32(room, true);
+    return at === 0 ? null : this.module.text(at);
+  }
+
+  // ---- what happens
+
+  /** {kind: 'joined', player, frame, ...}, or null. */
+  pollEvent() {
+    this.#calls.begin();
+    const at = this.#calls.sized('session_event');
+    this.#call('iso_session_poll_event', at);
+    const event = this.#calls.layout('session_event').read(this.module.view, at);
+    return event.kind === 'none' ? null : event;
+  }
+  get phase() { return this.#calls.enumerator('phase', this.module.call('iso_session_phase', this.at)); }
+  /** The next frame to be stepped. */
+  get current() { return this.module.call('iso_session_current', this.at); }
+  /** States up to this one are final. */
+  get confirmed() { return this.module.call('iso_session_confirmed', this.at); }
+  /** The first player of this machine; -1: none yet. */
+  get localPlayer() { return this.module.call('iso_session_local_player', this.at); }
+  /** All of them, a bit each. */
+  get localPlayers() { return this.module.call('iso_session_local_players', this.at) >>> 0; }
+  /** Says who we are after a crash: the setting `token`. 0n: not seated yet. */
+  get token() { return unsigned(this.module.call('iso_session_token', this.at)); }
+  /** What a player did in a frame that is at most `kept` frames old. */
+  input(frame, player) {
+    this.#calls.begin();
+    const at = this.#calls.take(kInputSize);
+    this.#calls.call('iso_session_input', this.at, frame, player, at);
+    return this.#input(at);
+  }
+  get stats() { return this.#read('session_stats', 'iso_session_get_stats'); }
+  playerStats(player) { return this.#read('player_stats', 'iso_session_get_player_stats', player); }
+  #read(layout, name, ...words) {
+    this.#calls.begin();
+    const at = this.#calls.sized(layout);
+    this.#calls.call(name, this.at, ...words, at);
+    return this.#calls.layout(layout).read(this.module.view, at);
+  }
+  /** [bytes] Of the snapshot under way: on a client the one it waits for, on a host the one that `peer` is sent. */
+  snapshotProgress(peer = 0) {
+    this.#calls.begin();
+    const at = this.#calls.take(8);
+    this.#calls.call('iso_session_snapshot_progress', this.at, peer, at, at + 4);
+    return {arrived: this.module.view.getUint32(at, true), size: this.module.view.getUint32(at + 4, true)};
+  }
+
+  // ---- decisions: false where they are refused
+
+  start(now) { return this.#try('iso_session_start', time(now)); }
+  resync() { return this.#try('iso_session_resync'); }
+  pause() { return this.#try('iso_session_pause'); }
+  unpause() { return this.#try('iso_session_unpause'); }
+  /** [1/8 of the match's rate] 4 to 16. */
+  setSpeed(eighths) { return this.#try('iso_session_set_speed', eighths); }
+  propose(player, proposal, subject = 0) {
+    return this.#try('iso_session_propose', player, this.#calls.number('proposal', proposal), subject);
+  }
+  vote(player, yes) { return this.#try('iso_session_vote', player, yes ? 1 : 0); }
+
+  /** Host with asksAdmission: who waits for an answer, or null. */
+  pollApplicant() {
+    const applicant = this.#read('applicant', 'iso_session_poll_applicant');
+    return applicant.id === 0n ? null : applicant;
+  }
+  admit(applicant) { return this.#try('iso_session_admit', applicant); }
+  refuse(applicant, reason) { return this.#withReason('iso_session_refuse', applicant, reason); }
+  kick(player, reason) { return this.#withReason('iso_session_kick', player, reason); }
+  kickPeer(peer, reason) { return this.#withReason('iso_session_kick_peer', peer, reason); }
+  #withReason(name, whom, reason) {
+    this.#calls.begin();
+    return this.#try(name, whom, this.#calls.placeText(reason, 'reason'));
+  }
+  /** Host: who has the seat; -1: nobody. */
+  peerOf(player) { return this.module.call('iso_session_peer_of', this.at, player); }
+
+  // ---- recordings
+
+  /** Host: the match in its newest final state, for `file` of another process. */
+  saveMatch() { return this.#calls.bytesOut('iso_session_save_match', this.at); }
+  /** From the next frame on: 'match' is played again by the game, 'world' by `isostep verify` without it. */
+  record(kind, scene = null) {
+    this.#calls.begin();
+    const text = scene === null ? 0 : this.#calls.placeText(scene, 'scene');
+    return this.#try('iso_session_record', this.#calls.number('recording', kind), text);
+  }
+  /** Ends the recording with the last confirmed frame: the file. */
+  recorded(kind) { return this.#calls.bytesOut('iso_session_recorded', this.at, this.#calls.number('recording', kind)); }
+}
+
+/** The world and the state for the session; what the game does is asked for, never called back from within. */
+function placeGame(calls, {world, state}) {
+  const at = calls.take(kGameSize), {view} = calls.module;
+  calls.call('iso_game_init', at);
+  if (world !== undefined) view.setUint32(at + kGameWorld, world.at, true);
+  if (state !== undefined) {
+    view.setUint32(at + kGameBlock, state.at, true);
+    view.setUint32(at + kGameBlockSize, state.byteLength, true);
+  }
+  return at;
+}

@@ -1,0 +1,200 @@
+"""Sessions: which frames a game steps, with whose inputs, and when. No sockets, no clock, no callbacks: bytes and the
+time go in, bytes and requests come out."""
+
+# SPDX-License-Identifier: MIT
+import ctypes
+from dataclasses import dataclass
+
+from .calls import Handle
+
+_library = None
+
+
+def use_library(library):
+    global _library
+    _library = library
+    library.register(Session, Network)
+
+
+class _CGame(ctypes.Structure):
+    """iso_game of isostep.h; its callbacks stay null."""
+
+    _fields_ = [("size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("world", ctypes.c_void_p),
+                ("block", ctypes.c_void_p), ("block_size", ctypes.c_size_t), ("user", ctypes.c_void_p),
+                ("callbacks", ctypes.c_void_p * 11)]
+
+
+@dataclass
+class Input:
+    """One player's input for one frame: its bytes, and "confirmed", "predicted" or "disconnected"."""
+
+    bytes: bytes
+    status: str
+
+
+class Game:
+    """What a session saves, rolls back, hashes and sends to who joins late: a world, a block of bytes, or both.
+
+    `step(inputs)` is called for every frame, again for those that are rolled back; what it does depends on the world,
+    the block and the inputs alone. `state` is the block as a memoryview of bytes, which struct.pack_into writes to.
+    """
+
+    def __init__(self, world=None, block_size=0):
+        self.world = world
+        self._block = (ctypes.c_uint8 * block_size)() if block_size else None
+        self.state = memoryview(self._block).cast("B") if block_size else memoryview(b"")
+
+    def step(self, inputs):
+        """The next frame: `inputs` has an Input for each player."""
+        raise NotImplementedError("a game overrides step")
+
+    def rolled_back(self, frame):
+        """The state is again that before `frame`."""
+
+    def restarted(self, frame):
+        """The state is one that arrived from elsewhere, before `frame`."""
+
+    def confirmed(self, frame, hash):
+        """`frame` is final; `hash`: of the state after it."""
+
+    def _in_c(self):
+        made = _CGame(size=ctypes.sizeof(_CGame))
+        if self.world is not None:
+            made.world = self.world._address
+        if self._block is not None:
+            made.block, made.block_size = ctypes.addressof(self._block), len(self._block)
+        return made
+
+
+class Session(Handle):
+    """`config` has members of iso_session_config, after the defaults or those of `preset` (a genre and a number of
+    players). `file`: the recording that a replay plays, or the match that a host goes on with."""
+
+    _kind = "session"
+
+    def __init__(self, game, preset=None, file=None, **config):
+        given = _library.call("iso_session_config_init" if preset is None else "iso_session_config_preset")(*preset or ())
+        for name in ("neutral", "credential"):
+            if name in config:
+                config[name + "_size"] = len(config[name])
+        given.set(**config)
+        problem = _library.call("iso_session_config_problem")(given)
+        if problem:
+            raise ValueError(f"session: {problem}")
+        c_game, address = game._in_c(), ctypes.c_void_p()
+        status = _library.raw("iso_session_create")(ctypes.byref(given), ctypes.byref(c_game), file,
+                                                    ctypes.c_size_t(len(file or b"")), ctypes.byref(address))
+        if status:
+            raise _library.error(status, None)
+        Handle.__init__(self, _library, address.value)
+        self.game = game  # lives as long as the session
+
+    def close(self):
+        super().close()
+        self.game = None
+
+    def call(self, name, *values):
+        """iso_session_NAME of isostep.h, with this session first."""
+        return _library.call(f"iso_session_{name}")(self, *values)
+
+    def add_input(self, player, data):
+        """For the next frame; until that is stepped a later one replaces it."""
+        self.call("add_local_input", player, data)
+
+    def drive(self, now):
+        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps."""
+        self.call("advance", now)
+        steps = 0
+        while True:
+            request = self.call("next")
+            if request.kind == "nothing":
+                return steps
+            if request.kind == "step":
+                self.game.step(self.inputs())
+                steps += 1
+            elif request.kind == "rolled_back":
+                self.game.rolled_back(request.frame)
+            elif request.kind == "restarted":
+                self.game.restarted(request.frame)
+            else:
+                self.game.confirmed(request.frame, request.hash)
+
+    def inputs(self):
+        """Of the step that was asked for, by player."""
+        address, players = self.call("inputs")
+        return [_input_of(one) for one in (_c_input() * players).from_address(address)] if address else []
+
+    def input(self, frame, player):
+        """What a player did in a frame that is at most `kept` frames old."""
+        return _input_of(self.call("input", frame, player))
+
+    def events(self):
+        """What has happened since the last call, in order: `kind`, `player`, `frame`, ..."""
+        while True:
+            event = self.call("poll_event")
+            if event.kind == "none":
+                return
+            yield event
+
+    def sends(self, now):
+        """What is to be sent, each as (peer, "datagram" or "reliable", bytes, whether the connection ends after it)."""
+        while True:
+            out, address = self.call("poll_send", now)
+            if not address and not out.close:
+                return
+            yield out.peer, out.channel, ctypes.string_at(address, out.length) if out.length else b"", bool(out.close)
+
+    @property
+    def confirmed(self):
+        """States up to this frame are final; -1: none."""
+        return self.call("confirmed")
+
+    @property
+    def current(self):
+        """The next frame to be stepped."""
+        return self.call("current")
+
+    @property
+    def phase(self):
+        return self.call("phase")
+
+    @property
+    def stats(self):
+        return self.call("get_stats")
+
+
+class Network(Handle):
+    """A network in virtual time, for tests: endpoint 0 is the host, `add_client` makes further ones."""
+
+    _kind = "network"
+
+    def __init__(self, seed):
+        self._take(_library.call("iso_network_create")(seed))
+
+    def call(self, name, *values):
+        """iso_network_NAME of isostep.h, with this network first."""
+        return _library.call(f"iso_network_{name}")(self, *values)
+
+    def add_client(self, profile="wifi"):
+        """The endpoint of a client whose line is like `profile`: "mobile", "latency=80,jitter=20,loss=5"; connected to
+        the host."""
+        endpoint = self.call("add_client", profile)
+        self.call("connect", endpoint, 0)
+        return endpoint
+
+    def drive(self, sessions, now):
+        """A turn of the game's loop for the sessions of all endpoints, in order."""
+        self.call("advance_to", now)
+        for endpoint, session in enumerate(sessions):
+            self.call("deliver", endpoint, session, now)
+            session.drive(now)
+            self.call("dispatch", endpoint, session, now)
+
+
+def _c_input():
+    return _library.interface.structs["iso_input"]
+
+
+def _input_of(one):
+    status = _library.interface.enums["iso_input_status"].text(one.raw("status"))
+    return Input(bytes(one.raw("bytes"))[:one.raw("size")], status)

@@ -1,0 +1,55 @@
+// The native half of transports_test.mjs: the host of the game over UDP. Its argument is the number of frames.
+// SPDX-License-Identifier: MIT
+//
+// Prints the input's schema and its port, then frame and hash of each final frame up to FRAMES; ends with its input.
+#include <poll.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "pucks.hpp"
+#include "transport/enet_transport.hpp"
+#include "transport/pump.hpp"
+
+namespace {
+
+struct Printer {
+  iso::Frame most;
+  void confirmed(iso::Frame frame, std::uint64_t hash) const {
+    if (frame < most) std::printf("%d %016llx\n", static_cast<int>(frame), static_cast<unsigned long long>(hash));
+    std::fflush(stdout);
+  }
+};
+bool input_has_ended() {
+  pollfd input{0, POLLIN, 0};
+  return ::poll(&input, 1, 0) > 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 2) return 64;
+  auto opened = iso::transport::EnetTransport::listen(0, {.timeout = 60 * iso::kSecond});
+  if (!opened) return 1;
+  iso::transport::EnetTransport& transport = opened.value();
+  Game game;
+  iso::SessionConfig config = config_of(game);
+  config.silence = config.patience = 60 * iso::kSecond;
+  iso::Session<Game> session(config);
+  std::printf("%llu %u\n", static_cast<unsigned long long>(iso::InputCodec<Push>::schema()), transport.port());
+  std::fflush(stdout);
+  Printer printer{std::atoi(words[1])};
+  const auto start = std::chrono::steady_clock::now();
+  while (!input_has_ended()) {
+    const auto passed = std::chrono::steady_clock::now() - start;
+    const auto now = static_cast<iso::Time>(std::chrono::duration_cast<std::chrono::microseconds>(passed).count());
+    transport.poll();
+    iso::transport::deliver(transport, session, now);
+    session.add_local_input(0, {static_cast<std::int8_t>((session.current() / 11) % 3 - 1)});
+    iso::drive(session, game, now, printer);
+    iso::transport::dispatch(transport, session, now);
+    transport.flush();
+    transport.wait(2000);
+  }
+}

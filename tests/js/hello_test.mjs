@@ -1,0 +1,23 @@
+// Every frame of hello in Node has native's hash, in each scalar: node hello_test.mjs FOLDER HELLO_HASHES
+// SPDX-License-Identifier: MIT
+
+import {execFileSync} from 'node:child_process';
+
+import {check, done, equal, packaged, scalars} from './checks.mjs';
+import {playHello} from './hello.mjs';
+
+const {load} = await packaged('isostep');
+for (const scalar of scalars) {
+  const native = execFileSync(process.argv[3], [scalar], {encoding: 'utf8'}).trim().split('\n');
+  const hardest = Number(native.pop());
+  const iso = await load(scalar);
+  const here = playHello(iso);
+  equal(here.hashes.length, 360, `${scalar}: frames`);
+  equal(here.hashes, native, `${scalar}: hashes`);
+  equal(here.hashes.slice(0, 120), here.hashes.slice(120, 240), `${scalar}: after the rollback`);
+  check(new Set(here.hashes).size > 200, `${scalar}: nothing happens`);
+  equal([here.user, here.hardest], [42, hardest], `${scalar}: what the ray hits, how hard it lands`);
+  const {sound, recordings, text} = iso.selfcheck();
+  check(sound && recordings > 0, `${scalar}: ${text}`);
+}
+done(`360 frames of ${scalars.join(', ')} are native's`);
