@@ -9,6 +9,8 @@ option(ISOSTEP_SEALED "isostep::sealed: transports encrypted by libsodium; tests
 option(ISOSTEP_THREADS "isostep::threads: a step's work on oneTBB's threads; the tool brings it anyway" OFF)
 option(ISOSTEP_C "isostep::c: the C interface, as a shared library" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_JS_MODULE "The module of the npm package, of a WebAssembly target: see src/js/build.sh" OFF)
+option(ISOSTEP_JS_TESTS "Tests that build the npm package's modules: the engine once more for each scalar" OFF)
+set(ISOSTEP_JS_SCALARS "q32;f32;f64;q16" CACHE STRING "Scalars of those tests; matches with native hosts are over the first")
 option(ISOSTEP_BENCH "Benchmarks" OFF)
 option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)

@@ -1,4 +1,4 @@
-// What csharp_bench measures in C#, in C++: a frame of 1000 boxes with its poses read, and calls through the C interface.
+// What csharp_bench measures in C#, in C++: a frame of 1000 boxes with poses read, and calls through the C interface.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-// The scene of costs.mjs natively: costs SCALAR [SIMD]
+// The scene of costs.mjs natively, timed. Its arguments are a scalar and the kernels to use.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <ctime>

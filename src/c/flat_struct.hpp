@@ -14,7 +14,7 @@ namespace isostep::c {
 inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
 template <class T> bool is_size(std::uint32_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
 
-/// What a caller's struct holds of `to`, which keeps its defaults beyond: that of an older caller is shorter; of a newer
+/// What a caller's struct holds of `to`, which keeps its defaults beyond: an older caller's is shorter; of a newer
 /// one the part that this library does not know is zero.
 template <class T> iso_status take(const T* from, T& to) {
   if (from == nullptr) return ISO_NULL;

@@ -14,8 +14,17 @@ constexpr std::size_t kBlock = 256;  // cells that are allocated at once
 constexpr std::size_t kQuarantine =
     1024;  // closed cells that wait, so that a stale handle is not another object's soon
 
+#if defined(__wasm__)  // one thread, and a library without mutexes
+struct Mutex {
+  void lock() {}
+  void unlock() {}
+};
+#else
+using Mutex = std::mutex;
+#endif
+
 struct Cells {
-  std::mutex mutex;
+  Mutex mutex;
   std::vector<std::unique_ptr<Cell[]>> blocks;
   std::deque<Cell*> closed;
   std::size_t fresh = kBlock;  // the next cell of the last block
@@ -43,7 +52,7 @@ Cell* take(Cells& all) {
 
 Cell* open_cell(HandleKind kind, void* object) {
   Cells& all = cells();
-  const std::lock_guard lock(all.mutex);
+  const std::lock_guard<Mutex> lock(all.mutex);
   Cell* const cell = take(all);
   cell->object = object;
   cell->kind.store(kind, std::memory_order_release);
@@ -52,7 +61,7 @@ Cell* open_cell(HandleKind kind, void* object) {
 
 void close_cell(Cell* cell) {
   Cells& all = cells();
-  const std::lock_guard lock(all.mutex);
+  const std::lock_guard<Mutex> lock(all.mutex);
   cell->kind.store(HandleKind::none, std::memory_order_release);
   cell->object = nullptr;
   all.closed.push_back(cell);

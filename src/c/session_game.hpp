@@ -27,7 +27,7 @@ template <> struct InputCodec<Bytes> {
 
 namespace c {
 
-/// Models Simulation but for `step`, which the caller does, and PortableState. Not copied or moved: rules() refers to it.
+/// Models Simulation but for `step`, which the caller does, and PortableState. Never copied or moved: rules() names it.
 class SessionGame {
  public:
   using Input = Bytes;

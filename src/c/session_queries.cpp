@@ -73,6 +73,21 @@ iso_session_event event_of(const SessionEvent& from) {
 
 extern "C" {
 
+#define ISO_C_INIT(name)                          \
+  iso_status iso_##name##_init(iso_##name* out) { \
+    ISO_C_REQUIRE(ISO_C_CALL, out);               \
+    *out = {};                                    \
+    out->size = sizeof *out;                      \
+    return ISO_OK;                                \
+  }
+ISO_C_INIT(request)
+ISO_C_INIT(outgoing)
+ISO_C_INIT(session_event)
+ISO_C_INIT(session_stats)
+ISO_C_INIT(player_stats)
+ISO_C_INIT(applicant)
+#undef ISO_C_INIT
+
 iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) {
   if (const iso_status status = check_struct(out, ISO_C_CALL); status != ISO_OK) return status;
   return in_session(session, ISO_C_CALL, [&](SessionObject& one) {
@@ -148,9 +163,9 @@ iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* 
     ISO_COPY(steps)
     ISO_COPY(waits)
     ISO_COPY(datagrams_out)
-    ISO_COPY(datagrams_in) ISO_COPY(bytes_out) ISO_COPY(bytes_in) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out)
-        ISO_COPY(events_lost) ISO_COPY(round_trip) ISO_COPY(peers) ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss)
-            ISO_COPY(stretch)
+    ISO_COPY(datagrams_in)
+    ISO_COPY(bytes_out) ISO_COPY(bytes_in) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost)
+        ISO_COPY(round_trip) ISO_COPY(peers) ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
 #undef ISO_COPY
   });
 }

@@ -113,6 +113,8 @@ struct Handles {
   std::vector<void*> alive, dead;
 };
 
+constexpr const char* kKinds[] = {"world", "snapshot", "tape", "replay", "blob", "session", "network"};
+
 class Drawer {
  public:
   Drawer(const Facts& facts, std::uint64_t seed) : facts_(facts), dice_(seed) {
@@ -120,6 +122,8 @@ class Drawer {
     for (auto& region : regions_) region = std::make_unique<std::uint64_t[]>(kRegion / 8);
   }
   ~Drawer() {
+    for (void* session : handles_["session"].alive) iso_session_destroy(static_cast<iso_session*>(session));
+    for (void* network : handles_["network"].alive) iso_network_destroy(static_cast<iso_network*>(network));
     for (void* world : handles_["world"].alive) iso_world_destroy(static_cast<iso_world*>(world));
     for (void* snapshot : handles_["snapshot"].alive) iso_snapshot_destroy(static_cast<iso_snapshot*>(snapshot));
     for (void* tape : handles_["tape"].alive) iso_tape_destroy(static_cast<iso_tape*>(tape));
@@ -179,10 +183,11 @@ class Drawer {
   /// To what an argument points: `to` as in "iso_world", "const iso_blob*" or "void".
   void* pointer(const std::string& to, bool is_const, const std::string& name) {
     if (dice_.one_in(60)) return nullptr;
-    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+    for (const char* kind : kKinds) {
       if (to == std::string("iso_") + kind) return handle(kind);
     }
-    if (to == "char") return is_const ? static_cast<void*>(scene_) : region();
+    if (to == "char") return is_const ? static_cast<void*>(name == "profile" ? line_ : scene_) : region();
+    if (name == "file" && !has_file_) return nullptr;
     if (to == "void") return is_const ? static_cast<void*>(damaged_) : name == "user" ? nullptr : region();
     if (to.find('*') != std::string::npos) return slots(to, is_const);
     return numbers(to, is_const);
@@ -206,6 +211,8 @@ class Drawer {
   std::uint64_t integer(std::size_t bytes, const std::string& name) {
     if (bytes == 1) return dice_.one_in(20) ? dice_.next() : dice_.below(2);
     if (bytes == 4) return dice_.one_in(30) ? dice_.next() : dice_.below(13);
+    if (name == "now") return now_ += dice_.one_in(100) ? dice_.below(20000000) : dice_.below(20000);
+    if (name == "file_size") return has_file_ ? size_ : 0;
     if (name == "size") return dice_.one_in(10) && size_ > 0 ? dice_.below(size_) : size_;
     if (name == "count" || name == "room" || name == "blob_count") return dice_.below(kElements);
     if (name == "each") return dice_.below(4);
@@ -252,16 +259,37 @@ class Drawer {
   void* slots(const std::string& to, bool is_const) {
     auto** const all = reinterpret_cast<void**>(region());
     for (std::size_t i = 0; i < kElements; ++i) all[i] = is_const ? handle("blob") : nullptr;
-    for (const char* kind : {"world", "snapshot", "tape", "replay", "blob"}) {
+    for (const char* kind : kKinds) {
       if (!is_const && to == std::string("iso_") + kind + "*") out_handles_.push_back({kind, all});
     }
     return all;
   }
+  /// A world, a block or both, with a step or without.
+  iso_game* game() {
+    auto* const game = reinterpret_cast<iso_game*>(region());
+    iso_game_init(game);
+    if (!dice_.one_in(3)) game->world = static_cast<iso_world*>(handle("world"));
+    if (!dice_.one_in(3)) game->block = block_, game->block_size = 1 + dice_.below(sizeof block_);
+    if (!dice_.one_in(3)) game->step = [](void*, std::int32_t, const iso_input*, std::uint32_t) {};
+    if (dice_.one_in(20)) game->size = static_cast<std::uint32_t>(dice_.below(300));
+    return game;
+  }
+  /// Mostly of a session that can be: a host, or a client whom nobody ever answers.
+  iso_session_config* config(iso_session_config* config) {
+    if (!dice_.one_in(20)) std::strcpy(config->name, "random");
+    config->host = dice_.one_in(3) ? 0 : 1;
+    config->seed = config->host;
+    config->asks_admission = config->votes = dice_.one_in(2) ? 1 : 0;
+    if (!dice_.one_in(10)) config->snapshot_cap = 1u << 20, config->most_packets = 480;
+    return config;
+  }
   void* numbers(const std::string& to, bool is_const) {
+    if (to == "iso_game") return game();
     std::uint8_t* const at = region();
     if (const Fact* fact = facts_.named(to)) {
       const bool same_size = !dice_.one_in(25);
       for (std::size_t i = 0; i < kElements; ++i) fill(at + i * fact->size, *fact, same_size);
+      if (to == "iso_session_config" && is_const) return config(reinterpret_cast<iso_session_config*>(at));
       return at;
     }
     auto* const words = reinterpret_cast<std::uint64_t*>(at);
@@ -275,6 +303,7 @@ class Drawer {
     damaged_ = region();
     std::memcpy(damaged_, whole.data(), whole.size());
     size_ = whole.size();
+    has_file_ = dice_.one_in(4);
     if (dice_.one_in(3)) damaged_[dice_.below(size_)] ^= static_cast<std::uint8_t>(1u << dice_.below(8));
   }
 
@@ -391,6 +420,8 @@ class Drawer {
     if (kind == "tape") status = iso_tape_destroy(static_cast<iso_tape*>(handle));
     if (kind == "replay") status = iso_replay_destroy(static_cast<iso_replay*>(handle));
     if (kind == "blob") status = iso_blob_destroy(static_cast<iso_blob*>(handle));
+    if (kind == "session") status = iso_session_destroy(static_cast<iso_session*>(handle));
+    if (kind == "network") status = iso_network_destroy(static_cast<iso_network*>(handle));
     if (status != ISO_OK)
       std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
     bury(kind, handle);
@@ -409,10 +440,13 @@ class Drawer {
   void* world_ = nullptr;
   std::uint32_t family_ = 4;
   double zero_ = 0;
-  char scene_[8] = "random";
+  char scene_[8] = "random", line_[8] = "wifi";
+  std::uint8_t block_[200] = {};  // of all sessions' games
+  std::uint64_t now_ = 0;         // [us] of sessions and networks
+  bool has_file_ = false;
   alignas(16) std::uint64_t lists_[512] = {};  // what pointers within structs point to: 400 places and more
-  std::map<std::string, Handles> handles_ = {
-      {"world", {}}, {"snapshot", {}}, {"tape", {}}, {"replay", {}}, {"blob", {}}};
+  std::map<std::string, Handles> handles_ = {{"world", {}}, {"snapshot", {}}, {"tape", {}},   {"replay", {}},
+                                             {"blob", {}},  {"session", {}},  {"network", {}}};
   std::map<std::string, std::vector<std::uint64_t>> ids_;
   std::vector<std::vector<std::uint8_t>> bytes_;
 };

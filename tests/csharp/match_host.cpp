@@ -35,11 +35,11 @@ template <class S> struct Game : iso::Composite<iso::World<S>, Score> {
   iso::BodyId pucks[2];
 
   Game() {
-    auto& world = this->world;
-    world.create({.shape = world.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
-    const auto ball = world.add_shape(iso::Sphere{0.5});
+    auto& engine = this->world;
+    engine.create({.shape = engine.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
+    const auto ball = engine.add_shape(iso::Sphere{0.5});
     for (int n : {0, 1})
-      pucks[n] = world.create({.type = iso::dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}});
+      pucks[n] = engine.create({.type = iso::dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}});
   }
   void step(iso::InputView<Input> inputs) {
     for (int n : {0, 1}) this->world.apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});

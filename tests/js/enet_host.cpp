@@ -1,4 +1,4 @@
-// The native half of transports_test.mjs: the game's host over UDP. usage: enet_host FRAMES
+// The native half of transports_test.mjs: the host of the game over UDP. Its argument is the number of frames.
 // SPDX-License-Identifier: MIT
 //
 // Prints the input's schema and its port, then frame and hash of each final frame up to FRAMES; ends with its input.

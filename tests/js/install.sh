@@ -1,13 +1,12 @@
 #!/bin/sh
-# install.sh BUILD: builds the package in BUILD and installs the packed file into BUILD/installed, as a game would.
+# install.sh BUILD [SCALAR...]: builds the package in BUILD and installs the packed file into BUILD/installed, as a game
+# would.
 # SPDX-License-Identifier: MIT
 #
-# Beside it what the tests need of npm. ISOSTEP_JS_SCALARS: scalars to build, all unless told. Exits 77 where a tool is
-# missing.
+# Beside it what the tests need of npm. Exits 77 where a tool is missing.
 set -u
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P) || exit 1
-# shellcheck disable=SC2086
-sh "$here/../../src/js/build.sh" "$1" ${ISOSTEP_JS_SCALARS:-}
+sh "$here/../../src/js/build.sh" "$@"
 status=$?
 [ "$status" != 69 ] || exit 77
 [ "$status" = 0 ] || exit "$status"

@@ -87,6 +87,6 @@ int main(int count, char** words) {
     std::fflush(stdout);
   }
   std::fprintf(stderr, "%u touches, %llu frames stepped again\n", game.user.touches,
-               static_cast<unsigned long long>(session.stats().steps) - static_cast<unsigned long long>(session.current()));
+               static_cast<unsigned long long>(session.stats().steps - static_cast<std::uint64_t>(session.current())));
   return game.user.touches > 1 ? 0 : 1;
 }

@@ -193,23 +193,6 @@ TYPED_TEST(KindResponses, a_bullet_meets_what_gives_way_and_goes_through) {
   }
 }
 
-TYPED_TEST(KindResponses, a_bullet_that_is_not_pushed_back_is_not_stopped_either) {
-  using S = TypeParam;
-  constexpr double kWay = 48.0 / 60;  // [m] of a step
-  for (const double scale : {0.0, 1.0}) {
-    World<S> w = this->world(SolverName::soft_step);
-    this->body(w, moving<S>(add_box(w, 0.0625, 1, 1), {1.25 * kWay, 0, 0}), 2, 1);
-    BodyDefinition<S> d = moving<S>(add_ball(w, 0.0625), {0, 0, 0}, {48, 0, 0});
-    d.bullet = true;
-    const BodyId bullet = this->body(w, d, 1, 1);
-    ASSERT_TRUE(w.add(response<S>(scale, 1)));
-    run(w, 2);
-    const double at = to_double(w.center_of_mass(bullet).x);
-    if (scale == 0) EXPECT_NEAR(at, 2 * kWay, 0.01);
-    else EXPECT_LT(at, 1.25 * kWay);
-  }
-}
-
 TYPED_TEST(KindResponses, events_tell_what_the_side_that_is_moved_gets) {
   using S = TypeParam;
   for (const SolverName solver : kResponding) {

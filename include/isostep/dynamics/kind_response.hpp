@@ -17,10 +17,10 @@ using KindResponseId = Id<struct KindResponseTag>;
 /// mesh's or height field's triangles. A second record of the same two kinds is refused, and every record where the
 /// solver is `direct`, whose matrix is symmetric.
 /// The scales multiply what a contact takes for a body's inverse mass and inverse inertia, nothing else: gravity,
-/// joints and other contacts have the true ones. With a scale of 0 a body pushes the other and is not pushed back, and
-/// as a bullet not stopped by it. Of the two mass scales only the ratio counts; against what does not move they are of
-/// no account. Such contacts conserve neither momentum nor energy: what is not pushed back gives the other its speed,
-/// however heavy. Impulses in events and the force below are those on the side with the larger scale.
+/// joints and other contacts have the true ones. With a scale of 0 a body pushes the other and is not pushed back. Of
+/// the two mass scales only the ratio counts; against what does not move they are of no account. Such contacts conserve
+/// neither momentum nor energy: what is not pushed back gives the other its speed, however heavy. The impulses that
+/// events tell and the force below are those on the side with the larger scale.
 /// What presses harder than max_force gives way: it sinks in at the speed that it has, is slowed by that force for as
 /// long as it is inside, and friction is that of the force. The force is that of one contact, all its points together:
 /// of a pair of bodies' parts. Continuous collision puts a fast body to where it first touches such a thing, once.

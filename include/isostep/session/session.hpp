@@ -268,7 +268,7 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
 }
 }  // namespace detail
 
-/// Carries out a request that is no `step`, and calls `observer` as drive() does: for who asks for the steps one by one.
+/// Carries out a request that is no `step`, and calls `observer` as drive() does: for callers that step by themselves.
 template <class Game, class Predictor, class Observer>
 void carry_out(Session<Game, Predictor>& session, Game& game, const Request<typename Game::Input>& request,
                Observer& observer) {

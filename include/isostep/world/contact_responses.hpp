@@ -23,7 +23,6 @@ template <class S> class ContactResponses {
   void update();
   ISO_INLINE std::span<const ContactResponse<S>> all() const { return all_; }
   ISO_INLINE std::span<const std::uint64_t> giving_way() const { return giving_way_; }
-  ISO_INLINE const ResponseTable<S>& table() const { return table_; }
   template <class Visit> void visit_scratch(const Visit& visit) {
     if (!all_.empty()) visit("responses", all_);
   }

@@ -9,11 +9,10 @@
 
 #include "isostep/collision/continuous/core_motion.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
+#include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/dynamics/kind_table.hpp"
 #include "isostep/dynamics/one_way.hpp"
 #include "isostep/world/body_map.hpp"
-#include "isostep/world/joined_bodies.hpp"
 #include "isostep/world/proxies.hpp"
 
 namespace isostep {
@@ -30,21 +29,19 @@ namespace isostep {
 ///             other dynamic bodies but bullets. Nobody reads what another writes, so the order is free.
 ///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
 ///          body is swept in that one's frame and goes on with it to the end of the step.
-///          3. Mechanisms of which a body was stopped stop as a whole (continuous_joined.inl): each joint goes from how
-///             it was to how it would be as far as that body did of its way, and bodies are where joints have them.
+///          3. All bodies that joints tie to one that was stopped go as far of their ways as it did, and no farther.
 /// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
 ///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
 /// Limits:  two bodies may squeeze a third.
 template <class S> class ContinuousCollision {
  public:
   ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
-      : state_(state), map_(map), proxies_(proxies), joined_bodies_(state, map) {}
+      : state_(state), map_(map), proxies_(proxies) {}
 
   /// What leaves one of the `ways`, or passes it from below, is not stopped by it; null: there are none. Nor are pairs
-  /// `giving_way`, ascending, each of the other: their contacts press no harder than they may. Nor is a bullet by what
-  /// does not push it back, as `responses` have it; null: all do.
+  /// `giving_way`, ascending, each of the other: their contacts press no harder than they may.
   void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const Ways<S>* ways = nullptr,
-              std::span<const std::uint64_t> giving_way = {}, const ResponseTable<S>* responses = nullptr);
+              std::span<const std::uint64_t> giving_way = {});
 
  private:
   /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
@@ -58,8 +55,6 @@ template <class S> class ContinuousCollision {
     S motion;          // [m] no point of it has moved further
     Unit<S> fraction;  // [1] what it was cut to
     Vec3<S> centre;    // [m] in its frame: what goes straight in the first piece, where it touches at the start
-    bool closely;      // swept however little it moves
-    Pose<S> stopped;   // where it is at that fraction, if something stopped it, with what stopped it
 
     ISO_INLINE CoreMotion<S> motion_of(std::uint32_t piece) const {
       return {poses[piece], poses[piece + 1], piece == 0 ? centre : Vec3<S>::zero()};
@@ -102,18 +97,15 @@ template <class S> class ContinuousCollision {
   S thinnest_static() const;
   S least_inner_radius() const;
   S thinnest_of(std::uint32_t shape) const;
-  void find_movers();
+  void find_movers(const Survey& survey);
   bool may_move(std::size_t index) const;
-  bool is_fast(const Mover& mover) const;
+  void add_if_fast(std::size_t index, S thinnest);
   Mover measure(std::size_t index) const;
   void find_met_by_kinematic(S least);
   // continuous_collision.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
-  bool is_pushed_back(const Mover& mover, std::uint32_t slot) const;
   void cut(Mover& mover, bool moving);
-  Cut first_impact(Mover& mover, bool moving);
-  Pose<S> way_of(const Mover& mover, Unit<S> fraction) const;
   Cut sweep(const Mover& mover, bool moving) const;
   bool find_touch(Mover& mover) const;
   template <class Visit>
@@ -127,31 +119,9 @@ template <class S> class ContinuousCollision {
   void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,
                    const Rest& rest, Cut& cut) const;
   // continuous_joined.inl
-  using Link = typename JoinedBodies<S>::Link;
-  /// How far a mechanism goes.
-  struct Course {
-    std::uint32_t root;
-    Pose<S> end;       // of the root
-    Unit<S> fraction;  // [1] of the step
-    Unit<S> part;      // [1] of the ways there
-    Vec3<S> way;       // [m] of its heaviest body in the step
-    bool closes;       // what joints hold together that the solver left apart
-    bool turns;        // false: goes that way as it was as the step began, or stays if it hangs on something
-  };
-  /// Of an end of a joint: as the step began, where the solver left it, and now.
-  struct Carriage {
-    Pose<S> start, end, now;
-  };
   void stop_joined();
-  void stop_mechanism(std::span<const std::uint32_t> mechanism);
-  void keep_ends(std::span<const std::uint32_t> mechanism);
-  Course course_of(std::span<const std::uint32_t> mechanism) const;
-  bool is_apart(std::span<const Link> tree) const;
-  void place_tree(std::span<const Link> tree, const Course& course);
-  Pose<S> joined_pose(const Link& link, const Course& course) const;
-  Carriage carriage_of(std::uint32_t slot, const Pose<S>& frame) const;
-  Pose<S> held_by_locks(std::uint32_t index, const Pose<S>& there, const Pose<S>& frame) const;
-  Unit<S> free_part(std::span<const Link> tree);
+  bool find_mechanism_fractions();
+  void put_back(const Mover& mover, Unit<S> fraction);
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;
@@ -160,16 +130,13 @@ template <class S> class ContinuousCollision {
   std::span<const std::uint64_t> joined_;
   const Ways<S>* ways_ = nullptr;  // null: none
   std::span<const std::uint64_t> giving_way_;
-  const ResponseTable<S>* responses_ = nullptr;  // null: none
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
   std::vector<std::uint32_t> met_;                       // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
-  Survey survey_ = {};
-  JoinedBodies<S> joined_bodies_;
-  // By index among the awake ones.
-  std::vector<std::uint32_t> mover_of_;  // in movers_, plus 1; 0: none
-  std::vector<Pose<S>> ends_;            // of a mechanism's bodies: where the solver left them
+  DisjointSets mechanisms_;                              // of indices among the awake ones
+  std::vector<Unit<S>> fractions_;       // [1] by mechanism: of the first of its bodies that was stopped
+  std::vector<std::uint32_t> mover_of_;  // by index among the awake ones: in movers_, plus 1; 0: none
 };
 
 #define ISO_EXTERN(S) extern template class ContinuousCollision<S>;

@@ -50,15 +50,12 @@ template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b)
 
 template <class S>
 void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined,
-                                    const Ways<S>* ways, std::span<const std::uint64_t> giving_way,
-                                    const ResponseTable<S>* responses) {
+                                    const Ways<S>* ways, std::span<const std::uint64_t> giving_way) {
   start_ = start;
   joined_ = joined;
   giving_way_ = giving_way;
   ways_ = ways == nullptr || ways->empty() ? nullptr : ways;
-  responses_ = responses == nullptr || responses->empty() ? nullptr : responses;
-  survey_ = survey();
-  find_movers();
+  find_movers(survey());
   for (Mover& mover : movers_) cut(mover, false);
   for (Mover& mover : movers_) {
     if ((state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0) cut(mover, true);
@@ -88,7 +85,6 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if (moving && (other.flags & body_flag::kBullet) != 0) return false;
   if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
   if (ways_ != nullptr && is_let_out(mover, slot)) return false;
-  if (moving && responses_ != nullptr && !is_pushed_back(mover, slot)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
   const auto is_in = [key](std::span<const std::uint64_t> pairs) {
     const std::size_t at = lower_bound(pairs.size(), [&](std::size_t i) { return pairs[i] < key; });
@@ -105,16 +101,6 @@ template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, s
   if (at.set == Location::kAwake) velocity -= state_.awake.states[at.index].velocity;
   const Way<S>*of_other = ways_->find(slot), *of_own = ways_->find(own.slot);
   return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
-}
-
-/// Of contacts with what is at rest the scales of masses are of no account.
-template <class S> bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot) const {
-  const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
-  const std::uint32_t other = map_.properties_at(map_.location(slot)).material.kind;
-  const KindResponse<S>* const found = responses_->find(own, other);
-  if (found == nullptr) return true;
-  const bool is_a = own == other ? state_.awake.states[mover.index].slot < slot : own == found->kind_a;
-  return S(0) < (is_a ? found->inverse_mass_scale_a : found->inverse_mass_scale_b);
 }
 
 /// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.
@@ -188,7 +174,7 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
   const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
   const auto sweep_parts = [&](const PlacedShape<S>& part, const PlacedShape<S>& obstacle) {
     const S thick = thickness<S>(part.shape) + (moving ? S(0) : thickness<S>(obstacle.shape));
-    if (!mover.closely && far < thick * S(0.5)) return;
+    if (far < thick * S(0.5)) return;
     const FreeWay<S> way = free_way(part, motion, obstacle, rest.pose);
     if (way.fraction == U(1)) return;
     const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
@@ -231,30 +217,13 @@ template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
 /// What touches at the start goes as if it turned about that point, not about its centre of mass: with its middle on a
 /// straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All obstacles see
 /// the same path.
-template <class S>
-typename ContinuousCollision<S>::Cut ContinuousCollision<S>::first_impact(Mover& mover, bool moving) {
-  find_obstacles(mover, moving);
-  const Cut cut = sweep(mover, moving);
-  if (!cut.is_before(mover.fraction) || moving || !find_touch(mover)) return cut;
-  return sweep(mover, moving);
-}
-/// The pose after a fraction of the step.
-template <class S> Pose<S> ContinuousCollision<S>::way_of(const Mover& mover, Unit<S> fraction) const {
-  std::uint32_t piece = 0;
-  while (piece + 1 < mover.pieces && detail::share_of<S>(piece + 1, mover.pieces) < fraction) ++piece;
-  Unit<S> of_piece = fraction - detail::share_of<S>(piece, mover.pieces);
-  for (std::uint32_t parts = 1; parts < mover.pieces; parts += parts) of_piece = of_piece + of_piece;
-  return pose_at(mover.motion_of(piece), of_piece);
-}
 template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
-  const Cut cut = first_impact(mover, moving);
+  find_obstacles(mover, moving);
+  Cut cut = sweep(mover, moving);
+  if (!cut.is_before(mover.fraction)) return;
+  if (!moving && find_touch(mover)) cut = sweep(mover, moving);
   if (!cut.is_before(mover.fraction)) return;
   mover.fraction = min(cut.fraction, cut.fraction_of_middle);
-  mover.stopped = cut.pose;
-  if (cut.fraction_of_middle < cut.fraction) {
-    const Quat<Unit<S>> turned = way_of(mover, cut.fraction_of_middle).orientation;
-    mover.stopped = {cut.place - rotate(turned, cut.middle), turned};
-  }
   put_at(mover.index, cut.pose);
   if (cut.fraction_of_middle < cut.fraction) stop_middle(state_.awake.states[mover.index], cut);
   place(mover.index);

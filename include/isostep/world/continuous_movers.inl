@@ -51,10 +51,10 @@ template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S
 
 /// Most bodies are slow, and a few comparisons tell: neither has the centre moved by three quarters of the least motion
 /// that counts nor do its ends turn by a quarter of it.
-template <class S> void ContinuousCollision<S>::find_movers() {
+template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey) {
   movers_.clear();
   carriers_.clear();
-  const S thinnest = survey_.bullets ? S(0) : survey_.thinnest;
+  const S thinnest = survey.bullets ? S(0) : survey.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
   const S least = (least_inner_radius() + thinnest) * S(0.5);
   const S way = least * S(0.75);
@@ -68,16 +68,15 @@ template <class S> void ContinuousCollision<S>::find_movers() {
     const auto w = abs(state.angular_velocity);
     const auto turned = product(convert<S>(w.x + w.y + w.z), sides.x + sides.y + sides.z);
     if (dot_sum(moved, moved) < squared && turned < turning) continue;
-    if (!may_move(i)) continue;
-    const Mover mover = measure(i);
-    if (is_fast(mover)) movers_.push_back(mover);
+    if (may_move(i)) add_if_fast(i, survey.thinnest);
   }
-  if (survey_.kinematic) find_met_by_kinematic(least);
+  if (survey.kinematic) find_met_by_kinematic(least);
 }
 
-template <class S> bool ContinuousCollision<S>::is_fast(const Mover& mover) const {
-  const bool bullet = (state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0;
-  return (mover.inner + (bullet ? S(0) : survey_.thinnest)) * S(0.5) < mover.motion;
+template <class S> void ContinuousCollision<S>::add_if_fast(std::size_t index, S thinnest) {
+  const Mover mover = measure(index);
+  const bool bullet = (state_.awake.properties[index].flags & body_flag::kBullet) != 0;
+  if ((mover.inner + (bullet ? S(0) : thinnest)) * S(0.5) < mover.motion) movers_.push_back(mover);
 }
 
 /// Those in the way of a kinematic body move as it sees them.

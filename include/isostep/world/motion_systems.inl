@@ -7,7 +7,6 @@
 #include "isostep/world/body_finisher.inl"
 #include "isostep/world/continuous_joined.inl"
 #include "isostep/world/continuous_movers.inl"
-#include "isostep/world/joined_bodies.inl"
 #include "isostep/world/move_targets.inl"
 #include "isostep/world/render_poses.inl"
 #include "isostep/world/sensor_mounts.inl"
@@ -17,7 +16,6 @@
   template class Carriers<S>;                                                                               \
   template class BodyFinisher<S>;                                                                           \
   template class ContinuousCollision<S>;                                                                    \
-  template class JoinedBodies<S>;                                                                           \
   template class MoveTargets<S>;                                                                            \
   template class SensorMounts<S>;                                                                           \
   template class RenderPoses<S>;

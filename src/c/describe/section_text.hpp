@@ -1,4 +1,4 @@
-// What the header says by hand between the marks of sessions: enumerations and structs of plain members, for the schema.
+// What the header says by hand between the marks of sessions: enumerations, structs of plain members; for the schema.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -2724,7 +2724,7 @@ ISO_C_SCALARS(ISO_C_LISTED_FUNCTIONS)
    from 0, -1 is none; sets of players are a bit each.
 
    Strings that come out end with a zero byte and hold until the session's next call. Structs that are filled here begin
-   with `size`, which the caller sets: iso_session_event event = {.size = sizeof event}. */
+   with `size`, which the caller sets, by their _init or as iso_session_event event = {.size = sizeof event}. */
 
 typedef struct iso_session iso_session;
 
@@ -2906,6 +2906,7 @@ typedef struct iso_request {
   uint32_t reserved;
   uint64_t hash;
 } iso_request;
+ISO_API iso_status iso_request_init(iso_request* out);
 
 /* Begins the turn. */
 ISO_API iso_status iso_session_advance(iso_session* session, uint64_t now);
@@ -2941,6 +2942,7 @@ typedef struct iso_outgoing {
   uint8_t close;   /* end the connection after it */
   uint8_t reserved1[7];
 } iso_outgoing;
+ISO_API iso_status iso_outgoing_init(iso_outgoing* out);
 /* `bytes`: null when there is nothing more; they hold until the next call. */
 ISO_API iso_status iso_session_poll_send(iso_session* session, uint64_t now, iso_outgoing* out, const uint8_t** bytes);
 /* Connect to this machine, as iso_session_config.address of its session says; null: none. */
@@ -3005,6 +3007,7 @@ typedef struct iso_session_event {
   char theirs_text[136]; /* there, or in the file */
   char ours_text[136];   /* here */
 } iso_session_event;
+ISO_API iso_status iso_session_event_init(iso_session_event* out);
 /* The session keeps the last 128: stats.events_lost. */
 ISO_API iso_status iso_session_poll_event(iso_session* session, iso_session_event* out);
 
@@ -3058,6 +3061,7 @@ typedef struct iso_session_stats {
   int32_t stretch;      /* [1/256 period] by which frames are longer than they should be */
   uint32_t reserved1;
 } iso_session_stats;
+ISO_API iso_status iso_session_stats_init(iso_session_stats* out);
 ISO_API iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* out);
 typedef struct iso_player_stats {
   uint32_t size;
@@ -3069,6 +3073,7 @@ typedef struct iso_player_stats {
   uint32_t loss;       /* [permille] of its datagrams that the host did not get */
   uint32_t reserved1;
 } iso_player_stats;
+ISO_API iso_status iso_player_stats_init(iso_player_stats* out);
 ISO_API iso_status iso_session_get_player_stats(const iso_session* session, int32_t player, iso_player_stats* out);
 
 /* Decisions. Those of who may not make them, or not now, are refused. */
@@ -3099,6 +3104,7 @@ typedef struct iso_applicant {
   uint32_t reserved2;
   uint8_t credential[256];
 } iso_applicant;
+ISO_API iso_status iso_applicant_init(iso_applicant* out);
 ISO_API iso_status iso_session_poll_applicant(iso_session* session, iso_applicant* out);
 ISO_API iso_status iso_session_admit(iso_session* session, uint64_t applicant);
 /* Reasons are printable ASCII of 1 to 128 characters, for people. */

@@ -47,6 +47,7 @@ struct Extent {
 constexpr std::size_t round_up(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }
 
 template <class T> constexpr Extent extent_of();
+template <> constexpr Extent extent_of<bool>() { return {1, 1}; }  // which is asked for before the others are defined
 
 /// Puts one member behind another, each at a multiple of its own alignment.
 struct Placing {

@@ -225,18 +225,18 @@ export const interfaceSchema = {
       ["status", "u8", 2],
       ["bytes", "u8", 4, 512]
     ]},
-    request: {size: 24, sized: true, fields: [
+    request: {size: 24, sized: true, init: "request_init", fields: [
       ["kind", "request_kind", 4],
       ["frame", "i32", 8],
       ["hash", "u64", 16]
     ]},
-    outgoing: {size: 24, sized: true, fields: [
+    outgoing: {size: 24, sized: true, init: "outgoing_init", fields: [
       ["peer", "u32", 4],
       ["channel", "channel", 8],
       ["length", "u32", 12],
       ["close", "bool", 16]
     ]},
-    session_event: {size: 384, sized: true, fields: [
+    session_event: {size: 384, sized: true, init: "session_event_init", fields: [
       ["kind", "event_kind", 4],
       ["player", "u32", 8],
       ["frame", "i32", 12],
@@ -256,7 +256,7 @@ export const interfaceSchema = {
       ["theirsText", "text", 112, 136],
       ["oursText", "text", 248, 136]
     ]},
-    session_stats: {size: 640, sized: true, fields: [
+    session_stats: {size: 640, sized: true, init: "session_stats_init", fields: [
       ["delay", "i32", 4],
       ["steps", "u64", 8],
       ["rollbacks", "u64", 16, 65],
@@ -276,7 +276,7 @@ export const interfaceSchema = {
       ["loss", "u32", 628],
       ["stretch", "i32", 632]
     ]},
-    player_stats: {size: 32, sized: true, fields: [
+    player_stats: {size: 32, sized: true, init: "player_stats_init", fields: [
       ["early", "i32", 4],
       ["replaced", "u32", 8],
       ["waited", "u32", 12],
@@ -284,7 +284,7 @@ export const interfaceSchema = {
       ["jitter", "u32", 20],
       ["loss", "u32", 24]
     ]},
-    applicant: {size: 296, sized: true, fields: [
+    applicant: {size: 296, sized: true, init: "applicant_init", fields: [
       ["peer", "u32", 4],
       ["id", "u64", 8],
       ["spectator", "bool", 16],

@@ -57,6 +57,11 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_body_get_state(IntPtr world, ulong body, F64.BodyState* @out);
 
+        /// <summary>Of many at once. `out` has one for each of `bodies`, every one with its size set.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_bodies_get_states(IntPtr world, BodyId* bodies, UIntPtr count,
+            F64.BodyState* @out);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_body_get_properties(IntPtr world, ulong body, F64.BodyProperties* @out);
 

@@ -40,6 +40,15 @@ namespace Isostep.F64
             return filled;
         }
 
+        /// <summary>Of many at once. `out` has one for each of `bodies`, every one with its size set.</summary>
+        public BodyState BodiesGetStates(BodyId[] bodies)
+        {
+            BodyState filled = BodyState.Sized();
+            fixed (BodyId* bodiesAt = bodies)
+                Check(Native.iso_f64_bodies_get_states(Pointer, bodiesAt, NativeText.Length(bodies), &filled));
+            return filled;
+        }
+
         public BodyProperties GetBodyProperties(BodyId body)
         {
             BodyProperties filled = BodyProperties.Sized();

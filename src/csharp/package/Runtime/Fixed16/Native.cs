@@ -58,6 +58,11 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_body_get_state(IntPtr world, ulong body, Fixed16.BodyState* @out);
 
+        /// <summary>Of many at once. `out` has one for each of `bodies`, every one with its size set.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_bodies_get_states(IntPtr world, BodyId* bodies, UIntPtr count,
+            Fixed16.BodyState* @out);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_body_get_properties(IntPtr world, ulong body,
             Fixed16.BodyProperties* @out);

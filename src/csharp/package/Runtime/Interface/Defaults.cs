@@ -4,6 +4,19 @@ using System;
 
 namespace Isostep
 {
+    public unsafe partial struct Applicant
+    {
+        public static Applicant Default
+        {
+            get
+            {
+                Applicant result = new Applicant();
+                IsostepException.Check(Native.iso_applicant_init(&result));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct BreakReport
     {
         public static BreakReport Default
@@ -82,6 +95,32 @@ namespace Isostep
         }
     }
 
+    public unsafe partial struct Outgoing
+    {
+        public static Outgoing Default
+        {
+            get
+            {
+                Outgoing result = new Outgoing();
+                IsostepException.Check(Native.iso_outgoing_init(&result));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct PlayerStats
+    {
+        public static PlayerStats Default
+        {
+            get
+            {
+                PlayerStats result = new PlayerStats();
+                IsostepException.Check(Native.iso_player_stats_init(&result));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct QueryFilter
     {
         public static QueryFilter Default
@@ -147,6 +186,19 @@ namespace Isostep
         }
     }
 
+    public unsafe partial struct SessionEvent
+    {
+        public static SessionEvent Default
+        {
+            get
+            {
+                SessionEvent result = new SessionEvent();
+                IsostepException.Check(Native.iso_session_event_init(&result));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct SessionGame
     {
         public static SessionGame Default
@@ -155,6 +207,32 @@ namespace Isostep
             {
                 SessionGame result = new SessionGame();
                 IsostepException.Check(Native.iso_game_init(&result));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct SessionRequest
+    {
+        public static SessionRequest Default
+        {
+            get
+            {
+                SessionRequest result = new SessionRequest();
+                IsostepException.Check(Native.iso_request_init(&result));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct SessionStats
+    {
+        public static SessionStats Default
+        {
+            get
+            {
+                SessionStats result = new SessionStats();
+                IsostepException.Check(Native.iso_session_stats_init(&result));
                 return result;
             }
         }

@@ -264,8 +264,8 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_body_destroy(IntPtr world, ulong body);
 
-        /// <summary>The same as one by one, for the price of one. `destroyed`, how many there were, may be
-        /// null.</summary>
+        /// <summary>All of them for the price of one. Ids of nothing are passed over: `destroyed`, how many there
+        /// were, may be null.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_bodies_destroy(IntPtr world, BodyId* bodies, UIntPtr count,
             UIntPtr* destroyed);
@@ -506,6 +506,9 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_destroy(IntPtr session);
 
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_request_init(SessionRequest* @out);
+
         /// <summary>Begins the turn.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_advance(IntPtr session, ulong now);
@@ -544,6 +547,9 @@ namespace Isostep
         public static extern Status iso_session_receive(IntPtr session, uint peer, Channel channel, void* bytes,
             UIntPtr size, ulong now);
 
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_outgoing_init(Outgoing* @out);
+
         /// <summary>`bytes`: null when there is nothing more; they hold until the next call.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_poll_send(IntPtr session, ulong now, Outgoing* @out, byte** bytes);
@@ -555,6 +561,9 @@ namespace Isostep
         /// <summary>[us] until the next frame is due: how long a loop may sleep when the network is silent.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern ulong iso_session_wait(IntPtr session, ulong now);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_session_event_init(SessionEvent* @out);
 
         /// <summary>The session keeps the last 128: stats.events_lost.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -595,7 +604,13 @@ namespace Isostep
             uint* size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_session_stats_init(SessionStats* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_get_stats(IntPtr session, SessionStats* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_player_stats_init(PlayerStats* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_get_player_stats(IntPtr session, int player, PlayerStats* @out);
@@ -627,6 +642,9 @@ namespace Isostep
         /// <summary>In the vote of the last event; the last word counts.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_vote(IntPtr session, int player, byte yes);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_applicant_init(Applicant* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_poll_applicant(IntPtr session, Applicant* @out);

@@ -181,8 +181,8 @@ namespace Isostep
             Check(Native.iso_body_destroy(Pointer, body.Value));
         }
 
-        /// <summary>The same as one by one, for the price of one. `destroyed`, how many there were, may be
-        /// null.</summary>
+        /// <summary>All of them for the price of one. Ids of nothing are passed over: `destroyed`, how many there
+        /// were, may be null.</summary>
         public int DestroyBodies(BodyId[] bodies)
         {
             UIntPtr filled;
