@@ -53,7 +53,7 @@ dh debhelper
 dh_python3 dh-python
 dpkg-buildpackage dpkg-dev
 lintian lintian
-debootstrap debootstrap
+mmdebstrap mmdebstrap
 python3 python3
 x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
 wine wine64
