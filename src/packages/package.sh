@@ -53,7 +53,7 @@ dh debhelper
 dh_python3 dh-python
 dpkg-buildpackage dpkg-dev
 lintian lintian
-debootstrap debootstrap
+mmdebstrap mmdebstrap
 python3 python3
 x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
 wine wine64
@@ -76,13 +76,14 @@ make_package() {
   say "$1 ..."
   begun=$(date +%s)
   rm -rf "$work/$1.log"
-  if sh "$packages_here/$2.sh" ${3:+"$3"} >"$work/$1.log" 2>&1; then result=made; else
-    case $? in
-      69) result="not made here: $(tail -n 1 "$work/$1.log")" ;;
-      *) result="RED: $(tail -n 1 "$work/$1.log"); $work/$1.log" ;;
-    esac
-  fi
-  [ "$result" != made ] || result="green: $(tail -n 1 "$work/$1.log")"
+  sh "$packages_here/$2.sh" >"$work/$1.log" 2>&1
+  status=$?
+  last=$(tail -n 1 "$work/$1.log" | tr '\t' ' ')
+  case $status in
+    0) result="green: $last" ;;
+    69) result="not made here: $last" ;;
+    *) result="RED: $last; $work/$1.log" ;;
+  esac
   printf '%s\t%s s\t%s\n' "$1" "$(($(date +%s) - begun))" "$result" >>"$rows"
   say "$1: $result"
 }
@@ -107,8 +108,8 @@ package() {
   export ISOSTEP_ROOT="$root" ISOSTEP_BUILD="$build" ISOSTEP_WORK="$work" ISOSTEP_OUT="$out"
   rows=$work/rows
   printf 'package\ttime\tresult\n' >"$rows"
-  package_list | while IFS='|' read -r name file what; do
-    case " ${only:- $name} " in *" $name "*) make_package "$name" "$file" "$what" </dev/null ;; esac
+  package_list | while IFS='|' read -r name file _; do
+    case " ${only:- $name} " in *" $name "*) make_package "$name" "$file" </dev/null ;; esac
   done
   awk -F '\t' '{printf "%-10s %7s  %s\n", $1, $2, $3}' "$rows"
   ls "$out" | sed "s|^|$out/|"

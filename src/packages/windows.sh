@@ -14,7 +14,7 @@ if have ninja; then generator=-GNinja; fi
 # shellcheck disable=SC2086
 cmake -S "$root" -B "$at/build" $generator -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/cross.cmake" \
   -DISOSTEP_TARGET=windows -DCMAKE_BUILD_TYPE=Release -DISOSTEP_C=ON -DISOSTEP_TOOL=OFF -DISOSTEP_PROVER=OFF \
-  -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=ON -DISOSTEP_SEALED=OFF \
+  -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=OFF -DCMAKE_SHARED_LINKER_FLAGS=-static \
   -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=30 || red "it does not configure"
 cmake --build "$at/build" --parallel "${ISOSTEP_PACKAGE_JOBS:-$(getconf _NPROCESSORS_ONLN)}" --target isostep_c ||
   red "it does not build"
@@ -23,9 +23,8 @@ name=isostep-$version-windows-x86_64
 to=$at/$name
 rm -rf "$to" && mkdir -p "$to/bin" "$to/lib" "$to/include" || exit 70
 dll=$(find "$at/build/src/c" -name '*isostep*.dll' | head -n 1)
-import=$(find "$at/build/src/c" -name '*isostep*.dll.a' | head -n 1)
-[ -f "$dll" ] && [ -f "$import" ] || red "no DLL, or no import library, was built"
-cp "$dll" "$to/bin/isostep.dll" && cp "$import" "$to/lib/libisostep.dll.a" || exit 70
+[ -f "$dll" ] || red "no DLL was built"
+cp "$dll" "$to/bin/isostep.dll" || exit 70
 $triplet-strip "$to/bin/isostep.dll"
 cp "$root/src/c/include/isostep.h" "$to/include/" && cp "$root/LICENSE" "$root/src/examples/four_scalars.c" "$to/" || exit 70
 cp "$packages/windows/README.md" "$to/README.md" || exit 70
@@ -44,7 +43,9 @@ needed=$(sed -n 's/^\tDLL Name: //p' "$at/dump" | tr '[:upper:]' '[:lower:]' | g
   echo EXPORTS
   echo "$exported"
 } >"$to/lib/isostep.def"
-$triplet-dlltool -d "$to/lib/isostep.def" -D isostep.dll -l "$to/lib/isostep.lib" || red "no isostep.lib"
+for import in libisostep.dll.a isostep.lib; do
+  $triplet-dlltool -d "$to/lib/isostep.def" -D isostep.dll -l "$to/lib/$import" || red "no $import"
+done
 
 # The example as the README says.
 $triplet-gcc -std=c99 "$to/four_scalars.c" "-I$to/include" "-L$to/lib" -lisostep -o "$to/bin/four_scalars.exe" ||
