@@ -32,7 +32,8 @@ function thousand() {
   const bodies = [];
   for (let i = 0; i < 1000; ++i) {
     const [x, y, z] = [i % 10, Math.floor(i / 100), Math.floor(i / 10) % 10];
-    bodies.push(world.createBody({type: 'dynamic', shape: box, position: [1.25 * x - 5, 0.5 + 1.0625 * y, 1.25 * z - 5]}));
+    const position = [1.25 * x - 5, 0.5 + 1.0625 * y, 1.25 * z - 5];
+    bodies.push(world.createBody({type: 'dynamic', shape: box, position}));
   }
   for (let i = 0; i < 60; ++i) world.step();
   return {world, bodies};
@@ -45,7 +46,8 @@ print('call_bare', 1000 * cost(100000, 10, () => exports.iso_world_tick(world.at
 print('call_tick', 1000 * cost(100000, 10, () => world.tick), 'ns');
 print('call_impulse', 1000 * cost(20000, 10, i => world.applyImpulse(bodies[i % 1000], [0, 0, 0])), 'ns');
 print('call_body', 1000 * cost(20000, 10, i => world.body(bodies[i % 1000])), 'ns');
-print('call_ray', 1000 * cost(5000, 10, i => world.castRay({origin: [i % 10 - 5, 20, 0], translation: [0, -30, 0]})), 'ns');
+const ray = i => world.castRay({origin: [i % 10 - 5, 20, 0], translation: [0, -30, 0]});
+print('call_ray', 1000 * cost(5000, 10, ray), 'ns');
 print('step_bare', cost(20, 10, () => exports.iso_world_step(world.at, 0)), 'us');
 print('step', cost(20, 10, () => world.step()), 'us');
 let sum = 0;

@@ -37,11 +37,13 @@ name_of() {  # as ISOSTEP_SCALARS has it
 # The flags of the engine are its own (cmake/flags.cmake); many files at a time are compiled a third sooner.
 build_module() {
   name=$(name_of "$1") || exit $?
+  # shellcheck disable=SC2086
   cmake -S "$root" -B "$build/$1" $generator -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/cross.cmake" \
     -DISOSTEP_TARGET=wasm-simd -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
     "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -fvisibility=hidden -fvisibility-inlines-hidden" \
-    -DISOSTEP_SCALARS="$name" -DISOSTEP_JS_MODULE=ON -DISOSTEP_C=OFF -DISOSTEP_TOOL=OFF -DISOSTEP_PROVER=OFF -DISOSTEP_TESTS=OFF \
-    -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=15 \
+    -DISOSTEP_SCALARS="$name" -DISOSTEP_JS_MODULE=ON -DISOSTEP_C=OFF -DISOSTEP_TOOL=OFF -DISOSTEP_PROVER=OFF \
+    -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=OFF -DCMAKE_UNITY_BUILD=ON \
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE=15 \
     >"$build/$1.log" 2>&1 &&
     cmake --build "$build/$1" --target isostep_module --parallel "${JOBS:-2}" >>"$build/$1.log" 2>&1 ||
     { tail -n 40 "$build/$1.log" >&2; fail 70 "the module of $1 cannot be built: $build/$1.log"; }

@@ -44,7 +44,8 @@ function member(struct, i, offset) {
   if (kind === 'u8' && count && used >= 0) return [camel(name), 'bytes', offset(i), count, offset(used)];
   if (name.endsWith('_size') && find(name.slice(0, -5)) >= 0) return undefined;
   if (kind === 'bool' && name.startsWith('has_') && find(name.slice(4)) >= 0) return undefined;
-  const element = ['struct', 'enum'].includes(kind) ? bare(of) : kind === 'pointer' && of !== 'iso_text' ? 'list' : kind;
+  const isList = kind === 'pointer' && of !== 'iso_text';
+  const element = ['struct', 'enum'].includes(kind) ? bare(of) : isList ? 'list' : kind;
   const has = find(`has_${name}`);
   if (has >= 0) return [camel(name), `optional ${element}`, offset(i), undefined, offset(has)];
   if (element === 'list') {
@@ -62,8 +63,8 @@ function layouts() {
   const made = {};
   for (const struct of described.structs) {
     if (struct.family !== '' && struct.family !== 'f32') continue;
-    const versions = Object.fromEntries(['f32', 'f64', 'q16', 'q32'].map(family => [family, struct.family === '' ? struct
-      : described.structs.find(one => one.base === struct.base && one.family === family)]));
+    const versions = Object.fromEntries(['f32', 'f64', 'q16', 'q32'].map(family => [family, struct.family === ''
+      ? struct : described.structs.find(one => one.base === struct.base && one.family === family)]));
     const offset = i => place(family =>  // padding differs, so by name
       versions[family].members.find(({name}) => name === struct.members[i].name).offset);
     const init = `${struct.family === '' ? '' : 'P_'}${struct.base}_init`;
@@ -97,7 +98,7 @@ function literal(value) {
   if (value === undefined) return 'undefined';
   if (value === null || typeof value !== 'object') return JSON.stringify(value);
   const members = Object.entries(value).filter(([, one]) => one !== undefined);
-  return `{${members.map(([key, one]) => `${/^\w+$/.test(key) ? key : JSON.stringify(key)}: ${literal(one)}`).join(', ')}}`;
+  return `{${members.map(([key, one]) => `${key}: ${literal(one)}`).join(', ')}}`;
 }
 const trimmed = field => field.slice(0, field.findLastIndex(one => one !== undefined) + 1);
 const structLine = ([name, {size, sized, init, fields}]) => {
@@ -124,7 +125,8 @@ ${Object.entries(schema.structs).map(structLine).join(',\n').replace(/^/gm, '  '
 // ---- types
 
 const plainTypes = {
-  number: 'N', unit: 'N', bool: 'boolean', id: 'bigint', u64: 'bigint', i64: 'bigint', text: 'string', bytes: 'Uint8Array',
+  number: 'N', unit: 'N', bool: 'boolean', id: 'bigint', u64: 'bigint', i64: 'bigint', text: 'string',
+  bytes: 'Uint8Array',
   vec3: 'Vec3<N>', unit_vec3: 'Vec3<N>', quat: 'Quat<N>'
 };
 const internal = new Set(['fault_report', 'height_patch', 'height_sheet', 'triangles', 'surface_materials', 'vec3',
@@ -136,7 +138,8 @@ const usesNumber = kind => ['number', 'unit', 'vec3', 'unit_vec3', 'quat'].inclu
 function typeOf(kind, count) {
   if (kind.startsWith('optional ')) return `${typeOf(kind.slice(9))} | null`;
   if (kind === 'list') return 'readonly (bigint | number)[]';
-  if (Object.hasOwn(plainTypes, kind)) return count && kind !== 'text' && kind !== 'bytes' ? `${plainTypes[kind]}[]` : plainTypes[kind];
+  if (kind === 'text' || kind === 'bytes') return plainTypes[kind];
+  if (Object.hasOwn(plainTypes, kind)) return count ? `${plainTypes[kind]}[]` : plainTypes[kind];
   const one = Object.hasOwn(schema.enums, kind) ? `${pascal(kind)}Name`
     : Object.hasOwn(schema.structs, kind) ? `${pascal(kind)}${isOfNumbers(kind) ? '<N>' : ''}` : 'number';
   return count ? `${one}[]` : one;

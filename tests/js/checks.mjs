@@ -38,7 +38,8 @@ export function throws(call, expected, what) {
     call();
   } catch (error) {
     for (const [key, value] of Object.entries(expected)) {
-      check(value instanceof RegExp ? value.test(error[key]) : error[key] === value, `${what}: ${key} is ${error[key]} (${error})`);
+      const is = value instanceof RegExp ? value.test(error[key]) : error[key] === value;
+      check(is, `${what}: ${key} is ${error[key]} (${error})`);
     }
     return;
   }

@@ -18,14 +18,21 @@ for (const scalar of scalars) {
   };
 
   // What JavaScript itself refuses to write: the place in the object.
-  refused(() => world.createBody({shape: box, colour: 3}), {name: 'IsostepError', command: 'body_create', field: 'colour'}, 'an unknown member');
-  refused(() => world.createBody({shape: box, material: {friction: 'high'}}), {field: 'material.friction', expected: 'a number'}, 'a text as a number');
-  refused(() => world.createBody({shape: box, position: [0, 1]}), {field: 'position', expected: '3 numbers'}, 'a short vector');
-  refused(() => world.createBody({shape: box, type: 'moving'}), {field: 'type', status: -8, expected: /"dynamic"/}, 'no enumerator');
-  refused(() => world.createBody({shape: box, sensor: 1}), {field: 'sensor', expected: 'true or false'}, 'a number as a truth value');
+  refused(() => world.createBody({shape: box, colour: 3}),
+    {name: 'IsostepError', command: 'body_create', field: 'colour'}, 'an unknown member');
+  refused(() => world.createBody({shape: box, material: {friction: 'high'}}),
+    {field: 'material.friction', expected: 'a number'}, 'a text as a number');
+  refused(() => world.createBody({shape: box, position: [0, 1]}),
+    {field: 'position', expected: '3 numbers'}, 'a short vector');
+  refused(() => world.createBody({shape: box, type: 'moving'}),
+    {field: 'type', status: -8, expected: /"dynamic"/}, 'no enumerator');
+  refused(() => world.createBody({shape: box, sensor: 1}),
+    {field: 'sensor', expected: 'true or false'}, 'a number as a truth value');
   refused(() => world.createBody({shape: box, userData: -1}), {field: 'userData'}, 'a negative number of 64 bits');
-  refused(() => world.createBody({shape: box, locks: 1.5}), {field: 'locks', expected: /integer/}, 'a fraction as an integer');
-  refused(() => world.castRay({origin: [0, 5, 0], translation: [0, -1, 0], filter: {ignoreAll: [1.5]}}), {field: 'filter.ignoreAll[0]'}, 'a list');
+  refused(() => world.createBody({shape: box, locks: 1.5}),
+    {field: 'locks', expected: /integer/}, 'a fraction as an integer');
+  refused(() => world.castRay({origin: [0, 5, 0], translation: [0, -1, 0], filter: {ignoreAll: [1.5]}}),
+    {field: 'filter.ignoreAll[0]'}, 'a list');
   refused(() => world.applyImpulse(7, [0, 1, 0]), {field: 'body'}, 'a number as an id');
   refused(() => world.addShape('torus'), {field: 'kind', expected: /box/}, 'no shape');
   refused(() => world.add('thrustre', {}), {field: 'kind', expected: /thruster/}, 'no record');
@@ -36,7 +43,8 @@ for (const scalar of scalars) {
 
   // What the engine refuses: its own words.
   refused(() => world.destroyBody(body + (5n << 32n)), {status: 1, command: /destroy_body/}, 'a stale id');
-  refused(() => world.createBody({shape: box, material: {friction: -1}}), {field: 'material.friction', command: 'create_body'}, 'friction below 0');
+  refused(() => world.createBody({shape: box, material: {friction: -1}}),
+    {field: 'material.friction', command: 'create_body'}, 'friction below 0');
   refused(() => world.createBody({shape: 0n}), {status: 9}, 'no shape at all');
   refused(() => world.addShape('sphere', {radius: -1}), {command: 'add_shape'}, 'a radius below 0');
   refused(() => world.removeShape(box), {status: 7}, 'a shape in use');
@@ -46,12 +54,14 @@ for (const scalar of scalars) {
   throws(() => iso.createWorld({hz: 0}), {field: 'hz'}, `${scalar}: settings`);
   throws(() => iso.createWorld({solver: 'magic'}), {field: 'solver', command: 'world_create'}, `${scalar}: no solver`);
   throws(() => iso.createHull([[0, 0, 0], [1, 0, 0]]), {}, `${scalar}: a hull of two points`);
-  throws(() => iso.createHeightField({columns: 2, rows: 2, pitch: 1, heights: [1]}), {field: 'heights'}, `${scalar}: a field`);
+  throws(() => iso.createHeightField({columns: 2, rows: 2, pitch: 1, heights: [1]}),
+    {field: 'heights'}, `${scalar}: a field`);
   equal(iso.verifyReplay(new Uint8Array(10)).outcome, 'corrupt', `${scalar}: rubbish as a replay`);
 
   // Sessions and states.
   const game = createPucks(iso);
-  throws(() => iso.createSession({...kConfig, host: true}, game), {status: -11, message: /seed/}, `${scalar}: a host without a seed`);
+  throws(() => iso.createSession({...kConfig, host: true}, game),
+    {status: -11, message: /seed/}, `${scalar}: a host without a seed`);
   throws(() => iso.createSession({...kConfig, mode: 'chess'}, game), {field: 'config.mode'}, `${scalar}: no mode`);
   throws(() => iso.createSession(kConfig, {}), {field: 'game'}, `${scalar}: no game`);
   throws(() => iso.createState({x: 'u128'}), {field: 'x'}, `${scalar}: no type`);

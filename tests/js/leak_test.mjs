@@ -1,4 +1,4 @@
-// A thousand worlds, made and disposed of, take no more memory than the first few: node --expose-gc leak_test.mjs FOLDER
+// A thousand worlds, made and disposed of, take no more memory than a few: node --expose-gc leak_test.mjs FOLDER
 // SPDX-License-Identifier: MIT
 
 import {check, done, exactest, packaged} from './checks.mjs';

@@ -86,7 +86,8 @@ int main(int count, char** words) {
     }
     std::fflush(stdout);
   }
-  std::fprintf(stderr, "%u touches, %llu frames stepped again\n", game.user.touches,
-               static_cast<unsigned long long>(session.stats().steps - static_cast<std::uint64_t>(session.current())));
+  const auto again = static_cast<unsigned long long>(session.stats().steps) -
+                     static_cast<unsigned long long>(session.current());
+  std::fprintf(stderr, "%u touches, %llu frames stepped again\n", game.user.touches, again);
   return game.user.touches > 1 ? 0 : 1;
 }

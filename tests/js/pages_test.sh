@@ -1,6 +1,6 @@
 #!/bin/sh
-# pages_test.sh FOLDER REPOSITORY: the blocks of js of src/js/README.md run, one by one, in the folder where the package is
-# installed; the example, of which the blocks of ts are (tests/readme), compiles strictly and plays.
+# pages_test.sh FOLDER REPOSITORY: the blocks of js of src/js/README.md run, one by one, where the package is installed;
+# the example, of which the blocks of ts are (tests/readme), compiles strictly and plays.
 # SPDX-License-Identifier: MIT
 set -u
 . "$2/tests/scratch.sh"
@@ -30,7 +30,8 @@ while ! grep -q ":$(printf '%04X' "$port") " /proc/net/tcp /proc/net/tcp6 2>/dev
   sleep 0.1
   tries=$((tries + 1))
 done
-(cd "$work" && node out/online.js "ws://127.0.0.1:$port" >client.out 2>client.err) || fail "online.ts: $(cat "$work/client.err")"
+(cd "$work" && node out/online.js "ws://127.0.0.1:$port" >client.out 2>client.err) ||
+  fail "online.ts: $(cat "$work/client.err")"
 wait "$host" || fail "online.ts host: $(cat "$work/host.err")"
 [ -s "$work/host.out" ] && cmp "$work/host.out" "$work/client.out" || fail "online.ts: the hashes differ"
 echo "$blocks blocks run, the example compiles and plays"

@@ -7,7 +7,8 @@
 #include "isostep/world/recorder.hpp"
 
 namespace iso = isostep;
-using S = iso::ISOSTEP_TEST_SCALAR;
+using isostep::Q16_16, isostep::Q32_32;
+using S = ISOSTEP_TEST_SCALAR;
 
 struct Push {
   std::int8_t way = 0;

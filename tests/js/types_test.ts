@@ -14,7 +14,8 @@ export async function uses() {
   const raw: Engine<bigint> = await load('q16', {numbers: 'raw'});
   using world: World = iso.createWorld({gravity: new Float32Array(3), solver: 'soft_step'});
   const box = world.addShape('box', {halfExtents: [1, 1, 1]});
-  const body: bigint = world.createBody({type: 'dynamic', shape: box, material: {friction: 0.5}, locks: BodyFlags.lockX});
+  const material = {friction: 0.5};
+  const body: bigint = world.createBody({type: 'dynamic', shape: box, material, locks: BodyFlags.lockX});
   const position: Vec3 = world.body(body).pose.position;
   const rawPosition: Vec3<bigint> = raw.createWorld().body(0n).pose.position;
   const thruster: bigint = world.add('thruster', {body});

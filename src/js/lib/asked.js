@@ -62,7 +62,9 @@ export class AskedWorld extends Handle {
   /** The parts of its shape, in the body's frame. */
   children(body) { return this.#list('P_body_get_children', 'child', id(body, 'body')); }
   /** [m/s] of a point [m] that moves with the body. */
-  velocityAt(body, point) { return this.run('P_body_get_velocity_at', id(body, 'body'), given('vec3', point), out('vec3')); }
+  velocityAt(body, point) {
+    return this.run('P_body_get_velocity_at', id(body, 'body'), given('vec3', point), out('vec3'));
+  }
   /** [kg m^2] about an axis through its centre of mass, world. */
   inertia(body, axis) {
     return this.run('P_body_get_inertia', id(body, 'body'), given('unit_vec3', axis), out('number'));
@@ -73,7 +75,8 @@ export class AskedWorld extends Handle {
   /** [rad] or [m]: what limits count; `axis`: of a six-axis joint. */
   jointPosition(joint, axis) {
     if (axis === undefined) return this.run('P_joint_get_position', id(joint, 'joint'), out('number'));
-    return this.run('P_joint_get_axis_position', id(joint, 'joint'), this.calls.number('joint_axis', axis), out('number'));
+    const number = this.calls.number('joint_axis', axis);
+    return this.run('P_joint_get_axis_position', id(joint, 'joint'), number, out('number'));
   }
   /** A record by its kind: get('thruster', id). */
   get(kind, record) {

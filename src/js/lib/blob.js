@@ -1,4 +1,4 @@
-// Hulls, meshes and height fields: points, triangles and heights that are shared, immutable, and named by their content.
+// Hulls, meshes and height fields: points, triangles, heights that are shared, immutable, and named by their content.
 // SPDX-License-Identifier: MIT
 
 import {given, out} from './calls.js';

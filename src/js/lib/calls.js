@@ -61,12 +61,16 @@ export class Calls {
     const status = this.module.call(name, ...words);
     if (status !== 0) this.fail(name, status);
   }
-  /** Throws what a status says, with the engine's own words for it. */
+  /** Throws what a status says: "world_create: hz: a number is beyond the scalar's limits; expected 10 to 1000". */
   fail(name, status) {
-    const command = name.replace(/^iso_/, '').replace(new RegExp(`^${this.scalar}_`), '');
     const sentence = this.module.text(this.module.call('iso_last_error'));
-    const reason = this.module.text(this.module.call('iso_status_text', status));
-    throw new IsostepError({status, reason: sentence || reason, command: sentence ? '' : command});
+    const parts = /^(\w+): (?:([\w.]+): )?([^;]+)(?:; expected (.*))?$/.exec(sentence);
+    if (parts !== null) {
+      const [, command, field, reason, expected] = parts;
+      throw new IsostepError({status, reason, command, field, expected});
+    }
+    const command = name.replace(/^iso_/, '').replace(new RegExp(`^${this.scalar}_`), '');
+    throw new IsostepError({status, reason: this.module.text(this.module.call('iso_status_text', status)), command});
   }
 
   // ---- room for arguments: until the next begin()

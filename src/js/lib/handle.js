@@ -1,4 +1,4 @@
-// What is owned in the engine's memory: freed by dispose(), by `using`, or when nothing in JavaScript knows it any more.
+// What is owned in the engine's memory: freed by dispose(), by `using`, or when nothing in JavaScript knows it.
 // SPDX-License-Identifier: MIT
 
 import {IsostepError, kNotAlive} from './errors.js';

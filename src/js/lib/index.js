@@ -24,7 +24,7 @@ const kAbi = interfaceSchema.abi;
 
 /**
  * Starts an engine: 'f32', 'f64', 'q16' or 'q32'. Options: `source`, where the module is, as an address, bytes, a
- * Response or a WebAssembly.Module, else the package's own file; `numbers: 'raw'`, for fixed point's integers as BigInt.
+ * Response or a WebAssembly.Module, else the package's own file; `numbers: 'raw'`, fixed point's integers as BigInt.
  */
 export async function load(scalar, {source, numbers = 'si'} = {}) {
   if (numbers !== 'si' && numbers !== 'raw') throw badValue('numbers', '"si" or "raw"', numbers);

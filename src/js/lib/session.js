@@ -7,7 +7,7 @@ import {unsigned} from './module.js';
 
 const kStatuses = ['confirmed', 'predicted', 'disconnected'];     // iso_input_status
 const kInputSize = 516, kInputBytes = 4;                          // iso_input: the size, the status, then the bytes
-const kGameWorld = 8, kGameBlock = 12, kGameBlockSize = 16, kGameSize = 68;  // iso_game, with pointers of 4 bytes
+const kGameWorld = 8, kGameBlock = 12, kGameBlockSize = 16, kGameSize = 68;  // iso_game, its pointers of 4 bytes
 const kRefused = -11;
 
 /** Microseconds as the C interface has them. */
@@ -26,7 +26,7 @@ export class Session extends Handle {
    */
   static create(calls, {preset, ...config}, game, file) {
     if (typeof game?.step !== 'function') throw badValue('game', 'an object with step(inputs, frame)', game);
-    if (game.world === undefined && game.state === undefined) throw badValue('game', 'a world, a state, or both', 'none');
+    if (game.world === undefined && game.state === undefined) throw badValue('game', 'a world, a state, both', 'none');
     calls.begin();
     const settings = calls.sized('session_config');
     if (preset !== undefined) {
@@ -116,7 +116,8 @@ export class Session extends Handle {
   /** `channel`: 0 a datagram, 1 a reliable message. */
   receive(peer, channel, bytes, now) {
     this.#calls.begin();
-    this.#call('iso_session_receive', peer, channel, this.#calls.placeBytes(bytes, 'bytes'), bytes.byteLength, time(now));
+    const at = this.#calls.placeBytes(bytes, 'bytes');
+    this.#call('iso_session_receive', peer, channel, at, bytes.byteLength, time(now));
   }
   /** What is to be sent: {peer, channel, bytes, close}, or null. `bytes` is a view until the next call. */
   pollSend(now) {
@@ -221,7 +222,9 @@ export class Session extends Handle {
     return this.#try('iso_session_record', this.#calls.number('recording', kind), text);
   }
   /** Ends the recording with the last confirmed frame: the file. */
-  recorded(kind) { return this.#calls.bytesOut('iso_session_recorded', this.at, this.#calls.number('recording', kind)); }
+  recorded(kind) {
+    return this.#calls.bytesOut('iso_session_recorded', this.at, this.#calls.number('recording', kind));
+  }
 }
 
 /** The world and the state for the session; what the game does is asked for, never called back from within. */

@@ -28,7 +28,8 @@ export function wasiImports(memory) {
       let size = 0, text = '';
       for (let i = 0; i < count; ++i) {
         const length = view().getUint32(vectors + 8 * i + 4, true);
-        text += new TextDecoder().decode(new Uint8Array(memory().buffer, view().getUint32(vectors + 8 * i, true), length));
+        const at = view().getUint32(vectors + 8 * i, true);
+        text += new TextDecoder().decode(new Uint8Array(memory().buffer, at, length));
         size += length;
       }
       console.error(text.trimEnd());

@@ -15,7 +15,7 @@ export class World extends AskedWorld {
 
   // ---- shapes
 
-  /** addShape('box', {halfExtents: [0.5, 0.5, 0.5]}), also 'sphere', 'capsule', ...: shared by the bodies that name it. */
+  /** addShape('box', {halfExtents: [0.5, 0.5, 0.5]}), 'sphere', 'capsule', ...: shared by the bodies that name it. */
   addShape(kind, shape = {}) {
     const name = this.calls.nameOf('shapes', kind);
     return this.run(`P_add_${name}`, given(name, shape), out('id'));
@@ -25,10 +25,11 @@ export class World extends AskedWorld {
     if (radius === undefined) return this.run('add_blob', blob.at, out('id'));
     return this.run('P_add_hull', given('hull', {radius}), blob.at, out('id'));
   }
-  /** Parts at poses of their own: {kind: 'box', shape: {...}, or blob, position, orientation, density}. */
+  /** Parts at poses of their own: {kind: 'box', shape: {...}, pose: {position, orientation}}, or with a blob. */
   addCompound(parts) {
     const blobs = [...new Set(parts.map(part => part.blob).filter(Boolean))];
-    const children = parts.map(({kind, shape, blob, ...pose}) => ({...pose, primitive: this.#primitive(kind, shape, blob, blobs)}));
+    const children = parts.map(({kind, shape, blob, pose}) =>
+      ({pose, primitive: this.#primitive(kind, shape, blob, blobs)}));
     this.calls.begin();
     const list = this.calls.take(4 * Math.max(blobs.length, 1));
     blobs.forEach((blob, i) => this.module.view.setUint32(list + 4 * i, blob.at, true));
@@ -77,7 +78,7 @@ export class World extends AskedWorld {
   /** Teleports; velocity stays. */
   setPose(body, pose) { this.run('P_body_set_pose', id(body, 'body'), given('pose', pose)); }
   setVelocity(body, linear, angular = [0, 0, 0]) {
-    this.run('P_body_set_velocity', id(body, 'body'), given('vec3', linear, 'linear'), given('vec3', angular, 'angular'));
+    this.#push('P_body_set_velocity', body, linear, angular, 'angular');
   }
   setMaterial(body, material) { this.run('P_body_set_material', id(body, 'body'), given('material', material)); }
   /** locks: bits of BodyFlags. */
@@ -98,7 +99,9 @@ export class World extends AskedWorld {
   applyForce(body, force, torque = [0, 0, 0]) { this.#push('P_body_apply_force', body, force, torque, 'torque'); }
   applyForceAt(body, force, point) { this.#push('P_body_apply_force_at', body, force, point, 'point'); }
   /** [kg m/s], [kg m^2/s] at once. */
-  applyImpulse(body, impulse, angular = [0, 0, 0]) { this.#push('P_body_apply_impulse', body, impulse, angular, 'angular'); }
+  applyImpulse(body, impulse, angular = [0, 0, 0]) {
+    this.#push('P_body_apply_impulse', body, impulse, angular, 'angular');
+  }
   applyImpulseAt(body, impulse, point) { this.#push('P_body_apply_impulse_at', body, impulse, point, 'point'); }
   #push(name, body, linear, other, field) {
     this.run(name, id(body, 'body'), given('vec3', linear, 'linear'), given('vec3', other, field));
@@ -117,20 +120,21 @@ export class World extends AskedWorld {
     return this.run('P_joint_at', number, id(a, 'a'), id(b, 'b'), given('pose', frame), out('joint_properties'));
   }
   jointBetween(type, a, frameA, b, frameB) {
-    return this.run('P_joint_between', this.calls.number('joint_type', type), id(a, 'a'), given('pose', frameA, 'frameA'),
-      id(b, 'b'), given('pose', frameB, 'frameB'), out('joint_properties'));
+    const number = this.calls.number('joint_type', type);
+    return this.run('P_joint_between', number, id(a, 'a'), given('pose', frameA, 'frameA'), id(b, 'b'),
+      given('pose', frameB, 'frameB'), out('joint_properties'));
   }
   createJointOf(properties) { return this.run('P_joint_create', given('joint_properties', properties), out('id')); }
   /** Limits, motor and spring; bodies, frames and type stay. */
   setJoint(joint, properties) { this.run('P_joint_set', id(joint, 'joint'), given('joint_properties', properties)); }
   destroyJoint(joint) { this.run('joint_destroy', id(joint, 'joint')); }
-  /** A figure of bodies and joints, one of each a bone, all of it or nothing: {bodies, joints}. A root's joint is 0n. */
+  /** A figure of bodies and joints, one of each a bone: {bodies, joints}. A root's joint is 0n. */
   addRagdoll(bones, settings = {}) {
     this.calls.begin();
     const at = this.calls.placeAll('ragdoll_bone', bones, 'bones');
     const bodies = this.calls.take(8 * bones.length), joints = this.calls.take(8 * bones.length);
     this.runNow('P_add_ragdoll', at, bones.length, given('ragdoll_settings', settings), bodies, joints);
-    const read = from => Array.from({length: bones.length}, (_, i) => this.module.view.getBigUint64(from + 8 * i, true));
+    const read = from => bones.map((_, i) => this.module.view.getBigUint64(from + 8 * i, true));
     return {bodies: read(bodies), joints: read(joints)};
   }
 

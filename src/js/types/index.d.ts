@@ -7,8 +7,9 @@ import type {
   Applicant, BlobHomeName, BodyDefinition, BodyFlagsBits, BodyMass, BodyPair, BodyProperties, BodyState, BodyTypeName,
   BoxQuery, BreakReport, BroadPhaseName, Broke, Child, ClosestBody, ContactBegin, ContactHit, ContactPoint, Filter,
   GenreName, JointAxisName, JointBroke, JointFlagsBits, JointProperties, Joints, JointTypeName, Material, OverlapHit,
-  OverlapQuery, PhaseName, PlayerStats, PointQuery, Pose, Primitive, ProposalName, RagdollBone, RagdollSettings, RayCast,
-  RayHit, RecordingName, RecordKinds, RenderPose, ReplayInfo, ReplayResult, SelfcheckResult, SensorEvent, SessionConfig,
+  OverlapQuery, PhaseName, PlayerStats, PointQuery, Pose, Primitive, ProposalName, RagdollBone, RagdollSettings,
+  RayCast, RayHit, RecordingName, RecordKinds, RenderPose, ReplayInfo, ReplayResult, SelfcheckResult, SensorEvent,
+  SessionConfig,
   SessionEvent, SessionStats, Settings, ShapeCast, ShapeHit, Shapes, ShapeTypeName, StepReport, Vec3, WorldCounts,
   ZoneEffectsBits
 } from './generated.js';
@@ -184,7 +185,8 @@ export interface World<N = number> extends Owned {
   createJoint<K extends keyof Joints<N>>(kind: K, joint: Given<Joints<N>[K]>): bigint;
   /** A joint whose frames lie where `frame` is now. Add limits, motor, spring; then createJointOf. */
   jointAt(type: JointTypeName, a: bigint, b: bigint, frame: Given<Pose<N>>): JointProperties<N>;
-  jointBetween(type: JointTypeName, a: bigint, frameA: Given<Pose<N>>, b: bigint, frameB: Given<Pose<N>>): JointProperties<N>;
+  jointBetween(type: JointTypeName, a: bigint, frameA: Given<Pose<N>>, b: bigint, frameB: Given<Pose<N>>):
+    JointProperties<N>;
   createJointOf(properties: Given<JointProperties<N>>): bigint;
   setJoint(joint: bigint, properties: Given<JointProperties<N>>): void;
   destroyJoint(joint: bigint): void;
@@ -281,7 +283,7 @@ export interface Input {
   /** A game may look at 'disconnected', and at nothing else. */
   status: 'confirmed' | 'predicted' | 'disconnected';
 }
-/** What a session plays. What `step` does depends on the world, the state, the inputs' bytes and who is disconnected. */
+/** What a session plays. `step` depends on the world, the state, the inputs' bytes and who is disconnected. */
 export interface Game<N = number> {
   world?: World<N>;
   state?: Owned & {readonly byteLength: number};

@@ -49,7 +49,8 @@ export class WebSocketTransport implements Transport {
 /** As much of RTCPeerConnection as is used: a browser's own, or node-datachannel/polyfill's. */
 interface ConnectionLike {
   readonly connectionState: string;
-  createDataChannel(label: string, options: {negotiated: boolean, id: number, ordered?: boolean, maxRetransmits?: number}): any;
+  createDataChannel(label: string,
+    options: {negotiated: boolean, id: number, ordered?: boolean, maxRetransmits?: number}): any;
   addEventListener(type: any, listener: (event: any) => void): void;
   close(): void;
 }

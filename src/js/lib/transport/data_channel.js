@@ -14,7 +14,7 @@ export class DataChannelTransport {
   /** @param {{maxPeers?: number}} [options] */
   constructor({maxPeers = 64} = {}) { this.arrivals = new Arrivals(maxPeers); }
 
-  /** An RTCPeerConnection, on both sides before its offer or answer is made. `incoming`: the other side asked for it. */
+  /** An RTCPeerConnection, on both sides before the offer or answer. `incoming`: the other side asked for it. */
   attach(connection, incoming) {
     const open = (label, id, options) => connection.createDataChannel(label, {negotiated: true, id, ...options});
     const channels = [open('isostep datagrams', kDatagram, {ordered: false, maxRetransmits: 0}),

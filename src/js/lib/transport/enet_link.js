@@ -214,7 +214,8 @@ export class EnetLink {
     if (this.state === 'closing' && (one.bytes[0] & 0xf) === kDisconnect) this.state = 'over';
   }
   #verified(command) {
-    if (this.state !== 'connecting' || command.getUint32(40) !== this.connectId || command.getUint32(8) !== kMtu) return;
+    const isOurs = command.getUint32(40) === this.connectId && command.getUint32(8) === kMtu;
+    if (this.state !== 'connecting' || !isOurs) return;
     this.peerThere = command.getUint16(4);
     this.sessionThere = command.getUint8(7);
     this.unacknowledged = [];  // who verifies has the request
