@@ -7,6 +7,11 @@ tree=$work/sources/isostep-$version
 [ -d "$tree/build/release" ] || red "tarball comes first: ./isostep package --only tarball --only debian"
 for program in dpkg-buildpackage dh dh_python3; do have "$program" || not_here "no $program"; done
 cd "$tree" || exit 70
+# debhelper gives the build a home of its own, where ccache would find nothing.
+if have ccache; then
+  CCACHE_DIR=$(ccache --get-config cache_dir)
+  export CCACHE_DIR
+fi
 export CCACHE_BASEDIR="$PWD" DEB_BUILD_OPTIONS="parallel=$(getconf _NPROCESSORS_ONLN) nocheck"
 
 # debian/ from its templates.

@@ -60,7 +60,6 @@ wine wine64
 npm npm
 mcs mono-mcs
 mono mono-runtime
-abidw abigail-tools
 ccache ccache
 LIST
   [ -n "$wanted" ] && have apt-get && [ "$(id -u)" = 0 ] && [ "${ISOSTEP_NO_INSTALL:-}" != 1 ] || return 0
@@ -112,7 +111,9 @@ package() {
     case " ${only:- $name} " in *" $name "*) make_package "$name" "$file" </dev/null ;; esac
   done
   awk -F '\t' '{printf "%-10s %7s  %s\n", $1, $2, $3}' "$rows"
-  ls "$out" | sed "s|^|$out/|"
+  echo
+  sh "$packages_here/sizes.sh"
+  echo "in $out"
   [ -z "$only" ] || ! grep -q 'not made here' "$rows" || exit 69
   ! grep -q '	RED' "$rows"
   exit

@@ -236,6 +236,24 @@ class Views(unittest.TestCase):
 
 
 class Memory(unittest.TestCase):
+    def test_handles_are_destroyed_by_their_whole_address(self):
+        # A thread's memory lies above 4 GB, also in a Python that was linked for an address below: Debian's own.
+        program = """
+import threading
+import isostep
+
+def use():
+    world = isostep.World("q32")
+    print(world._address >> 32 > 0)
+    world.close()
+    isostep.World("q32").save()
+
+thread = threading.Thread(target=use)
+thread.start()
+thread.join()
+"""
+        self.assertEqual(support.run(sys.executable, "-c", program), "True\n")
+
     def test_what_nobody_has_any_more_is_given_back(self):
         def use():
             world, _ = support.crate(isostep, "q32")

@@ -49,7 +49,7 @@ class Handle:
     def close(self):
         """Destroys it; views of its arrays end with it. Closing again does nothing."""
         if self._address:
-            status = self._library.raw(f"iso_{self._kind}_destroy")(self._address)
+            status = self._destroy()
             if status:
                 raise error_of(status, self._library.last_error())
             self._address = 0
@@ -62,7 +62,11 @@ class Handle:
 
     def __del__(self):
         if getattr(self, "_address", 0):
-            self._library.raw(f"iso_{self._kind}_destroy")(self._address)
+            self._destroy()
+
+    def _destroy(self):
+        # As a pointer: ctypes would hand on the low 32 bits of a plain number.
+        return self._library.raw(f"iso_{self._kind}_destroy")(ctypes.c_void_p(self._address))
 
 
 def view(c_type, address, count, dtype, owner):

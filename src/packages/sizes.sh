@@ -1,0 +1,36 @@
+#!/bin/sh
+# Sizes of the library and of the packages that were made, as a table in MB, beside what the trial of the C interface
+# weighed and 30 % more: the first engine behind it, with 65 functions.
+# SPDX-License-Identifier: MIT
+. "$ISOSTEP_ROOT/src/packages/common.sh"
+
+megabytes() { awk -v bytes="$1" 'BEGIN {printf "%.2f", bytes / 1e6}'; }
+# planned NAME: [MB], or nothing where nothing was measured.
+planned() {
+  case $1 in
+    libisostep.so) echo 8.06 ;;
+    libisostep[0-9]*.deb) echo 2.47 ;;
+    libisostep-dev*.deb) echo 3.77 ;;
+    *) echo - ;;
+  esac
+}
+row() { # name, file
+  case $2 in
+    *.deb | *.gz | *.tgz | *.zip) small=- ;;
+    *) small=$(megabytes "$(gzip -9c "$2" | wc -c)") ;;
+  esac
+  printf '%-44s %8s %8s %8s\n' "$1" "$(megabytes "$(wc -c <"$2")")" "$small" "$(planned "$1")"
+}
+
+printf '%-44s %8s %8s %8s\n' file MB gzipped planned
+for library in src/c/libisostep.so src/c/udp/libisostep_udp.so; do
+  [ -f "$build/$library" ] || continue
+  name=$(basename "$library")
+  cp "$build/$library" "$work/$name" && strip "$work/$name" || exit 70
+  row "$name" "$work/$name"
+  rm "$work/$name"
+done
+dll=$work/windows/isostep-$version-windows-x86_64/bin/isostep.dll
+for file in "$build/libisostep.a" "$dll" "$out"/*; do
+  [ ! -f "$file" ] || row "$(basename "$file")" "$file"
+done

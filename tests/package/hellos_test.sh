@@ -1,0 +1,48 @@
+#!/bin/sh
+# The first programs of the pages of C and Python, taken from the pages, against an installed isostep: both print the
+# last hash of hello.cpp, and so do the pages.
+# usage: hellos_test.sh REPOSITORY PREFIX EXAMPLE_HELLO
+# SPDX-License-Identifier: MIT
+set -u
+. "$1/tests/scratch.sh"
+repository=$1 prefix=$2
+hash=$("$3" | cut -d ' ' -f 1)
+[ ${#hash} -eq 16 ] || fail "hello.cpp prints no hash"
+
+# first_block PAGE LANGUAGE: of its blocks in that language.
+first_block() {
+  awk -v mark="\`\`\`$2" '/^```$/ && inside {exit} inside; $0 == mark {inside = 1}' "$repository/$1"
+}
+# prints_hash WHAT COMMAND...
+prints_hash() {
+  what=$1
+  shift
+  "$@" >"$dir/out" 2>"$dir/err" || fail "the $what of the page exits $?"
+  [ "$(cut -d ' ' -f 1 "$dir/out")" = "$hash" ] || fail "the $what of the page prints another hash than $hash"
+}
+for page in src/c/README.md src/python/README.md src/csharp/README.md; do
+  grep -q "$hash" "$repository/$page" || fail "$page does not say that $hash is printed"
+done
+
+cd "$dir" || exit 1
+pc=$(find "$prefix" -name isostep.pc)
+PKG_CONFIG_PATH=$(dirname "$pc")
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH")
+export PKG_CONFIG_PATH LD_LIBRARY_PATH
+if command -v pkg-config >/dev/null && command -v cc >/dev/null; then
+  first_block src/c/README.md c >hello.c
+  grep -q 'int main' hello.c || fail "the first block of the page of C is no program"
+  first_block src/c/README.md sh | grep '^cc ' >command
+  sh -e command >out 2>err || fail "'$(cat command)' fails"
+  prints_hash "program in C" ./hello
+fi
+python=/usr/bin/python3
+if [ -x "$python" ]; then
+  first_block src/python/README.md python >hello.py
+  unset ISOSTEP_LIBRARY LD_LIBRARY_PATH  # it finds the library by itself
+  PYTHONPATH=$prefix/share/isostep/python
+  PYTHONDONTWRITEBYTECODE=1
+  export PYTHONPATH PYTHONDONTWRITEBYTECODE
+  prints_hash "program in Python" "$python" hello.py
+fi
+exit 0
