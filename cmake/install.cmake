@@ -59,10 +59,10 @@ if(ISOSTEP_TOOL AND TARGET isostep_tool)
   install(TARGETS isostep_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# All that is installed, and the examples that packages are tried with: what `./isostep package` needs of this build.
+# All that is installed, and the programs that packages are tried with: what `./isostep package` needs of this build.
 add_custom_target(isostep_packaged)
 foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_python isostep_transport isostep_sealed isostep_threads
-    isostep_tool example_four_scalars example_four_scalars_c)
+    isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_native_host js_enet_host)
   if(TARGET ${target})
     add_dependencies(isostep_packaged ${target})
   endif()

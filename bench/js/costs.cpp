@@ -35,10 +35,15 @@ template <class S> int run(iso::Simd simd) {
   }
   for (int i = 0; i < 60; ++i) world.step();
   std::printf("hash %.3g of 2^32\n", static_cast<double>(world.hash() >> 32));
-  std::printf("step_%s %.4g us\n", world.simd_name(), cost(20, 10, [&] { world.step(); }));
   double sum = 0;
-  std::printf("poses %.3g us\n", cost(100, 10, [&] {
-                for (const iso::RenderPose& pose : world.poses_float(0.5f)) sum += pose.position[1];
+  const auto read_poses = [&] {
+    for (const iso::RenderPose& pose : world.poses_float(0.5f)) sum += pose.position[1];
+  };
+  std::printf("step_%s %.4g us\n", world.simd_name(), cost(20, 10, [&] { world.step(); }));
+  std::printf("poses_read %.3g us\n", cost(1000, 10, read_poses));
+  std::printf("frame %.4g us\n", cost(20, 10, [&] {
+                world.step();
+                read_poses();
               }));
   return sum > 0 ? 0 : 1;
 }

@@ -48,12 +48,30 @@ print('call_impulse', 1000 * cost(20000, 10, i => world.applyImpulse(bodies[i % 
 print('call_body', 1000 * cost(20000, 10, i => world.body(bodies[i % 1000])), 'ns');
 const ray = i => world.castRay({origin: [i % 10 - 5, 20, 0], translation: [0, -30, 0]});
 print('call_ray', 1000 * cost(5000, 10, ray), 'ns');
-print('step_bare', cost(20, 10, () => exports.iso_world_step(world.at, 0)), 'us');
-print('step', cost(20, 10, () => world.step()), 'us');
+
+// *_bare: the module's own functions, so that what JavaScript adds is the difference.
+const {calls} = world;
+calls.begin();
+const found = calls.take(4), count = calls.take(4);
+const stepBare = () => exports.iso_world_step(world.at, 0);
+const posesBare = () => exports.iso_world_poses(world.at, 0.5, found, count);
 let sum = 0;
-print('poses', cost(100, 10, () => {
+const readPoses = () => {
   const {numbers, stride, length} = world.poses(0.5);
   for (let i = 0; i < length; ++i) sum += numbers[i * stride + 3];
+};
+print('step_bare', cost(20, 10, stepBare), 'us');
+print('step', cost(20, 10, () => world.step()), 'us');
+print('poses_bare', cost(1000, 10, posesBare), 'us');
+print('poses_fetched', cost(1000, 10, () => world.poses(0.5)), 'us');
+print('poses_read', cost(1000, 10, readPoses), 'us');
+print('frame_bare', cost(20, 10, () => {
+  stepBare();
+  posesBare();
+}), 'us');
+print('frame', cost(20, 10, () => {
+  world.step();
+  readPoses();
 }), 'us');
 const snapshot = world.createSnapshot();
 print('save', cost(100, 10, () => world.save(snapshot)), 'us');

@@ -47,7 +47,7 @@ read_package_words() {
 bring_package_tools() {
   wanted=''
   while read -r program package; do
-    have "$program" || wanted="$wanted $package"
+    have "$program" || [ -f "$program" ] || wanted="$wanted $package"
   done <<LIST
 dh debhelper
 dh_python3 dh-python
@@ -58,15 +58,27 @@ python3 python3
 x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
 wine wine64
 npm npm
+chromium chromium
+clang++-19 clang-19
+wasm-ld-19 lld-19
+/usr/lib/wasm32-wasi/libc.a wasi-libc
+/usr/lib/wasm32-wasi/libc++.a libc++-19-dev-wasm32
+/usr/lib/wasm32-wasi/libc++abi.a libc++abi-19-dev-wasm32
+/usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a libclang-rt-19-dev-wasm32
 mcs mono-mcs
 mono mono-runtime
 ccache ccache
 LIST
   [ -n "$wanted" ] && have apt-get && [ "$(id -u)" = 0 ] && [ "${ISOSTEP_NO_INSTALL:-}" != 1 ] || return 0
-  say "apt-get install -y --no-install-recommends$wanted"
+  apt_get update
+  known=''  # an older system lacks some, and the others are brought all the same
+  for package in $wanted; do
+    apt-cache show "$package" >/dev/null 2>&1 && known="$known $package"
+  done
+  say "apt-get install -y --no-install-recommends$known"
   # shellcheck disable=SC2086
-  { apt_get update && DEBIAN_FRONTEND=noninteractive apt_get install -y --no-install-recommends $wanted; } ||
-    say "isostep: without$wanted some packages are left out"
+  DEBIAN_FRONTEND=noninteractive apt_get install -y --no-install-recommends $known ||
+    say "isostep: without$known some packages are left out"
 }
 
 # make_package NAME FILE: its row. The file runs by itself, with its output in a log, and exits 0, 69 with the reason

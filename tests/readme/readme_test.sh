@@ -49,10 +49,10 @@ for pid in $background; do
   wait "$pid" || complain "a command in the background exits $?"
 done
 
-# A C++, C or TypeScript block after the line <!-- from FILE --> is quoted: all blocks of a page from one file are the
-# parts of that file between its marks, each less its first line's indentation.
+# A C++, C, TypeScript or JavaScript block after the line <!-- from FILE --> is quoted: all blocks of a page from one
+# file are the parts of that file between its marks, each less its first line's indentation.
 quoted() { # page, file
-  awk -v mark="<!-- from $2 -->" '/^```$/ {inside = 0} inside; /^```(cpp|c|ts)$/ {inside = last == mark} {last = $0}' "$1"
+  awk -v mark="<!-- from $2 -->" '/^```$/ {inside = 0} inside; /^```(cpp|c|ts|js)$/ {inside = last == mark} {last = $0}' "$1"
 }
 marked() { # file
   awk '/README: begin/ {inside = 1; indent = -1; next} /README: end/ {inside = 0}
