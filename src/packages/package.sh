@@ -16,6 +16,7 @@ vcpkg|vcpkg|an overlay port
 windows|windows|a DLL for x86-64 with its import library
 npm|npm|JavaScript and TypeScript: WebAssembly
 unity|unity|the package that Unity's package manager takes
+match|match|no package: a match between C++, C, C# and JavaScript
 LIST
 }
 package_names() { package_list | cut -d '|' -f 1; }

@@ -20,3 +20,10 @@ assembly() {
   cp "$2" "$dir/libisostep.so" || fail "no $2"
   export LD_LIBRARY_PATH="$dir"
 }
+# puck_client REPOSITORY LIBRARY: $dir/client.exe, a client of tests/match.
+puck_client() {
+  assembly "$1" "$2"
+  each_family "$1/tests/csharp/Pucks.cs.in" Pucks
+  mcs -warnaserror -unsafe -optimize+ -r:"$dir/Isostep.dll" -out:"$dir/client.exe" "$1/tests/csharp/PuckClient.cs" \
+    "$dir"/Pucks*.cs >"$dir/out" 2>&1 || fail "the game does not compile"
+}

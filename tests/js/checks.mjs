@@ -13,7 +13,7 @@ const require = createRequire(join(folder, 'test.cjs'));
 /** A package as a game that lies in the folder imports it. */
 export async function packaged(name) {
   const [, scope, path = ''] = /^(isostep|[^/]+)(\/.*)?$/.exec(name);
-  if (scope !== 'isostep') return import(pathToFileURL(require.resolve(name)).href);
+  if (scope !== 'isostep') return require(name);
   const {exports} = require('isostep/package.json');
   return import(pathToFileURL(join(folder, 'node_modules/isostep', exports[`.${path}`].default)).href);
 }

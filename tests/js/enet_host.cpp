@@ -8,9 +8,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "pucks.hpp"
+#include "match/pucks.hpp"
 #include "transport/enet_transport.hpp"
 #include "transport/pump.hpp"
+
+namespace iso = isostep;
+using iso::Q16_16, iso::Q32_32;
+using Game = iso::test::Pucks<ISOSTEP_TEST_SCALAR>;
 
 namespace {
 
@@ -34,10 +38,11 @@ int main(int count, char** words) {
   if (!opened) return 1;
   iso::transport::EnetTransport& transport = opened.value();
   Game game;
-  iso::SessionConfig config = config_of(game);
+  iso::SessionConfig config = iso::test::host_config_of(game);
   config.silence = config.patience = 60 * iso::kSecond;
   iso::Session<Game> session(config);
-  std::printf("%llu %u\n", static_cast<unsigned long long>(iso::InputCodec<Push>::schema()), transport.port());
+  std::printf("%llu %u\n", static_cast<unsigned long long>(iso::InputCodec<iso::test::Push>::schema()),
+              transport.port());
   std::fflush(stdout);
   Printer printer{std::atoi(words[1])};
   const auto start = std::chrono::steady_clock::now();
@@ -46,7 +51,7 @@ int main(int count, char** words) {
     const auto now = static_cast<iso::Time>(std::chrono::duration_cast<std::chrono::microseconds>(passed).count());
     transport.poll();
     iso::transport::deliver(transport, session, now);
-    session.add_local_input(0, {static_cast<std::int8_t>((session.current() / 11) % 3 - 1)});
+    session.add_local_input(0, iso::test::push_of(session.current(), 0));
     iso::drive(session, game, now, printer);
     iso::transport::dispatch(transport, session, now);
     transport.flush();

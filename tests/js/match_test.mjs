@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 import {check, done, equal, exactest, packaged} from './checks.mjs';
-import {createPucks, kConfig, push} from './pucks.mjs';
+import {createPucks, kConfig, pushOf} from './pucks.mjs';
 
 const {load} = await packaged('isostep');
 const iso = await load(exactest);
@@ -21,7 +21,7 @@ function play(network, machines, frames) {
     for (const {endpoint, session, events} of machines) {
       network.deliver(endpoint, session, now);
       const player = session.localPlayer;
-      if (player >= 0) session.addLocalInput(player, push(Math.floor(session.current / (11 + 6 * player)) % 3 - 1));
+      if (player >= 0) session.addLocalInput(player, pushOf(session.current, player));
       session.drive(now);
       network.dispatch(endpoint, session, now);
       for (let event; (event = session.pollEvent()) !== null;) events.push(event);

@@ -8,7 +8,7 @@ import {spawn} from 'node:child_process';
 import {createInterface} from 'node:readline';
 
 import {check, done, equal, packaged} from './checks.mjs';
-import {createPucks, kConfig, push} from './pucks.mjs';
+import {createPucks, kConfig, pushOf} from './pucks.mjs';
 
 const kFrames = 200;
 const [, , , program, scalar] = process.argv;
@@ -33,7 +33,7 @@ function play(transport, config, isOver) {
         const now = performance.now() * 1000;
         deliver(transport, session, now);
         const player = session.localPlayer;
-        if (player >= 0) session.addLocalInput(player, push(Math.floor(session.current / (11 + 6 * player)) % 3 - 1));
+        if (player >= 0) session.addLocalInput(player, pushOf(session.current, player));
         session.drive(now);
         dispatch(transport, session, now);
         for (let event; (event = session.pollEvent()) !== null;) {

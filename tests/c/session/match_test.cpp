@@ -5,10 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "isostep/session/session.hpp"
-#include "isostep/state/composite.hpp"
-#include "isostep/world/recorder.hpp"
 #include "isostep/world/state.hpp"
+#include "match/pucks.hpp"
 #include "public_session.hpp"
 #include "puck_game.h"
 #include "transport/pump.hpp"
@@ -21,40 +19,12 @@ using S = Q32_32;
 using transport::SimulatedNetwork;
 constexpr const char* kProfile = "latency=150,jitter=40,loss=5";
 
-struct Push {
-  std::int8_t way = 0;
-  friend bool operator==(Push, Push) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
-};
-struct Score {
-  std::uint32_t touches = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("touches", self.touches);
-  }
-};
-struct Game : Composite<World<S>, Score> {
-  using Input = Push;
-  BodyId pucks[2];
-
-  Game() {
-    world.create({.shape = world.add_shape(Box{{20, 1, 20}}), .position = {0, -1, 0}});
-    const auto ball = world.add_shape(Sphere{0.5});
-    for (int n : {0, 1}) pucks[n] = world.create({.type = dynamic, .shape = ball, .position = {4 * n - 2, 1, 0}});
-  }
-  void step(InputView<Input> inputs) {
-    for (int n : {0, 1}) world.apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});
-    world.step();
-    user.touches += static_cast<std::uint32_t>(world.events().contact_begin.size());
-  }
-};
+using Game = Pucks<S>;
 
 SessionConfig config_of(SessionMode mode) {
-  SessionConfig config;
+  SessionConfig config = config_of(Game());
   config.mode = mode;
   config.most_delay = 40;
-  config.identity = make_replay_header(identity_of_world(Game().world.settings(), "two pucks")).value();
   return config;
 }
 
@@ -71,7 +41,7 @@ struct Machine {
   void turn(Time now) {
     const int player = session.local_player();
     transport::deliver(port, session, now);
-    if (player >= 0) session.add_local_input(player, {puck_way(session.current(), player)});
+    if (player >= 0) session.add_local_input(player, push_of(session.current(), player));
     drive(session, game, now, *this);
     transport::dispatch(port, session, now);
   }
@@ -323,7 +293,7 @@ TEST(CSession, AMatchThatWasPutAwayGoesOnInAnotherProcess) {
   }
   EXPECT_GT(reached, 200);
   puck_machine machine{};
-  ASSERT_EQ(puck_game_create(&machine.game), ISO_OK);
+  ASSERT_EQ(puck_game_create(&machine.game, 2), ISO_OK);
   iso_game game;
   puck_game_describe(&machine.game, 0, &game);
   config = host_of(config);
@@ -336,7 +306,7 @@ TEST(CSession, AMatchThatWasPutAwayGoesOnInAnotherProcess) {
 
   file[file.size() / 2] ^= 1;
   puck_machine refused{};
-  ASSERT_EQ(puck_game_create(&refused.game), ISO_OK);
+  ASSERT_EQ(puck_game_create(&refused.game, 2), ISO_OK);
   puck_game_describe(&refused.game, 0, &game);
   ASSERT_EQ(iso_session_create(&config, &game, file.data(), file.size(), &refused.session), ISO_OK);
   EXPECT_EQ(iso_session_phase(refused.session), ISO_PHASE_REFUSED);

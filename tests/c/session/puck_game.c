@@ -9,32 +9,41 @@
     if (tried != ISO_OK) return tried; \
   } while (0)
 
-iso_status puck_game_create(puck_game* game) {
-  iso_q32_settings settings;
-  iso_q32_box box;
-  iso_q32_sphere sphere;
-  iso_q32_body_definition body;
-  const int64_t one = iso_q32_from_double(1);
+/* F(settings) is iso_q32_settings, or that of another scalar. */
+#ifndef PUCK_FAMILY
+#define PUCK_FAMILY q32
+#endif
+#define JOINED(family, name) iso_##family##_##name
+#define OF(family, name) JOINED(family, name)
+#define F(name) OF(PUCK_FAMILY, name)
+#define N(value) F(from_double)(value)
+
+iso_status puck_game_create(puck_game* game, int32_t players) {
+  F(settings) settings;
+  F(box) box;
+  F(sphere) sphere;
+  F(body_definition) body;
   int n;
   memset(game, 0, sizeof *game);
   game->hashed = sizeof game->touches;
-  TRY(iso_q32_settings_init(&settings));
-  TRY(iso_q32_world_create(&settings, &game->world));
-  TRY(iso_q32_box_init(&box));
-  box.half_extents.x = box.half_extents.z = 20 * one;
-  box.half_extents.y = one;
-  TRY(iso_q32_body_definition_init(&body));
-  TRY(iso_q32_add_box(game->world, &box, &body.shape));
-  body.position.y = -one;
-  TRY(iso_q32_body_create(game->world, &body, &game->pucks[0]));
-  TRY(iso_q32_sphere_init(&sphere));
-  sphere.radius = one / 2;
-  TRY(iso_q32_add_sphere(game->world, &sphere, &body.shape));
+  game->players = players;
+  TRY(F(settings_init)(&settings));
+  TRY(F(world_create)(&settings, &game->world));
+  TRY(F(box_init)(&box));
+  box.half_extents.x = box.half_extents.z = N(20);
+  box.half_extents.y = N(1);
+  TRY(F(body_definition_init)(&body));
+  TRY(F(add_box)(game->world, &box, &body.shape));
+  body.position.y = N(-1);
+  TRY(F(body_create)(game->world, &body, &game->pucks[0]));
+  TRY(F(sphere_init)(&sphere));
+  sphere.radius = N(0.5);
+  TRY(F(add_sphere)(game->world, &sphere, &body.shape));
   body.type = ISO_BODY_TYPE_DYNAMIC;
-  body.position.y = one;
-  for (n = 0; n < 2; ++n) {
-    body.position.x = (4 * n - 2) * one;
-    TRY(iso_q32_body_create(game->world, &body, &game->pucks[n]));
+  body.position.y = N(1);
+  for (n = 0; n < players && n < PUCK_PLAYERS; ++n) {
+    body.position.x = N(4 * n - 2);
+    TRY(F(body_create)(game->world, &body, &game->pucks[n]));
   }
   return ISO_OK;
 }
@@ -42,25 +51,26 @@ iso_status puck_game_create(puck_game* game) {
 iso_status puck_game_destroy(puck_game* game) { return iso_world_destroy(game->world); }
 
 iso_status puck_game_step(puck_game* game, const iso_input* inputs) {
-  const iso_q32_contact_begin* begins = NULL;
+  const F(contact_begin)* begins = NULL;
   size_t count = 0;
   int n;
-  for (n = 0; n < 2; ++n) {
-    iso_q32_vec3 impulse = {0, 0, 0};
-    impulse.x = (int8_t)inputs[n].bytes[0] * iso_q32_from_double(0.125);
-    if (game->forgets && game->forgotten % 50 == 49) impulse.x += iso_q32_from_double(0.125);
-    TRY(iso_q32_body_apply_impulse(game->world, game->pucks[n], &impulse, NULL));
+  for (n = 0; n < game->players; ++n) {
+    F(vec3) impulse = {0, 0, 0};
+    impulse.x = (int8_t)inputs[n].bytes[0] * N(0.125);
+    if (game->forgets && game->forgotten % 50 == 49) impulse.x += N(0.125);
+    TRY(F(body_apply_impulse)(game->world, game->pucks[n], &impulse, NULL));
   }
   TRY(iso_world_step(game->world, NULL));
-  TRY(iso_q32_contact_begins(game->world, &begins, &count));
+  TRY(F(contact_begins)(game->world, &begins, &count));
   game->touches += (uint32_t)count;
   ++game->forgotten;
   return ISO_OK;
 }
 
 static void step(void* user, int32_t frame, const iso_input* inputs, uint32_t players) {
+  puck_game* const game = (puck_game*)user;
   (void)frame;
-  if (players >= 2) puck_game_step((puck_game*)user, inputs);
+  if (players >= (uint32_t)game->players) puck_game_step(game, inputs);
 }
 static void confirmed(void* user, int32_t frame, uint64_t hash_after) {
   puck_game* const game = (puck_game*)user;
@@ -125,7 +135,7 @@ int8_t puck_way(int32_t current, int32_t player) { return (int8_t)(current / (11
 void puck_config(uint32_t mode, iso_session_config* out) {
   iso_session_config_init(out);
   out->mode = mode;
-  strcpy(out->name, "two pucks");
+  strcpy(out->name, "pucks");
   strcpy(out->input_text, "way: int8");
 }
 
@@ -133,7 +143,7 @@ iso_status puck_machine_create(puck_machine* machine, const iso_session_config* 
   iso_game game;
   memset(machine, 0, sizeof *machine);
   machine->by_callbacks = by_callbacks;
-  TRY(puck_game_create(&machine->game));
+  TRY(puck_game_create(&machine->game, config->players));
   puck_game_describe(&machine->game, by_callbacks, &game);
   return iso_session_create(config, &game, NULL, 0, &machine->session);
 }
@@ -160,15 +170,19 @@ static iso_status pull(puck_machine* machine, uint64_t now) {
   return ISO_OK;
 }
 
-iso_status puck_machine_turn(puck_machine* machine, iso_network* network, uint64_t now) {
+iso_status puck_machine_play(puck_machine* machine, uint64_t now) {
   const int32_t player = iso_session_local_player(machine->session);
-  TRY(iso_network_deliver(network, machine->endpoint, machine->session, now));
   if (player >= 0) {
     const int8_t way = puck_way(iso_session_current(machine->session), player);
     /* Refused while it is not in the match. */
     iso_session_add_local_input(machine->session, player, &way, 1);
   }
-  TRY(machine->by_callbacks ? iso_session_drive(machine->session, now, NULL) : pull(machine, now));
+  return machine->by_callbacks ? iso_session_drive(machine->session, now, NULL) : pull(machine, now);
+}
+
+iso_status puck_machine_turn(puck_machine* machine, iso_network* network, uint64_t now) {
+  TRY(iso_network_deliver(network, machine->endpoint, machine->session, now));
+  TRY(puck_machine_play(machine, now));
   return iso_network_dispatch(network, machine->endpoint, machine->session, now);
 }
 

@@ -1,4 +1,4 @@
-/* The game of src/examples/lockstep_game.cpp in C99, and its state in two forms: as a block and by callbacks.
+/* The game of tests/match/pucks.hpp in C99, and its state in two forms: as a block and by callbacks.
    SPDX-License-Identifier: MIT */
 #ifndef PUCK_GAME_H
 #define PUCK_GAME_H
@@ -9,11 +9,12 @@
 extern "C" {
 #endif
 
-enum { PUCK_SLOTS = 128, PUCK_FRAMES = 3600 };
+enum { PUCK_SLOTS = 128, PUCK_FRAMES = 3600, PUCK_PLAYERS = 4 };
 typedef struct puck_game {
   iso_world* world;
   uint32_t touches;   /* what the game remembers beside its world */
-  iso_body pucks[2];  /* given once and for all: no state */
+  iso_body pucks[PUCK_PLAYERS]; /* given once and for all: no state */
+  int32_t players;
   uint32_t forgotten; /* touches - 1 of a game that forgets: shapes the future, and is no state */
   uint8_t forgets;
   uint32_t saved[PUCK_SLOTS]; /* by callbacks */
@@ -23,14 +24,14 @@ typedef struct puck_game {
   uint64_t hashes[PUCK_FRAMES];
 } puck_game;
 
-iso_status puck_game_create(puck_game* game);
+iso_status puck_game_create(puck_game* game, int32_t players);
 iso_status puck_game_destroy(puck_game* game);
 iso_status puck_game_step(puck_game* game, const iso_input* inputs);
 /* The world, and `touches` as a block or by callbacks; `step` is there in either case. */
 void puck_game_describe(puck_game* game, int by_callbacks, iso_game* out);
-/* What both players do, of the frame that is current when they are asked. */
+/* What each player does, of the frame that is current when it is asked. */
 int8_t puck_way(int32_t current, int32_t player);
-/* Two players' configuration, without host and seed. */
+/* The configuration of two players, without host and seed. */
 void puck_config(uint32_t mode, iso_session_config* out);
 
 /* A machine of a match in virtual time. */
@@ -42,6 +43,9 @@ typedef struct puck_machine {
 } puck_machine;
 iso_status puck_machine_create(puck_machine* machine, const iso_session_config* config, int by_callbacks);
 iso_status puck_machine_destroy(puck_machine* machine);
+/* The player's input, and all steps that are due. */
+iso_status puck_machine_play(puck_machine* machine, uint64_t now);
+/* The same with the network before and after it. */
 iso_status puck_machine_turn(puck_machine* machine, iso_network* network, uint64_t now);
 
 /* Host and client, a turn each every millisecond, until both have confirmed all PUCK_FRAMES. */
