@@ -62,7 +62,7 @@ endif()
 # All that is installed, and the programs that packages are tried with: what `./isostep package` needs of this build.
 add_custom_target(isostep_packaged)
 foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_python isostep_transport isostep_sealed isostep_threads
-    isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_native_host js_enet_host)
+    isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_enet_host match_host match_client_q32)
   if(TARGET ${target})
     add_dependencies(isostep_packaged ${target})
   endif()

@@ -10,7 +10,7 @@ for program in node mono mcs; do
   command -v "$program" >/dev/null 2>&1 || skip "no $program"
 done
 [ -f "$folder/node_modules/isostep/wasm/isostep.$scalar.wasm" ] ||
-  skip "no WebAssembly module in $folder: build with -DISOSTEP_JS_TESTS=ON, or run ./isostep package"
+  skip "no WebAssembly module in $folder: run ./isostep package"
 [ -d "$folder/node_modules/ws" ] || skip "no ws in $folder"
 puck_client "$root" "$library"
 sh "$root/tests/match/match_test.sh" "$host" "$isostep" "$scalar" "$c_client" "mono $dir/client.exe $scalar" \
