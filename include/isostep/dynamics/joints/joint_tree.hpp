@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// Which joints are solved at once: all that form trees, or those trees alone in which a drive is.
+/// Which joints are solved at once: all that form trees, or those trees alone that have a drive and close no loop.
 enum class JointOrder : std::uint32_t { trees, driven_trees };
 
 /// Source:  Baraff 1996, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH: a sparse factorisation ordered from
@@ -149,7 +149,7 @@ template <class S> class JointTrees {
   std::vector<std::uint8_t> anchored_;  // of each set of bodies: hangs on the world already
   std::vector<S> set_mass_;             // [kg] of each set of bodies, up to the limit
   std::vector<S> set_lightest_;         // [kg] least reduced mass of its joints
-  std::vector<std::uint8_t> asked_;     // of each set of bodies: its joints are to be a tree
+  std::vector<std::uint8_t> asked_;     // of each set of bodies: its joints are solved at once
   std::vector<std::uint32_t> degree_;   // of each row: tree joints not yet eliminated
   std::vector<std::uint32_t> blocks_;   // of each row
   std::vector<std::uint32_t> first_;    // of each row, in at_body_

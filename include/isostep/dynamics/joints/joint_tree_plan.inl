@@ -79,6 +79,14 @@ void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const
     S& lightest = set_lightest_[set];
     lightest = min(lightest, bodies.mass[row].mass * (a_moves ? joints[j].share.a : joints[j].share.b));
   }
+  if (order == JointOrder::trees) return;
+  // What is solved once a step throws off what a tree is tied to besides.
+  for (std::uint32_t j = 0; j < joints.size(); ++j) {
+    if (role_[j] != detail::kLoose) continue;
+    for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) {
+      if (bodies.moves(row)) asked_[sets_.find(row)] = 0;
+    }
+  }
 }
 
 template <class S>
