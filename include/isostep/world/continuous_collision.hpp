@@ -122,7 +122,7 @@ template <class S> class ContinuousCollision {
                    const Pose<S>& place, const Visit& visit) const;
   void put_at(std::uint32_t index, const Pose<S>& pose);
   void place(std::uint32_t index);
-  void stop_middle(BodyState<S>& state, const Cut& cut) const;
+  void stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const;
   void find_obstacles(const Mover& mover, bool moving);
   void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
   void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,

@@ -256,7 +256,7 @@ template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
     mover.stopped = {cut.place - rotate(turned, cut.middle), turned};
   }
   put_at(mover.index, cut.pose);
-  if (cut.fraction_of_middle < cut.fraction) stop_middle(state_.awake.states[mover.index], cut);
+  if (cut.fraction_of_middle < cut.fraction) stop_middle(state_.awake.states[mover.index], cut, moving);
   place(mover.index);
 }
 template <class S> void ContinuousCollision<S>::put_at(std::uint32_t index, const Pose<S>& pose) {
@@ -274,10 +274,12 @@ template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
 }
 
 /// What lies in a surface already has contacts that push it out, but where its middle is none: it may turn, and does
-/// not gather the speed of a fall.
-template <class S> void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut) const {
+/// not gather the speed of a fall. What `moving` bodies stop keeps its speed: contacts share it with them.
+template <class S>
+void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
   using V = Velocity<S>;
   state.centre = cut.place - rotate(state.orientation, cut.middle);
+  if (moving) return;
   const V inwards = max(V(0), saturate_to<V>(dot_sum(cut.normal, state.velocity)));
   state.velocity -= Vec3<V>{round_to<V>(product(cut.normal.x, inwards)), round_to<V>(product(cut.normal.y, inwards)),
                             round_to<V>(product(cut.normal.z, inwards))};
