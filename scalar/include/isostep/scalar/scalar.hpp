@@ -181,12 +181,20 @@ template <class S> ISO_INLINE constexpr bool is_finite(S a) {
   return true;
 }
 
+namespace detail {
+/// 2^bits, at compile time: compilers leave a loop that multiplies doubles to run.
+consteval double power_of_two(int bits) {
+  double power = 1;
+  for (int i = 0; i < bits; ++i) power *= 2;
+  return power;
+}
+}  // namespace detail
+
 /// For people, files of measurements and pictures: never fed back into a simulation.
 template <class S> ISO_INLINE constexpr double to_double(S a) {
   if constexpr (kIsFixed<S>) {
-    double scale = 1;
-    for (int i = 0; i < S::kFracBits; ++i) scale *= 0.5;
-    return static_cast<double>(a.raw()) * scale;
+    constexpr double unit = 1 / detail::power_of_two(S::kFracBits);
+    return static_cast<double>(a.raw()) * unit;
   } else {
     return static_cast<double>(a);
   }
@@ -195,8 +203,7 @@ template <class S> ISO_INLINE constexpr double to_double(S a) {
 /// and tests: two machines that computed different doubles get different simulations.
 template <class S> ISO_INLINE constexpr S from_double(double value) {
   if constexpr (kIsFixed<S>) {
-    double scaled = value;
-    for (int i = 0; i < S::kFracBits; ++i) scaled *= 2;
+    const double scaled = value * detail::power_of_two(S::kFracBits);
     constexpr double limit = S::kBits == 32 ? 0x1p31 : 0x1p63;
     if (!(scaled == scaled)) return S::from_raw(0);
     if (scaled >= limit - 0.5) return S::highest();
